@@ -1,0 +1,28 @@
+# Rules that hold for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_CXX_SCAN_FOR_MODULES OFF)
+
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+                    -Wcast-align -Wvla -Wimplicit-fallthrough -Werror)
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # g++ 12 sees overlapping copies in std::string's operator+ where there are none (GCC bug 105651).
+  add_compile_options(-Wno-restrict)
+endif()
+
+# Simulated results are the same bits everywhere: no contraction into fused multiply-add, no
+# reordering of floating point, and no -march beyond the baseline.
+add_compile_options(-ffp-contract=off -fno-fast-math)
+
+if(UNDERSTUDY_SANITIZERS)
+  add_compile_options(-fsanitize=${UNDERSTUDY_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${UNDERSTUDY_SANITIZERS})
+endif()
+
+find_program(UNDERSTUDY_CCACHE ccache)
+if(UNDERSTUDY_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${UNDERSTUDY_CCACHE})
+endif()

@@ -1,0 +1,278 @@
+#include "pty/line.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace understudy::pty {
+
+/// Ties what a station says to the station.
+class Line::Voice final : public Transmitter {
+ public:
+  Voice(Line& line, std::size_t member) : line_(line), member_(member) {}
+  void transmit(std::span<const std::uint8_t> bytes) override { line_.say(member_, bytes); }
+
+ private:
+  Line& line_;
+  std::size_t member_;
+};
+
+Line::Line(std::string name, LineOptions options, std::function<void(const std::string&)> warn)
+    : name_(std::move(name)), options_(options), warn_(std::move(warn)), input_(kInputCapacity) {
+  if (options_.settings.baud <= 0) throw std::invalid_argument("line " + name_ + ": baud must be positive");
+  leaving_.reserve(2 * kOutputCapacity);
+  output_.reserve(2 * kOutputCapacity);
+}
+
+void Line::attach(Station& station) { members_.emplace_back().station = &station; }
+
+// --- the host's side ---------------------------------------------------------------------------
+
+std::size_t Line::room() const { return kInputCapacity - input_count_; }
+
+void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) {
+  bytes = bytes.first(std::min(bytes.size(), room()));
+  counters_.bytes_in += bytes.size();
+  const bool was_idle = input_count_ == 0;
+  for (const std::uint8_t value : bytes) {
+    input_[(input_first_ + input_count_) % kInputCapacity] = place(arriving_, value, now);
+    ++input_count_;
+  }
+  if (was_idle && !bytes.empty()) begin_character(input_[input_first_].start);
+}
+
+void Line::host_opened() {
+  is_host_open_ = true;
+  host_settings_.reset();
+  has_warned_deaf_ = has_warned_no_speed_ = has_warned_collision_ = false;
+}
+
+void Line::host_settings(std::optional<HostSettings> settings) { host_settings_ = settings; }
+
+void Line::host_closed() {
+  is_host_open_ = false;
+  leaving_.clear();
+  leaving_first_ = 0;
+  output_.clear();
+  output_first_ = 0;
+}
+
+std::span<const std::uint8_t> Line::output() const { return std::span(output_).subspan(output_first_); }
+
+void Line::take_output(std::size_t count) {
+  output_first_ += std::min(count, output_.size() - output_first_);
+  if (output_first_ == output_.size()) {
+    output_.clear();
+    output_first_ = 0;
+  }
+}
+
+// --- time --------------------------------------------------------------------------------------
+
+Line::Event Line::next_event() const {
+  Event next;
+  const auto offer = [&next](What what, SimTime at, std::size_t member) {
+    if (next.what == What::nothing || at < next.at) next = {what, at, member};
+  };
+  const auto offer_input = [&] {
+    if (input_count_ > 0) offer(What::character_in, input_[input_first_].end, 0);
+  };
+  // What is offered first wins at equal times.
+  if (!is_instant()) offer_input();
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (const auto at = members_[i].station->due()) offer(What::station, *at, i);
+  }
+  if (leaving_first_ < leaving_.size()) offer(What::character_out, leaving_[leaving_first_].end, 0);
+  if (notices_ > 0) {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (members_[i].noticed_at) offer(What::notice, *members_[i].noticed_at, i);
+    }
+  }
+  if (is_instant()) offer_input();
+  return next;
+}
+
+std::optional<SimTime> Line::due() const {
+  const Event next = next_event();
+  if (next.what == What::nothing) return std::nullopt;
+  return next.at;
+}
+
+void Line::run(SimTime now) {
+  for (Event next = next_event(); next.what != What::nothing && next.at <= now; next = next_event()) {
+    clock_ = std::max(clock_, next.at);
+    handle(next);
+  }
+}
+
+void Line::handle(const Event& event) {
+  switch (event.what) {
+    case What::nothing: break;
+    case What::character_in: deliver_character(); break;
+    case What::station: run_station(event.member); break;
+    case What::character_out: {
+      const std::uint8_t value = leaving_[leaving_first_].value;
+      if (++leaving_first_ == leaving_.size()) {
+        leaving_.clear();
+        leaving_first_ = 0;
+      }
+      leave_wire(value);
+      break;
+    }
+    case What::notice: notify_others(event.member); break;
+  }
+}
+
+/// The next character of a burst: at `now`, or right after the one before it.
+TimedByte Line::place(Burst& burst, std::uint8_t value, SimTime now) const {
+  if (is_instant()) return {now, now, value};
+  if (now >= burst.end) burst = {now, 0, now};
+  const SimTime start = burst.end;
+  burst.end = burst.start + options_.settings.duration_of(++burst.count);
+  // After `baud` characters the time is a whole number of seconds: begin anew there, without an error,
+  // so that the count of a host that never stops does not overflow.
+  if (burst.count == options_.settings.baud) burst = {burst.end, 0, burst.end};
+  return {start, burst.end, value};
+}
+
+// --- from the host -----------------------------------------------------------------------------
+
+/// A start bit: decides who hears the character that follows.
+void Line::begin_character(SimTime at) {
+  const bool is_speed_known = options_.enforce_settings && host_settings_;
+  if (options_.enforce_settings && !host_settings_ && !members_.empty()) {
+    warn_once(has_warned_no_speed_, "the host set no speed, what it sends is taken as heard");
+  }
+  std::size_t deaf = 0;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    member.is_deaf = false;
+    if (is_speed_known) {
+      const LineSettings expected = member.station->settings();
+      member.is_deaf =
+          expected.baud != host_settings_->baud || expected.stop_bits != host_settings_->stop_bits;
+      if (member.is_deaf) warn_deaf(i, expected);
+    }
+    if (member.is_deaf) {
+      ++deaf;
+    } else if (!is_instant()) {
+      member.station->hear_start_bit(at);
+    }
+  }
+  if (deaf > 0 && deaf == members_.size()) ++counters_.bytes_unheard;
+}
+
+/// A character has wholly arrived; the next one, if there is any, begins at that very moment.
+void Line::deliver_character() {
+  const TimedByte byte = input_[input_first_];
+  input_first_ = (input_first_ + 1) % kInputCapacity;
+  --input_count_;
+  for (const Member& member : members_) {
+    if (!member.is_deaf) member.station->hear(byte);
+  }
+  if (input_count_ > 0) begin_character(input_[input_first_].start);
+}
+
+// --- from the stations -------------------------------------------------------------------------
+
+void Line::run_station(std::size_t index) {
+  Voice voice(*this, index);
+  members_[index].station->run(clock_, voice);
+}
+
+void Line::say(std::size_t index, std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return;
+  Member& member = members_[index];
+  const bool is_new = is_instant() || clock_ >= member.speech.end;
+  // A station that keeps talking faster than the wire carries must not run ahead of it without bound.
+  const SimTime latest = clock_ + options_.settings.duration_of(kOutputCapacity);
+  SimTime first_end = clock_;
+  bool has_collided = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (member.speech.end >= latest) {
+      counters_.bytes_discarded += bytes.size() - i;
+      break;
+    }
+    const TimedByte character = place(member.speech, bytes[i], clock_);
+    if (i == 0) first_end = character.end;
+    if (is_instant()) {
+      leave_wire(character.value);
+    } else {
+      put_on_wire(character, has_collided);
+    }
+  }
+  if (is_new && !member.noticed_at) {
+    member.noticed_at = first_end;
+    ++notices_;
+  }
+  if (!has_collided) return;
+  ++counters_.collisions;
+  warn_once(has_warned_collision_, "two stations spoke at once, what they said is garbled");
+}
+
+/// A character that runs into one of another station is lost in it: the receiver follows the start bit
+/// that came first and reads the AND of both, as the dominant level wins. (A station never runs into
+/// itself, so what overlaps is always another's.)
+void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
+  if (!is_host_open_) return;
+  if (leaving_first_ == leaving_.size() || leaving_.back().end <= character.start) {
+    if (leaving_.size() == leaving_.capacity()) {
+      leaving_.erase(leaving_.begin(), leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_));
+      leaving_first_ = 0;
+    }
+    leaving_.push_back(character);
+    return;
+  }
+  const auto begin = leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_);
+  const auto other =
+      std::find_if(begin, leaving_.end(), [&](const TimedByte& sent) { return sent.end > character.start; });
+  if (other->start < character.end) {
+    other->value &= character.value;
+    has_collided = true;
+  } else {
+    leaving_.insert(other, character);
+  }
+}
+
+/// Stations that talk at this moment hear nothing but themselves.
+void Line::notify_others(std::size_t speaker) {
+  members_[speaker].noticed_at.reset();
+  --notices_;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const bool is_talking = !is_instant() && members_[i].speech.end > clock_;
+    if (i != speaker && !is_talking) members_[i].station->hear_other_station();
+  }
+}
+
+void Line::leave_wire(std::uint8_t value) {
+  if (!is_host_open_) return;
+  if (output_.size() - output_first_ == kOutputCapacity) {
+    ++counters_.bytes_discarded;
+    return;
+  }
+  if (output_.size() == output_.capacity()) {
+    output_.erase(output_.begin(), output_.begin() + static_cast<std::ptrdiff_t>(output_first_));
+    output_first_ = 0;
+  }
+  output_.push_back(value);
+  ++counters_.bytes_out;
+}
+
+// --- warnings ----------------------------------------------------------------------------------
+
+void Line::warn_once(bool& has_warned, std::string_view what) {
+  if (has_warned) return;
+  has_warned = true;
+  if (warn_) warn_("line " + name_ + ": " + std::string(what));
+}
+
+void Line::warn_deaf(std::size_t index, const LineSettings& expected) {
+  if (has_warned_deaf_) return;
+  const std::string which =
+      members_.size() == 1 ? "the station" : "station " + std::to_string(index + 1) + " of the line";
+  const std::string stop_bits = host_settings_->stop_bits == 1 ? "1 stop bit" : "2 stop bits";
+  warn_once(has_warned_deaf_, "the host set " + std::to_string(host_settings_->baud) + " baud, " + stop_bits +
+                                  "; " + which + " expects " + to_string(expected) + ": it hears nothing");
+}
+
+}  // namespace understudy::pty

@@ -1,0 +1,153 @@
+// One serial line: bytes from the host reach every station in the time the wire takes, what the
+// stations say reaches the host the same way. Pure: it knows simulated time, never a descriptor.
+//
+//   host bytes --receive()--> [wire, one character at a time] --> every Station
+//   Station::run() --transmit()--> [wire] --> output() --> host
+//
+// The two directions do not disturb each other. A station never gets another station's reply as bytes,
+// only the news that there is one: a reply to "write single register" is the same frame as its request,
+// and slaves that answer every address would take each other's replies for requests without end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pty/line_settings.h"
+#include "pty/station.h"
+
+namespace understudy::pty {
+
+enum class Timing : std::uint8_t {
+  wire,     // every character takes its time at the line's baud
+  instant,  // characters arrive and leave the moment they are given
+};
+
+struct LineOptions {
+  LineSettings settings;
+  Timing timing = Timing::wire;
+  bool enforce_settings = true;  // a station is deaf to a host with another baud or stop bits
+};
+
+struct LineCounters {
+  std::uint64_t bytes_in = 0;         // from the host
+  std::uint64_t bytes_out = 0;        // to the host
+  std::uint64_t bytes_unheard = 0;    // from a host whose settings no station listens to
+  std::uint64_t bytes_discarded = 0;  // to the host, dropped because nobody read them
+  std::uint64_t collisions = 0;       // transmissions that ran into another station's (wire timing only)
+};
+
+class Line {
+ public:
+  static constexpr std::size_t kInputCapacity = 1024;   // bytes the host is ahead of the wire
+  static constexpr std::size_t kOutputCapacity = 4096;  // bytes that wait for the host
+
+  /// `warn` gets one clear sentence for what the user should know (a deaf station, a host that set no
+  /// speed, a collision), once for each opening of the line by a host.
+  /// Throws std::invalid_argument if the baud is not positive.
+  Line(std::string name, LineOptions options, std::function<void(const std::string&)> warn);
+
+  /// The station must outlive the line. Stations hear, and speak, in the order of attaching.
+  void attach(Station& station);
+
+  // --- the host's side -----------------------------------------------------------------------
+  /// How many bytes receive() takes at this moment; the rest must wait in the pty (bounded buffers).
+  std::size_t room() const;
+  /// Bytes that the host has written, seen at `now`. On the wire the first starts at `now` or when the
+  /// one before it is over. At most room() bytes; what is beyond that is ignored.
+  void receive(std::span<const std::uint8_t> bytes, SimTime now);
+
+  /// A host opened the line; what the one before had set is forgotten. A new line counts as opened.
+  void host_opened();
+  /// What the host set (nothing: it has left the line's speed as it was). Holds for characters that
+  /// begin from now on.
+  void host_settings(std::optional<HostSettings> settings);
+  /// The last host closed the line: what is still on its way to it, and what the stations say until the
+  /// next one opens it, is dropped, as nobody listens. What the host has written still arrives.
+  void host_closed();
+
+  /// Bytes that have wholly left the wire towards the host and were not taken yet. At most
+  /// kOutputCapacity; beyond that new ones are discarded and counted.
+  std::span<const std::uint8_t> output() const;
+  void take_output(std::size_t count);
+
+  // --- time ----------------------------------------------------------------------------------
+  std::optional<SimTime> due() const;
+  /// Does everything that is due at `now` or earlier, in the order of time. At equal times: characters
+  /// that arrive, stations in the order of attaching, characters that leave. With Timing::instant the
+  /// stations come before the next character, so that requests in one lump are served one by one.
+  void run(SimTime now);
+
+  const std::string& name() const { return name_; }
+  const LineOptions& options() const { return options_; }
+  const LineCounters& counters() const { return counters_; }
+
+ private:
+  // Characters sent back to back, timed from the first one, so that rounding does not add up.
+  struct Burst {
+    SimTime start{0};
+    std::int64_t count = 0;
+    SimTime end{0};
+  };
+  struct Member {
+    Station* station = nullptr;
+    bool is_deaf = false;                 // to the character on the wire
+    Burst speech;                         // its last transmission
+    std::optional<SimTime> noticed_at{};  // when the others hear that it talks
+  };
+  class Voice;
+  enum class What : std::uint8_t { nothing, character_in, station, character_out, notice };
+  struct Event {
+    What what = What::nothing;
+    SimTime at{0};
+    std::size_t member = 0;
+  };
+
+  bool is_instant() const { return options_.timing == Timing::instant; }
+  Event next_event() const;
+  void handle(const Event& event);
+  TimedByte place(Burst& burst, std::uint8_t value, SimTime now) const;
+  void begin_character(SimTime at);
+  void deliver_character();
+  void run_station(std::size_t index);
+  void say(std::size_t index, std::span<const std::uint8_t> bytes);
+  void put_on_wire(const TimedByte& character, bool& has_collided);
+  void notify_others(std::size_t speaker);
+  void leave_wire(std::uint8_t value);
+  void warn_once(bool& has_warned, std::string_view what);
+  void warn_deaf(std::size_t index, const LineSettings& expected);
+
+  std::string name_;
+  LineOptions options_;
+  std::function<void(const std::string&)> warn_;
+  LineCounters counters_;
+  std::vector<Member> members_;
+  SimTime clock_{0};  // of the last event
+
+  bool is_host_open_ = true;
+  std::optional<HostSettings> host_settings_;
+  bool has_warned_deaf_ = false;
+  bool has_warned_no_speed_ = false;
+  bool has_warned_collision_ = false;
+
+  // Host to stations: a ring of what has not wholly arrived.
+  std::vector<TimedByte> input_;
+  std::size_t input_first_ = 0;
+  std::size_t input_count_ = 0;
+  Burst arriving_;
+
+  // Stations to host: characters on the wire, in the order of time, from `leaving_first_` on; then bytes
+  // that wait to be taken, from `output_first_` on.
+  std::vector<TimedByte> leaving_;
+  std::size_t leaving_first_ = 0;
+  std::size_t notices_ = 0;  // members whose noticed_at is set
+  std::vector<std::uint8_t> output_;
+  std::size_t output_first_ = 0;
+};
+
+}  // namespace understudy::pty

@@ -1,0 +1,95 @@
+#include "pty/port_link.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace understudy::pty {
+namespace {
+
+std::string error_text(int error) { return std::generic_category().message(error); }
+
+/// Where a symbolic link points; empty if `path` is none.
+std::string link_target(const std::string& path) {
+  std::array<char, PATH_MAX> target{};
+  const ssize_t size = ::readlink(path.c_str(), target.data(), target.size());
+  return size > 0 ? std::string(target.data(), static_cast<std::size_t>(size)) : std::string();
+}
+
+std::string kind_of(mode_t mode) {
+  if (S_ISREG(mode)) return "a regular file";
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISSOCK(mode)) return "a socket";
+  if (S_ISFIFO(mode)) return "a pipe";
+  return "a device";
+}
+
+/// Throws if what is at `absolute_path` may not be replaced.
+void demand_stale(const std::string& path, const std::string& absolute_path) {
+  struct stat status = {};
+  if (::lstat(absolute_path.c_str(), &status) != 0) return;  // gone meanwhile
+  const std::string expected = ", not a link of ours; expected a free path or a stale link";
+  if (!S_ISLNK(status.st_mode)) throw PortError(path + ": is " + kind_of(status.st_mode) + expected);
+  const std::string target = link_target(absolute_path);
+  if (target.starts_with("/dev/pts/")) return;
+  const bool dangles = ::stat(absolute_path.c_str(), &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
+  if (!dangles) throw PortError(path + ": is a link to " + target + expected);
+}
+
+void demand_directory(const std::string& path, const std::filesystem::path& absolute_path) {
+  const std::filesystem::path parent = absolute_path.parent_path();
+  std::error_code error;
+  if (std::filesystem::is_directory(parent, error)) return;
+  const bool exists = std::filesystem::exists(parent, error);
+  throw PortError(path + ": " + parent.string() + (exists ? " is no directory" : " does not exist") +
+                  "; expected an existing directory");
+}
+
+}  // namespace
+
+PortLink::PortLink(const std::string& path, std::string target) {
+  const std::filesystem::path absolute_path = std::filesystem::absolute(path);
+  demand_directory(path, absolute_path);
+  const auto fail = [&path](int error) -> PortError {
+    return PortError(path + ": the link cannot be made: " + error_text(error) +
+                     "; expected a writable directory");
+  };
+  const std::string name = absolute_path.string();
+  // A free path is taken in one step, which never replaces anything.
+  if (::symlink(target.c_str(), name.c_str()) != 0) {
+    if (errno != EEXIST) throw fail(errno);
+    demand_stale(path, name);
+    // A stale link is replaced in one step, so that nobody ever finds no link there.
+    const std::string fresh = name + "." + std::to_string(::getpid()) + ".new";
+    ::unlink(fresh.c_str());
+    if (::symlink(target.c_str(), fresh.c_str()) != 0) throw fail(errno);
+    if (::rename(fresh.c_str(), name.c_str()) != 0) {
+      const int error = errno;
+      ::unlink(fresh.c_str());
+      throw fail(error);
+    }
+  }
+  absolute_path_ = name;
+  target_ = std::move(target);
+}
+
+PortLink::~PortLink() {
+  if (!target_.empty() && link_target(absolute_path_) == target_) ::unlink(absolute_path_.c_str());
+}
+
+PortLink::PortLink(PortLink&& other) noexcept
+    : absolute_path_(std::move(other.absolute_path_)), target_(std::exchange(other.target_, {})) {}
+
+PortLink& PortLink::operator=(PortLink&& other) noexcept {
+  std::swap(absolute_path_, other.absolute_path_);
+  std::swap(target_, other.target_);
+  return *this;
+}
+
+}  // namespace understudy::pty

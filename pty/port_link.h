@@ -1,0 +1,32 @@
+// The stable path of a port: a symbolic link to a pseudo-terminal whose number changes from run to run.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace understudy::pty {
+
+/// A port could not be had: one line, naming the path and what was expected.
+struct PortError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class PortLink {
+ public:
+  PortLink() = default;  // no link
+
+  /// Links `path` to `target`. What is there is replaced if it is a stale link: a symbolic link that
+  /// dangles, or one to a /dev/pts entry (left by a run that was killed; its number may be another
+  /// program's by now). Anything else is left alone: throws PortError.
+  PortLink(const std::string& path, std::string target);
+  /// Removes the link, unless it has become another's.
+  ~PortLink();
+  PortLink(PortLink&& other) noexcept;
+  PortLink& operator=(PortLink&& other) noexcept;
+
+ private:
+  std::string absolute_path_;  // the working directory may change before the link is removed
+  std::string target_;         // empty: no link
+};
+
+}  // namespace understudy::pty

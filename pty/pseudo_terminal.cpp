@@ -1,0 +1,196 @@
+#include "pty/pseudo_terminal.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <sys/inotify.h>
+#include <termios.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "pty/terminal_settings.h"
+
+namespace understudy::pty {
+namespace {
+
+PortError cannot_have(const std::string& link_path, const std::string& what, int error) {
+  return PortError((link_path.empty() ? std::string("/dev/ptmx") : link_path) + ": " + what + ": " +
+                   std::generic_category().message(error));
+}
+
+/// Ours is for reading only, so that its closing (IN_CLOSE_NOWRITE) differs from a usual host's.
+Descriptor open_slave(const std::string& path) {
+  for (;;) {
+    Descriptor slave(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+    if (slave || errno != EINTR) return slave;
+  }
+}
+
+/// Whether no slave is open.
+bool is_hung_up(int master) {
+  pollfd entry{.fd = master, .events = 0, .revents = 0};
+  while (::poll(&entry, 1, 0) < 0 && errno == EINTR) {
+  }
+  return (entry.revents & POLLHUP) != 0;
+}
+
+}  // namespace
+
+PseudoTerminal::PseudoTerminal(const std::string& link_path) : link_path_(link_path) {
+  master_ = Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!master_) throw cannot_have(link_path, "no pseudo-terminal is to be had; expected a free one", errno);
+  std::array<char, 64> name{};
+  if (::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0 ||
+      ::ptsname_r(master_.get(), name.data(), name.size()) != 0) {
+    throw cannot_have(link_path, "the pseudo-terminal cannot be unlocked", errno);
+  }
+  path_ = name.data();
+  slave_ = open_slave(path_);
+  if (!slave_) throw cannot_have(link_path, path_ + " cannot be opened", errno);
+  if (!rest(slave_.get())) throw cannot_have(link_path, path_ + " cannot be set raw", errno);
+
+  watch_ = Descriptor(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+  if (!watch_) {
+    throw cannot_have(
+        link_path,
+        "no inotify instance is to be had; expected fewer than fs.inotify.max_user_instances in use", errno);
+  }
+  if (::inotify_add_watch(watch_.get(), path_.c_str(), IN_OPEN | IN_CLOSE_WRITE | IN_CLOSE_NOWRITE) < 0) {
+    throw cannot_have(link_path, path_ + " cannot be watched", errno);
+  }
+  if (!link_path.empty()) link_ = PortLink(link_path, path_);
+}
+
+PseudoTerminal::~PseudoTerminal() = default;
+
+// --- bytes -------------------------------------------------------------------------------------
+
+std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
+  ssize_t size = 0;
+  do {
+    size = ::read(master_.get(), bytes.data(), bytes.size());
+  } while (size < 0 && errno == EINTR);
+  if (size <= 0) return 0;
+  // Who has left and come until now is settled before these bytes are answered: otherwise the answer to
+  // a new host could be thrown away as one that the old host did not read.
+  follow_presence(false);
+  if (!is_present_) follow_presence(true);  // its opening was missed, or it has left already
+  // A host that writes has done its tcsetattr: now its next one can be prepared without disturbing it.
+  if (const auto taken = take_host_settings(master_.get())) settings_ = taken;
+  return static_cast<std::size_t>(size);
+}
+
+std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
+  if (!is_present_) return bytes.size();
+  ssize_t size = 0;
+  do {
+    size = ::write(master_.get(), bytes.data(), bytes.size());
+  } while (size < 0 && errno == EINTR);
+  return size < 0 ? 0 : static_cast<std::size_t>(size);
+}
+
+// --- who is there ------------------------------------------------------------------------------
+//
+// inotify tells about every opening and closing in their order, but merges equal neighbours (two hosts
+// that open at once are one event), so its count is a hint only. What decides is the kernel's own: when
+// something has closed, we close our slave for a moment and see whether the master hangs up.
+
+PseudoTerminal::Presence PseudoTerminal::poll_presence() {
+  follow_presence(false);
+  return std::exchange(news_, {});
+}
+
+void PseudoTerminal::follow_presence(bool has_closed) {
+  // Hosts come and go while we look; if they go on doing so, the watch stays readable for the next call.
+  constexpr int kMaxLooks = 8;
+  has_closed = read_presence_events() || has_closed;
+  for (int look = 0; has_closed && look < kMaxLooks; ++look) {
+    if (!is_somebody_there()) {
+      opens_ = 0;
+      if (is_present_) count_departure();
+    } else if (opens_ == 0) {
+      opens_ = 1;  // merged openings
+      if (!is_present_) count_arrival();
+    }
+    has_closed = read_presence_events();
+  }
+}
+
+/// True if something has closed.
+bool PseudoTerminal::read_presence_events() {
+  bool has_closed = false;
+  alignas(inotify_event) std::array<char, 4096> buffer;
+  for (;;) {
+    const ssize_t size = ::read(watch_.get(), buffer.data(), buffer.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) break;
+    for (std::size_t at = 0; at < static_cast<std::size_t>(size);) {
+      inotify_event event = {};
+      std::memcpy(&event, buffer.data() + at, sizeof event);
+      at += sizeof event + event.len;
+      has_closed = count_event(event.mask) || has_closed;
+    }
+  }
+  own_opens_ = own_closes_ = 0;  // or they were merged with a host's
+  return has_closed;
+}
+
+/// True if it says that a host has closed, or that events were lost.
+bool PseudoTerminal::count_event(std::uint32_t mask) {
+  if ((mask & IN_OPEN) != 0) {
+    if (own_opens_ > 0) {
+      --own_opens_;
+      return false;
+    }
+    if (opens_ == 0 && is_present_) {
+      // Closed and opened again since we last looked. What was set stays, as on any serial port.
+      count_departure();
+      is_present_ = news_.opened = true;
+    } else if (!is_present_) {
+      count_arrival();
+    }
+    ++opens_;
+    return false;
+  }
+  if ((mask & IN_CLOSE_NOWRITE) != 0 && own_closes_ > 0) {
+    --own_closes_;
+    return false;
+  }
+  if ((mask & IN_CLOSE) != 0 && opens_ > 0) --opens_;
+  return (mask & (IN_CLOSE | IN_Q_OVERFLOW)) != 0;
+}
+
+void PseudoTerminal::count_arrival() {
+  is_present_ = true;
+  news_.opened = true;
+  settings_.reset();
+}
+
+void PseudoTerminal::count_departure() {
+  is_present_ = false;
+  news_.closed = true;
+  // What it has not read must not be found by the next host. What it has written stays.
+  ::tcflush(slave_.get(), TCIFLUSH);
+  // Bytes of this host may still be unread here, and its settings go with them.
+  if (const auto last = host_settings_of(master_.get())) settings_ = last;
+}
+
+/// If nobody is there, the line is at rest afterwards.
+bool PseudoTerminal::is_somebody_there() {
+  own_closes_ = own_opens_ = 1;
+  slave_.close();
+  const bool is_free = is_hung_up(master_.get());
+  if (is_free) {
+    if (const auto last = host_settings_of(master_.get())) settings_ = last;
+    // What is at rest needs nothing; if it is not, it may be because somebody has come since.
+    if (!is_at_rest(master_.get()) && is_hung_up(master_.get())) rest(master_.get());
+  }
+  slave_ = open_slave(path_);
+  return !is_free;
+}
+
+}  // namespace understudy::pty

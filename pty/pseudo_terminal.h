@@ -1,0 +1,80 @@
+// A pseudo-terminal that stands for a serial port: stable link, lossless reopening, and the measures
+// that let a host ask for even parity again and again (docs/wire.md, "What a Linux pty does").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "pty/descriptor.h"
+#include "pty/line_settings.h"
+#include "pty/port_link.h"
+
+namespace understudy::pty {
+
+/// Serve it so: when data_descriptor() is readable, read(), then, before the bytes are used, poll_presence()
+/// if has_presence_news(), and poll_host_settings(); when presence_descriptor() is readable, poll_presence().
+class PseudoTerminal {
+ public:
+  /// Creates the pty, raw, at the resting speed, and links `link_path` to it. A stale symbolic link
+  /// (dangling, or to a /dev/pts entry) is replaced; anything else that is there is left alone.
+  /// `link_path` may be empty. Throws PortError.
+  explicit PseudoTerminal(const std::string& link_path);
+  /// Removes the link if it is still ours.
+  ~PseudoTerminal();
+  PseudoTerminal(const PseudoTerminal&) = delete;
+  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
+
+  int data_descriptor() const { return master_.get(); }        // readable when the host has written
+  int presence_descriptor() const { return watch_.get(); }     // readable when a host has opened or closed
+  const std::string& path() const { return path_; }            // /dev/pts/N
+  const std::string& link_path() const { return link_path_; }  // as it was given
+
+  /// At most bytes.size() bytes; 0 when there is none now. Never blocks.
+  std::size_t read(std::span<std::uint8_t> bytes);
+  /// How many the kernel took; less than offered when nobody reads. Never blocks. While no host has the
+  /// line open everything is taken and lost: nobody may find it there later.
+  std::size_t write(std::span<const std::uint8_t> bytes);
+
+  /// What has happened since the last call. Both may be true; host_present() tells which came last.
+  struct Presence {
+    bool opened = false;  // a host came (the line was free before)
+    bool closed = false;  // the last host went: what it had not read is gone, what it wrote is not
+  };
+  Presence poll_presence();
+  /// Whether read() has learnt something that poll_presence() will tell. Then presence_descriptor() need
+  /// not be readable any more.
+  bool has_presence_news() const { return news_.opened || news_.closed; }
+  bool host_present() const { return is_present_; }
+
+  /// What the host of the bytes just read has set; nothing if it left the resting speed alone. read()
+  /// looks, remembers it and puts the resting speed back, so that the host's next tcsetattr changes
+  /// something and succeeds. Remembered until the next host opens the free line.
+  std::optional<HostSettings> poll_host_settings() const { return settings_; }
+
+ private:
+  void follow_presence(bool has_closed);
+  bool read_presence_events();
+  bool count_event(std::uint32_t mask);
+  void count_arrival();
+  void count_departure();
+  bool is_somebody_there();
+
+  std::string path_;
+  std::string link_path_;
+  Descriptor master_;
+  Descriptor slave_;  // ours, so that the master never hangs up
+  Descriptor watch_;  // inotify on the slave
+  PortLink link_;
+
+  bool is_present_ = false;
+  int opens_ = 0;      // by hosts; at least so many, as inotify merges equal neighbours
+  int own_opens_ = 0;  // events still to come that we cause ourselves
+  int own_closes_ = 0;
+  Presence news_;
+  std::optional<HostSettings> settings_;
+};
+
+}  // namespace understudy::pty

@@ -1,0 +1,48 @@
+#include "pty/rtu_crc.h"
+
+#include <array>
+#include <cassert>
+
+namespace understudy::pty {
+namespace {
+
+constexpr std::array<std::uint16_t, 256> make_table() {
+  std::array<std::uint16_t, 256> table{};
+  for (unsigned value = 0; value < table.size(); ++value) {
+    unsigned crc = value;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc & 1u) != 0 ? (crc >> 1) ^ 0xA001u : crc >> 1;
+    table[value] = static_cast<std::uint16_t>(crc);
+  }
+  return table;
+}
+
+constexpr auto kTable = make_table();
+
+}  // namespace
+
+std::uint16_t rtu_crc(std::span<const std::uint8_t> bytes) {
+  unsigned crc = 0xFFFF;
+  for (const std::uint8_t byte : bytes) crc = (crc >> 8) ^ kTable[(crc ^ byte) & 0xFFu];
+  return static_cast<std::uint16_t>(crc);
+}
+
+bool rtu_crc_ok(std::span<const std::uint8_t> frame) {
+  // A message followed by its own checksum leaves zero.
+  return frame.size() >= kRtuMinFrame && rtu_crc(frame) == 0;
+}
+
+void append_rtu_crc(std::vector<std::uint8_t>& frame) {
+  const std::size_t size = frame.size();
+  frame.resize(size + 2);
+  append_rtu_crc(frame, size);
+}
+
+std::size_t append_rtu_crc(std::span<std::uint8_t> buffer, std::size_t size) {
+  assert(buffer.size() >= size + 2);
+  const std::uint16_t crc = rtu_crc(buffer.first(size));
+  buffer[size] = static_cast<std::uint8_t>(crc & 0xFF);
+  buffer[size + 1] = static_cast<std::uint8_t>(crc >> 8);
+  return size + 2;
+}
+
+}  // namespace understudy::pty

@@ -1,0 +1,100 @@
+// Where a Modbus RTU frame ends: a value that a station feeds with characters and asks for frames.
+//
+// Two rules (docs/wire.md):
+//  * strict: only silence ends a frame. A gap of `silence` or more between two characters (idle time,
+//    from the stop bit's end to the next start bit) ends it; two frames without a gap are one.
+//  * tolerant (default): a frame ends when its length is complete and its checksum right. What does
+//    not complete that way (unknown function, wrong checksum, cut frame) ends after `patience` of
+//    silence; a good frame that follows noise, even without a gap, is found. A frame that lies inside
+//    another good one is data, never a request: a candidate that may still become complete covers what
+//    is in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "pty/station.h"
+
+namespace understudy::pty {
+
+inline constexpr std::size_t kRtuMaxFrame = 256;  // address, 253 bytes of PDU, CRC
+
+struct RtuFraming {
+  bool strict = false;
+  SimTime silence{0};   // the device's end-of-frame silence; also earliest reply after the last byte
+  SimTime patience{0};  // tolerant only: how long an incomplete frame waits (10 ms, scaled by the pacer)
+};
+
+/// A frame with a right checksum. `bytes` includes address and CRC.
+struct RtuFrame {
+  std::array<std::uint8_t, kRtuMaxFrame> bytes{};
+  std::size_t size = 0;
+  SimTime end{0};  // when its last character was over
+};
+
+class RtuFramer {
+ public:
+  explicit RtuFramer(RtuFraming framing = {});
+
+  /// A character has begun (Station::hear_start_bit): until it comes, the silence is over. Optional;
+  /// without it only the times of push() count, and take() may end a frame under a character's feet.
+  void start_bit(SimTime at);
+  /// Characters must come in the order of time.
+  void push(const TimedByte& byte);
+  /// Forget what is buffered (another station used the line, the host closed mid-frame).
+  void reset();
+
+  /// When take() is worth calling: end of a complete frame plus the silence rule, or the patience of
+  /// an incomplete one. Nothing while the buffer is empty.
+  std::optional<SimTime> due() const;
+
+  /// At due() or later: the next good frame, or nothing (noise, bad checksum: dropped and counted).
+  /// Call again while it returns a frame or due() is not later than now.
+  std::optional<RtuFrame> take(SimTime now);
+
+  /// Noise, wrong checksums, cut frames, and what did not fit; not what reset() forgot.
+  std::uint64_t dropped_bytes() const { return dropped_; }
+
+ private:
+  // The buffer, from low to high index:  [served] [ready frames, noise between them] [undecided]
+  // Within the undecided part, no frame begins before `candidate_`; the one that may begin there needs
+  // looking at again when `look_again_at_` bytes of it are in.
+  // That part never exceeds two frames: noise that may be the beginning of a long one, and a candidate.
+  static constexpr std::size_t kCapacity = 3 * kRtuMaxFrame;
+  static constexpr std::size_t kMaxReady = kCapacity / 4;
+
+  struct Ready {
+    std::uint16_t first = 0;
+    std::uint16_t size = 0;
+  };
+
+  SimTime patience() const;  // of the undecided part, under the rule in force
+  bool is_silent(SimTime at) const;
+  void search();
+  void end_of_silence();
+  void add_ready(std::size_t first, std::size_t size);
+  void decide_up_to(std::size_t index);
+  void rewind_if_empty();
+  void make_room();
+  std::span<const std::uint8_t> bytes(std::size_t first, std::size_t last) const;
+
+  RtuFraming framing_;
+  std::array<std::uint8_t, kCapacity> values_{};
+  std::array<SimTime, kCapacity> ends_{};
+  std::array<Ready, kMaxReady> ready_{};  // a ring
+  std::size_t ready_first_ = 0;
+  std::size_t ready_count_ = 0;
+  std::size_t used_ = 0;
+  std::size_t undecided_ = 0;
+  std::size_t candidate_ = 0;
+  std::size_t look_again_at_ = 0;
+  std::uint64_t oversize_ = 0;  // strict: bytes of this lump beyond the longest frame, not stored
+  SimTime last_end_{0};
+  bool character_under_way_ = false;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace understudy::pty
