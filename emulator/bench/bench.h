@@ -1,0 +1,53 @@
+// A bench: what a user describes in one file (docs/bench.md). Checked when it is made, so that whatever
+// is built from it can rely on every name.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "emulator/model.h"
+#include "emulator/plant/plant.h"
+#include "pty/line.h"
+
+namespace understudy::emulator {
+
+struct LineSetup {
+  std::string name;
+  std::string link;  // path of the link to its pty; empty: none
+  int baud = 0;      // 0: the first station's factory speed
+  pty::Timing timing = pty::Timing::wire;
+  std::vector<std::size_t> stations;  // devices, in the order written
+};
+
+struct DeviceSetup {
+  const Model* model = nullptr;
+  DeviceSettings settings;
+};
+
+struct MachineSetup {
+  std::size_t device = 0;
+  int axis = 0;
+  PlantSetup plant;
+};
+
+/// An output of one device joined to an input of another, by numbers of terminals.
+struct WireSetup {
+  std::size_t from_device = 0;
+  int from_terminal = 0;
+  std::size_t to_device = 0;
+  int to_terminal = 0;
+};
+
+struct Bench {
+  std::vector<LineSetup> lines;
+  std::vector<DeviceSetup> devices;
+  std::vector<MachineSetup> machines;
+  std::vector<WireSetup> wires;
+};
+
+/// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
+int find_terminal(const Model& model, std::string_view name);
+int find_axis(const Model& model, std::string_view name);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,315 @@
+#include "emulator/bench/bench_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "emulator/bench/yaml_fields.h"
+#include "emulator/device.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses; farther than any counter
+
+/// A name that other names can be joined to with a dot.
+void demand_name(const YamlFields& field, const std::string& name) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+  if (!plain) field.fail("'" + name + "' is no name; expected letters, digits, _ and -");
+}
+
+class BenchReader {
+ public:
+  explicit BenchReader(std::string folder) : folder_(std::move(folder)) {}
+
+  Bench read(const YamlFields& root) {
+    root.demand_map({"understudy", "lines", "devices", "plant", "wires"});
+    root.at("understudy").integer(1, 1);
+    if (root.has("devices")) read_devices(root.at("devices"));
+    read_lines(root.at("lines"));
+    if (root.has("plant")) read_plant(root.at("plant"));
+    if (root.has("wires")) read_wires(root.at("wires"));
+    check_devices();
+    return std::move(bench_);
+  }
+
+ private:
+  // --- devices -------------------------------------------------------------------------------
+  std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
+    demand_name(name_field, name);
+    if (find_device(name) >= 0) name_field.fail("two devices are called '" + name + "'; expected a new name");
+    DeviceSetup device;
+    device.settings.name = name;
+    const YamlFields model = fields.at("model");
+    device.model = find_model(model.text());
+    if (device.model == nullptr) {
+      std::vector<std::string> names;
+      for (const Model* known : all_models()) names.emplace_back(known->name);
+      model.fail("'" + model.text() + "' is no model; the nearest is '" + nearest_word(model.text(), names) +
+                 "'");
+    }
+    if (fields.has("firmware")) {
+      const YamlFields firmware = fields.at("firmware");
+      device.settings.firmware = parse_firmware(firmware.text());
+      if (device.settings.firmware == 0)
+        firmware.fail("'" + firmware.text() + "' is no version; expected one like \"1.52\"");
+    }
+    if (fields.has("set")) {
+      fields.at("set").demand_map({});
+      for (const auto& [register_name, value] : fields.at("set").entries()) {
+        device.settings.set[register_name] = value.integer(INT32_MIN, UINT32_MAX);
+      }
+    }
+    if (fields.has("choices")) {
+      fields.at("choices").demand_map({});
+      for (const auto& [id, option] : fields.at("choices").entries())
+        device.settings.choices[id] = option.text();
+    }
+    bench_.devices.push_back(device);
+    device_fields_.push_back(fields);
+    on_a_line_.push_back(false);
+    return bench_.devices.size() - 1;
+  }
+
+  void read_devices(const YamlFields& devices) {
+    devices.demand_map({});
+    for (const auto& [name, fields] : devices.entries()) {
+      fields.demand_map({"model", "firmware", "set", "choices"});
+      add_device(fields, name, fields);
+    }
+  }
+
+  int find_device(const std::string& name) const {
+    for (std::size_t i = 0; i < bench_.devices.size(); ++i) {
+      if (bench_.devices[i].settings.name == name) return static_cast<int>(i);
+    }
+    return -1;
+  }
+
+  std::size_t demand_device(const YamlFields& field, const std::string& name) const {
+    const int found = find_device(name);
+    if (found >= 0) return static_cast<std::size_t>(found);
+    std::vector<std::string> names;
+    for (const DeviceSetup& device : bench_.devices) names.push_back(device.settings.name);
+    field.fail("no device is called '" + name + "'" +
+               (names.empty() ? "" : "; the nearest is '" + nearest_word(name, names) + "'"));
+  }
+
+  // --- lines ---------------------------------------------------------------------------------
+  void read_lines(const YamlFields& lines) {
+    lines.demand_map({});
+    if (lines.entries().empty()) lines.fail("has no line; expected at least one");
+    for (const auto& [name, fields] : lines.entries()) read_line(name, fields);
+  }
+
+  void read_line(const std::string& name, const YamlFields& fields) {
+    fields.demand_map({"link", "baud", "timing", "stations"});
+    demand_name(fields, name);
+    LineSetup line{.name = name, .link = {}, .stations = {}};
+    if (fields.has("link")) {
+      const YamlFields link = fields.at("link");
+      if (link.text().empty()) link.fail("is empty; expected a path");
+      line.link = (std::filesystem::path(folder_) / link.text()).lexically_normal().string();
+      for (const LineSetup& other : bench_.lines) {
+        if (other.link == line.link)
+          link.fail("line '" + other.name + "' has the same link; expected another path");
+      }
+    }
+    if (fields.has("baud")) line.baud = static_cast<int>(fields.at("baud").integer(1, 4'000'000));
+    if (fields.has("timing")) {
+      const YamlFields timing = fields.at("timing");
+      if (timing.text() != "wire" && timing.text() != "instant") {
+        timing.fail("'" + timing.text() + "' is no timing; expected wire or instant");
+      }
+      line.timing = timing.text() == "wire" ? pty::Timing::wire : pty::Timing::instant;
+    }
+    std::set<std::int64_t> addresses;
+    const auto stations = fields.at("stations").elements();
+    if (stations.empty()) fields.at("stations").fail("is empty; expected at least one station");
+    for (const YamlFields& station : stations) read_station(station, line, addresses);
+    bench_.lines.push_back(std::move(line));
+  }
+
+  void read_station(const YamlFields& station, LineSetup& line, std::set<std::int64_t>& addresses) {
+    std::size_t device = 0;
+    if (station.has("device")) {
+      station.demand_map({"device", "address"});
+      device = demand_device(station.at("device"), station.at("device").text());
+    } else {
+      station.demand_map({"name", "model", "address", "firmware", "set", "choices"});
+      device = add_device(station.at("name"), station.at("name").text(), station);
+    }
+    if (on_a_line_[device]) station.fail("the device is on a line already; expected it on one line");
+    on_a_line_[device] = true;
+    DeviceSetup& setup = bench_.devices[device];
+    setup.settings.baud = line.baud;
+    setup.settings.address = 1;
+    if (station.has("address")) {
+      const YamlFields address = station.at("address");
+      setup.settings.address = static_cast<int>(
+          address.integer(setup.model->rtu.lowest_address, setup.model->rtu.highest_address));
+    }
+    if (!addresses.insert(setup.settings.address).second) {
+      station.fail("address " + std::to_string(setup.settings.address) +
+                   " is taken on this line; expected another");
+    }
+    device_fields_[device] = station.has("device") ? device_fields_[device] : station;
+    line.stations.push_back(device);
+  }
+
+  // --- plant and wires -------------------------------------------------------------------------
+  /// "feeder.A" into the device and what is behind the dot.
+  std::pair<std::size_t, std::string> split(const YamlFields& field, const std::string& name,
+                                            const char* example) const {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos)
+      field.fail("'" + name + "' names no device; expected a name like " + example);
+    return {demand_device(field, name.substr(0, dot)), name.substr(dot + 1)};
+  }
+
+  static PulseSpan read_span(const YamlFields& field) {
+    const auto ends = field.elements();
+    if (ends.size() != 2) field.fail("expected two positions, as in `[ -20000, 20000 ]`");
+    const PulseSpan span{ends[0].integer(-kFar, kFar), ends[1].integer(-kFar, kFar)};
+    if (span.first > span.last) field.fail("ends before it begins; expected the lower position first");
+    return span;
+  }
+
+  void read_plant(const YamlFields& plant) {
+    plant.demand_map({});
+    for (const auto& [name, fields] : plant.entries()) {
+      const auto [device, axis_name] = split(fields, name, "feeder.A");
+      const Model& model = *bench_.devices[device].model;
+      const int axis = find_axis(model, axis_name);
+      if (axis < 0) {
+        std::string axes;
+        for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
+        fields.fail("'" + axis_name + "' is no axis of " + std::string(model.name) + "; expected one of " +
+                    axes);
+      }
+      bench_.machines.push_back({.device = device, .axis = axis, .plant = read_machine(fields, model, axis)});
+    }
+  }
+
+  static PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis) {
+    fields.demand_map({"travel", "home", "limits", "encoder"});
+    PlantSetup setup;
+    if (fields.has("travel")) {
+      setup.travel = read_span(fields.at("travel"));
+      if (setup.travel->first > 0 || setup.travel->last < 0) {
+        fields.at("travel").fail("does not hold position 0, where the machine starts; expected it inside");
+      }
+    }
+    if (fields.has("home")) {
+      const YamlFields home = fields.at("home");
+      home.demand_map({"at", "width"});
+      const std::int64_t at = home.at("at").integer(-kFar, kFar);
+      setup.home = PulseSpan{at, at + home.at("width").integer(1, kFar) - 1};
+    }
+    if (fields.has("limits")) {
+      const YamlFields limits = fields.at("limits");
+      limits.demand_map({"lower", "upper"});
+      if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(-kFar, kFar);
+      if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(-kFar, kFar);
+      if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
+        limits.fail("the lower limit is not below the upper one; expected it below");
+      }
+    }
+    setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
+    if (fields.has("encoder")) {
+      const YamlFields encoder = fields.at("encoder");
+      encoder.demand_map({"per_revolution", "motor_pulses_per_revolution"});
+      setup.encoder_counts_per_revolution =
+          static_cast<int>(encoder.at("per_revolution").integer(1, 10'000'000));
+      if (encoder.has("motor_pulses_per_revolution")) {
+        setup.pulses_per_revolution =
+            static_cast<int>(encoder.at("motor_pulses_per_revolution").integer(1, 10'000'000));
+      }
+    }
+    return setup;
+  }
+
+  std::pair<std::size_t, int> demand_terminal(const YamlFields& field, const std::string& name,
+                                              TerminalRow::Kind kind, const char* example) const {
+    const auto [device, terminal_name] = split(field, name, example);
+    const Model& model = *bench_.devices[device].model;
+    const int terminal = find_terminal(model, terminal_name);
+    if (terminal >= 0 && model.terminals[static_cast<std::size_t>(terminal)].kind == kind)
+      return {device, terminal};
+    std::vector<std::string> names;
+    for (const TerminalRow& row : model.terminals) {
+      if (row.kind == kind) names.emplace_back(row.name);
+    }
+    field.fail("'" + terminal_name + "' is no " +
+               (kind == TerminalRow::Kind::digital_in ? "input" : "output") + " of " +
+               std::string(model.name) + "; the nearest is '" + nearest_word(terminal_name, names) + "'");
+  }
+
+  void read_wires(const YamlFields& wires) {
+    for (const YamlFields& wire : wires.elements()) {
+      const std::string text = wire.text();
+      const std::size_t arrow = text.find("->");
+      if (arrow == std::string::npos) wire.fail("expected `DEVICE.OUTPUT -> DEVICE.INPUT`");
+      const auto trimmed = [](std::string part) {
+        part.erase(0, part.find_first_not_of(' '));
+        return part.substr(0, part.find_last_not_of(' ') + 1);
+      };
+      const auto [from, output] = demand_terminal(wire, trimmed(text.substr(0, arrow)),
+                                                  TerminalRow::Kind::digital_out, "feeder.DOUT_4");
+      const auto [to, input] = demand_terminal(wire, trimmed(text.substr(arrow + 2)),
+                                               TerminalRow::Kind::digital_in, "turner.DIN_10");
+      bench_.wires.push_back(
+          {.from_device = from, .from_terminal = output, .to_device = to, .to_terminal = input});
+    }
+  }
+
+  // --- what only the model can judge -------------------------------------------------------------
+  void check_devices() const {
+    for (std::size_t i = 0; i < bench_.devices.size(); ++i) {
+      if (!on_a_line_[i])
+        device_fields_[i].fail("the device is on no line; expected a station that names it");
+      try {
+        make_device(*bench_.devices[i].model, bench_.devices[i].settings);
+      } catch (const SettingError& error) {
+        device_fields_[i].fail(error.what());
+      }
+    }
+  }
+
+  std::string folder_;
+  Bench bench_;
+  std::vector<YamlFields> device_fields_;  // where each device was described
+  std::vector<bool> on_a_line_;
+};
+
+}  // namespace
+
+Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder) {
+  try {
+    const YAML::Node root = YAML::Load(text);
+    const YamlFields fields(name, root, "bench");
+    if (!root.IsMap())
+      throw BenchError(name + ":1: bench: the file is no map; expected `understudy: 1` and `lines:`");
+    return BenchReader(folder).read(fields);
+  } catch (const YAML::Exception& error) {
+    throw BenchError(name + ":" + std::to_string(error.mark.line + 1) + ": bench: is not YAML: " + error.msg);
+  }
+}
+
+Bench load_bench(const std::string& path) {
+  std::ifstream file(path);
+  std::error_code ignored;
+  if (!file || std::filesystem::is_directory(path, ignored)) {
+    throw BenchError(path + ":1: bench: cannot be read; expected a bench file");
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return parse_bench(text.str(), path, std::filesystem::path(path).parent_path().string());
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,22 @@
+// Bench files (YAML, docs/bench.md) into benches.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "emulator/bench/bench.h"
+
+namespace understudy::emulator {
+
+/// One line: "file:line: field: what is wrong; what was expected".
+struct BenchError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Links are made relative to the file's folder. Throws BenchError.
+Bench load_bench(const std::string& path);
+
+/// The same from a text; `name` stands for the file in messages, links are relative to `folder`.
+Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,135 @@
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/control/server.h"
+#include "emulator/simulated_time.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string socket_path(const ControlArguments& arguments) {
+  if (!arguments.socket.empty()) return arguments.socket;
+  if (const char* from_exec = std::getenv("UNDERSTUDY_CONTROL"); from_exec != nullptr) return from_exec;
+  return default_control_path();
+}
+
+/// "NAME=VALUE" operands as an object.
+Json assignments(const ControlArguments& arguments) {
+  Json values = Json::object();
+  for (const std::string& operand : arguments.operands) {
+    const std::size_t equals = operand.find('=');
+    const std::string name = operand.substr(0, equals);
+    std::int64_t value = 0;
+    bool good = equals != std::string::npos && !name.empty();
+    if (good) {
+      std::string_view text = std::string_view(operand).substr(equals + 1);
+      const bool hexadecimal = text.starts_with("0x");
+      if (hexadecimal) text.remove_prefix(2);
+      const auto [end, error] =
+          std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal ? 16 : 10);
+      good = !text.empty() && error == std::errc{} && end == text.data() + text.size();
+    }
+    if (!good)
+      throw UsageError("ctl " + arguments.verb + ": '" + operand +
+                       "' is not understood; expected NAME=VALUE");
+    if (values.contains(name))
+      throw UsageError("ctl " + arguments.verb + ": '" + name + "' is given twice; expected it once");
+    values[name] = value;
+  }
+  if (values.empty()) throw UsageError("ctl " + arguments.verb + ": nothing to do; expected NAME=VALUE");
+  return values;
+}
+
+Json message_for(const ControlArguments& arguments) {
+  const std::string& verb = arguments.verb;
+  Json message{{"do", verb}};
+  if (verb == "get") {
+    if (arguments.operands.empty())
+      throw UsageError("ctl get: nothing to read; expected the name of a register");
+    message["names"] = arguments.operands;
+  } else if (verb == "set" || verb == "input") {
+    message["values"] = assignments(arguments);
+  } else if (verb == "advance") {
+    if (arguments.operands.size() != 1 || !parse_duration(arguments.operands[0])) {
+      throw UsageError("ctl advance: expected one duration with a unit, such as 250ms");
+    }
+    message["by"] = arguments.operands[0];
+  } else if (!arguments.operands.empty()) {
+    throw UsageError("ctl " + verb + ": '" + arguments.operands[0] +
+                     "' is one word too many; expected nothing after it");
+  }
+  return message;
+}
+
+void print_status(const Json& status) {
+  const Json& lateness = status["lateness"];
+  std::printf("simulated time %s, speed %s%s\n", status["simulated_time"].get<std::string>().c_str(),
+              status["speed"].get<std::string>().c_str(), status["paused"].get<bool>() ? ", paused" : "");
+  std::printf("lateness p50 %.1f us, p99 %.1f us, max %.1f us over %llu wakes, %llu slips\n",
+              lateness["p50_us"].get<double>(), lateness["p99_us"].get<double>(),
+              lateness["max_us"].get<double>(), lateness["wakes"].get<unsigned long long>(),
+              lateness["slips"].get<unsigned long long>());
+  std::printf("ticks %llu stepped, %llu crossed in bulk\n",
+              status["ticks"]["stepped"].get<unsigned long long>(),
+              status["ticks"]["crossed"].get<unsigned long long>());
+  for (const Json& line : status["lines"]) {
+    std::printf("line %s: %s -> %s, %s, %s, host %s", line["name"].get<std::string>().c_str(),
+                line["link"].get<std::string>().c_str(), line["pty"].get<std::string>().c_str(),
+                line["settings"].get<std::string>().c_str(), line["timing"].get<std::string>().c_str(),
+                line["host"].get<std::string>().c_str());
+    if (line.contains("host_baud")) std::printf(" at %d baud", line["host_baud"].get<int>());
+    std::printf("; %llu bytes in, %llu out, %llu unheard, %llu discarded\n",
+                line["bytes_in"].get<unsigned long long>(), line["bytes_out"].get<unsigned long long>(),
+                line["bytes_unheard"].get<unsigned long long>(),
+                line["bytes_discarded"].get<unsigned long long>());
+    for (const Json& station : line["stations"]) {
+      std::printf("  station %d %s: %llu requests, %llu replies, %llu of them exceptions\n",
+                  station["address"].get<int>(), station["device"].get<std::string>().c_str(),
+                  station["requests"].get<unsigned long long>(), station["replies"].get<unsigned long long>(),
+                  station["exceptions"].get<unsigned long long>());
+    }
+  }
+  for (const Json& device : status["devices"]) {
+    std::printf("device %s: %s, firmware %s\n", device["name"].get<std::string>().c_str(),
+                device["model"].get<std::string>().c_str(), device["firmware"].get<std::string>().c_str());
+    for (const auto& [axis, machine] : device["machines"].items()) {
+      std::printf("  machine %s: at %lld pulses, %lld lost\n", axis.c_str(),
+                  machine["position_pulses"].get<long long>(), machine["lost_pulses"].get<long long>());
+    }
+  }
+}
+
+}  // namespace
+
+int control(const ControlArguments& arguments) {
+  const Json message = message_for(arguments);
+  const std::string line =
+      ask_control(socket_path(arguments), message.dump(-1, ' ', false, Json::error_handler_t::replace));
+  const Json reply = Json::parse(line);
+  const bool accepted = reply["ok"].get<bool>();
+  if (arguments.json) {
+    std::printf("%s\n", line.c_str());
+  } else if (!accepted) {
+    std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
+                 reply["error"].get<std::string>().c_str());
+  } else if (reply.contains("status")) {
+    print_status(reply["status"]);
+  } else if (reply.contains("values")) {
+    for (const auto& [name, value] : reply["values"].items()) {
+      std::printf("%s %lld\n", name.c_str(), value.get<long long>());
+    }
+  } else if (reply.contains("simulated_time_ns")) {
+    std::printf("simulated time %s\n",
+                format_duration(SimTime{reply["simulated_time_ns"].get<std::int64_t>()}).c_str());
+  }
+  return accepted ? kExitWell : kExitBadInput;
+}
+
+}  // namespace understudy::emulator

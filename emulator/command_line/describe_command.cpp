@@ -1,0 +1,45 @@
+#include <cstdio>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/model_option.h"
+#include "emulator/describe/describe.h"
+#include "emulator/describe/fidelity_page.h"
+
+namespace understudy::emulator {
+
+const Model& demand_model(const std::string& name) {
+  if (const Model* model = find_model(name)) return *model;
+  std::vector<std::string> names;
+  for (const Model* model : all_models()) names.emplace_back(model->name);
+  throw UsageError("'" + name + "' is no model; the nearest is '" + nearest_word(name, names) +
+                   "' (`understudy models` lists them)");
+}
+
+int list_models() {
+  for (const Model* model : all_models()) {
+    std::printf("%s  %s (firmware %s to %s)\n", std::string(model->name).c_str(),
+                std::string(model->title).c_str(), format_firmware(model->firmwares.front()).c_str(),
+                format_firmware(model->firmwares.back()).c_str());
+  }
+  return kExitWell;
+}
+
+int describe_model(const DescribeArguments& arguments) {
+  const Model& model = demand_model(arguments.model);
+  const auto format = parse_sheet_format(arguments.format);
+  if (!format)
+    throw UsageError("--format: '" + arguments.format +
+                     "' is unknown; expected table, csv, json or markdown");
+  const auto sheet = describe(model, arguments.what, *format);
+  if (!sheet) {
+    throw UsageError(
+        "'" + arguments.what +
+        "' cannot be described; expected registers, parameters, instructions, commands or choices");
+  }
+  // As Markdown the choices are a page of the documentation, whole.
+  const bool page = arguments.what == "choices" && *format == SheetFormat::markdown;
+  std::fputs(page ? fidelity_page(model).c_str() : format_sheet(*sheet, *format).c_str(), stdout);
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

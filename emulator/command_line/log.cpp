@@ -1,0 +1,17 @@
+#include "emulator/command_line/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace understudy::emulator {
+
+void log_line(const std::string& text) {
+  static const auto logger = [] {
+    auto made = spdlog::stderr_color_st("understudy");
+    made->set_pattern("understudy: %v");
+    return made;
+  }();
+  logger->info(text);
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace understudy::emulator {
+
+/// One line of the daemon's log, on standard error.
+void log_line(const std::string& text);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,156 @@
+// The flags of `understudy`. The only file that includes CLI11: it is slow to compile.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <system_error>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/control/server.h"
+#include "emulator/model.h"
+#include "pty/pseudo_terminal.h"
+
+namespace {
+
+using namespace understudy::emulator;
+
+struct CommandLine {
+  CLI::App app{"Firmware-faithful emulator of industrial motion controllers.", "understudy"};
+  DescribeArguments describe;
+  ServeArguments serve;
+  ControlArguments control;
+  PollArguments poll;
+  std::vector<std::string> files;
+  std::function<int()> chosen;
+
+  CommandLine() {
+    app.require_subcommand(1);
+    app.set_version_flag("--version", UNDERSTUDY_VERSION);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return "understudy: " + std::string(error.what()) + " (--help tells what is expected)\n";
+    });
+    add_models();
+    add_describe();
+    add_serve();
+    add_control();
+    add_poll();
+    add_check();
+  }
+
+ private:
+  void add_models() {
+    app.add_subcommand("models", "List the models")->callback([this] { chosen = list_models; });
+  }
+
+  void add_describe() {
+    CLI::App* command = app.add_subcommand("describe", "Print a model's tables");
+    command->add_option("MODEL", describe.model, "A name from `understudy models`")->required();
+    command->add_option("WHAT", describe.what, "registers, parameters, instructions, commands or choices")
+        ->required();
+    command->add_option("--format", describe.format, "table, csv, json or markdown")->capture_default_str();
+    command->callback([this] { chosen = [this] { return describe_model(describe); }; });
+  }
+
+  void add_serve() {
+    CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
+    command->add_option("BENCH", serve.bench, "A bench file; or else --model");
+    command->add_option("--model", serve.model, "One device of this model on one line");
+    command->add_option("--station", serve.station, "Its station number (with --model) [1]");
+    command->add_option("--firmware", serve.firmware, "Its firmware version (with --model) [newest]");
+    command->add_option("--baud", serve.baud, "Its line speed (with --model) [the factory's]");
+    command->add_option("--link", serve.link, "Path of the link to its port (with --model) [a private one]");
+    command->add_option("--timing", serve.timing,
+                        "wire: bytes take their time; instant: none [wire, or the bench's]");
+    command->add_flag("--strict-framing", serve.strict_framing,
+                      "Only silence ends a frame, as on a real line");
+    command->add_flag("--ignore-baud", serve.ignore_baud,
+                      "Hear hosts that set another speed or other stop bits");
+    command->add_option("--speed", serve.speed, "real, free, manual, or a factor such as 10x")
+        ->capture_default_str();
+    command->add_option("--control", serve.control, "Path of the control socket [a private one]");
+    command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
+  }
+
+  void add_control() {
+    CLI::App* command = app.add_subcommand("ctl", "Look into a running `serve`, and act on it");
+    command->add_option("--control", control.socket,
+                        "Path of its control socket [UNDERSTUDY_CONTROL, or the private one]");
+    command->add_flag("--json", control.json, "Print the reply as it came: one JSON object");
+    command->require_subcommand(1);
+    const auto add = [&](const char* verb, const char* help, const char* operand, const char* operand_help) {
+      CLI::App* sub = command->add_subcommand(verb, help);
+      if (operand != nullptr) sub->add_option(operand, control.operands, operand_help);
+      sub->callback([this, verb] {
+        control.verb = verb;
+        chosen = [this] { return understudy::emulator::control(control); };
+      });
+    };
+    add("status", "Time, lateness, lines, stations, machines", nullptr, nullptr);
+    add("get", "Read registers", "NAME", "Such as feeder.Cord_A or feeder.STATUS.4");
+    add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
+    add("input", "Hold inputs on (1) or let them go (0)", "NAME=LEVEL", "Such as feeder.DIN_10=1");
+    add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");
+    add("pause", "Stop simulated time", nullptr, nullptr);
+    add("resume", "Let it run again", nullptr, nullptr);
+  }
+
+  void add_poll() {
+    CLI::App* command = app.add_subcommand("poll", "A small Modbus master, for looking around");
+    command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
+    command->add_option("ITEM", poll.items,
+                        "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
+    command->add_option("--station", poll.station, "Whom to ask")->capture_default_str();
+    command->add_option("--model", poll.model, "Whose names to use");
+    command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
+    command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
+    command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
+    command->add_option("--function", poll.function, "Function code to read with: 3 or 4")
+        ->capture_default_str();
+    command->add_option("--type", poll.type, "u16, s16, u32 or s32 of addresses without a model's name")
+        ->capture_default_str();
+    command->add_option("--timeout", poll.timeout, "How long to wait for a reply")->capture_default_str();
+    command->add_option("--every", poll.every, "Time between two rounds");
+    command->add_option("--times", poll.times, "How many rounds; 0: without end")->capture_default_str();
+    command->callback([this] { chosen = [this] { return poll_port(poll); }; });
+  }
+
+  void add_check() {
+    CLI::App* command = app.add_subcommand("check", "Validate bench files without running them");
+    command->add_option("FILE", files, "Bench files")->required();
+    command->callback([this] { chosen = [this] { return check_files(files); }; });
+  }
+};
+
+int complain(const std::exception& error, int code) {
+  std::fprintf(stderr, "understudy: %s\n", error.what());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CommandLine line;
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return line.app.exit(error) == 0 ? kExitWell : kExitBadInput;
+  }
+  try {
+    return line.chosen();
+  } catch (const BenchError& error) {
+    // It begins with the file's name and line, where editors look for it.
+    std::fprintf(stderr, "%s\n", error.what());
+    return kExitBadInput;
+  } catch (const UsageError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const SettingError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const understudy::pty::PortError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const ControlError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const std::system_error& error) {
+    return complain(error, kExitNoResource);
+  } catch (const std::exception& error) {
+    return complain(error, kExitInternal);
+  }
+}

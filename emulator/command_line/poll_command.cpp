@@ -1,0 +1,222 @@
+// `understudy poll`: a small Modbus master, for looking around. libmodbus is the host side.
+#include <errno.h>
+#include <modbus/modbus-rtu.h>
+#include <modbus/modbus.h>
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/model_option.h"
+#include "emulator/simulated_time.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+struct Item {
+  std::string label;
+  std::uint16_t address = 0;
+  Type type = Type::u16;
+  int count = 1;
+  int bit = -1;
+  bool low_word_first = true;
+  bool write = false;
+  std::int64_t value = 0;
+};
+
+std::int64_t demand_integer(std::string_view text, const std::string& item) {
+  const bool negative = text.starts_with("-");
+  if (negative) text.remove_prefix(1);
+  const bool hexadecimal = text.starts_with("0x");
+  if (hexadecimal) text.remove_prefix(2);
+  std::int64_t value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal ? 16 : 10);
+  if (text.empty() || text[0] == '-' || error != std::errc{} || end != text.data() + text.size()) {
+    throw UsageError("poll: '" + item +
+                     "' is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
+  }
+  return negative ? -value : value;
+}
+
+Type demand_type(const std::string& name) {
+  if (name == "u16") return Type::u16;
+  if (name == "s16") return Type::s16;
+  if (name == "u32") return Type::u32;
+  if (name == "s32") return Type::s32;
+  throw UsageError("--type: '" + name + "' is unknown; expected u16, s16, u32 or s32");
+}
+
+Item parse_item(const std::string& text, const PollArguments& arguments) {
+  Item item;
+  const std::size_t equals = text.find('=');
+  const std::string what = text.substr(0, equals);
+  item.label = what;
+  if (equals != std::string::npos) {
+    item.write = true;
+    item.value = demand_integer(std::string_view(text).substr(equals + 1), text);
+  }
+  if (!what.empty() && what[0] >= '0' && what[0] <= '9') {
+    const std::size_t colon = what.find(':');
+    const std::int64_t address = demand_integer(std::string_view(what).substr(0, colon), text);
+    if (address < 0 || address > 0xFFFF)
+      throw UsageError("poll: address " + what + " is out of range; expected 0 to 0xFFFF");
+    item.address = static_cast<std::uint16_t>(address);
+    item.type = demand_type(arguments.type);
+    if (colon != std::string::npos) {
+      const std::int64_t count = demand_integer(std::string_view(what).substr(colon + 1), text);
+      if (item.write) throw UsageError("poll: '" + text + "' writes a range; expected one ADDRESS=VALUE");
+      const int most = is_32_bit(item.type) ? 62 : 125;
+      if (count < 1 || count > most)
+        throw UsageError("poll: count of " + what + " is out of range; expected 1 to " +
+                         std::to_string(most));
+      item.count = static_cast<int>(count);
+    }
+    return item;
+  }
+  if (arguments.model.empty())
+    throw UsageError("poll: '" + what + "' is a name; expected --model MODEL to look it up, or an address");
+  const Model& model = demand_model(arguments.model);
+  const auto found = model.registers.find(what, model.firmwares.back());
+  if (!found) {
+    throw UsageError("poll: no register is called '" + what + "'; the nearest is '" +
+                     model.registers.nearest_name(what) + "'");
+  }
+  const Place& place = found->place;
+  item.low_word_first = model.registers.policy().low_word_first;
+  item.type = place.part == Place::Part::whole ? place.row->type : Type::u16;
+  const bool second =
+      place.part != Place::Part::whole && (place.part == Place::Part::high) == item.low_word_first;
+  item.address = static_cast<std::uint16_t>(place.address() + (second ? 1 : 0));
+  item.bit = found->bit;
+  if (item.write && item.bit >= 0)
+    throw UsageError("poll: '" + text + "' writes a bit; expected a whole register");
+  return item;
+}
+
+struct ContextDeleter {
+  void operator()(modbus_t* context) const {
+    modbus_close(context);
+    modbus_free(context);
+  }
+};
+using Context = std::unique_ptr<modbus_t, ContextDeleter>;
+
+Context connect(const PollArguments& arguments) {
+  const char parity = arguments.parity == "even"   ? 'E'
+                      : arguments.parity == "odd"  ? 'O'
+                      : arguments.parity == "none" ? 'N'
+                                                   : '?';
+  if (parity == '?')
+    throw UsageError("--parity: '" + arguments.parity + "' is unknown; expected even, odd or none");
+  const auto timeout = parse_duration(arguments.timeout);
+  if (!timeout || timeout->count() == 0)
+    throw UsageError("--timeout: '" + arguments.timeout + "' is no duration; expected one like 500ms");
+  Context context(modbus_new_rtu(arguments.port.c_str(), arguments.baud, parity, 8, arguments.stop_bits));
+  if (!context || modbus_set_slave(context.get(), arguments.station) != 0) {
+    throw UsageError("poll: " + std::string(modbus_strerror(errno)) +
+                     "; expected a port, a speed and a station from 0 to 247");
+  }
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(*timeout);
+  const auto rest = std::chrono::duration_cast<std::chrono::microseconds>(*timeout - seconds);
+  modbus_set_response_timeout(context.get(), static_cast<std::uint32_t>(seconds.count()),
+                              static_cast<std::uint32_t>(rest.count()));
+  return context;
+}
+
+std::int64_t value_of(const Item& item, const std::uint16_t* words) {
+  std::int64_t value = words[0];
+  if (is_32_bit(item.type)) {
+    const std::uint32_t low = words[item.low_word_first ? 0 : 1];
+    const std::uint32_t high = words[item.low_word_first ? 1 : 0];
+    const std::uint32_t bits = high << 16 | low;
+    value = item.type == Type::s32 ? std::int64_t{static_cast<std::int32_t>(bits)} : std::int64_t{bits};
+  } else if (item.type == Type::s16) {
+    value = static_cast<std::int16_t>(words[0]);
+  }
+  return item.bit < 0 ? value : (value >> item.bit) & 1;
+}
+
+bool read_item(modbus_t* context, const Item& item, int function) {
+  std::array<std::uint16_t, 125> words{};
+  const int words_each = is_32_bit(item.type) ? 2 : 1;
+  const auto read = function == 4 ? modbus_read_input_registers : modbus_read_registers;
+  if (read(context, item.address, item.count * words_each, words.data()) < 0) return false;
+  for (int i = 0; i < item.count; ++i) {
+    const std::int64_t value = value_of(item, words.data() + i * words_each);
+    if (item.count == 1) {
+      std::printf("%s %lld\n", item.label.c_str(), static_cast<long long>(value));
+    } else {
+      std::printf("0x%04X %lld\n", static_cast<unsigned>(item.address + i * words_each),
+                  static_cast<long long>(value));
+    }
+  }
+  return true;
+}
+
+bool write_item(modbus_t* context, const Item& item) {
+  const auto bits = static_cast<std::uint32_t>(item.value);
+  if (!is_32_bit(item.type))
+    return modbus_write_register(context, item.address, static_cast<std::uint16_t>(bits)) == 1;
+  const auto low = static_cast<std::uint16_t>(bits);
+  const auto high = static_cast<std::uint16_t>(bits >> 16);
+  const std::array<std::uint16_t, 2> words{item.low_word_first ? low : high,
+                                           item.low_word_first ? high : low};
+  return modbus_write_registers(context, item.address, 2, words.data()) == 2;
+}
+
+void demand_fitting(const Item& item) {
+  if (!item.write) return;
+  const bool wide = is_32_bit(item.type);
+  const std::int64_t lowest = wide ? INT32_MIN : INT16_MIN;
+  const std::int64_t highest = wide ? std::int64_t{UINT32_MAX} : std::int64_t{UINT16_MAX};
+  if (item.value < lowest || item.value > highest) {
+    throw UsageError("poll: " + std::to_string(item.value) + " does not fit into " + item.label +
+                     "; expected " + std::to_string(lowest) + " to " + std::to_string(highest));
+  }
+}
+
+}  // namespace
+
+int poll_port(const PollArguments& arguments) {
+  if (arguments.items.empty())
+    throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
+  if (arguments.function != 3 && arguments.function != 4) throw UsageError("--function: expected 3 or 4");
+  std::vector<Item> items;
+  for (const std::string& text : arguments.items) {
+    items.push_back(parse_item(text, arguments));
+    demand_fitting(items.back());
+  }
+  SimTime every{0};
+  if (!arguments.every.empty()) {
+    const auto parsed = parse_duration(arguments.every);
+    if (!parsed)
+      throw UsageError("--every: '" + arguments.every + "' is no duration; expected one like 500ms");
+    every = *parsed;
+  }
+  const Context context = connect(arguments);
+  if (modbus_connect(context.get()) != 0) {
+    std::fprintf(stderr, "understudy: poll: %s: %s; expected a serial port\n", arguments.port.c_str(),
+                 modbus_strerror(errno));
+    return kExitNoResource;
+  }
+  for (int round = 0; round < arguments.times || arguments.times == 0; ++round) {
+    if (round > 0) std::this_thread::sleep_for(every);
+    for (const Item& item : items) {
+      const bool good =
+          item.write ? write_item(context.get(), item) : read_item(context.get(), item, arguments.function);
+      if (good) continue;
+      std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));
+      return kExitFailed;
+    }
+    std::fflush(stdout);
+  }
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

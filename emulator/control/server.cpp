@@ -1,0 +1,209 @@
+#include "emulator/control/server.h"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace understudy::emulator {
+
+namespace {
+
+constexpr std::size_t kLongestMessage = 64 * 1024;
+constexpr std::size_t kMostUnread = 4 * 1024 * 1024;
+constexpr std::size_t kMostClients = 256;
+
+sockaddr_un address_of(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.empty() || path.size() >= sizeof(address.sun_path)) {
+    throw ControlError("'" + path + "': is no path for a socket; expected 1 to " +
+                       std::to_string(sizeof(address.sun_path) - 1) + " characters");
+  }
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
+}
+
+int connect_to(const std::string& path) {
+  const sockaddr_un address = address_of(path);
+  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) throw ControlError(path + ": " + std::strerror(errno));
+  if (connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) < 0) {
+    const int error = errno;
+    close(descriptor);
+    errno = error;
+    return -1;
+  }
+  return descriptor;
+}
+
+/// Makes room for a socket of ours at `path`, if what is there is a socket that nobody answers.
+void remove_dead_socket(const std::string& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) < 0) return;
+  if (!S_ISSOCK(status.st_mode)) throw ControlError(path + ": is no socket; expected a free path");
+  const int descriptor = connect_to(path);
+  if (descriptor >= 0) {
+    close(descriptor);
+    throw ControlError(path + ": another understudy answers there; expected a free path");
+  }
+  if (errno == ECONNREFUSED) unlink(path.c_str());
+}
+
+}  // namespace
+
+struct ControlServer::Client {
+  int descriptor = -1;
+  std::string input;
+  std::string output;
+};
+
+ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
+    : loop_(loop), path_(std::move(path)), handler_(std::move(handler)) {
+  const sockaddr_un address = address_of(path_);
+  remove_dead_socket(path_);
+  listener_ = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (listener_ < 0) throw ControlError(path_ + ": " + std::strerror(errno));
+  // Only its owner may open it, from the first moment on.
+  const mode_t before = umask(0177);
+  const bool bound = bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  const int error = errno;
+  umask(before);
+  if (!bound || listen(listener_, 64) < 0) {
+    close(listener_);
+    throw ControlError(path_ + ": cannot be made: " + std::strerror(bound ? errno : error) +
+                       "; expected a free path in a folder that can be written");
+  }
+  loop_.watch(listener_, EventLoop::readable, [this](std::uint32_t) { accept_clients(); });
+}
+
+ControlServer::~ControlServer() {
+  while (!clients_.empty()) drop(clients_.begin()->first);
+  loop_.unwatch(listener_);
+  close(listener_);
+  unlink(path_.c_str());
+}
+
+void ControlServer::accept_clients() {
+  while (true) {
+    const int descriptor = accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (descriptor < 0) return;
+    if (clients_.size() >= kMostClients) {
+      close(descriptor);
+      continue;
+    }
+    auto client = std::make_shared<Client>();
+    client->descriptor = descriptor;
+    clients_[descriptor] = client;
+    loop_.watch(descriptor, EventLoop::readable,
+                [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); });
+  }
+}
+
+void ControlServer::on_client(int descriptor, std::uint32_t ready) {
+  const std::shared_ptr<Client> client = clients_.at(descriptor);
+  if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
+  if ((ready & EventLoop::readable) == 0) return;
+  std::array<char, 4096> bytes;
+  const ssize_t count = recv(descriptor, bytes.data(), bytes.size(), 0);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (count <= 0) return drop(descriptor);
+  client->input.append(bytes.data(), static_cast<std::size_t>(count));
+
+  std::size_t end = 0;
+  while (client->descriptor >= 0 && (end = client->input.find('\n')) != std::string::npos) {
+    const std::string line = client->input.substr(0, end);
+    client->input.erase(0, end + 1);
+    handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
+      if (const auto alive = weak.lock()) send(alive, reply);
+    });
+  }
+  if (client->descriptor >= 0 && client->input.size() > kLongestMessage) {
+    send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
+    drop(descriptor);
+  }
+}
+
+void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
+  if (client->descriptor < 0) return;
+  client->output += line + "\n";
+  if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
+}
+
+/// False if the client is gone.
+bool ControlServer::write_out(Client& client) {
+  while (!client.output.empty()) {
+    const ssize_t count = ::send(client.descriptor, client.output.data(), client.output.size(), MSG_NOSIGNAL);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      if (errno != EAGAIN) return false;
+      break;
+    }
+    client.output.erase(0, static_cast<std::size_t>(count));
+  }
+  const std::uint32_t more = client.output.empty() ? 0U : EventLoop::writable;
+  loop_.change_interest(client.descriptor, EventLoop::readable | more);
+  return true;
+}
+
+void ControlServer::drop(int descriptor) {
+  const auto it = clients_.find(descriptor);
+  if (it == clients_.end()) return;
+  loop_.unwatch(descriptor);
+  close(descriptor);
+  it->second->descriptor = -1;  // for whoever still holds it
+  clients_.erase(it);
+}
+
+std::string default_control_path() {
+  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime != '\0') {
+    return std::string(runtime) + "/understudy.control";
+  }
+  const std::string folder = "/tmp/understudy-" + std::to_string(getuid());
+  mkdir(folder.c_str(), 0700);
+  struct stat status {};
+  // Somebody else's folder of that name would let them read along.
+  if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
+      (status.st_mode & 077) != 0) {
+    throw ControlError(folder +
+                       ": is not a private folder of ours; expected to make it, or --control SOCKET");
+  }
+  return folder + "/understudy.control";
+}
+
+std::string ask_control(const std::string& path, const std::string& message) {
+  const int descriptor = connect_to(path);
+  if (descriptor < 0) {
+    throw ControlError(path + ": nobody answers (" + std::strerror(errno) +
+                       "); expected the control socket of a running `understudy serve`");
+  }
+  std::string reply;
+  const std::string line = message + "\n";
+  std::size_t sent = 0;
+  while (sent < line.size()) {
+    const ssize_t count = ::send(descriptor, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) break;  // the reply may still tell why
+    sent += static_cast<std::size_t>(count);
+  }
+  std::array<char, 4096> bytes;
+  while (reply.empty() || reply.back() != '\n') {
+    const ssize_t count = recv(descriptor, bytes.data(), bytes.size(), 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    reply.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  close(descriptor);
+  if (reply.empty() || reply.back() != '\n')
+    throw ControlError(path + ": the daemon went away before it answered");
+  reply.pop_back();
+  return reply;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,113 @@
+#include "emulator/describe/describe.h"
+
+#include <array>
+#include <cstdio>
+
+namespace understudy::emulator {
+
+namespace {
+
+std::string hex4(unsigned number) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "0x%04X", number);
+  return text.data();
+}
+
+std::string hex2(unsigned number) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "0x%02X", number);
+  return text.data();
+}
+
+std::string_view to_string(Table table) {
+  switch (table) {
+    case Table::holding: return "holding";
+    case Table::input: return "input";
+    case Table::coil: return "coil";
+    case Table::discrete: return "discrete";
+  }
+  return "";
+}
+
+std::string_view to_string(Access access) {
+  switch (access) {
+    case Access::read: return "R";
+    case Access::write: return "W";
+    case Access::read_write: return "R/W";
+  }
+  return "";
+}
+
+std::uint16_t address_of(const RegisterRow& row, int index) {
+  return static_cast<std::uint16_t>(row.address + index * row.stride);
+}
+
+std::string width_of(const RegisterRow& row) { return is_32_bit(row.type) ? "32" : "16"; }
+
+Sheet registers(const Model& model, SheetFormat format) {
+  const bool for_people = format == SheetFormat::table;
+  Sheet sheet{.columns = {"table", "address", "name", "access", "width", "signed", "min", "max", "unit",
+                          "persistent", "default"},
+              .rows = {}};
+  if (for_people) sheet.columns.emplace_back("not modelled");
+  for (const RegisterRow& row : model.registers.rows()) {
+    for (int index = 0; index < row.count; ++index) {
+      sheet.rows.push_back(
+          {std::string(to_string(row.table)), hex4(address_of(row, index)), RegisterMap::name_of(row, index),
+           std::string(to_string(row.access)), width_of(row), is_signed(row.type) ? "1" : "0",
+           row.ranged ? std::to_string(row.min) : "", row.ranged ? std::to_string(row.max) : "",
+           std::string(row.unit), row.persistent ? "1" : "0", std::to_string(row.factory)});
+      if (for_people) sheet.rows.back().emplace_back(row.unmodelled);
+    }
+  }
+  return sheet;
+}
+
+Sheet parameters(const Model& model) {
+  Sheet sheet{.columns = {"number", "name", "address", "width", "persistent"}, .rows = {}};
+  for (const ParameterRow& parameter : model.parameters) {
+    for (const RegisterRow& row : model.registers.rows()) {
+      if (row.name != parameter.register_name) continue;
+      for (int i = 0; i < parameter.count; ++i) {
+        sheet.rows.push_back({std::to_string(parameter.first + i), RegisterMap::name_of(row, i),
+                              hex4(address_of(row, i)), width_of(row), row.persistent ? "1" : "0"});
+      }
+    }
+  }
+  return sheet;
+}
+
+Sheet instructions(const Model& model) {
+  Sheet sheet{.columns = {"opcode", "mnemonic", "data1", "data2"}, .rows = {}};
+  for (const InstructionRow& row : model.instructions) {
+    sheet.rows.push_back({hex2(static_cast<unsigned>(row.opcode)), std::string(row.mnemonic),
+                          std::string(row.data1), std::string(row.data2)});
+  }
+  return sheet;
+}
+
+Sheet choices(const Model& model) {
+  Sheet sheet{.columns = {"id", "section", "question", "chosen", "alternatives", "confidence", "why"},
+              .rows = {}};
+  for (const ChoiceRow& row : model.choices) {
+    const std::size_t bar = row.options.find('|');
+    sheet.rows.push_back({std::string(row.id), std::string(row.section), std::string(row.question),
+                          std::string(row.options.substr(0, bar)),
+                          bar == std::string_view::npos ? "" : std::string(row.options.substr(bar + 1)),
+                          std::string(to_string(row.confidence)), std::string(row.why)});
+  }
+  return sheet;
+}
+
+}  // namespace
+
+std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format) {
+  if (what == "registers") return registers(model, format);
+  if (what == "parameters") return parameters(model);
+  if (what == "instructions") return instructions(model);
+  if (what == "commands") return Sheet{.columns = {"command", "syntax", "meaning"}, .rows = {}};
+  if (what == "choices") return choices(model);
+  return std::nullopt;
+}
+
+}  // namespace understudy::emulator

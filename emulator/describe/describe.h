@@ -1,0 +1,16 @@
+// What a model's tables say, as sheets for people and scripts.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "emulator/describe/sheet.h"
+#include "emulator/model.h"
+
+namespace understudy::emulator {
+
+/// `what` is registers, parameters, instructions, commands or choices; nothing for another word. The
+/// columns of CSV, JSON and Markdown are fixed (docs/command_line.md); the table for people has more.
+std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format);
+
+}  // namespace understudy::emulator

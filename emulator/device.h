@@ -1,0 +1,91 @@
+// A device: one instance of a model. The world steps it, a station serves its registers, the plant
+// sees its pulses. Its whole state is a value; this class only says how the others reach it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/model.h"
+#include "emulator/simulated_time.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator {
+
+/// What a station does with a frame that carries some address.
+enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
+
+class Device {
+ public:
+  Device(const Model& model, DeviceSettings settings);
+  virtual ~Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const Model& model() const { return model_; }
+  const std::string& name() const { return settings_.name; }
+  Firmware firmware() const { return settings_.firmware; }
+  const DeviceSettings& settings() const { return settings_; }
+  std::uint8_t choice(std::size_t number) const { return choices_[number]; }
+
+  // --- registers -----------------------------------------------------------------------------
+  const RegisterMap& registers() const { return model_.registers; }
+  /// One slot for each register, as the map numbers them.
+  virtual std::span<std::uint32_t> image() = 0;
+  virtual std::span<const std::uint32_t> image() const = 0;
+  virtual bool low_word_first() const { return registers().policy().low_word_first; }
+  /// Called after a write request has been stored and all its effects have run.
+  virtual void registers_written() {}
+
+  // --- the wire ------------------------------------------------------------------------------
+  virtual Addressing addressing(std::uint8_t address) const = 0;
+  virtual pty::LineSettings line_settings() const = 0;
+
+  // --- time: the phases of a tick, each called for all devices before the next one -----------------
+  virtual void sample_inputs(Tick tick) = 0;
+  virtual void run_interpreters(Tick tick) = 0;
+  virtual void step_motion(Tick tick) = 0;
+  virtual void update_outputs(Tick tick) = 0;
+  /// The first tick after `done` at which anything may change without help from outside; kNever if
+  /// none. The ticks before it may be left out: the state is then the same as if they had been run.
+  virtual Tick next_active_tick(Tick done) const = 0;
+  /// Whether it equals another device of the same model, bit for bit.
+  virtual bool same_state(const Device& other) const = 0;
+
+  // --- terminals, by their number in the model's table -----------------------------------------------
+  /// Levels from outside; the device looks at them in sample_inputs().
+  void set_input(int terminal, bool on) { inputs_[static_cast<std::size_t>(terminal)] = on; }
+  bool input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
+  virtual bool output(int terminal) const = 0;
+
+  // --- axes, by their number in the model's table ----------------------------------------------------
+  /// Pulses that left the device in this tick, in the motor's sense (after every reversal).
+  virtual std::int64_t pulses_this_tick(int axis) const = 0;
+  /// The count of the encoder on the axis, absolute, as the plant sees it.
+  virtual void set_encoder(int axis, std::int64_t counts) = 0;
+
+  /// The last tick that is over. Set by the world; what a write starts moves from the next one.
+  Tick now() const { return now_; }
+  void set_now(Tick tick) { now_ = tick; }
+
+  // --- log -----------------------------------------------------------------------------------
+  /// Tells the user, once for each row, that something is not modelled.
+  void mention_unmodelled(const RegisterRow& row) const;
+  void set_log(std::function<void(const std::string&)> log) { log_ = std::move(log); }
+
+ private:
+  const Model& model_;
+  DeviceSettings settings_;
+  std::vector<std::uint8_t> choices_;
+  std::vector<bool> inputs_;
+  Tick now_ = 0;
+  std::function<void(const std::string&)> log_;
+  mutable std::vector<bool> mentioned_;  // rows; of the log, not of the model
+};
+
+/// "0 to 3000", or what the width allows where the manual gives no range.
+std::string range_text(const RegisterRow& row);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,71 @@
+// The registers that belong to each axis, so that the same code serves both.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "emulator/devices/simple2_r3/registers.h"
+
+namespace understudy::emulator::simple2_r3 {
+
+struct AxisSlots {
+  std::size_t pulse, speed, acc_time, dec_time;
+  std::size_t resolution, direction_polarity, servo_polarity, alarm_polarity, encoder_polarity;
+  std::size_t alarm_assigned, ready_assigned, upper_assigned, lower_assigned;
+  std::size_t servo_output_assigned, alarm_clear_output_assigned;
+  int alarm_input, ready_input, upper_input, lower_input, home_input;
+  int servo_output, alarm_clear_output;
+};
+
+inline constexpr std::array<AxisSlots, 2> kAxisSlots{{
+    {
+        .pulse = slot("Aaxis_Pulse"),
+        .speed = slot("Aaxis_Speed"),
+        .acc_time = slot("Aaxis_AccTime"),
+        .dec_time = slot("Aaxis_DecTime"),
+        .resolution = slot("Aaxis_Resoultion"),
+        .direction_polarity = slot("Aaxis_DIR_Polarity"),
+        .servo_polarity = slot("Aaxis_SVON_Polarity"),
+        .alarm_polarity = slot("Aaxis_ALM_Polarity"),
+        .encoder_polarity = slot("Axis_ENC_Polarity"),
+        .alarm_assigned = slot("DIN0_Aaxis_Alarm"),
+        .ready_assigned = slot("DIN1_Aaxis_Ready"),
+        .upper_assigned = slot("DIN2_Aaxis_UP_Limit"),
+        .lower_assigned = slot("DIN3_Aaxis_DN_Limit"),
+        .servo_output_assigned = slot("DOUT0_Aaxis_SVON"),
+        .alarm_clear_output_assigned = slot("DOUT1_Aaxis_ACLR"),
+        .alarm_input = 0,
+        .ready_input = 1,
+        .upper_input = 2,
+        .lower_input = 3,
+        .home_input = 4,
+        .servo_output = 0,
+        .alarm_clear_output = 1,
+    },
+    {
+        .pulse = slot("Baxis_Pulse"),
+        .speed = slot("Baxis_Speed"),
+        .acc_time = slot("Baxis_AccTime"),
+        .dec_time = slot("Baxis_DecTime"),
+        .resolution = slot("Baxis_Resoultion"),
+        .direction_polarity = slot("Baxis_DIR_Polarity"),
+        .servo_polarity = slot("Baxis_SVON_Polarity"),
+        .alarm_polarity = slot("Baxis_ALM_Polarity"),
+        .encoder_polarity = slot("Baxis_ENC_Polarity"),
+        .alarm_assigned = slot("DIN5_Baxis_Alarm"),
+        .ready_assigned = slot("DIN6_Baxis_Ready"),
+        .upper_assigned = slot("DIN7_Baxis_UP_Limit"),
+        .lower_assigned = slot("DIN8_Baxis_DN_Limit"),
+        .servo_output_assigned = slot("DOUT2_Baxis_SVON"),
+        .alarm_clear_output_assigned = slot("DOUT3_Baxis_ACLR"),
+        .alarm_input = 5,
+        .ready_input = 6,
+        .upper_input = 7,
+        .lower_input = 8,
+        .home_input = 9,
+        .servo_output = 2,
+        .alarm_clear_output = 3,
+    },
+}};
+
+}  // namespace understudy::emulator::simple2_r3

@@ -1,0 +1,178 @@
+#include "emulator/devices/simple2_r3/effects.h"
+
+#include "emulator/devices/simple2_r3/axis_slots.h"
+#include "emulator/devices/simple2_r3/choices.h"
+#include "emulator/devices/simple2_r3/device.h"
+
+namespace understudy::emulator::simple2_r3 {
+
+namespace {
+
+constexpr Tick kAlarmClearTicks = 200;  // 0x1017, 0x1018
+
+Simple2R3& self(Device& device) { return static_cast<Simple2R3&>(device); }
+const Simple2R3& self(const Device& device) { return static_cast<const Simple2R3&>(device); }
+
+const AxisState& axis_of(const Device& device, Cell cell) {
+  return self(device).state().axes[static_cast<std::size_t>(cell.argument)];
+}
+
+/// Calls `act` for the axis that the cell names, or for both.
+template <typename Act>
+void for_each_axis(Cell cell, Act act) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (cell.argument == kAllAxes || cell.argument == axis) act(axis);
+  }
+}
+
+MoveParameters own_parameters(const Simple2R3& device, int axis) {
+  const auto& image = device.state().image;
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return {.distance_pulses = static_cast<std::int32_t>(image[slots.pulse]),
+          .speed_rpm = image[slots.speed],
+          .acceleration_10ms = image[slots.acc_time],
+          .deceleration_10ms = image[slots.dec_time]};
+}
+
+MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
+  const auto& image = device.state().image;
+  const auto i = static_cast<std::size_t>(set - 1);
+  return {.distance_pulses = static_cast<std::int32_t>(image[slot("Parms_Pulse{}") + i]),
+          .speed_rpm = image[slot("Parms_Speed{}") + i],
+          .acceleration_10ms = image[slot("Parms_AccTime{}") + i],
+          .deceleration_10ms = image[slot("Parms_DecTime{}") + i]};
+}
+
+/// A target into a distance: 64 bits, because it may be twice as far as a coordinate reaches.
+MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move) {
+  move.distance_pulses -= device.state().axes[static_cast<std::size_t>(axis)].coordinate_pulses;
+  return move;
+}
+
+}  // namespace
+
+Value read_status(const Device& device, Cell) {
+  const Simple2R3& d = self(device);
+  Value status = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const AxisState& state = d.state().axes[static_cast<std::size_t>(axis)];
+    const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
+    bit(0, d.alarm(axis));
+    bit(2, d.ready(axis));
+    bit(4, state.motor.moving());
+    bit(10, state.servo_on);
+    bit(12, d.upper_limit(axis));
+    bit(14, d.lower_limit(axis));
+  }
+  return status;
+}
+
+Value read_version(const Device& device, Cell) { return device.firmware(); }
+
+Value read_output(const Device& device, Cell cell) {
+  if (device.choice(kOutputReadBack) == 1) return (self(device).state().written_outputs >> cell.index) & 1;
+  return self(device).output_level(cell.index);
+}
+
+Value read_all_outputs(const Device& device, Cell) {
+  Value levels = 0;
+  for (int i = 0; i < kOutputCount; ++i) levels |= read_output(device, {.index = i}) << i;
+  return levels;
+}
+
+Value read_input(const Device& device, Cell cell) { return (self(device).state().inputs >> cell.index) & 1; }
+
+Value read_all_inputs(const Device& device, Cell) { return self(device).state().inputs; }
+
+Value read_encoder(const Device& device, Cell cell) {
+  const AxisState& axis = axis_of(device, cell);
+  const bool reversed =
+      self(device).state().image[kAxisSlots[static_cast<std::size_t>(cell.argument)].encoder_polarity] != 0;
+  return (reversed ? -axis.encoder_counts : axis.encoder_counts) + axis.encoder_preset;
+}
+
+Value read_coordinate(const Device& device, Cell cell) { return axis_of(device, cell).coordinate_pulses; }
+
+Value read_incremental_trigger(const Device& device, Cell cell) {
+  return axis_of(device, cell).command == Command::incremental;
+}
+
+Value read_absolute_trigger(const Device& device, Cell cell) {
+  return axis_of(device, cell).command == Command::absolute;
+}
+
+Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).servo_on; }
+
+Value read_alarm_clear(const Device& device, Cell cell) { return self(device).alarm_clear(cell.argument); }
+
+Value read_zero(const Device&, Cell) { return 0; }
+
+void write_output(Device& device, Cell cell, Value level) {
+  std::uint8_t& outputs = self(device).state().written_outputs;
+  const auto bit = static_cast<std::uint8_t>(1U << cell.index);
+  outputs = static_cast<std::uint8_t>(level != 0 ? outputs | bit : outputs & ~bit);
+}
+
+void write_all_outputs(Device& device, Cell, Value levels) {
+  self(device).state().written_outputs = static_cast<std::uint8_t>(levels);
+}
+
+void preset_encoder(Device& device, Cell cell, Value counts) {
+  AxisState& axis = self(device).state().axes[static_cast<std::size_t>(cell.argument)];
+  axis.encoder_preset += counts - static_cast<std::int32_t>(read_encoder(device, cell));
+}
+
+void preset_coordinate(Device& device, Cell cell, Value pulses) {
+  self(device).state().axes[static_cast<std::size_t>(cell.argument)].coordinate_pulses =
+      static_cast<std::int32_t>(pulses);
+}
+
+void start_incremental(Device& device, Cell cell, Value) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) { d.start_move(axis, Command::incremental, own_parameters(d, axis)); });
+}
+
+void start_absolute(Device& device, Cell cell, Value) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) {
+    d.start_move(axis, Command::absolute, from_here(d, axis, own_parameters(d, axis)));
+  });
+}
+
+void start_incremental_by_set(Device& device, Cell cell, Value set) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) { d.start_move(axis, Command::incremental, parameters_of_set(d, set)); });
+}
+
+void start_absolute_by_set(Device& device, Cell cell, Value set) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) {
+    d.start_move(axis, Command::absolute, from_here(d, axis, parameters_of_set(d, set)));
+  });
+}
+
+void stop_motion(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).stop(axis); });
+}
+
+void switch_servo(Device& device, Cell cell, Value on) {
+  for_each_axis(cell, [&](int axis) { self(device).switch_servo(axis, on != 0); });
+}
+
+void clear_alarm(Device& device, Cell cell, Value) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) {
+    if (d.alarm_clear(axis) && d.choice(kAclrAgain) == 1) return;
+    d.state().axes[static_cast<std::size_t>(axis)].alarm_clear_until = d.now() + 1 + kAlarmClearTicks;
+  });
+}
+
+void erase_program(Device& device, Cell, Value) {
+  constexpr std::size_t kProgramCells = 256 * 4;
+  auto& image = self(device).state().image;
+  for (std::size_t i = 0; i < kProgramCells; ++i) image[slot("MAIN_LINE{}_CMD") + i] = 0;
+}
+
+void reset_to_factory(Device& device, Cell, Value) { self(device).reset_to_factory(); }
+
+}  // namespace understudy::emulator::simple2_r3

@@ -1,0 +1,43 @@
+// The side effects of Simple2-R3's registers, for its register table. A cell's argument is an axis, or
+// what is said there.
+#pragma once
+
+#include "emulator/register_map/row.h"
+
+namespace understudy::emulator::simple2_r3 {
+
+inline constexpr int kAxisA = 0;
+inline constexpr int kAxisB = 1;
+inline constexpr int kAllAxes = 2;
+
+// Readers.
+Value read_status(const Device& device, Cell);
+Value read_version(const Device& device, Cell);
+Value read_output(const Device& device, Cell cell);  // index: DOUT number
+Value read_all_outputs(const Device& device, Cell);
+Value read_input(const Device& device, Cell cell);  // index: DIN number
+Value read_all_inputs(const Device& device, Cell);
+Value read_encoder(const Device& device, Cell cell);
+Value read_coordinate(const Device& device, Cell cell);
+Value read_incremental_trigger(const Device& device, Cell cell);  // 1 while that move is in progress
+Value read_absolute_trigger(const Device& device, Cell cell);
+Value read_servo(const Device& device, Cell cell);
+Value read_alarm_clear(const Device& device, Cell cell);
+Value read_zero(const Device& device, Cell);  // triggers that are over at once
+
+// Effects.
+void write_output(Device& device, Cell cell, Value level);
+void write_all_outputs(Device& device, Cell, Value levels);
+void preset_encoder(Device& device, Cell cell, Value counts);
+void preset_coordinate(Device& device, Cell cell, Value pulses);
+void start_incremental(Device& device, Cell cell, Value);
+void start_absolute(Device& device, Cell cell, Value);
+void start_incremental_by_set(Device& device, Cell cell, Value set);
+void start_absolute_by_set(Device& device, Cell cell, Value set);
+void stop_motion(Device& device, Cell cell, Value);
+void switch_servo(Device& device, Cell cell, Value on);
+void clear_alarm(Device& device, Cell cell, Value);
+void erase_program(Device& device, Cell, Value);
+void reset_to_factory(Device& device, Cell, Value);
+
+}  // namespace understudy::emulator::simple2_r3

@@ -1,0 +1,96 @@
+#include "emulator/devices/simple2_r3/model.h"
+
+#include <array>
+
+#include "emulator/devices/simple2_r3/choices.h"
+#include "emulator/devices/simple2_r3/device.h"
+#include "emulator/devices/simple2_r3/parameters.h"
+#include "emulator/devices/simple2_r3/registers.h"
+#include "interpreter/simple2/instructions.h"
+
+namespace understudy::emulator::simple2_r3 {
+
+namespace {
+
+// Every version that the manual tells a difference of; 1.52 is the manual's own.
+constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
+
+constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on
+constexpr std::array<std::uint8_t, 4> kFunctions{0x03, 0x04, 0x06, 0x10};
+
+using Kind = TerminalRow::Kind;
+constexpr std::array<TerminalRow, kInputCount + kOutputCount> kTerminals{{
+    {Kind::digital_in, "DIN_0"},
+    {Kind::digital_in, "DIN_1"},
+    {Kind::digital_in, "DIN_2"},
+    {Kind::digital_in, "DIN_3"},
+    {Kind::digital_in, "DIN_4"},
+    {Kind::digital_in, "DIN_5"},
+    {Kind::digital_in, "DIN_6"},
+    {Kind::digital_in, "DIN_7"},
+    {Kind::digital_in, "DIN_8"},
+    {Kind::digital_in, "DIN_9"},
+    {Kind::digital_in, "DIN_10"},
+    {Kind::digital_out, "DOUT_0"},
+    {Kind::digital_out, "DOUT_1"},
+    {Kind::digital_out, "DOUT_2"},
+    {Kind::digital_out, "DOUT_3"},
+    {Kind::digital_out, "DOUT_4"},
+    {Kind::digital_out, "DOUT_5"},
+    {Kind::digital_out, "DOUT_6"},
+}};
+
+// The limit and home inputs are where the I/O assignment registers (0x0A00...) expect them.
+constexpr std::array<AxisRow, 2> kAxes{{
+    {.name = "A",
+     .upper_limit_input = 2,
+     .lower_limit_input = 3,
+     .home_input = 4,
+     .pulses_per_revolution = 3200},
+    {.name = "B",
+     .upper_limit_input = 7,
+     .lower_limit_input = 8,
+     .home_input = 9,
+     .pulses_per_revolution = 3200},
+}};
+
+std::vector<InstructionRow> instruction_rows() {
+  std::vector<InstructionRow> rows;
+  for (const auto& instruction : interpreter::simple2::kInstructions) {
+    rows.push_back({.opcode = instruction.opcode,
+                    .mnemonic = instruction.mnemonic,
+                    .data1 = describe(instruction.data1),
+                    .data2 = describe(instruction.data2)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+const Model& model() {
+  static const RegisterMap registers(kRegisters, MapPolicy{});
+  static const std::vector<InstructionRow> instructions = instruction_rows();
+  static const Model model{
+      .name = "simple2-r3",
+      .title = "2-axis pulse controller, Modbus RTU on RS485",
+      .firmwares = kFirmwares,
+      .registers = registers,
+      .parameters = kParameters,
+      .instructions = instructions,
+      .choices = kChoices,
+      .terminals = kTerminals,
+      .axes = kAxes,
+      .rtu = {.bauds = kBauds,
+              .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
+              .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
+              .functions = kFunctions,
+              .lowest_address = 0,  // rotary switch 0: every station number
+              .highest_address = 15},
+      .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
+        return std::make_unique<Simple2R3>(settings);
+      },
+  };
+  return model;
+}
+
+}  // namespace understudy::emulator::simple2_r3

@@ -1,0 +1,71 @@
+// A world in touch with the outside: ports, control socket, pacing, signals. One thread, one event loop;
+// it wakes for what is readable and for what is due, not for every tick.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/bench/bench.h"
+#include "emulator/control/server.h"
+#include "emulator/edge/event_loop.h"
+#include "emulator/edge/pacer.h"
+#include "emulator/edge/port.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+struct DaemonOptions {
+  Speed speed;
+  bool strict_framing = false;
+  bool enforce_settings = true;
+  std::string control_path;  // empty: the default one, if it is free
+};
+
+class Daemon {
+ public:
+  /// Opens everything, or throws what says why not (SettingError, PortError, ControlError).
+  Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log);
+  ~Daemon();
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  /// Runs until SIGTERM, SIGINT or SIGHUP.
+  void run();
+
+  World& world() { return world_; }
+  const World& world() const { return world_; }
+  const Pacer& pacer() const { return pacer_; }
+  const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
+  const std::string& control_path() const;
+
+  void pause();
+  void resume();
+  /// Moves simulated time on by `duration`, then calls `done`. Only where the clock stands; false
+  /// otherwise, or while another advance is under way.
+  bool advance(SimTime duration, std::function<void()> done);
+  /// Brings the world to the present moment.
+  void catch_up();
+
+ private:
+  void watch_signals();
+  void make_ports(const Bench& bench);
+  void work_on_advance();
+  std::optional<WallTime> next_wake() const;
+
+  EventLoop loop_;
+  std::function<void(const std::string&)> log_;
+  World world_;
+  Pacer pacer_;
+  std::string private_folder_;  // for links that nobody asked for
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::unique_ptr<ControlServer> control_;
+  int signals_ = -1;
+  bool stopping_ = false;
+
+  SimTime advance_target_{0};
+  std::function<void()> advance_done_;  // set while an advance is under way
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,43 @@
+// A port: one line of the world joined to one pseudo-terminal. Bytes cross here, nothing else does; what
+// happens at this edge (a slow host, a full buffer) never reaches into the model.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "emulator/edge/event_loop.h"
+#include "emulator/world/world.h"
+#include "pty/pseudo_terminal.h"
+
+namespace understudy::emulator {
+
+class Port {
+ public:
+  /// `catch_up` brings the world to the present moment. Throws pty::PortError.
+  Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
+       std::function<void()> catch_up);
+  ~Port();
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+
+  /// Hands over what the wire has brought, and takes bytes again where the line has room.
+  void flush();
+
+  const pty::PseudoTerminal& terminal() const { return terminal_; }
+  std::size_t line_number() const { return line_number_; }
+  bool host_present() const { return terminal_.host_present(); }
+  std::optional<pty::HostSettings> host_settings() const { return terminal_.poll_host_settings(); }
+
+ private:
+  pty::Line& line() { return world_.line(line_number_).line; }
+  void on_data(std::uint32_t ready);
+  void on_presence();
+
+  EventLoop& loop_;
+  World& world_;
+  std::size_t line_number_;
+  std::function<void()> catch_up_;
+  pty::PseudoTerminal terminal_;
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,40 @@
+// A Modbus RTU station: a device's presence on a line. Takes frames from its own framer, asks the device
+// whether the address is meant for it, and answers.
+#pragma once
+
+#include "emulator/device.h"
+#include "pty/rtu_framer.h"
+#include "pty/station.h"
+
+namespace understudy::emulator {
+
+struct StationCounters {
+  std::uint64_t requests = 0;  // frames for this station, broadcasts included
+  std::uint64_t replies = 0;
+  std::uint64_t exceptions = 0;  // of the replies
+};
+
+class RtuStation final : public pty::Station {
+ public:
+  RtuStation(Device& device, pty::RtuFraming framing) : device_(device), framer_(framing) {}
+
+  pty::LineSettings settings() const override { return device_.line_settings(); }
+  void hear_start_bit(pty::SimTime at) override { framer_.start_bit(at); }
+  void hear(const pty::TimedByte& byte) override { framer_.push(byte); }
+  void hear_other_station() override { framer_.reset(); }
+  std::optional<pty::SimTime> due() const override { return framer_.due(); }
+  void run(pty::SimTime now, pty::Transmitter& out) override;
+
+  const Device& device() const { return device_; }
+  const StationCounters& counters() const { return counters_; }
+  std::uint64_t dropped_bytes() const { return framer_.dropped_bytes(); }
+
+ private:
+  void serve_frame(const pty::RtuFrame& frame, pty::Transmitter& out);
+
+  Device& device_;
+  pty::RtuFramer framer_;
+  StationCounters counters_;
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,103 @@
+#include "emulator/model.h"
+
+#include <algorithm>
+#include <array>
+
+#include "emulator/device.h"
+#include "emulator/devices/simple2_r3/model.h"
+#include "emulator/register_map/access.h"
+
+namespace understudy::emulator {
+
+std::span<const Model* const> all_models() {
+  static const std::array<const Model*, 1> models{&simple2_r3::model()};
+  return models;
+}
+
+const Model* find_model(std::string_view name) {
+  for (const Model* model : all_models()) {
+    if (model->name == name) return model;
+  }
+  return nullptr;
+}
+
+Firmware parse_firmware(std::string_view text) {
+  if (text.size() != 4 || text[1] != '.') return 0;
+  int hundredths = 0;
+  for (const std::size_t i : {0, 2, 3}) {
+    if (text[i] < '0' || text[i] > '9') return 0;
+    hundredths = hundredths * 10 + (text[i] - '0');
+  }
+  return static_cast<Firmware>(hundredths);
+}
+
+std::string format_firmware(Firmware firmware) {
+  const std::string digits = std::to_string(1000 + firmware % 1000).substr(1);
+  return digits.substr(0, 1) + "." + digits.substr(1);
+}
+
+namespace {
+
+template <typename Items, typename Format>
+std::string list_of(const Items& items, Format format) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ", ") + format(item);
+  return text;
+}
+
+void check(const Model& model, const DeviceSettings& settings) {
+  const auto& firmwares = model.firmwares;
+  if (settings.firmware != 0 &&
+      std::find(firmwares.begin(), firmwares.end(), settings.firmware) == firmwares.end()) {
+    throw SettingError("firmware", "'" + format_firmware(settings.firmware) + "' is unknown for " +
+                                       std::string(model.name) + "; expected one of " +
+                                       list_of(firmwares, format_firmware));
+  }
+  if (settings.address < model.rtu.lowest_address || settings.address > model.rtu.highest_address) {
+    throw SettingError("address", std::to_string(settings.address) + " is no station number of " +
+                                      std::string(model.name) + "; expected " +
+                                      std::to_string(model.rtu.lowest_address) + " to " +
+                                      std::to_string(model.rtu.highest_address));
+  }
+  const auto& bauds = model.rtu.bauds;
+  if (settings.baud != 0 && std::find(bauds.begin(), bauds.end(), settings.baud) == bauds.end()) {
+    throw SettingError("baud", std::to_string(settings.baud) + " is no speed of " + std::string(model.name) +
+                                   "; expected one of " +
+                                   list_of(bauds, [](int baud) { return std::to_string(baud); }));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given) {
+  check(model, given);
+  DeviceSettings settings = given;
+  if (settings.firmware == 0) settings.firmware = model.firmwares.back();
+  if (settings.baud == 0) settings.baud = model.rtu.bauds.front();
+
+  std::unique_ptr<Device> device;
+  try {
+    device = model.make(settings);
+  } catch (const ChoiceError& error) {
+    throw SettingError("choices", error.what());
+  }
+  for (const auto& [name, value] : settings.set) {
+    const auto place = model.registers.find(name, settings.firmware);
+    if (!place) {
+      throw SettingError("set", "no register is called '" + name + "'; the nearest is '" +
+                                    model.registers.nearest_name(name) + "'");
+    }
+    switch (write_value(*device, *place, value)) {
+      case Refusal::none: break;
+      case Refusal::no_register: throw SettingError("set", name + " cannot be written; it is read-only");
+      case Refusal::bad_value: {
+        const RegisterRow& row = *place->place.row;
+        throw SettingError(
+            "set", std::to_string(value) + " is out of range for " + name + "; expected " + range_text(row));
+      }
+    }
+  }
+  return device;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,107 @@
+// A model: a kind of controller, as its maker's manual defines it. All of it is data; what cannot be
+// said as data is in the device that `make` makes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/choices.h"
+#include "emulator/register_map/register_map.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator {
+
+class Device;
+
+/// A row of a model's parameter numbers: `count` numbers from `first` on name the registers called
+/// `register_name`, counted from its first one.
+struct ParameterRow {
+  int first = 0;
+  int count = 1;
+  std::string_view register_name;  // as in the register table, "{}" for the number
+};
+
+/// A row of a model's instruction table.
+struct InstructionRow {
+  int opcode = 0;
+  std::string_view mnemonic;
+  std::string_view data1;
+  std::string_view data2;
+};
+
+/// A point where the device meets the outside, as its manual names it.
+struct TerminalRow {
+  enum class Kind : std::uint8_t { digital_in, digital_out } kind;
+  std::string_view name;
+};
+
+/// A motor axis, and where the switches of the machine that it drives are wired to.
+struct AxisRow {
+  std::string_view name;       // "A": a bench calls its machine DEVICE.A
+  int upper_limit_input = -1;  // numbers of terminals
+  int lower_limit_input = -1;
+  int home_input = -1;
+  int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
+};
+
+/// How the model listens on a Modbus RTU line.
+struct RtuRules {
+  std::span<const int> bauds;               // the speeds it can be set to, the factory's first
+  pty::LineSettings settings;               // the rest; `baud` is replaced by the chosen one
+  pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
+  std::span<const std::uint8_t> functions;  // function codes it knows
+  int lowest_address = 1;
+  int highest_address = 247;
+};
+
+/// What makes one device of a model.
+struct DeviceSettings {
+  std::string name;
+  Firmware firmware = 0;                       // 0: the model's default
+  int address = 1;                             // its station number
+  int baud = 0;                                // 0: the factory's
+  std::map<std::string, std::string> choices;  // overrides
+  std::map<std::string, Value> set;            // registers given a value at power-up
+};
+
+struct Model {
+  std::string_view name;  // "simple2-r3"
+  std::string_view title;
+  std::span<const Firmware> firmwares;  // oldest first; the last is the default
+  const RegisterMap& registers;
+  std::span<const ParameterRow> parameters;
+  std::span<const InstructionRow> instructions;
+  std::span<const ChoiceRow> choices;
+  std::span<const TerminalRow> terminals;
+  std::span<const AxisRow> axes;
+  RtuRules rtu;
+  /// Settings are checked by make_device() before it is called.
+  std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
+};
+
+/// All models, in the order of `understudy models`.
+std::span<const Model* const> all_models();
+/// Null if there is none of that name.
+const Model* find_model(std::string_view name);
+
+/// What is wrong with a device's settings: which of them, and what was expected.
+struct SettingError : std::runtime_error {
+  SettingError(std::string setting_name, const std::string& what_is_wrong)
+      : std::runtime_error(setting_name + ": " + what_is_wrong), setting(std::move(setting_name)) {}
+  std::string setting;
+};
+
+/// Checks the settings against the model, makes the device and gives the registers of `set` their
+/// values. Throws SettingError.
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& settings);
+
+/// "1.52" as 152; 0 if it is not a version.
+Firmware parse_firmware(std::string_view text);
+std::string format_firmware(Firmware firmware);
+
+}  // namespace understudy::emulator

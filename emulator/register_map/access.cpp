@@ -1,0 +1,222 @@
+#include "emulator/register_map/access.h"
+
+#include <array>
+
+#include "emulator/device.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+// The low bits of a value, as a signed or unsigned quantity of the row's type.
+Value typed(std::uint32_t bits, Type type) {
+  switch (type) {
+    case Type::u16: return static_cast<std::uint16_t>(bits);
+    case Type::s16: return static_cast<std::int16_t>(bits);
+    case Type::u32: return bits;
+    case Type::s32: return static_cast<std::int32_t>(bits);
+  }
+  return 0;
+}
+
+Cell cell_of(const Place& place) { return {.argument = place.row->argument, .index = place.index}; }
+
+std::uint32_t present_bits(const Device& device, const Place& place) {
+  if (place.row->reader != nullptr) {
+    return static_cast<std::uint32_t>(place.row->reader(device, cell_of(place)));
+  }
+  return device.image()[static_cast<std::size_t>(place.slot)];
+}
+
+std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
+  return static_cast<std::uint16_t>(part == Place::Part::high ? bits >> 16 : bits);
+}
+
+std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word) {
+  switch (part) {
+    case Place::Part::whole: return word;
+    case Place::Part::low: return (bits & 0xFFFF'0000U) | word;
+    case Place::Part::high: return (bits & 0x0000'FFFFU) | (static_cast<std::uint32_t>(word) << 16);
+  }
+  return bits;
+}
+
+/// One register that a request touches, with what the request makes of it.
+struct Change {
+  Place place;
+  std::uint32_t bits = 0;
+  bool low = false;  // which words the request brings
+  bool high = false;
+};
+
+bool complete(const Change& change) {
+  return !is_32_bit(change.place.row->type) || (change.low && change.high);
+}
+
+bool in_range(const Change& change) {
+  const RegisterRow& row = *change.place.row;
+  if (!row.ranged) return true;
+  const Value value = typed(change.bits, row.type);
+  return value >= row.min && value <= row.max;
+}
+
+// A Modbus request brings at most 123 words; scenarios and the control socket at most two.
+constexpr std::size_t kMostChanges = 128;
+
+struct Changes {
+  std::array<Change, kMostChanges> all;
+  std::size_t count = 0;
+};
+
+/// What each register would hold, and whether that may be. Addresses are judged before values.
+Refusal gather(const Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words,
+               Changes& changes) {
+  const RegisterMap& map = device.registers();
+  if (first + words.size() > 65536 || words.size() > kMostChanges) return Refusal::no_register;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Place place =
+        map.at(table, static_cast<std::uint16_t>(first + i), device.firmware(), device.low_word_first());
+    if (!place) {
+      if (map.policy().unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
+      continue;
+    }
+    if (place.row->access == Access::read) {
+      if (map.policy().read_only == MapPolicy::ReadOnly::refused) return Refusal::no_register;
+      continue;
+    }
+    const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.slot == place.slot;
+    if (!continues) changes.all[changes.count++] = {.place = place, .bits = present_bits(device, place)};
+    Change& change = changes.all[changes.count - 1];
+    change.bits = with_word(change.bits, place.part, words[i]);
+    if (place.part == Place::Part::low) change.low = true;
+    if (place.part == Place::Part::high) change.high = true;
+  }
+  const bool halves_alone = map.policy().halves == MapPolicy::Halves::may_be_written_alone;
+  for (std::size_t i = 0; i < changes.count; ++i) {
+    const Change& change = changes.all[i];
+    if (!complete(change)) {
+      if (!halves_alone) return Refusal::no_register;
+      continue;  // half a value cannot be judged
+    }
+    if (!in_range(change)) return Refusal::bad_value;
+  }
+  return Refusal::none;
+}
+
+/// Stores everything, then lets it take effect, both in ascending order.
+void carry_out(Device& device, Changes& changes) {
+  for (std::size_t i = 0; i < changes.count; ++i) {
+    Change& change = changes.all[i];
+    change.bits &= change.place.row->stored_bits;
+    device.image()[static_cast<std::size_t>(change.place.slot)] = change.bits;
+  }
+  for (std::size_t i = 0; i < changes.count; ++i) {
+    const Change& change = changes.all[i];
+    const RegisterRow& row = *change.place.row;
+    if (!row.unmodelled.empty()) device.mention_unmodelled(row);
+    if (row.effect == nullptr || (change.bits == 0 && !row.acts_on_zero)) continue;
+    Cell cell = cell_of(change.place);
+    cell.high_half = !is_32_bit(row.type) || change.high;
+    row.effect(device, cell, typed(change.bits, row.type));
+  }
+  device.registers_written();
+}
+
+/// A value for a named place as the words that bring it.
+struct Words {
+  std::uint16_t first = 0;  // address
+  std::array<std::uint16_t, 2> words{};
+  std::size_t count = 0;
+};
+
+Refusal words_for(const Device& device, const NamedPlace& named, Value value, Words& out) {
+  const Place& place = named.place;
+  const RegisterRow& row = *place.row;
+  const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
+  if (named.bit >= 0) {
+    if (value != 0 && value != 1) return Refusal::bad_value;
+    const Value mask = Value{1} << named.bit;
+    const Value whole = read_value(device, place);
+    value = value == 1 ? whole | mask : whole & ~mask;
+  }
+  // What does not fit the register's words cannot even be sent.
+  const Value lowest = is_signed(row.type) ? (whole_32 ? INT32_MIN : INT16_MIN) : 0;
+  const Value highest =
+      whole_32 ? (is_signed(row.type) ? Value{INT32_MAX} : Value{UINT32_MAX}) : Value{UINT16_MAX};
+  if (value < lowest || value > highest) return Refusal::bad_value;
+
+  const auto bits = static_cast<std::uint32_t>(value);
+  const auto low = static_cast<std::uint16_t>(bits);
+  const auto high = static_cast<std::uint16_t>(bits >> 16);
+  const bool low_first = device.low_word_first();
+  if (whole_32) {
+    out = {place.address(), {low_first ? low : high, low_first ? high : low}, 2};
+  } else {
+    const bool second_word =
+        place.part != Place::Part::whole && (place.part == Place::Part::high) == low_first;
+    out = {static_cast<std::uint16_t>(place.address() + (second_word ? 1 : 0)), {low, 0}, 1};
+  }
+  return Refusal::none;
+}
+
+}  // namespace
+
+Refusal read_words(const Device& device, Table table, std::uint16_t first, std::span<std::uint16_t> words) {
+  const RegisterMap& map = device.registers();
+  if (first + words.size() > 65536) return Refusal::no_register;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Place place =
+        map.at(table, static_cast<std::uint16_t>(first + i), device.firmware(), device.low_word_first());
+    if (!place) {
+      if (map.policy().unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
+      words[i] = 0;
+      continue;
+    }
+    if (place.row->access == Access::write) {
+      if (map.policy().write_only == MapPolicy::WriteOnly::refused) return Refusal::no_register;
+      words[i] = 0;
+      continue;
+    }
+    if (!place.row->unmodelled.empty()) device.mention_unmodelled(*place.row);
+    words[i] = word_of(present_bits(device, place), place.part);
+  }
+  return Refusal::none;
+}
+
+Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words) {
+  Changes changes;
+  const Refusal refusal = gather(device, table, first, words, changes);
+  if (refusal == Refusal::none) carry_out(device, changes);
+  return refusal;
+}
+
+Value read_value(const Device& device, const Place& place) {
+  const std::uint32_t bits = present_bits(device, place);
+  if (place.part != Place::Part::whole) return word_of(bits, place.part);
+  return typed(bits, place.row->type);
+}
+
+Value read_value(const Device& device, const NamedPlace& place) {
+  const Value value = read_value(device, place.place);
+  return place.bit < 0 ? value : (value >> place.bit) & 1;
+}
+
+Refusal check_value(const Device& device, const NamedPlace& place, Value value) {
+  if (place.place.row->access == Access::read) return Refusal::no_register;
+  Words words;
+  if (const Refusal refusal = words_for(device, place, value, words); refusal != Refusal::none)
+    return refusal;
+  Changes changes;
+  return gather(device, place.place.row->table, words.first, std::span(words.words).first(words.count),
+                changes);
+}
+
+Refusal write_value(Device& device, const NamedPlace& place, Value value) {
+  if (place.place.row->access == Access::read) return Refusal::no_register;
+  Words words;
+  if (const Refusal refusal = words_for(device, place, value, words); refusal != Refusal::none)
+    return refusal;
+  return write_words(device, place.place.row->table, words.first, std::span(words.words).first(words.count));
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,133 @@
+#include "emulator/register_map/register_map.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <stdexcept>
+
+namespace understudy::emulator {
+
+std::string RegisterMap::name_of(const RegisterRow& row, int index, std::string_view pattern) {
+  const std::size_t hole = pattern.find("{}");
+  if (hole == std::string_view::npos) return std::string(pattern);
+  return std::string(pattern.substr(0, hole)) + std::to_string(row.first_number + index) +
+         std::string(pattern.substr(hole + 2));
+}
+
+std::string RegisterMap::name_of(const RegisterRow& row, int index) { return name_of(row, index, row.name); }
+
+RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
+    : rows_(rows.begin(), rows.end()), policy_(policy) {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    first_slots_.push_back(slot_count_);
+    place_words(rows_[i], static_cast<int>(i) + 1);
+    name_places(rows_[i], slot_count_);
+    slot_count_ += rows_[i].count;
+  }
+}
+
+void RegisterMap::place_words(const RegisterRow& row, int row_number) {
+  TableIndex& table = tables_[static_cast<std::size_t>(row.table)];
+  if (table.entries.empty()) table.entries.resize(65536);
+  const int words = is_32_bit(row.type) ? 2 : 1;
+  for (int index = 0; index < row.count; ++index) {
+    for (int word = 0; word < words; ++word) {
+      const int address = row.address + index * row.stride + word;
+      Entry& entry = table.entries.at(static_cast<std::size_t>(address));
+      if (entry.row_number != 0) {
+        throw std::logic_error("register map: " + name_of(row, index) +
+                               " shares its address with another register");
+      }
+      entry = {static_cast<std::uint16_t>(row_number), static_cast<std::uint16_t>(index * 2 + word)};
+    }
+  }
+}
+
+void RegisterMap::add_name(const std::string& name, const Place& place) {
+  if (!names_.emplace(name, place).second) {
+    throw std::logic_error("register map: two registers are named " + name);
+  }
+  names_in_order_.push_back(name);
+}
+
+void RegisterMap::name_places(const RegisterRow& row, int first_slot) {
+  for (int index = 0; index < row.count; ++index) {
+    Place place{.row = &row, .index = index, .slot = first_slot + index};
+    for (const std::string_view pattern : {row.name, row.alias}) {
+      if (pattern.empty()) continue;
+      const std::string name = name_of(row, index, pattern);
+      place.part = Place::Part::whole;
+      add_name(name, place);
+      if (!is_32_bit(row.type)) continue;
+      place.part = Place::Part::low;
+      add_name(name + std::string(row.low_half), place);
+      place.part = Place::Part::high;
+      add_name(name + std::string(row.high_half), place);
+    }
+  }
+}
+
+Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, bool low_word_first) const {
+  const TableIndex& index = tables_[static_cast<std::size_t>(table)];
+  if (index.entries.empty()) return {};
+  const Entry entry = index.entries[address];
+  if (entry.row_number == 0) return {};
+  const std::size_t row_number = entry.row_number - 1U;
+  const RegisterRow& row = rows_[row_number];
+  if (firmware < row.since) return {};
+  Place place{.row = &row,
+              .index = entry.index_and_part / 2,
+              .slot = first_slots_[row_number] + entry.index_and_part / 2};
+  if (is_32_bit(row.type)) {
+    const bool second_word = entry.index_and_part % 2 != 0;
+    place.part = second_word == low_word_first ? Place::Part::high : Place::Part::low;
+  }
+  return place;
+}
+
+std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firmware) const {
+  NamedPlace found;
+  if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) {
+    const std::string_view digits = name.substr(dot + 1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), found.bit);
+    if (error != std::errc{} || end != digits.data() + digits.size() || found.bit < 0) return std::nullopt;
+    name = name.substr(0, dot);
+  }
+  const auto it = names_.find(std::string(name));
+  if (it == names_.end() || firmware < it->second.row->since) return std::nullopt;
+  found.place = it->second;
+  const bool whole_32 = is_32_bit(found.place.row->type) && found.place.part == Place::Part::whole;
+  if (found.bit >= (whole_32 ? 32 : 16)) return std::nullopt;
+  return found;
+}
+
+std::string RegisterMap::nearest_name(std::string_view name) const {
+  return nearest_word(name.substr(0, name.rfind('.')), names_in_order_);
+}
+
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
+  std::string best;
+  std::size_t best_distance = SIZE_MAX;
+  std::vector<std::size_t> row;
+  for (const std::string& candidate : candidates) {
+    // Levenshtein, one row at a time.
+    row.resize(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < candidate.size(); ++j) {
+        const std::size_t substituted = diagonal + (word[i] == candidate[j] ? 0 : 1);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+      }
+    }
+    if (row.back() < best_distance) {
+      best_distance = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,93 @@
+// A world: a running bench. It advances only by advance_to(); everything in it is a function of its
+// setup and of what was given to it, at which simulated times.
+//
+// Each tick runs the same phases for all devices: inputs, interpreters, motion, plant, outputs. Between
+// ticks lines do what is due on them; at the same instant a tick comes before the lines, and the lines
+// follow each other in the bench's order.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/bench/bench.h"
+#include "emulator/device.h"
+#include "emulator/modbus/rtu_station.h"
+#include "emulator/plant/plant.h"
+#include "emulator/simulated_time.h"
+#include "pty/line.h"
+
+namespace understudy::emulator {
+
+struct WorldOptions {
+  bool strict_framing = false;
+  /// How long an incomplete frame waits where the framing is tolerant (simulated time).
+  SimTime patience = std::chrono::milliseconds(10);
+  bool enforce_settings = true;  // devices are deaf to a host with another speed
+};
+
+class World {
+ public:
+  /// Throws SettingError for what the models refuse.
+  World(const Bench& bench, const WorldOptions& options, const std::function<void(const std::string&)>& log);
+
+  SimTime now() const { return now_; }
+  /// Does all that is due up to `time`, included. Times in the past are no error and do nothing.
+  void advance_to(SimTime time);
+  /// When something will happen by itself next; nothing if only the outside can change anything.
+  std::optional<SimTime> next_due() const;
+  std::uint64_t ticks_run() const { return ticks_run_; }          // one by one
+  std::uint64_t ticks_crossed() const { return ticks_crossed_; }  // in bulk
+
+  /// Run every tick, quiet or not; results are the same (that is what it is for: to prove it).
+  void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
+
+  // --- lines ---------------------------------------------------------------------------------
+  struct OneLine {
+    pty::Line line;
+    std::vector<std::unique_ptr<RtuStation>> stations;
+  };
+  std::size_t line_count() const { return lines_.size(); }
+  OneLine& line(std::size_t number) { return *lines_[number]; }
+  const OneLine& line(std::size_t number) const { return *lines_[number]; }
+
+  // --- devices and the plant ---------------------------------------------------------------------
+  std::size_t device_count() const { return devices_.size(); }
+  Device& device(std::size_t number) { return *devices_[number]; }
+  const Device& device(std::size_t number) const { return *devices_[number]; }
+  /// -1 if there is none of that name.
+  int find_device(std::string_view name) const;
+  const PlantAxis& plant(std::size_t device, int axis) const;
+  /// Holds an input on, or lets it go; switches and wires on the same input act as well.
+  void set_external_input(std::size_t device, int terminal, bool on);
+
+ private:
+  struct Input {
+    bool external = false;
+    bool wired = false;
+    bool plant = false;
+  };
+
+  void run_tick();
+  void run_lines(SimTime time);
+  Tick next_active_tick() const;
+  SimTime next_line_time() const;
+  void step_plant();
+  void latch_wires();
+  void apply_input(std::size_t device, int terminal);
+
+  std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<std::unique_ptr<OneLine>> lines_;
+  std::vector<std::vector<PlantAxis>> plants_;  // [device][axis]
+  std::vector<std::vector<Input>> inputs_;      // [device][terminal]
+  std::vector<WireSetup> wires_;
+  SimTime now_{0};
+  Tick done_ = 0;  // the last tick that is over
+  std::uint64_t ticks_run_ = 0;
+  std::uint64_t ticks_crossed_ = 0;
+  bool bulk_ticks_ = true;
+};
+
+}  // namespace understudy::emulator
