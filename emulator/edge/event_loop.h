@@ -37,7 +37,11 @@ class EventLoop {
     std::uint32_t interest = 0;
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
   };
+  void wake_at(WallTime moment);
+
   int epoll_ = -1;
+  int timer_ = -1;
+  WallTime alarm_{0};  // what the timer is, or was last, set for
   std::map<int, Watch> watches_;
 };
 

@@ -1,0 +1,30 @@
+// What Understudy is compared with: the least a responder on a pty can do, and libmodbus as a slave.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "benchmarks/process.h"
+
+namespace understudy::benchmarks {
+
+/// A process that owns the master of a pty and answers there.
+class Responder {
+ public:
+  /// Reads as many bytes as `request` has, and writes `reply`, whatever they are.
+  static Responder echo(std::size_t request_size, const std::vector<std::uint8_t>& reply, int processor);
+  /// A libmodbus RTU slave with one holding register.
+  static Responder libmodbus(int station, int address, int processor);
+
+  const Process& process() const { return process_; }
+  const std::string& port() const { return port_; }
+
+ private:
+  Responder(Process process, std::string port) : process_(std::move(process)), port_(std::move(port)) {}
+
+  Process process_;
+  std::string port_;
+};
+
+}  // namespace understudy::benchmarks

@@ -1,0 +1,50 @@
+#include "benchmarks/understudy_server.h"
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <sstream>
+
+namespace understudy::benchmarks {
+
+UnderstudyServer::PrivateFolder::PrivateFolder()
+    : path(std::filesystem::temp_directory_path() / "understudy-benchmark-XXXXXX") {
+  if (mkdtemp(path.data()) == nullptr) throw CannotRun(path + ": cannot be made");
+}
+
+UnderstudyServer::PrivateFolder::~PrivateFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
+}
+
+UnderstudyServer::UnderstudyServer(std::string executable, const std::string& timing, int processor)
+    : executable_(std::move(executable)),
+      process_(Process::of_command({executable_, "serve", "--model", "simple2-r3", "--timing", timing,
+                                    "--control", folder_.path + "/control", "--link", folder_.path + "/port"},
+                                   processor)) {
+  std::istringstream ready(process_.read_line());  // ready <line> <pty path> <link path>
+  std::string word;
+  std::string line;
+  if (!(ready >> word >> line >> port_) || word != "ready") throw CannotRun(executable_ + " is not ready");
+}
+
+UnderstudyServer::~UnderstudyServer() {
+  process_.carry_on();
+  process_.terminate();
+  process_.wait();
+}
+
+void UnderstudyServer::start_long_move() const {
+  set("device.Aaxis_SVON=1");
+  set("device.Aaxis_Pulse=2000000000");
+  set("device.Aaxis_Speed=100");
+  set("device.Aaxis_Move_INC=1");
+}
+
+void UnderstudyServer::set(const std::string& assignment) const {
+  Process ctl =
+      Process::of_command({executable_, "ctl", "--control", folder_.path + "/control", "set", assignment});
+  if (ctl.wait() != 0) throw CannotRun("understudy ctl set " + assignment + " failed");
+}
+
+}  // namespace understudy::benchmarks

@@ -1,0 +1,40 @@
+// `understudy serve` with one Simple2-R3 at 19200 8E1, as the benchmarks start it.
+#pragma once
+
+#include <string>
+
+#include "benchmarks/process.h"
+
+namespace understudy::benchmarks {
+
+class UnderstudyServer {
+ public:
+  /// Returns when it is ready. Throws CannotRun.
+  UnderstudyServer(std::string executable, const std::string& timing, int processor = Process::kAnyProcessor);
+  ~UnderstudyServer();
+  UnderstudyServer(const UnderstudyServer&) = delete;
+  UnderstudyServer& operator=(const UnderstudyServer&) = delete;
+
+  const Process& process() const { return process_; }
+  const std::string& port() const { return port_; }  // /dev/pts/N
+
+  /// Starts axis A on a move that lasts for days, so that every tick has something to do.
+  void start_long_move() const;
+
+ private:
+  struct PrivateFolder {
+    PrivateFolder();
+    ~PrivateFolder();
+    PrivateFolder(const PrivateFolder&) = delete;
+    PrivateFolder& operator=(const PrivateFolder&) = delete;
+    std::string path;
+  };
+  void set(const std::string& assignment) const;
+
+  std::string executable_;
+  PrivateFolder folder_;
+  Process process_;
+  std::string port_;
+};
+
+}  // namespace understudy::benchmarks
