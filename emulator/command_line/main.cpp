@@ -120,6 +120,28 @@ struct CommandLine {
   }
 };
 
+/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or
+/// flag it was, and what is like it; empty if that is not the trouble.
+std::string unknown_command(const CLI::App& app, int argc, char** argv, int first) {
+  for (int i = first; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.starts_with("-")) {
+      const CLI::Option* const flag = app.get_option_no_throw(word.substr(0, word.find('=')));
+      if (flag == nullptr) return "'" + word + "' is no flag here";
+      if (flag->get_items_expected_max() > 0 && word.find('=') == std::string::npos) ++i;  // its value
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) {
+      names.push_back(command->get_name());
+      if (word != command->get_name()) continue;
+      return command->get_subcommands(nullptr).empty() ? "" : unknown_command(*command, argc, argv, i + 1);
+    }
+    return "'" + word + "' is no command; the nearest is '" + nearest_word(word, names) + "'";
+  }
+  return "";
+}
+
 int complain(const std::exception& error, int code) {
   std::fprintf(stderr, "understudy: %s\n", error.what());
   return code;
@@ -131,6 +153,11 @@ int main(int argc, char** argv) {
   CommandLine line;
   try {
     line.app.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    const std::string unknown = unknown_command(line.app, argc, argv, 1);
+    if (!unknown.empty()) return complain(UsageError(unknown + " (--help lists them)"), kExitBadInput);
+    line.app.exit(error);
+    return kExitBadInput;
   } catch (const CLI::ParseError& error) {
     return line.app.exit(error) == 0 ? kExitWell : kExitBadInput;
   }

@@ -117,6 +117,13 @@ Context connect(const PollArguments& arguments) {
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || timeout->count() == 0)
     throw UsageError("--timeout: '" + arguments.timeout + "' is no duration; expected one like 500ms");
+  // Checked here, because libmodbus prints complaints of its own.
+  if (arguments.baud < 1) {
+    throw UsageError("--baud: " + std::to_string(arguments.baud) + " is no speed; expected bits a second");
+  }
+  if (arguments.stop_bits != 1 && arguments.stop_bits != 2) throw UsageError("--stop-bits: expected 1 or 2");
+  if (arguments.station < 0 || arguments.station > 247) throw UsageError("--station: expected 0 to 247");
+  if (arguments.times < 0) throw UsageError("--times: expected a number of rounds, or 0 for no end");
   Context context(modbus_new_rtu(arguments.port.c_str(), arguments.baud, parity, 8, arguments.stop_bits));
   if (!context || modbus_set_slave(context.get(), arguments.station) != 0) {
     throw UsageError("poll: " + std::string(modbus_strerror(errno)) +

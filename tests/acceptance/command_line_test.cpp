@@ -1,0 +1,215 @@
+// Bad usage gets one clear line and the documented exit code; what only looks ends well.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+struct BadUsage {
+  const char* name;
+  Words words;
+  const char* told;  // part of the line that is printed: what is wrong, or what was expected
+  int exit_code = 2;
+
+  friend void PrintTo(const BadUsage& usage, std::ostream* out) { *out << usage.name; }
+};
+
+// Anything that starts by mistake ends with the test, and its files are in the folder that {} stands for.
+const std::vector<BadUsage> kBadUsages = {
+    {"NoCommand", {}, "expected"},
+    {"UnknownCommand", {"serv"}, "serv"},
+    {"UnknownFlag", {"serve", "--model", "simple2-r3", "--bogus"}, "--bogus"},
+    {"FlagWithoutValue", {"serve", "--model"}, "--model"},
+    {"WordTooMany", {"models", "extra"}, "extra"},
+    {"UnknownModel", {"serve", "--model", "simple3-r3"}, "simple2-r3"},
+    {"NeitherBenchNorModel", {"serve"}, "--model"},
+    {"BothBenchAndModel", {"serve", "{}/good.yaml", "--model", "simple2-r3"}, "bench"},
+    {"StationWithABench", {"serve", "{}/good.yaml", "--station", "2"}, "--station"},
+    {"StationNoNumber", {"serve", "--model", "simple2-r3", "--station", "x"}, "--station"},
+    {"StationTooHigh", {"serve", "--model", "simple2-r3", "--station", "16"}, "0 to 15"},
+    {"StationNegative", {"serve", "--model", "simple2-r3", "--station", "-1"}, "0 to 15"},
+    {"BaudUnknownToTheModel", {"serve", "--model", "simple2-r3", "--baud", "9600"}, "115200"},
+    {"BaudZero", {"serve", "--model", "simple2-r3", "--baud", "0"}, "115200"},
+    {"BaudNegative", {"serve", "--model", "simple2-r3", "--baud", "-19200"}, "115200"},
+    {"FirmwareUnknown", {"serve", "--model", "simple2-r3", "--firmware", "9.99"}, "1.52"},
+    {"FirmwareNoVersion", {"serve", "--model", "simple2-r3", "--firmware", "new"}, "1.52"},
+    {"SpeedUnknown", {"serve", "--model", "simple2-r3", "--speed", "fast"}, "manual"},
+    {"SpeedZero", {"serve", "--model", "simple2-r3", "--speed", "0"}, "manual"},
+    {"SpeedNegative", {"serve", "--model", "simple2-r3", "--speed", "-2x"}, "manual"},
+    {"SpeedInfinite", {"serve", "--model", "simple2-r3", "--speed", "inf"}, "manual"},
+    {"TimingUnknown", {"serve", "--model", "simple2-r3", "--timing", "slow"}, "instant"},
+    {"ControlPathTooLong", {"serve", "--model", "simple2-r3", "--control", "{}/{120}"}, "characters", 3},
+    {"BenchMissing", {"serve", "{}/missing.yaml"}, "missing.yaml"},
+    {"BenchIsAFolder", {"serve", "{}"}, "bench"},
+    {"BenchWithUnknownKey", {"serve", "{}/unknown-key.yaml"}, "unknown-key.yaml:4: "},
+    {"BenchWithUnknownModel", {"serve", "{}/unknown-model.yaml"}, "unknown-model.yaml:5: "},
+    {"BenchThatIsNoYaml", {"serve", "{}/no-yaml.yaml"}, "no-yaml.yaml:3: "},
+    {"BenchWithTheSameAddressTwice", {"serve", "{}/same-address.yaml"}, "same-address.yaml:6: "},
+    {"CheckWithoutFile", {"check"}, "FILE"},
+    {"CheckMissingFile", {"check", "{}/missing.yaml"}, "missing.yaml"},
+    {"CheckBadBench", {"check", "{}/unknown-key.yaml"}, "unknown-key.yaml:4: "},
+    {"DescribeUnknownModel", {"describe", "simpel2", "registers"}, "simple2-r3"},
+    {"DescribeUnknownSheet", {"describe", "simple2-r3", "register"}, "registers"},
+    {"DescribeUnknownFormat", {"describe", "simple2-r3", "registers", "--format", "xml"}, "markdown"},
+    {"CtlWithoutVerb", {"ctl"}, "expected"},
+    {"CtlUnknownVerb", {"ctl", "frobnicate"}, "frobnicate"},
+    {"CtlAdvanceWithoutUnit", {"ctl", "--control", "{}/none", "advance", "250"}, "250ms"},
+    {"CtlAdvanceWithoutDuration", {"ctl", "--control", "{}/none", "advance"}, "250ms"},
+    {"CtlAdvanceNegative", {"ctl", "--control", "{}/none", "advance", "-5ms"}, "250ms"},
+    {"CtlGetNothing", {"ctl", "--control", "{}/none", "get"}, "name"},
+    {"CtlSetNothing", {"ctl", "--control", "{}/none", "set"}, "NAME=VALUE"},
+    {"CtlSetTwice", {"ctl", "--control", "{}/none", "set", "STATUS=1", "STATUS=2"}, "twice"},
+    {"CtlWithoutDaemon", {"ctl", "--control", "{}/none", "status"}, "none", 3},
+    {"PollWithoutPort", {"poll"}, "PORT"},
+    {"PollNothing", {"poll", "{}/none"}, "expected"},
+    {"PollNoPort", {"poll", "{}/none", "0x0001"}, "none", 3},
+    {"PollPortIsAFile", {"poll", "{}/good.yaml", "0x0001"}, "good.yaml", 3},
+    {"PollUnknownName", {"poll", "{}/none", "--model", "simple2-r3", "Cord_Q"}, "Cord_A"},
+    {"PollNameWithoutModel", {"poll", "{}/none", "Cord_A"}, "--model"},
+    {"PollAddressTooHigh", {"poll", "{}/none", "0x10000"}, "0xFFFF"},
+    {"PollRangeTooLong", {"poll", "{}/none", "0x4000:126"}, "125"},
+    {"PollValueTooWide", {"poll", "{}/none", "0x1002=70000"}, "65535"},
+    {"PollBadParity", {"poll", "{}/none", "0x0001", "--parity", "mark"}, "even"},
+    {"PollBadType", {"poll", "{}/none", "0x0001", "--type", "float"}, "u16"},
+    {"PollBadFunction", {"poll", "{}/none", "0x0001", "--function", "5"}, "3 or 4"},
+    {"PollBadTimeout", {"poll", "{}/none", "0x0001", "--timeout", "soon"}, "500ms"},
+    {"PollBadStation", {"poll", "{}/none", "0x0001", "--station", "300"}, "247"},
+    {"PollBadBaud", {"poll", "{}/none", "0x0001", "--baud", "0"}, "baud"},
+    {"PollBadStopBits", {"poll", "{}/none", "0x0001", "--stop-bits", "3"}, "1 or 2"},
+    {"PollBadTimes", {"poll", "{}/none", "0x0001", "--times", "-1"}, "times"},
+};
+
+constexpr const char* kGoodBench = R"(understudy: 1
+lines:
+  bus:
+    link: ./bus.port
+    stations:
+      - { name: a, model: simple2-r3, address: 1 }
+      - { name: b, model: simple2-r3, address: 2 }
+)";
+
+void write_benches(const PrivateFolder& folder) {
+  folder.write("good.yaml", kGoodBench);
+  folder.write("unknown-key.yaml", "understudy: 1\nlines:\n  bus:\n    baudrate: 19200\n    stations: []\n");
+  folder.write("unknown-model.yaml",
+               "understudy: 1\nlines:\n  bus:\n    stations:\n      - { name: a, model: simple2-r4 }\n");
+  folder.write("no-yaml.yaml", "understudy: 1\nlines:\n  bus: ]\n");
+  folder.write("same-address.yaml",
+               "understudy: 1\nlines:\n  bus:\n    stations:\n      - { name: a, model: simple2-r3 }\n"
+               "      - { name: b, model: simple2-r3 }\n");
+}
+
+class BadUsageOf : public testing::TestWithParam<BadUsage> {};
+
+TEST_P(BadUsageOf, GetsOneClearLine) {
+  const PrivateFolder folder;
+  write_benches(folder);
+  Words words;
+  for (std::string word : GetParam().words) {
+    for (const auto& [mark, text] :
+         {std::pair<std::string, std::string>{"{}", folder.path()}, {"{120}", std::string(120, 'x')}}) {
+      if (const auto at = word.find(mark); at != std::string::npos) word.replace(at, mark.size(), text);
+    }
+    words.push_back(word);
+  }
+  words.insert(words.begin(), UNDERSTUDY_BINARY);
+  Process process(words, {{"XDG_RUNTIME_DIR", folder.path()}});
+  const auto exit_code = process.wait(Wait(3000));
+  EXPECT_EQ(exit_code, GetParam().exit_code) << process.errors();
+  EXPECT_EQ(lines_of(process.errors()).size(), 1U) << process.errors();
+  EXPECT_TRUE(process.errors().ends_with('\n'));
+  EXPECT_NE(process.errors().find(GetParam().told), std::string::npos) << process.errors();
+  EXPECT_EQ(process.output(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, BadUsageOf, testing::ValuesIn(kBadUsages),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+
+// --- what ends well --------------------------------------------------------------------------------
+
+TEST(Help, OfEachCommandEndsWell) {
+  for (const Words& command : std::vector<Words>{{},
+                                                 {"models"},
+                                                 {"describe"},
+                                                 {"serve"},
+                                                 {"ctl"},
+                                                 {"ctl", "status"},
+                                                 {"ctl", "get"},
+                                                 {"ctl", "set"},
+                                                 {"ctl", "input"},
+                                                 {"ctl", "advance"},
+                                                 {"ctl", "pause"},
+                                                 {"ctl", "resume"},
+                                                 {"poll"},
+                                                 {"check"}}) {
+    Words words = command;
+    words.push_back("--help");
+    const Finished finished = understudy(words);
+    EXPECT_EQ(finished.exit_code, 0) << testing::PrintToString(words);
+    EXPECT_NE(finished.output.find("Usage"), std::string::npos) << finished.output;
+    EXPECT_EQ(finished.errors, "");
+  }
+}
+
+TEST(Models, AreListed) {
+  const Finished finished = understudy({"models"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_TRUE(finished.output.starts_with("simple2-r3")) << finished.output;
+  EXPECT_EQ(finished.errors, "");
+}
+
+TEST(Describe, PrintsEverySheetInEveryFormat) {
+  for (const char* sheet : {"registers", "parameters", "instructions", "commands", "choices"}) {
+    for (const char* format : {"table", "csv", "json", "markdown"}) {
+      const Finished finished = understudy({"describe", "simple2-r3", sheet, "--format", format});
+      EXPECT_EQ(finished.exit_code, 0) << sheet << " " << format << ": " << finished.errors;
+      EXPECT_EQ(finished.errors, "");
+      EXPECT_NE(finished.output, "") << sheet << " " << format;
+      if (std::string(format) == "json") {
+        EXPECT_TRUE(nlohmann::json::accept(finished.output)) << sheet;
+      }
+    }
+    EXPECT_EQ(understudy({"describe", "simple2-r3", sheet}).output,
+              understudy({"describe", "simple2-r3", sheet, "--format", "table"}).output);
+  }
+}
+
+TEST(Describe, PrintsTheDocumentedColumnsAsCsv) {
+  const auto header = [](const char* sheet) {
+    return lines_of(understudy({"describe", "simple2-r3", sheet, "--format", "csv"}).output).at(0);
+  };
+  EXPECT_EQ(header("registers"), "table,address,name,access,width,signed,min,max,unit,persistent,default");
+  EXPECT_EQ(header("parameters"), "number,name,address,width,persistent");
+  EXPECT_EQ(header("instructions"), "opcode,mnemonic,data1,data2");
+  EXPECT_EQ(header("commands"), "command,syntax,meaning");
+}
+
+TEST(Check, AcceptsAGoodBench) {
+  const PrivateFolder folder;
+  const Finished finished = understudy({"check", folder.write("good.yaml", kGoodBench)});
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  EXPECT_EQ(finished.errors, "");
+}
+
+TEST(Check, AcceptsWhatIsShipped) {
+  for (const auto& entry : std::filesystem::directory_iterator(PROJECT_FOLDER "/scenarios")) {
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_EQ(understudy({"check", entry.path().string()}).exit_code, 0) << entry.path();
+  }
+}
+
+TEST(Check, TellsOfEveryBadFile) {
+  const PrivateFolder folder;
+  write_benches(folder);
+  const Finished finished =
+      understudy({"check", folder / "unknown-key.yaml", folder / "good.yaml", folder / "no-yaml.yaml"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_EQ(lines_of(finished.errors).size(), 2U) << finished.errors;
+  EXPECT_NE(finished.output.find("good.yaml"), std::string::npos) << finished.output;
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

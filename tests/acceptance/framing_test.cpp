@@ -1,0 +1,79 @@
+// Where frames end: tolerant of the lumps and pauses of a pty, or by silence alone with --strict-framing.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "tests/acceptance/raw_host.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+/// Sends the request in two parts, 5 ms apart, some times; how many were answered. A busy machine may turn
+/// a pause into a longer one, or hide it: the tests ask for the greater part.
+constexpr int kTimes = 7;
+int answers_to_paused_requests(const RunningUnderstudy& daemon) {
+  Host host(daemon.port());
+  EXPECT_TRUE(host.set_even_parity(B19200));
+  int answers = 0;
+  for (int time = 0; time < kTimes; ++time) {
+    host.write(Bytes(kReadHardwareCode.begin(), kReadHardwareCode.begin() + 2));
+    // The two characters are on the wire for 1.1 ms; the pause begins when they are over.
+    std::this_thread::sleep_for(std::chrono::microseconds(1100 + 5000));
+    host.write(Bytes(kReadHardwareCode.begin() + 2, kReadHardwareCode.end()));
+    if (host.read(kHardwareCodeReply.size(), 60) == kHardwareCodeReply) ++answers;
+  }
+  EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply)
+      << "a request in one piece";
+  return answers;
+}
+
+TEST(StrictFraming, LeavesARequestWithAPauseUnanswered) {
+  const RunningUnderstudy daemon({"--strict-framing"});
+  EXPECT_LT(answers_to_paused_requests(daemon), kTimes / 2);
+}
+
+TEST(TolerantFraming, AnswersARequestWithAPause) {
+  const RunningUnderstudy daemon;
+  EXPECT_GT(answers_to_paused_requests(daemon), kTimes / 2);
+}
+
+const Bytes kNoise = hex("FF 00 01 03 42");
+
+Bytes after_noise(const Bytes& request) {
+  Bytes bytes = kNoise;
+  bytes.insert(bytes.end(), request.begin(), request.end());
+  return bytes;
+}
+
+TEST(TolerantFraming, FindsAGoodRequestRightAfterNoise) {
+  const RunningUnderstudy daemon;
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200));
+  for (int time = 0; time < 3; ++time)
+    EXPECT_EQ(exchange(host, after_noise(kReadHardwareCode), kHardwareCodeReply.size()), kHardwareCodeReply);
+}
+
+TEST(StrictFraming, LosesARequestRightAfterNoiseAndHearsTheNext) {
+  const RunningUnderstudy daemon({"--strict-framing"});
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200));
+  host.write(after_noise(kReadHardwareCode));
+  EXPECT_TRUE(is_silent(host));
+  EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
+}
+
+TEST(WrongChecksum, GetsNoReplyAndTheNextRequestWorks) {
+  const RunningUnderstudy daemon;
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200));
+  Bytes wrong = kSetSpeed200;
+  wrong.back() ^= 1;
+  host.write(wrong);
+  EXPECT_TRUE(is_silent(host));
+  EXPECT_EQ(exchange(host, hex("01 03 10 02 00 01 21 0A"), 7), hex("01 03 02 00 00 B8 44"))
+      << "Aaxis_Speed is still 0";
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

@@ -1,0 +1,79 @@
+// Whom a device hears: a host with its own line settings, and one that set none.
+#include <gtest/gtest.h>
+
+#include "tests/acceptance/raw_host.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+void expect_answer(Host& host) {
+  EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
+}
+
+TEST(HostWithAnotherSpeed, GetsNoReplyAndTheUserOneWarning) {
+  const RunningUnderstudy daemon;
+  {
+    Host host(daemon.port());
+    ASSERT_TRUE(host.set_even_parity(B9600));
+    for (int time = 0; time < 3; ++time) {
+      host.write(kReadHardwareCode);
+      EXPECT_TRUE(is_silent(host));
+    }
+  }
+  const auto warnings = lines_of(daemon.errors());
+  ASSERT_EQ(warnings.size(), 1U) << daemon.errors();
+  EXPECT_NE(warnings[0].find("9600"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("19200"), std::string::npos) << warnings[0];
+  Host right(daemon.port());
+  ASSERT_TRUE(right.set_even_parity(B19200));
+  expect_answer(right);
+  EXPECT_EQ(lines_of(daemon.errors()).size(), 1U) << daemon.errors();
+}
+
+TEST(HostWithAnotherSpeed, IsHeardOnceItSetsTheRightOne) {
+  const RunningUnderstudy daemon;
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B115200));
+  host.write(kReadHardwareCode);
+  EXPECT_TRUE(is_silent(host));
+  ASSERT_TRUE(host.set_even_parity(B19200)) << "also while it holds the port open";
+  expect_answer(host);
+}
+
+TEST(HostWithTwoStopBits, GetsNoReply) {
+  const RunningUnderstudy daemon;
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200, 2));
+  host.write(kReadHardwareCode);
+  EXPECT_TRUE(is_silent(host));
+  EXPECT_EQ(lines_of(daemon.errors()).size(), 1U) << daemon.errors();
+}
+
+TEST(HostWithAnotherSpeed, IsHeardWithIgnoreBaud) {
+  const RunningUnderstudy daemon({"--ignore-baud"});
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B9600));
+  expect_answer(host);
+  EXPECT_EQ(daemon.errors(), "");
+}
+
+TEST(HostThatSetsNoSpeed, IsHeardWithOneWarning) {
+  const RunningUnderstudy daemon;
+  Host host(daemon.port());
+  for (int time = 0; time < 3; ++time) expect_answer(host);
+  EXPECT_EQ(lines_of(daemon.errors()).size(), 1U) << daemon.errors();
+}
+
+TEST(HostWithTheRightSpeed, CausesNoWarning) {
+  const RunningUnderstudy daemon;
+  for (int time = 0; time < 20; ++time) {
+    Host host(daemon.port());
+    ASSERT_TRUE(host.set_even_parity(B19200)) << "opening " << time;
+    expect_answer(host);
+  }
+  EXPECT_EQ(daemon.errors(), "");
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

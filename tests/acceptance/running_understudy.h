@@ -1,0 +1,120 @@
+// Real processes: a running `understudy serve`, and programs that run to their end. Every wait is bounded,
+// and what was started is gone when its owner is, also when the test dies.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pty/descriptor.h"
+
+namespace understudy::acceptance {
+
+using Words = std::vector<std::string>;
+using Environment = std::vector<std::pair<std::string, std::string>>;  // added to the test's own
+using Wait = std::chrono::milliseconds;                                // by the wall clock
+
+inline constexpr Wait kPatience{10'000};  // of a test that fails; one that passes waits for events only
+
+/// Asks again and again until `holds` does; false if it never did.
+bool eventually(const std::function<bool()>& holds, Wait patience = kPatience);
+
+/// A folder of the test's own, removed with all that is in it.
+class PrivateFolder {
+ public:
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  /// Writes a file and returns its path.
+  std::string write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::string path_;
+};
+
+class Process {
+ public:
+  explicit Process(const Words& command, const Environment& environment = {});
+  ~Process();  // ends it if it is still there
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void send(int signal_number) const;
+  /// Its exit code, or 128 + n if signal n ended it; nothing while it runs.
+  std::optional<int> wait(Wait patience);
+  /// What it has printed so far.
+  std::string output() const;
+  std::string errors() const;
+
+ private:
+  pid_t pid_ = -1;
+  std::optional<int> exit_code_;
+  pty::Descriptor output_;
+  pty::Descriptor errors_;
+};
+
+struct Finished {
+  int exit_code = -1;  // -1: it did not end in time and was killed
+  std::string output;
+  std::string errors;
+};
+Finished run(const Words& command, const Environment& environment = {});
+/// `understudy ARGUMENTS`.
+Finished understudy(Words arguments, const Environment& environment = {});
+
+std::vector<std::string> lines_of(const std::string& text);
+
+/// `understudy serve`, ready. At the end of the test it is asked to stop, and must end well.
+class RunningUnderstudy {
+ public:
+  /// One Simple2-R3 on a line called "line" with the link folder()/port. `flags` are added.
+  explicit RunningUnderstudy(const Words& flags = {}, const Environment& environment = {});
+  /// What a bench file says, written into folder(). `flags` are added.
+  static std::unique_ptr<RunningUnderstudy> of_bench(const std::string& yaml, const Words& flags = {});
+  ~RunningUnderstudy();
+  RunningUnderstudy(const RunningUnderstudy&) = delete;
+  RunningUnderstudy& operator=(const RunningUnderstudy&) = delete;
+
+  struct Port {
+    std::string line;
+    std::string pty;
+    std::string link;
+  };
+  const std::vector<Port>& ports() const { return ports_; }
+  const std::string& port() const { return ports_.at(0).link; }
+  std::string control() const { return folder_ / "control"; }
+  const PrivateFolder& folder() const { return folder_; }
+  const Process& process() const { return *process_; }
+  std::string errors() const { return process_->errors(); }
+
+  /// `understudy ctl WORDS` with this one's socket.
+  Finished ctl(const Words& words) const;
+  /// Requests that its first station has served, by `ctl status`.
+  int requests() const;
+  /// Sends the signal and returns the exit code, which is then the caller's to judge.
+  std::optional<int> stop(int signal_number);
+
+ private:
+  struct FromBench {};
+  RunningUnderstudy(FromBench, const std::string& yaml, const Words& flags);
+  void start(Words command, const Words& flags, const Environment& environment);
+
+  PrivateFolder folder_;
+  std::unique_ptr<Process> process_;
+  std::vector<Port> ports_;
+  bool stopped_ = false;
+};
+
+}  // namespace understudy::acceptance
