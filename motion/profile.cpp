@@ -56,7 +56,8 @@ std::int64_t Profile::pulses_at(Tick elapsed) const {
   if (elapsed <= 0) return 0;
   const double t_s = static_cast<double>(elapsed) / 1000.0;
   if (t_s * 1000.0 >= duration_s * 1000.0 - kTickTolerance) return distance_pulses;
-  const auto pulses = static_cast<std::int64_t>(std::floor(sample(t_s).position_pulses + kPulseTolerance));
+  const auto pulses = static_cast<std::int64_t>(
+      std::floor(sample(t_s).position_pulses + pulse_tolerance(static_cast<double>(distance_pulses))));
   return std::clamp<std::int64_t>(pulses, 0, distance_pulses);
 }
 

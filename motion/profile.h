@@ -20,8 +20,9 @@ using Tick = std::int64_t;
 /// of divisions (3.05 s as 3.0500000000000003 s) and must not cost a tick for that.
 inline constexpr double kTickTolerance = 1e-6;
 
-/// Within this much below a whole pulse the pulse counts as sent, for the same reason.
-inline constexpr double kPulseTolerance = 1e-6;
+/// Within this much below a whole pulse the pulse counts as sent, for the same reason: a few roundings of a
+/// position as large as the distance. More would send the last pulses of a slow, long ramp too early.
+constexpr double pulse_tolerance(double distance_pulses) { return 1e-12 + distance_pulses * 5e-16; }
 
 /// Motion at constant jerk. Quantities are those at the segment's beginning.
 struct Segment {

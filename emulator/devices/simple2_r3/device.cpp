@@ -145,6 +145,9 @@ void Simple2R3::reset_to_factory() {
     }
   }
   for (int axis = 0; axis < 2; ++axis) switch_servo(axis, false);
+  if (choice(kFactoryResetVolatile) == 1) return;
+  state_.written_outputs = 0;
+  for (AxisState& axis : state_.axes) axis.alarm_clear_until = 0;
 }
 
 void Simple2R3::sample_inputs(Tick) {
