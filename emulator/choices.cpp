@@ -30,8 +30,8 @@ std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides) {
   std::vector<std::uint8_t> chosen(rows.size(), 0);
   for (const auto& [id, option] : overrides) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&wanted = id](const ChoiceRow& r) { return r.id == wanted; });
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&wanted = id](const ChoiceRow& r) { return r.id == wanted; });
     if (row == rows.end()) {
       std::vector<std::string> ids;
       for (const ChoiceRow& r : rows) ids.emplace_back(r.id);

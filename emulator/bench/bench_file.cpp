@@ -136,6 +136,7 @@ class BenchReader {
   }
 
   void read_station(const YamlFields& station, LineSetup& line, std::set<std::int64_t>& addresses) {
+    if (!station.node().IsMap()) station.fail("expected a map, as in `key: value`");
     std::size_t device = 0;
     if (station.has("device")) {
       station.demand_map({"device", "address"});

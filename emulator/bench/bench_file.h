@@ -5,12 +5,13 @@
 #include <string>
 
 #include "emulator/bench/bench.h"
+#include "emulator/one_line.h"
 
 namespace understudy::emulator {
 
 /// One line: "file:line: field: what is wrong; what was expected".
 struct BenchError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit BenchError(const std::string& text) : std::runtime_error(one_line(text)) {}
 };
 
 /// Links are made relative to the file's folder. Throws BenchError.

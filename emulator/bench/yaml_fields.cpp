@@ -29,11 +29,12 @@ void YamlFields::demand_map(std::initializer_list<std::string_view> known) const
 
 bool YamlFields::has(std::string_view key) const {
   const YAML::Node& node = node_;
-  return static_cast<bool>(node[std::string(key)]);
+  return node.IsMap() && static_cast<bool>(node[std::string(key)]);
 }
 
 YamlFields YamlFields::at(std::string_view key) const {
   const YAML::Node& node = node_;
+  if (!node.IsMap()) fail("expected a map, as in `key: value`");
   const YAML::Node value = node[std::string(key)];
   if (!value) fail("'" + std::string(key) + "' is missing; expected it here");
   return {file_, value, field_ == "bench" ? std::string(key) : field_ + "." + std::string(key)};

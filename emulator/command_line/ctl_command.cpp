@@ -6,6 +6,7 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/control/server.h"
+#include "emulator/one_line.h"
 #include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
@@ -118,7 +119,7 @@ int control(const ControlArguments& arguments) {
     std::printf("%s\n", line.c_str());
   } else if (!accepted) {
     std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
-                 reply["error"].get<std::string>().c_str());
+                 one_line(reply["error"].get<std::string>()).c_str());
   } else if (reply.contains("status")) {
     print_status(reply["status"]);
   } else if (reply.contains("values")) {

@@ -3,6 +3,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "emulator/one_line.h"
+
 namespace understudy::emulator {
 
 void log_line(const std::string& text) {
@@ -11,7 +13,7 @@ void log_line(const std::string& text) {
     made->set_pattern("understudy: %v");
     return made;
   }();
-  logger->info(text);
+  logger->info(one_line(text));
 }
 
 }  // namespace understudy::emulator

@@ -7,6 +7,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/control/server.h"
 #include "emulator/model.h"
+#include "emulator/one_line.h"
 #include "pty/pseudo_terminal.h"
 
 namespace {
@@ -143,7 +144,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv, int firs
 }
 
 int complain(const std::exception& error, int code) {
-  std::fprintf(stderr, "understudy: %s\n", error.what());
+  std::fprintf(stderr, "understudy: %s\n", one_line(error.what()).c_str());
   return code;
 }
 

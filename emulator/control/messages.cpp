@@ -146,6 +146,12 @@ Json set(Daemon& daemon, const Json& message) {
   for (const auto& [name, value] : wanted) {
     places.push_back(find_register(world, name));
     const RegisterName& place = places.back();
+    // Two bits of one register would be judged one without the other.
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      if (places[i].device == place.device && places[i].place.place.slot == place.place.place.slot) {
+        throw MessageError(name + ": its register is named twice; expected it once");
+      }
+    }
     demand_accepted(check_value(world.device(place.device), place.place, value), name, value,
                     *place.place.place.row);
   }

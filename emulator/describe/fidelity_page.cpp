@@ -12,8 +12,10 @@ std::string fidelity_page(const Model& model) {
                      name + " choices --format markdown > docs/fidelity/" + name + ".md`\n\n";
   page +=
       "## Choices\n\n"
-      "What the maker's manual leaves open, and what we chose. Where there are alternatives, a bench can ask\n"
-      "for one: `choices: { ID: ALTERNATIVE }`. How sure we are: *follows* from what the manual says elsewhere,\n"
+      "What the maker's manual leaves open, and what we chose. Where there are alternatives, a bench can "
+      "ask\n"
+      "for one: `choices: { ID: ALTERNATIVE }`. How sure we are: *follows* from what the manual says "
+      "elsewhere,\n"
       "*likely* (the cited standard, or devices of this kind, do so), *proposal* (the manual is silent).\n\n";
   page += format_sheet(*describe(model, "choices", SheetFormat::markdown), SheetFormat::markdown);
 
@@ -24,7 +26,8 @@ std::string fidelity_page(const Model& model) {
   }
   page +=
       "\n## Not modelled yet\n\n"
-      "These registers exist, with the manual's access and range, and the daemon says so once when one is used.\n\n";
+      "These registers exist, with the manual's access and range, and the daemon says so once when one is "
+      "used.\n\n";
   page += missing.rows.empty() ? "Nothing: every register does what the manual says.\n"
                                : format_sheet(missing, SheetFormat::markdown);
   return page;

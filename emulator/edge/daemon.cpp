@@ -97,8 +97,8 @@ void Daemon::make_ports(const Bench& bench) {
 void Daemon::catch_up() { world_.advance_to(std::max(world_.now(), pacer_.target(wall_now()))); }
 
 void Daemon::pause() {
-  catch_up();
   pacer_.pause(wall_now());
+  catch_up();  // to the moment at which the clock stopped
 }
 
 void Daemon::resume() { pacer_.resume(wall_now()); }

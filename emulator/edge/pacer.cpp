@@ -57,10 +57,10 @@ std::optional<WallTime> Pacer::wall_time_of(SimTime time) const {
   if (standing() || speed_.kind == Speed::Kind::free) return std::nullopt;
   const SimTime ahead = time - anchor_sim_;
   if (speed_.factor == 1.0) return anchor_wall_ + ahead;
+  const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.factor);
+  if (wall_ns > 1e18) return WallTime::max() / 2;  // thirty years on: beyond what the clock counts
   // Rounded up: waking a nanosecond early would find nothing due.
-  return anchor_wall_ +
-         WallTime{static_cast<std::int64_t>(std::ceil(static_cast<double>(ahead.count()) / speed_.factor)) +
-                  1};
+  return anchor_wall_ + WallTime{static_cast<std::int64_t>(wall_ns) + 1};
 }
 
 WallTime Pacer::woke(WallTime planned, WallTime wall) {

@@ -1,6 +1,7 @@
 #include "emulator/register_map/access.h"
 
 #include <array>
+#include <utility>
 
 #include "emulator/device.h"
 
@@ -17,6 +18,16 @@ Value typed(std::uint32_t bits, Type type) {
     case Type::s32: return static_cast<std::int32_t>(bits);
   }
   return 0;
+}
+
+std::pair<Value, Value> limits_of(Type type) {
+  switch (type) {
+    case Type::u16: return {0, UINT16_MAX};
+    case Type::s16: return {INT16_MIN, INT16_MAX};
+    case Type::u32: return {0, UINT32_MAX};
+    case Type::s32: return {INT32_MIN, INT32_MAX};
+  }
+  return {0, 0};
 }
 
 Cell cell_of(const Place& place) { return {.argument = place.row->argument, .index = place.index}; }
@@ -133,16 +144,16 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Wo
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
+  const bool half = place.part != Place::Part::whole;
   if (named.bit >= 0) {
     if (value != 0 && value != 1) return Refusal::bad_value;
     const Value mask = Value{1} << named.bit;
     const Value whole = read_value(device, place);
     value = value == 1 ? whole | mask : whole & ~mask;
+    if (!half) value = typed(static_cast<std::uint32_t>(value), row.type);  // the sign bit is a bit as well
   }
   // What does not fit the register's words cannot even be sent.
-  const Value lowest = is_signed(row.type) ? (whole_32 ? INT32_MIN : INT16_MIN) : 0;
-  const Value highest =
-      whole_32 ? (is_signed(row.type) ? Value{INT32_MAX} : Value{UINT32_MAX}) : Value{UINT16_MAX};
+  const auto [lowest, highest] = half ? std::pair<Value, Value>{0, UINT16_MAX} : limits_of(row.type);
   if (value < lowest || value > highest) return Refusal::bad_value;
 
   const auto bits = static_cast<std::uint32_t>(value);

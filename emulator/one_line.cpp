@@ -1,0 +1,25 @@
+#include "emulator/one_line.h"
+
+#include <array>
+#include <cstdio>
+
+namespace understudy::emulator {
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7F) {
+      line += c;
+    } else if (c == '\n') {
+      line += "\\n";
+    } else {
+      std::array<char, 8> escaped{};
+      std::snprintf(escaped.data(), escaped.size(), "\\x%02X", byte);
+      line += escaped.data();
+    }
+  }
+  return line;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace understudy::emulator {
+
+/// The text with its control characters written out ("\\n"), so that what is quoted from a file or a frame
+/// can neither break a message in two nor reach the terminal.
+std::string one_line(std::string_view text);
+
+}  // namespace understudy::emulator
