@@ -38,6 +38,7 @@ void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) {
     input_[(input_first_ + input_count_) % kInputCapacity] = place(arriving_, value, now);
     ++input_count_;
   }
+  if (!is_host_open_) departed_count_ = input_count_;
   if (was_idle && !bytes.empty()) begin_character(input_[input_first_].start);
 }
 
@@ -51,6 +52,9 @@ void Line::host_settings(std::optional<HostSettings> settings) { host_settings_ 
 
 void Line::host_closed() {
   is_host_open_ = false;
+  departed_settings_ = host_settings_;
+  departed_count_ = input_count_;
+  answers_departed_until_ = last_due_station();
   leaving_.clear();
   leaving_first_ = 0;
   output_.clear();
@@ -139,8 +143,10 @@ TimedByte Line::place(Burst& burst, std::uint8_t value, SimTime now) const {
 
 /// A start bit: decides who hears the character that follows.
 void Line::begin_character(SimTime at) {
-  const bool is_speed_known = options_.enforce_settings && host_settings_;
-  if (options_.enforce_settings && !host_settings_ && !members_.empty()) {
+  const bool is_departed = departed_count_ > 0;
+  const std::optional<HostSettings>& settings = is_departed ? departed_settings_ : host_settings_;
+  const bool is_speed_known = options_.enforce_settings && settings;
+  if (options_.enforce_settings && !settings && !is_departed && !members_.empty()) {
     warn_once(has_warned_no_speed_, "the host set no speed, what it sends is taken as heard");
   }
   std::size_t deaf = 0;
@@ -149,9 +155,8 @@ void Line::begin_character(SimTime at) {
     member.is_deaf = false;
     if (is_speed_known) {
       const LineSettings expected = member.station->settings();
-      member.is_deaf =
-          expected.baud != host_settings_->baud || expected.stop_bits != host_settings_->stop_bits;
-      if (member.is_deaf) warn_deaf(i, expected);
+      member.is_deaf = expected.baud != settings->baud || expected.stop_bits != settings->stop_bits;
+      if (member.is_deaf) warn_deaf(i, *settings, expected);
     }
     if (member.is_deaf) {
       ++deaf;
@@ -170,7 +175,26 @@ void Line::deliver_character() {
   for (const Member& member : members_) {
     if (!member.is_deaf) member.station->hear(byte);
   }
+  if (departed_count_ > 0) {
+    --departed_count_;
+    answers_departed_until_ = last_due_station();
+  } else if (is_instant()) {
+    // Frames were served before this character, all at one instant: what comes now is for its sender.
+    answers_departed_until_ = SimTime{-1};
+  }
   if (input_count_ > 0) begin_character(input_[input_first_].start);
+}
+
+/// When the last station will have dealt with what it has heard up to now. What is due much later is no
+/// answer to that.
+SimTime Line::last_due_station() const {
+  constexpr SimTime kLongestSilence = std::chrono::milliseconds(20);
+  SimTime last = clock_;
+  for (const Member& member : members_) {
+    const SimTime due = member.station->due().value_or(clock_);
+    if (due <= clock_ + kLongestSilence) last = std::max(last, due);
+  }
+  return last;
 }
 
 // --- from the stations -------------------------------------------------------------------------
@@ -195,6 +219,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes) {
     }
     const TimedByte character = place(member.speech, bytes[i], clock_);
     if (i == 0) first_end = character.end;
+    if (!is_anybody_listening()) continue;  // it takes the wire's time all the same
     if (is_instant()) {
       leave_wire(character.value);
     } else {
@@ -214,7 +239,6 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes) {
 /// that came first and reads the AND of both, as the dominant level wins. (A station never runs into
 /// itself, so what overlaps is always another's.)
 void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
-  if (!is_host_open_) return;
   if (leaving_first_ == leaving_.size() || leaving_.back().end <= character.start) {
     if (leaving_.size() == leaving_.capacity()) {
       leaving_.erase(leaving_.begin(), leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_));
@@ -245,7 +269,6 @@ void Line::notify_others(std::size_t speaker) {
 }
 
 void Line::leave_wire(std::uint8_t value) {
-  if (!is_host_open_) return;
   if (output_.size() - output_first_ == kOutputCapacity) {
     ++counters_.bytes_discarded;
     return;
@@ -266,13 +289,13 @@ void Line::warn_once(bool& has_warned, std::string_view what) {
   if (warn_) warn_("line " + name_ + ": " + std::string(what));
 }
 
-void Line::warn_deaf(std::size_t index, const LineSettings& expected) {
+void Line::warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected) {
   if (has_warned_deaf_) return;
   const std::string which =
       members_.size() == 1 ? "the station" : "station " + std::to_string(index + 1) + " of the line";
-  const std::string stop_bits = host_settings_->stop_bits == 1 ? "1 stop bit" : "2 stop bits";
-  warn_once(has_warned_deaf_, "the host set " + std::to_string(host_settings_->baud) + " baud, " + stop_bits +
-                                  "; " + which + " expects " + to_string(expected) + ": it hears nothing");
+  const std::string stop_bits = settings.stop_bits == 1 ? "1 stop bit" : "2 stop bits";
+  warn_once(has_warned_deaf_, "the host set " + std::to_string(settings.baud) + " baud, " + stop_bits + "; " +
+                                  which + " expects " + to_string(expected) + ": it hears nothing");
 }
 
 }  // namespace understudy::pty

@@ -68,7 +68,8 @@ class Line {
   /// begin from now on.
   void host_settings(std::optional<HostSettings> settings);
   /// The last host closed the line: what is still on its way to it, and what the stations say until the
-  /// next one opens it, is dropped, as nobody listens. What the host has written still arrives.
+  /// next one opens it, is dropped, as nobody listens. What the host has written still arrives, also what
+  /// is received before the next one opens; replies to that go nowhere, never to the next host.
   void host_closed();
 
   /// Bytes that have wholly left the wire towards the host and were not taken yet. At most
@@ -115,12 +116,14 @@ class Line {
   void begin_character(SimTime at);
   void deliver_character();
   void run_station(std::size_t index);
+  SimTime last_due_station() const;
   void say(std::size_t index, std::span<const std::uint8_t> bytes);
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t speaker);
   void leave_wire(std::uint8_t value);
+  bool is_anybody_listening() const { return is_host_open_ && clock_ > answers_departed_until_; }
   void warn_once(bool& has_warned, std::string_view what);
-  void warn_deaf(std::size_t index, const LineSettings& expected);
+  void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 
   std::string name_;
   LineOptions options_;
@@ -131,12 +134,16 @@ class Line {
 
   bool is_host_open_ = true;
   std::optional<HostSettings> host_settings_;
+  std::optional<HostSettings> departed_settings_;  // of the host before
+  SimTime answers_departed_until_{-1};             // what is said until then is for it
   bool has_warned_deaf_ = false;
   bool has_warned_no_speed_ = false;
   bool has_warned_collision_ = false;
 
-  // Host to stations: a ring of what has not wholly arrived.
+  // Host to stations: a ring of what has not wholly arrived; the first `departed_count_` of it are from
+  // a host that has gone.
   std::vector<TimedByte> input_;
+  std::size_t departed_count_ = 0;
   std::size_t input_first_ = 0;
   std::size_t input_count_ = 0;
   Burst arriving_;

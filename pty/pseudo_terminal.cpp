@@ -85,6 +85,7 @@ std::size_t PseudoTerminal::read(std::span<std::uint8_t> bytes) {
 }
 
 std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
+  if (is_in_doubt()) follow_presence(false);
   if (!is_present_) return bytes.size();
   ssize_t size = 0;
   do {
@@ -98,25 +99,32 @@ std::size_t PseudoTerminal::write(std::span<const std::uint8_t> bytes) {
 // inotify tells about every opening and closing in their order, but merges equal neighbours (two hosts
 // that open at once are one event), so its count is a hint only. What decides is the kernel's own: when
 // something has closed, we close our slave for a moment and see whether the master hangs up.
+//
+// inotify is also early: a host's closing is told a moment before the kernel lets go of the terminal. So
+// "somebody is there", against the count, is believed at the second look only: until then it is in doubt.
 
 PseudoTerminal::Presence PseudoTerminal::poll_presence() {
   follow_presence(false);
   return std::exchange(news_, {});
 }
 
-void PseudoTerminal::follow_presence(bool has_closed) {
+void PseudoTerminal::follow_presence(bool must_look) {
+  const bool was_in_doubt = is_in_doubt();
+  const bool has_closed = read_presence_events();
+  bool is_second_look = was_in_doubt && !has_closed && is_in_doubt();
+  must_look = must_look || has_closed || is_second_look;
   // Hosts come and go while we look; if they go on doing so, the watch stays readable for the next call.
   constexpr int kMaxLooks = 8;
-  has_closed = read_presence_events() || has_closed;
-  for (int look = 0; has_closed && look < kMaxLooks; ++look) {
+  for (int look = 0; must_look && look < kMaxLooks; ++look) {
     if (!is_somebody_there()) {
       opens_ = 0;
       if (is_present_) count_departure();
-    } else if (opens_ == 0) {
-      opens_ = 1;  // merged openings
+    } else if (!is_present_ || is_second_look) {
       if (!is_present_) count_arrival();
+      opens_ = 1;  // merged openings
     }
-    has_closed = read_presence_events();
+    is_second_look = false;
+    must_look = read_presence_events();
   }
 }
 

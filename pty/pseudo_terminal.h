@@ -48,6 +48,9 @@ class PseudoTerminal {
   /// not be readable any more.
   bool has_presence_news() const { return news_.opened || news_.closed; }
   bool host_present() const { return is_present_; }
+  /// A host seems to have gone, but the kernel has not let go of it yet: poll_presence() wants to be called
+  /// again in a few milliseconds. Rare. Without that call the doubt lasts until the next host.
+  bool is_in_doubt() const { return is_present_ && opens_ == 0; }
 
   /// What the host of the bytes just read has set; nothing if it left the resting speed alone. read()
   /// looks, remembers it and puts the resting speed back, so that the host's next tcsetattr changes
@@ -55,7 +58,7 @@ class PseudoTerminal {
   std::optional<HostSettings> poll_host_settings() const { return settings_; }
 
  private:
-  void follow_presence(bool has_closed);
+  void follow_presence(bool must_look);
   bool read_presence_events();
   bool count_event(std::uint32_t mask);
   void count_arrival();

@@ -29,7 +29,8 @@ Bench bench_of_one(const ServeArguments& arguments) {
   DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station.value_or(1);
-  if (arguments.baud == 0) throw UsageError("--baud: 0 is no speed; expected bits a second, such as 19200");
+  if (arguments.baud == 0)
+    throw UsageError("--baud: 0 is no speed; expected one of the model's, such as 19200 or 115200");
   device.settings.baud = arguments.baud.value_or(0);
   if (!arguments.firmware.empty()) {
     device.settings.firmware = parse_firmware(arguments.firmware);

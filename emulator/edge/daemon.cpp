@@ -90,7 +90,8 @@ void Daemon::make_ports(const Bench& bench) {
       }
       link = private_folder_ + "/" + bench.lines[i].name + ".port";
     }
-    ports_.push_back(std::make_unique<Port>(loop_, world_, i, link, [this] { catch_up(); }));
+    ports_.push_back(std::make_unique<Port>(
+        loop_, world_, i, link, [this] { catch_up(); }, log_));
   }
 }
 

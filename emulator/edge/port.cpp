@@ -1,17 +1,20 @@
 #include "emulator/edge/port.h"
 
+#include <algorithm>
 #include <array>
 
 namespace understudy::emulator {
 
 Port::Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
-           std::function<void()> catch_up)
+           std::function<void()> catch_up, std::function<void(const std::string&)> log)
     : loop_(loop),
       world_(world),
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
+      log_(std::move(log)),
       terminal_(link_path) {
-  loop_.watch(terminal_.presence_descriptor(), EventLoop::readable, [this](std::uint32_t) { on_presence(); });
+  loop_.watch(terminal_.presence_descriptor(), EventLoop::readable,
+              [this](std::uint32_t) { on_presence({}); });
   loop_.watch(terminal_.data_descriptor(), EventLoop::readable,
               [this](std::uint32_t ready) { on_data(ready); });
 }
@@ -21,39 +24,83 @@ Port::~Port() {
   loop_.unwatch(terminal_.presence_descriptor());
 }
 
-void Port::on_presence() {
+/// Tells the line who came and went; `bytes` were read just before.
+void Port::on_presence(std::span<const std::uint8_t> bytes) {
   const pty::PseudoTerminal::Presence presence = terminal_.poll_presence();
-  if (!presence.opened && !presence.closed) return;
+  if (!presence.opened && !presence.closed) return receive(bytes);
   catch_up_();
   // Both at once: one went and another came, or one came and has gone again.
   if (presence.closed && terminal_.host_present()) line().host_closed();
-  if (presence.opened) line().host_opened();
-  if (presence.closed && !terminal_.host_present()) line().host_closed();
+  if (presence.opened) {
+    line().host_opened();
+    if (!left_behind_.empty()) {
+      log_("line " + line().name() + ": " + std::to_string(left_behind_.size()) +
+           " bytes that a host left behind were dropped when the next one opened the line");
+      left_behind_.clear();
+    }
+  }
+  if (presence.closed && !terminal_.host_present()) {
+    line().host_settings(terminal_.poll_host_settings());
+    line().host_closed();
+    left_behind_.insert(left_behind_.end(), bytes.begin(), bytes.end());
+    keep_what_was_left_behind();
+  } else {
+    receive(bytes);
+  }
+}
+
+/// What a host has written before it closed is still served, but must not be taken for the next one's.
+void Port::keep_what_was_left_behind() {
+  std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
+  while (!terminal_.host_present()) {
+    const std::size_t count = terminal_.read(bytes);
+    if (terminal_.host_present()) {
+      // The next host came while we read: these may be its bytes, and it must get its reply.
+      return on_presence(std::span(bytes).first(count));
+    }
+    if (count == 0) break;
+    left_behind_.insert(left_behind_.end(), bytes.begin(),
+                        bytes.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+  pass_on_what_was_left_behind();
+}
+
+void Port::pass_on_what_was_left_behind() {
+  const std::size_t count = std::min(left_behind_.size(), line().room());
+  receive(std::span(left_behind_).first(count));
+  left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void Port::on_data(std::uint32_t ready) {
-  if ((ready & EventLoop::readable) != 0) {
+  if ((ready & EventLoop::readable) != 0 && left_behind_.empty()) {
     std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
     const std::size_t count = terminal_.read(std::span(bytes).first(line().room()));
-    if (terminal_.has_presence_news()) on_presence();
-    if (count > 0) {
-      catch_up_();
-      line().host_settings(terminal_.poll_host_settings());
-      line().receive(std::span(bytes).first(count), world_.now());
-      world_.advance_to(world_.now());
+    if (terminal_.has_presence_news()) {
+      on_presence(std::span(bytes).first(count));
+    } else {
+      receive(std::span(bytes).first(count));
     }
   }
   flush();
 }
 
+void Port::receive(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return;
+  catch_up_();
+  if (terminal_.host_present()) line().host_settings(terminal_.poll_host_settings());
+  line().receive(bytes, world_.now());
+  world_.advance_to(world_.now());
+}
+
 void Port::flush() {
+  if (!left_behind_.empty()) pass_on_what_was_left_behind();
   while (!line().output().empty()) {
     const std::size_t taken = terminal_.write(line().output());
     if (taken == 0) break;  // nobody reads
     line().take_output(taken);
   }
-  const std::uint32_t interest =
-      (line().room() > 0 ? EventLoop::readable : 0U) | (line().output().empty() ? 0U : EventLoop::writable);
+  const std::uint32_t interest = (line().room() > 0 && left_behind_.empty() ? EventLoop::readable : 0U) |
+                                 (line().output().empty() ? 0U : EventLoop::writable);
   loop_.change_interest(terminal_.data_descriptor(), interest);
 }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "emulator/edge/event_loop.h"
 #include "emulator/world/world.h"
@@ -15,7 +17,7 @@ class Port {
  public:
   /// `catch_up` brings the world to the present moment. Throws pty::PortError.
   Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
-       std::function<void()> catch_up);
+       std::function<void()> catch_up, std::function<void(const std::string&)> log);
   ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
@@ -31,13 +33,18 @@ class Port {
  private:
   pty::Line& line() { return world_.line(line_number_).line; }
   void on_data(std::uint32_t ready);
-  void on_presence();
+  void on_presence(std::span<const std::uint8_t> bytes);
+  void keep_what_was_left_behind();
+  void pass_on_what_was_left_behind();
+  void receive(std::span<const std::uint8_t> bytes);
 
   EventLoop& loop_;
   World& world_;
   std::size_t line_number_;
   std::function<void()> catch_up_;
+  std::function<void(const std::string&)> log_;
   pty::PseudoTerminal terminal_;
+  std::vector<std::uint8_t> left_behind_;  // by a host that has closed; as much as the kernel holds
 };
 
 }  // namespace understudy::emulator

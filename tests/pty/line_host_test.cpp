@@ -1,0 +1,197 @@
+// What a host's settings, closing and not reading do to a line.
+#include <gtest/gtest.h>
+
+#include "pty/line.h"
+#include "tests/pty/fake_station.h"
+
+namespace understudy::pty {
+namespace {
+
+using namespace std::chrono_literals;
+
+const Bytes kRequest = hex("01 03 00 01 00 01 D5 CA");
+const Bytes kReply = hex("01 03 02 C0 01 29 84");
+const LineOptions kEnforcing{};
+const LineOptions kTolerating{.settings = {}, .timing = Timing::wire, .enforce_settings = false};
+
+TEST(LineHost, DemandsABaud) {
+  EXPECT_THROW(Line("x", {.settings = {.baud = 0}}, nullptr), std::invalid_argument);
+}
+
+TEST(LineHost, AStationIsDeafToOtherSettings) {
+  struct Case {
+    HostSettings host;
+    bool is_heard;
+    const char* warning;
+  };
+  const std::vector<Case> cases = {
+      {{.baud = 19200}, true, ""},
+      {{.baud = 9600},
+       false,
+       "line rs485: the host set 9600 baud, 1 stop bit; the station expects 19200 8E1: it hears nothing"},
+      {{.baud = 19200, .stop_bits = 2},
+       false,
+       "line rs485: the host set 19200 baud, 2 stop bits; the station expects 19200 8E1: it hears nothing"},
+  };
+  for (const Case& host : cases) {
+    LineRig rig(kEnforcing);
+    FakeSlave slave(1, kReply);
+    rig.line.attach(slave);
+    rig.line.host_opened();
+    rig.line.host_settings(host.host);
+    rig.send(kRequest, 0s);
+    rig.run(1s);
+    rig.send(kRequest, 1s);
+    rig.run(2s);
+    EXPECT_EQ(rig.out.size(), host.is_heard ? 2 * kReply.size() : 0);
+    EXPECT_EQ(rig.line.counters().bytes_unheard, host.is_heard ? 0 : 2 * kRequest.size());
+    EXPECT_EQ(rig.warnings,
+              host.is_heard ? std::vector<std::string>{} : std::vector<std::string>{host.warning});
+  }
+}
+
+TEST(LineHost, WarnsAgainForTheNextHostOnly) {
+  LineRig rig(kEnforcing);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  for (int host = 0; host < 2; ++host) {
+    rig.line.host_opened();
+    rig.line.host_settings(HostSettings{.baud = 9600});
+    rig.send(kRequest, host * 1s);
+    rig.run(host * 1s + 1s);
+    rig.line.host_closed();
+    EXPECT_EQ(rig.warnings.size(), host + 1u);
+  }
+}
+
+TEST(LineHost, HearsAHostThatSetNoSpeedAndWarnsOnce) {
+  LineRig rig(kEnforcing);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  rig.send(kRequest, 0s);
+  rig.run(1s);
+  EXPECT_EQ(rig.out, kReply);
+  EXPECT_EQ(rig.warnings,
+            std::vector<std::string>{"line rs485: the host set no speed, what it sends is taken as heard"});
+}
+
+TEST(LineHost, HearsEveryHostWhereSettingsAreNotEnforced) {
+  LineRig rig(kTolerating);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  rig.line.host_settings(HostSettings{.baud = 300, .stop_bits = 2});
+  rig.send(kRequest, 0s);
+  rig.run(1s);
+  EXPECT_EQ(rig.out, kReply);
+  EXPECT_TRUE(rig.warnings.empty());
+}
+
+TEST(LineHost, OnlyTheStationsWithOtherSettingsAreDeaf) {
+  LineRig rig(kEnforcing);
+  FakeSlave one(1, kReply);
+  FakeSlave two(2, kReply);
+  two.listens_to.baud = 9600;
+  rig.line.attach(one);
+  rig.line.attach(two);
+  rig.line.host_settings(HostSettings{.baud = 19200});
+  rig.send(kRequest, 0s);
+  rig.run(1s);
+  EXPECT_EQ(rig.out, kReply);
+  EXPECT_TRUE(two.heard.empty());
+  EXPECT_EQ(rig.line.counters().bytes_unheard, 0u);
+  EXPECT_EQ(rig.warnings,
+            std::vector<std::string>{"line rs485: the host set 19200 baud, 1 stop bit; station 2 of the line "
+                                     "expects 9600 8E1: it hears nothing"});
+  two.listens_to.baud = 19200;  // as after a change of its own settings
+  rig.send(kRequest, 1s);
+  rig.run(2s);
+  EXPECT_EQ(two.heard.size(), kRequest.size());
+}
+
+TEST(LineHost, TakesNoMoreThanItHasRoomFor) {
+  LineRig rig(kTolerating);
+  FakeSlave slave(9, {});
+  rig.line.attach(slave);
+  EXPECT_EQ(rig.line.room(), 1024u);
+  rig.send(Bytes(1000, 0x55), 0s);
+  EXPECT_EQ(rig.line.room(), 24u);
+  rig.send(Bytes(100, 0x66), 0s);
+  EXPECT_EQ(rig.line.room(), 0u);
+  rig.line.run(572'916ns);
+  EXPECT_EQ(rig.line.room(), 1u);
+  rig.run(10s);
+  EXPECT_EQ(rig.line.room(), 1024u);
+  EXPECT_EQ(slave.heard.size(), 1024u);
+  EXPECT_EQ(slave.heard.back().value, 0x66);
+  EXPECT_EQ(rig.line.counters().bytes_in, 1024u);
+}
+
+TEST(LineHost, KeepsTheOldestOutputOfAHostThatDoesNotRead) {
+  for (const Timing timing : {Timing::wire, Timing::instant}) {
+    LineRig rig({.settings = {}, .timing = timing, .enforce_settings = false});
+    FakeTalker talker;
+    rig.line.attach(talker);
+    for (int i = 0; i < 20; ++i) talker.says[i * 1s] = {Bytes(256, static_cast<std::uint8_t>(i))};
+    rig.line.run(100s);
+    const auto output = rig.line.output();
+    ASSERT_EQ(output.size(), 4096u);
+    EXPECT_EQ(output.front(), 0);
+    EXPECT_EQ(output.back(), 15);
+    EXPECT_EQ(rig.line.counters().bytes_out, 4096u);
+    EXPECT_EQ(rig.line.counters().bytes_discarded, 4u * 256);
+    rig.line.take_output(10);
+    EXPECT_EQ(rig.line.output().size(), 4086u);
+    talker.says[200s] = {Bytes(20, 0xEE)};
+    rig.line.run(300s);
+    EXPECT_EQ(rig.line.output().size(), 4096u);
+    EXPECT_EQ(rig.line.output().back(), 0xEE);
+    EXPECT_EQ(rig.line.output()[0], 0);
+  }
+}
+
+TEST(LineHost, AStationThatTalksTooFastStaysBounded) {
+  LineRig rig(kTolerating);
+  FakeTalker talker;
+  rig.line.attach(talker);
+  for (int i = 0; i < 1000; ++i) talker.says[i * 1us] = {Bytes(100, 0x01)};
+  rig.run(1h);
+  EXPECT_GE(rig.out.size(), 4096u);
+  EXPECT_LE(rig.out.size(), 4196u);
+  EXPECT_EQ(rig.out.size() + rig.line.counters().bytes_discarded, 100'000u);
+}
+
+TEST(LineHost, AClosedHostGetsNothingMoreButIsServed) {
+  LineRig rig(kTolerating);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  rig.line.host_opened();
+  rig.send(kRequest, 0s);
+  rig.line.run(6ms);  // the reply is on the wire, its first character is out
+  EXPECT_EQ(rig.line.output().size(), 1u);
+  rig.send(kRequest, 6ms);
+  rig.line.host_closed();
+  EXPECT_TRUE(rig.line.output().empty());
+  rig.line.run(1s);
+  EXPECT_EQ(slave.served_at.size(), 2u);  // what it had written was served
+  EXPECT_TRUE(rig.line.output().empty());
+  rig.line.host_opened();
+  rig.send(kRequest, 1s);
+  rig.run(2s);
+  EXPECT_EQ(rig.out, kReply);
+}
+
+TEST(LineHost, AHostThatWritesAndClosesIsHeardWithItsOwnSettings) {
+  LineRig rig(kEnforcing);
+  FakeSlave slave(1, kReply);
+  rig.line.attach(slave);
+  rig.line.host_opened();
+  rig.line.host_settings(HostSettings{.baud = 19200});
+  rig.send(kRequest, 0s);
+  rig.line.host_closed();
+  rig.run(1s);
+  EXPECT_EQ(slave.served_at.size(), 1u);
+  EXPECT_TRUE(rig.warnings.empty());
+}
+
+}  // namespace
+}  // namespace understudy::pty

@@ -1,0 +1,115 @@
+// Which paths may become a port's link, and what stays of it.
+#include "pty/port_link.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <fstream>
+
+#include "pty/pseudo_terminal.h"
+#include "tests/pty/pty_host.h"
+
+namespace understudy::pty {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string error_of(const std::string& link_path) {
+  try {
+    const PseudoTerminal port(link_path);
+  } catch (const PortError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(PortLink, IsAWorkingPathAndGoesWithThePort) {
+  const ScratchDirectory directory;
+  const std::string link = directory / "feeder.port";
+  {
+    PseudoTerminal port(link);
+    EXPECT_EQ(port.link_path(), link);
+    EXPECT_EQ(fs::read_symlink(link), port.path());
+    Host host(link);
+    EXPECT_TRUE(host.set_even_parity(B19200));
+    EXPECT_TRUE(port.poll_presence().opened);
+  }
+  EXPECT_FALSE(fs::is_symlink(link));
+}
+
+TEST(PortLink, ReplacesStaleLinks) {
+  const ScratchDirectory directory;
+  const std::string link = directory / "feeder.port";
+  // One that dangles, one of a run that was killed, and one whose number is in use again.
+  PseudoTerminal other("");
+  for (const std::string& target : {directory / "nothing", std::string("/dev/pts/99999"), other.path()}) {
+    fs::create_symlink(target, link);
+    const PseudoTerminal port(link);
+    EXPECT_EQ(fs::read_symlink(link), port.path()) << target;
+    EXPECT_EQ(std::distance(fs::directory_iterator(directory / ""), fs::directory_iterator()), 1);
+  }
+}
+
+TEST(PortLink, LeavesWhatIsNotOursAlone) {
+  const ScratchDirectory directory;
+  const std::string expected = ", not a link of ours; expected a free path or a stale link";
+
+  const std::string file = directory / "file";
+  std::ofstream(file) << "precious";
+  EXPECT_EQ(error_of(file), file + ": is a regular file" + expected);
+  EXPECT_EQ(fs::file_size(file), 8u);
+
+  const std::string folder = directory / "folder";
+  fs::create_directory(folder);
+  EXPECT_EQ(error_of(folder), folder + ": is a directory" + expected);
+  EXPECT_TRUE(fs::is_directory(folder));
+
+  const std::string link = directory / "link";
+  fs::create_symlink(file, link);
+  EXPECT_EQ(error_of(link), link + ": is a link to " + file + expected);
+  EXPECT_EQ(fs::read_symlink(link), file);
+
+  const std::string socket = directory / "socket";
+  const Descriptor listener(::socket(AF_UNIX, SOCK_STREAM, 0));
+  sockaddr_un address = {};
+  address.sun_family = AF_UNIX;
+  socket.copy(address.sun_path, sizeof address.sun_path - 1);
+  ASSERT_EQ(::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  EXPECT_EQ(error_of(socket), socket + ": is a socket" + expected);
+  EXPECT_EQ(error_of("/dev/null"), "/dev/null: is a device" + expected);
+}
+
+TEST(PortLink, NamesTheDirectoryThatIsMissing) {
+  const ScratchDirectory directory;
+  EXPECT_EQ(error_of(directory / "no/port"), directory / "no/port" + ": " + directory / "no" +
+                                                 " does not exist; expected an existing directory");
+  std::ofstream(directory / "file") << "x";
+  EXPECT_EQ(error_of(directory / "file/port"), directory / "file/port" + ": " + directory / "file" +
+                                                   " is no directory; expected an existing directory");
+}
+
+TEST(PortLink, IsNotRemovedWhenItHasBecomeAnothers) {
+  const ScratchDirectory directory;
+  const std::string link = directory / "feeder.port";
+  auto first = std::make_unique<PseudoTerminal>(link);
+  const PseudoTerminal second(link);
+  first.reset();
+  EXPECT_EQ(fs::read_symlink(link), second.path());
+}
+
+TEST(PortLink, IsRemovedAlsoFromAnotherWorkingDirectory) {
+  const ScratchDirectory directory;
+  const fs::path before = fs::current_path();
+  fs::current_path(directory / "");
+  {
+    const PseudoTerminal port("feeder.port");
+    EXPECT_EQ(port.link_path(), "feeder.port");
+    fs::current_path(before);
+    EXPECT_TRUE(fs::is_symlink(directory / "feeder.port"));
+  }
+  EXPECT_FALSE(fs::is_symlink(directory / "feeder.port"));
+}
+
+}  // namespace
+}  // namespace understudy::pty
