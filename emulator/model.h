@@ -62,11 +62,11 @@ struct RtuRules {
 /// What makes one device of a model.
 struct DeviceSettings {
   std::string name;
-  Firmware firmware = 0;                       // 0: the model's default
-  int address = 1;                             // its station number
-  int baud = 0;                                // 0: the factory's
-  std::map<std::string, std::string> choices;  // overrides
-  std::map<std::string, Value> set;            // registers given a value at power-up
+  Firmware firmware = 0;                           // 0: the model's default
+  int address = 1;                                 // its station number
+  int baud = 0;                                    // 0: the factory's
+  std::map<std::string, std::string> choices;      // overrides
+  std::vector<std::pair<std::string, Value>> set;  // registers written at power-up, in this order
 };
 
 struct Model {

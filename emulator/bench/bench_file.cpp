@@ -62,7 +62,7 @@ class BenchReader {
     if (fields.has("set")) {
       fields.at("set").demand_map({});
       for (const auto& [register_name, value] : fields.at("set").entries()) {
-        device.settings.set[register_name] = value.integer(INT32_MIN, UINT32_MAX);
+        device.settings.set.emplace_back(register_name, value.integer(INT32_MIN, UINT32_MAX));
       }
     }
     if (fields.has("choices")) {
@@ -292,7 +292,12 @@ class BenchReader {
 
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder) {
   try {
-    const YAML::Node root = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw BenchError(name + ":" + std::to_string(documents[1].Mark().line + 1) +
+                       ": bench: a second document begins here; expected one");
+    }
+    const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
     const YamlFields fields(name, root, "bench");
     if (!root.IsMap())
       throw BenchError(name + ":1: bench: the file is no map; expected `understudy: 1` and `lines:`");

@@ -143,21 +143,21 @@ Json set(Daemon& daemon, const Json& message) {
   World& world = daemon.world();
   const auto wanted = named_values(message);
   std::vector<RegisterName> places;
-  for (const auto& [name, value] : wanted) {
-    places.push_back(find_register(world, name));
-    const RegisterName& place = places.back();
-    // Two bits of one register would be judged one without the other.
-    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-      if (places[i].device == place.device && places[i].place.place.slot == place.place.place.slot) {
+  std::vector<PreparedWrite> writes(wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto& [name, value] = wanted[i];
+    const RegisterName place = find_register(world, name);
+    // Two bits, or halves, of one register would be judged one without the other.
+    for (const RegisterName& other : places) {
+      if (other.device == place.device && other.place.place.slot == place.place.place.slot) {
         throw MessageError(name + ": its register is named twice; expected it once");
       }
     }
-    demand_accepted(check_value(world.device(place.device), place.place, value), name, value,
+    places.push_back(place);
+    demand_accepted(prepare_value(world.device(place.device), place.place, value, writes[i]), name, value,
                     *place.place.place.row);
   }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    write_value(world.device(places[i].device), places[i].place, wanted[i].second);
-  }
+  for (std::size_t i = 0; i < writes.size(); ++i) write_prepared(world.device(places[i].device), writes[i]);
   return Json{{"ok", true}};
 }
 

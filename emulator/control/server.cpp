@@ -60,6 +60,8 @@ void remove_dead_socket(const std::string& path) {
 
 struct ControlServer::Client {
   int descriptor = -1;
+  int awaited = 0;            // replies that are still to come
+  bool has_said_all = false;  // it has closed its side
   std::string input;
   std::string output;
 };
@@ -80,6 +82,8 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
     throw ControlError(path_ + ": cannot be made: " + std::strerror(bound ? errno : error) +
                        "; expected a free path in a folder that can be written");
   }
+  struct stat status {};
+  if (lstat(path_.c_str(), &status) == 0) inode_ = status.st_ino;
   loop_.watch(listener_, EventLoop::readable, [this](std::uint32_t) { accept_clients(); });
 }
 
@@ -87,7 +91,9 @@ ControlServer::~ControlServer() {
   while (!clients_.empty()) drop(clients_.begin()->first);
   loop_.unwatch(listener_);
   close(listener_);
-  unlink(path_.c_str());
+  // Another's socket may stand there by now.
+  struct stat status {};
+  if (lstat(path_.c_str(), &status) == 0 && status.st_ino == inode_) unlink(path_.c_str());
 }
 
 void ControlServer::accept_clients() {
@@ -113,13 +119,21 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   std::array<char, 4096> bytes;
   const ssize_t count = recv(descriptor, bytes.data(), bytes.size(), 0);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  if (count <= 0) return drop(descriptor);
+  if (count < 0) return drop(descriptor);
+  if (count == 0) {
+    // It may still be waiting for a reply.
+    if (client->awaited == 0 && client->output.empty()) return drop(descriptor);
+    client->has_said_all = true;
+    write_out(*client);
+    return;
+  }
   client->input.append(bytes.data(), static_cast<std::size_t>(count));
 
   std::size_t end = 0;
   while (client->descriptor >= 0 && (end = client->input.find('\n')) != std::string::npos) {
     const std::string line = client->input.substr(0, end);
     client->input.erase(0, end + 1);
+    ++client->awaited;
     handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
       if (const auto alive = weak.lock()) send(alive, reply);
     });
@@ -132,11 +146,12 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (client->descriptor < 0) return;
+  --client->awaited;
   client->output += line + "\n";
   if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
 }
 
-/// False if the client is gone.
+/// False if there is nothing more to do for the client.
 bool ControlServer::write_out(Client& client) {
   while (!client.output.empty()) {
     const ssize_t count = ::send(client.descriptor, client.output.data(), client.output.size(), MSG_NOSIGNAL);
@@ -147,8 +162,10 @@ bool ControlServer::write_out(Client& client) {
     }
     client.output.erase(0, static_cast<std::size_t>(count));
   }
-  const std::uint32_t more = client.output.empty() ? 0U : EventLoop::writable;
-  loop_.change_interest(client.descriptor, EventLoop::readable | more);
+  if (client.has_said_all && client.output.empty() && client.awaited == 0) return false;
+  const std::uint32_t read = client.has_said_all ? 0U : EventLoop::readable;
+  const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
+  loop_.change_interest(client.descriptor, read | write);
   return true;
 }
 

@@ -42,6 +42,7 @@ class ControlServer {
   std::string path_;
   Handler handler_;
   int listener_ = -1;
+  std::uint64_t inode_ = 0;  // of our socket
   std::map<int, std::shared_ptr<Client>> clients_;
 };
 

@@ -133,14 +133,7 @@ void carry_out(Device& device, Changes& changes) {
   device.registers_written();
 }
 
-/// A value for a named place as the words that bring it.
-struct Words {
-  std::uint16_t first = 0;  // address
-  std::array<std::uint16_t, 2> words{};
-  std::size_t count = 0;
-};
-
-Refusal words_for(const Device& device, const NamedPlace& named, Value value, Words& out) {
+Refusal words_for(const Device& device, const NamedPlace& named, Value value, PreparedWrite& out) {
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
@@ -161,11 +154,11 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Wo
   const auto high = static_cast<std::uint16_t>(bits >> 16);
   const bool low_first = device.low_word_first();
   if (whole_32) {
-    out = {place.address(), {low_first ? low : high, low_first ? high : low}, 2};
+    out = {row.table, place.address(), {low_first ? low : high, low_first ? high : low}, 2};
   } else {
     const bool second_word =
         place.part != Place::Part::whole && (place.part == Place::Part::high) == low_first;
-    out = {static_cast<std::uint16_t>(place.address() + (second_word ? 1 : 0)), {low, 0}, 1};
+    out = {row.table, static_cast<std::uint16_t>(place.address() + (second_word ? 1 : 0)), {low, 0}, 1};
   }
   return Refusal::none;
 }
@@ -212,22 +205,22 @@ Value read_value(const Device& device, const NamedPlace& place) {
   return place.bit < 0 ? value : (value >> place.bit) & 1;
 }
 
-Refusal check_value(const Device& device, const NamedPlace& place, Value value) {
+Refusal prepare_value(const Device& device, const NamedPlace& place, Value value, PreparedWrite& write) {
   if (place.place.row->access == Access::read) return Refusal::no_register;
-  Words words;
-  if (const Refusal refusal = words_for(device, place, value, words); refusal != Refusal::none)
+  if (const Refusal refusal = words_for(device, place, value, write); refusal != Refusal::none)
     return refusal;
   Changes changes;
-  return gather(device, place.place.row->table, words.first, std::span(words.words).first(words.count),
-                changes);
+  return gather(device, write.table, write.first, std::span(write.words).first(write.count), changes);
+}
+
+Refusal write_prepared(Device& device, const PreparedWrite& write) {
+  return write_words(device, write.table, write.first, std::span(write.words).first(write.count));
 }
 
 Refusal write_value(Device& device, const NamedPlace& place, Value value) {
-  if (place.place.row->access == Access::read) return Refusal::no_register;
-  Words words;
-  if (const Refusal refusal = words_for(device, place, value, words); refusal != Refusal::none)
-    return refusal;
-  return write_words(device, place.place.row->table, words.first, std::span(words.words).first(words.count));
+  PreparedWrite write;
+  const Refusal refusal = prepare_value(device, place, value, write);
+  return refusal == Refusal::none ? write_prepared(device, write) : refusal;
 }
 
 }  // namespace understudy::emulator

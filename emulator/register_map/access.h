@@ -3,6 +3,7 @@
 // changes nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -26,9 +27,19 @@ Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<
 Value read_value(const Device& device, const Place& place);
 Value read_value(const Device& device, const NamedPlace& place);
 
-/// As a write from the wire: same checks, same effects. A bit is written by reading its register first.
-/// check_value() only judges.
-Refusal check_value(const Device& device, const NamedPlace& place, Value value);
+/// A value for a named place, as the words that bring it.
+struct PreparedWrite {
+  Table table = Table::holding;
+  std::uint16_t first = 0;
+  std::array<std::uint16_t, 2> words{};
+  std::size_t count = 0;
+};
+
+/// Judges a write as one from the wire, and makes the words for it; those will not be refused, whatever is
+/// written before them. A bit is written by way of its register, as it is at this moment.
+Refusal prepare_value(const Device& device, const NamedPlace& place, Value value, PreparedWrite& write);
+Refusal write_prepared(Device& device, const PreparedWrite& write);
+/// Both at once.
 Refusal write_value(Device& device, const NamedPlace& place, Value value);
 
 }  // namespace understudy::emulator

@@ -20,7 +20,7 @@ struct Given {
   Firmware firmware = 152;
   int address = 1;
   std::map<std::string, std::string> choices{};
-  std::map<std::string, Value> set{};
+  std::vector<std::pair<std::string, Value>> set{};
   std::map<int, PlantSetup> plant{};  // by axis
 };
 

@@ -1,0 +1,83 @@
+// A daemon of two controllers whose clock stands, in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/control/messages.h"
+#include "emulator/edge/daemon.h"
+
+namespace understudy::emulator {
+
+using Json = nlohmann::json;
+
+/// A new folder below /tmp that goes with its owner.
+struct PrivateFolder {
+  PrivateFolder() { EXPECT_NE(mkdtemp(path.data()), nullptr); }
+  ~PrivateFolder() { std::filesystem::remove_all(path); }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  std::string path = "/tmp/understudy-test-XXXXXX";
+};
+
+struct DaemonRig {
+  explicit DaemonRig(Speed speed = {.kind = Speed::Kind::manual})
+      : bench(parse_bench("understudy: 1\n"
+                          "lines:\n"
+                          "  rs485:\n"
+                          "    link: ./feeder.port\n"
+                          "    stations:\n"
+                          "      - { name: feeder, model: simple2-r3 }\n"
+                          "      - { name: turner, model: simple2-r3, address: 2, firmware: 1.40 }\n"
+                          "wires: [ feeder.DOUT_4 -> turner.DIN_10 ]\n",
+                          "bench.yaml", folder.path)),
+        daemon(bench, options(speed), [this](const std::string& line) { log.push_back(line); }) {}
+
+  DaemonOptions options(Speed speed) const {
+    DaemonOptions made;
+    made.speed = speed;
+    made.control_path = folder.path + "/control";
+    return made;
+  }
+
+  /// The reply as it comes; empty if none has come yet.
+  std::string reply_to(const std::string& message) {
+    std::string reply;
+    handle_message(daemon, message, [&](const std::string& line) {
+      EXPECT_EQ(reply, "") << "two replies to " << message;
+      reply = line;
+    });
+    EXPECT_EQ(reply.find('\n'), std::string::npos) << "a reply is one line: " << reply;
+    return reply;
+  }
+
+  Json ask(const std::string& message) { return Json::parse(reply_to(message)); }
+
+  std::int64_t value(const std::string& name) {
+    return ask(Json{{"do", "get"}, {"names", {name}}}.dump())["values"][name].get<std::int64_t>();
+  }
+
+  /// Whether both devices are as they were made.
+  bool is_untouched() {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto fresh = make_device(*bench.devices[i].model, bench.devices[i].settings);
+      if (!daemon.world().device(i).same_state(*fresh)) return false;
+      for (int terminal = 0; terminal < 11; ++terminal) {
+        if (daemon.world().device(i).input(terminal)) return false;
+      }
+    }
+    return daemon.world().now() == SimTime{0};
+  }
+
+  PrivateFolder folder;
+  std::vector<std::string> log;
+  Bench bench;
+  Daemon daemon;
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,110 @@
+// A daemon that runs, spoken to through its socket: time moves only when it is told to.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "tests/emulator/control/daemon_rig.h"
+
+namespace understudy::emulator {
+namespace {
+
+/// The daemon's loop in a thread of its own, until the end of the test.
+struct Running {
+  explicit Running(Speed speed = {.kind = Speed::Kind::manual})
+      : rig(speed), thread([this] { rig.daemon.run(); }) {}
+  ~Running() {
+    // It takes its signals from a descriptor; they are blocked in every thread.
+    kill(getpid(), SIGTERM);
+    thread.join();
+    sigset_t term;
+    sigemptyset(&term);
+    sigaddset(&term, SIGTERM);
+    const timespec now{};
+    sigtimedwait(&term, nullptr, &now);  // it may still be pending
+  }
+  Json ask(const std::string& message) {
+    return Json::parse(ask_control(rig.folder.path + "/control", message));
+  }
+  std::int64_t get(const std::string& name) {
+    return ask(Json{{"do", "get"}, {"names", {name}}}.dump())["values"][name].get<std::int64_t>();
+  }
+
+  DaemonRig rig;
+  std::thread thread;
+};
+
+TEST(RunningDaemon, AnAdvanceEndsExactlyWhereItWasToEnd) {
+  Running daemon;
+  std::int64_t time = 0;
+  for (const auto& [by, ns] : std::vector<std::pair<std::string, std::int64_t>>{{"1ns", 1},
+                                                                                {"999999ns", 999'999},
+                                                                                {"0s", 0},
+                                                                                {"250ms", 250'000'000},
+                                                                                {"3h", 10'800'000'000'000}}) {
+    time += ns;
+    EXPECT_EQ(daemon.ask(R"({"do":"advance","by":")" + by + "\"}"),
+              (Json{{"ok", true}, {"simulated_time_ns", time}}));
+    EXPECT_EQ(daemon.ask(R"({"do":"status"})")["status"]["simulated_time_ns"], time);
+  }
+}
+
+TEST(RunningDaemon, AMoveTakesTheTimeThatTheManualComputes) {
+  // 32000 pulses at 200 rpm of 3200 pulses, 50 ms ramps: 3.05 s (appendix A).
+  Running daemon;
+  EXPECT_EQ(daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":32000,)"
+                       R"("feeder.Aaxis_Speed":200,"feeder.Aaxis_AccTime":5,"feeder.Aaxis_DecTime":5,)"
+                       R"("feeder.Aaxis_Move_INC":1}})")["ok"],
+            true);
+  daemon.ask(R"({"do":"advance","by":"3048ms"})");
+  EXPECT_EQ(daemon.get("feeder.STATUS.4"), 1);
+  daemon.ask(R"({"do":"advance","by":"4ms"})");
+  EXPECT_EQ(daemon.get("feeder.STATUS.4"), 0);
+  EXPECT_EQ(daemon.get("feeder.Cord_A"), 32000);
+  EXPECT_EQ(daemon.ask(R"({"do":"status"})")["status"]["devices"][0]["machines"]["A"]["position_pulses"],
+            32000);
+}
+
+TEST(RunningDaemon, AWireCarriesAnOutputToAnInputOneTickLater) {
+  Running daemon;
+  daemon.ask(R"({"do":"set","values":{"feeder.DOUT_4":1}})");
+  EXPECT_EQ(daemon.get("turner.DIN_10"), 0);
+  daemon.ask(R"({"do":"advance","by":"3ms"})");
+  EXPECT_EQ(daemon.get("turner.DIN_10"), 1);
+  daemon.ask(R"({"do":"set","values":{"feeder.DOUT_4":0}})");
+  daemon.ask(R"({"do":"advance","by":"3ms"})");
+  EXPECT_EQ(daemon.get("turner.DIN_10"), 0);
+}
+
+TEST(RunningDaemon, BadMessagesDoNotStopIt) {
+  Running daemon;
+  for (const std::string message :
+       {"", "{", "null", "\xFF", R"({"do":"set","values":{"x":1}})", R"({"do":5})"}) {
+    EXPECT_EQ(daemon.ask(message)["ok"], false) << message;
+  }
+  EXPECT_EQ(daemon.ask(R"({"do":"status"})")["ok"], true);
+}
+
+TEST(RunningDaemon, RealTimePassesByItselfUnlessPaused) {
+  Running daemon(Speed{.factor = 100});
+  const auto now = [&] {
+    return daemon.ask(R"({"do":"status"})")["status"]["simulated_time_ns"].get<std::int64_t>();
+  };
+  const std::int64_t first = now();
+  const timespec pause{.tv_sec = 0, .tv_nsec = 2'000'000};
+  nanosleep(&pause, nullptr);
+  EXPECT_GE(now(), first + 200'000'000);
+  daemon.ask(R"({"do":"pause"})");
+  const std::int64_t paused = now();
+  nanosleep(&pause, nullptr);
+  EXPECT_EQ(now(), paused);
+  EXPECT_EQ(daemon.ask(R"({"do":"advance","by":"5ms"})")["simulated_time_ns"], paused + 5'000'000);
+  daemon.ask(R"({"do":"resume"})");
+  nanosleep(&pause, nullptr);
+  EXPECT_GT(now(), paused + 5'000'000);
+}
+
+}  // namespace
+}  // namespace understudy::emulator

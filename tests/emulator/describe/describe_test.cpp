@@ -1,0 +1,156 @@
+// What `describe` says, against the manual's facts. The columns are promised to scripts.
+#include "emulator/describe/describe.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/emulator/register_map/register_facts.h"
+
+namespace understudy::emulator {
+namespace {
+
+const Model& simple2() { return *find_model("simple2-r3"); }
+
+std::string described(std::string_view what, SheetFormat format) {
+  const auto sheet = describe(simple2(), what, format);
+  EXPECT_TRUE(sheet) << what;
+  return sheet ? format_sheet(*sheet, format) : "";
+}
+
+/// A described sheet as a script reads it: the header, and rows by column.
+struct Csv {
+  explicit Csv(std::string_view what) {
+    std::istringstream text(described(what, SheetFormat::csv));
+    std::getline(text, header);
+    const auto columns = csv_cells(header);
+    for (std::string line; std::getline(text, line);) {
+      const auto cells = csv_cells(line);
+      EXPECT_EQ(cells.size(), columns.size()) << line;
+      Fact& row = rows.emplace_back();
+      for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = cells[i];
+    }
+  }
+  std::string header;
+  std::vector<Fact> rows;
+};
+
+TEST(Describe, TheColumnsOfCsvAreThoseThatScriptsRelyOn) {
+  EXPECT_EQ(Csv("registers").header,
+            "table,address,name,access,width,signed,min,max,unit,persistent,default");
+  EXPECT_EQ(Csv("parameters").header, "number,name,address,width,persistent");
+  EXPECT_EQ(Csv("instructions").header, "opcode,mnemonic,data1,data2");
+  EXPECT_EQ(Csv("commands").header, "command,syntax,meaning");
+}
+
+TEST(Describe, OtherWordsAreNotDescribed) {
+  for (const char* what : {"", "register", "Registers", "coils"}) {
+    EXPECT_FALSE(describe(simple2(), what, SheetFormat::csv)) << what;
+  }
+}
+
+TEST(Describe, RegistersAreTheManualsOneRowAQuantity) {
+  std::map<std::string, Fact> rows;
+  for (const Fact& row : Csv("registers").rows) {
+    EXPECT_TRUE(rows.emplace(row.at("address"), row).second) << row.at("address") << " is there twice";
+  }
+  const auto facts = simple2_r3_registers();
+  std::size_t quantities = 0;
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    const RegisterFact& fact = facts[i];
+    if (fact.half == 'H') continue;
+    ++quantities;
+    char address[8];
+    std::snprintf(address, sizeof(address), "0x%04X", fact.address);
+    ASSERT_TRUE(rows.contains(address)) << address;
+    const Fact& row = rows.at(address);
+    const auto number = [](const std::optional<Value>& value) { return value ? std::to_string(*value) : ""; };
+    const std::string name = fact.address == 0xF02A ? fact.other_name : without_half(fact.name);
+    EXPECT_EQ(row.at("table"), "holding") << address;
+    EXPECT_EQ(row.at("name"), fact.is_32_bit || fact.address == 0xF02A ? name : fact.name) << address;
+    EXPECT_EQ(row.at("access"), !fact.writable ? "R" : fact.readable ? "R/W" : "W") << address;
+    EXPECT_EQ(row.at("width"), fact.is_32_bit ? "32" : "16") << address;
+    EXPECT_EQ(row.at("signed"), fact.is_signed ? "1" : "0") << address;
+    EXPECT_EQ(row.at("min"), number(fact.min)) << address;
+    EXPECT_EQ(row.at("max"), number(fact.max)) << address;
+    EXPECT_EQ(row.at("unit"), fact.unit) << address;
+    EXPECT_EQ(row.at("persistent"), fact.persistent ? "1" : "0") << address;
+    const std::uint32_t high = fact.is_32_bit ? facts[i + 1].factory_word : 0;
+    EXPECT_EQ(row.at("default"), std::to_string(high << 16 | fact.factory_word)) << address;
+  }
+  EXPECT_EQ(rows.size(), quantities);
+}
+
+TEST(Describe, ParametersAreTheManuals) {
+  std::map<std::string, Fact> rows;
+  for (const Fact& row : Csv("parameters").rows) EXPECT_TRUE(rows.emplace(row.at("number"), row).second);
+  const auto facts = read_facts(TEST_FACTS "/register_map/simple2_r3_parameters.csv");
+  EXPECT_EQ(rows.size(), facts.size());
+  for (const Fact& fact : facts) {
+    ASSERT_TRUE(rows.contains(fact.at("number"))) << fact.at("number");
+    const Fact& row = rows.at(fact.at("number"));
+    EXPECT_EQ(row.at("address"), fact.at("address")) << fact.at("number");
+    EXPECT_EQ(row.at("width"), fact.at("width")) << fact.at("number");
+    EXPECT_EQ(row.at("persistent"), fact.at("persistent")) << fact.at("number");
+  }
+}
+
+TEST(Describe, InstructionsAreTheManuals) {
+  const auto facts = read_facts(PROJECT_FOLDER "/tests/interpreter/simple2/instructions.csv");
+  const Csv csv("instructions");
+  ASSERT_EQ(csv.rows.size(), facts.size());
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    EXPECT_EQ(csv.rows[i].at("opcode"), facts[i].at("opcode"));
+    EXPECT_EQ(csv.rows[i].at("mnemonic"), facts[i].at("mnemonic"));
+  }
+}
+
+TEST(Describe, EveryChoiceIsListedWithWhatWasChosen) {
+  const Csv csv("choices");
+  ASSERT_EQ(csv.rows.size(), simple2().choices.size());
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const ChoiceRow& choice = simple2().choices[i];
+    EXPECT_EQ(csv.rows[i].at("id"), choice.id);
+    const std::string& alternatives = csv.rows[i].at("alternatives");
+    EXPECT_EQ(csv.rows[i].at("chosen") + (alternatives.empty() ? "" : "|") + alternatives, choice.options);
+  }
+}
+
+TEST(Describe, JsonSaysTheSameAsCsv) {
+  for (const char* what : {"registers", "parameters", "instructions", "choices", "commands"}) {
+    const Csv csv(what);
+    const auto json = nlohmann::json::parse(described(what, SheetFormat::json));
+    ASSERT_EQ(json.size(), csv.rows.size()) << what;
+    for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+      for (const auto& [column, cell] : csv.rows[i]) {
+        const auto& value = json[i].at(column);
+        EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(), cell) << what << " " << column;
+      }
+    }
+  }
+  const auto registers = nlohmann::json::parse(described("registers", SheetFormat::json));
+  EXPECT_EQ(registers[1]["default"], 49153) << "HW_Code";
+  EXPECT_TRUE(registers[0]["address"].is_string());
+}
+
+TEST(Describe, MarkdownAndTableHaveALineForEachRow) {
+  for (const char* what : {"registers", "parameters", "instructions", "choices"}) {
+    const auto lines = [&](SheetFormat format) {
+      const std::string text = described(what, format);
+      return std::count(text.begin(), text.end(), '\n');
+    };
+    const auto rows = static_cast<std::ptrdiff_t>(Csv(what).rows.size());
+    EXPECT_EQ(lines(SheetFormat::markdown), rows + 2) << what;
+    EXPECT_EQ(lines(SheetFormat::table), rows + 1) << what;
+  }
+}
+
+TEST(Describe, TheTableForPeopleTellsWhatIsNotModelled) {
+  const std::string table = described("registers", SheetFormat::table);
+  EXPECT_NE(table.substr(0, table.find('\n')).find("not modelled"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace understudy::emulator

@@ -1,0 +1,184 @@
+// What may come over the wire: anything. One controller on one line hears lumps of bytes, and whatever they
+// are, what it says is well-formed and what was not meant for it leaves it as it was.
+//
+// An input is one byte of options, then lumps. A lump is: a byte of gap (how long the line was quiet), a byte
+// of length, its bytes. With the length's top bit a right checksum is put behind the bytes, so that the
+// search gets past it.
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "emulator/bench/bench.h"
+#include "emulator/world/world.h"
+#include "pty/rtu_crc.h"
+
+namespace {
+
+using namespace understudy;
+using emulator::SimTime;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kMostLumps = 32;  // so that a run has an end
+constexpr SimTime kAfterwards = 2s;     // for what is still on the wire
+
+void demand(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "violated: %s\n", what);
+  std::abort();
+}
+
+struct Lump {
+  SimTime gap{0};
+  std::vector<std::uint8_t> bytes;
+};
+
+struct Input {
+  pty::Timing timing = pty::Timing::wire;
+  bool strict_framing = false;
+  int rotary_switch = 1;
+  int other_switch = 15;  // of a controller that hears the same
+  bool alternative_choices = false;
+  std::vector<Lump> lumps;
+};
+
+SimTime gap_of(std::uint8_t code) {
+  constexpr SimTime kSteps[] = {10us, 150us, 2ms, 20ms};
+  return kSteps[code >> 6] * (code & 0x3F);
+}
+
+Input read_input(std::span<const std::uint8_t> data) {
+  Input input;
+  if (data.empty()) return input;
+  input.timing = (data[0] & 1) != 0 ? pty::Timing::instant : pty::Timing::wire;
+  input.strict_framing = (data[0] & 2) != 0;
+  input.rotary_switch = (data[0] & 4) != 0 ? 0 : 1;
+  input.alternative_choices = (data[0] & 8) != 0;
+  data = data.subspan(1);
+  while (data.size() >= 2 && input.lumps.size() < kMostLumps) {
+    Lump& lump = input.lumps.emplace_back();
+    lump.gap = gap_of(data[0]);
+    const bool has_checksum = (data[1] & 0x80) != 0;
+    const std::size_t length = std::min<std::size_t>(data[1] & 0x7F, data.size() - 2);
+    lump.bytes.assign(data.begin() + 2, data.begin() + 2 + static_cast<std::ptrdiff_t>(length));
+    if (has_checksum) pty::append_rtu_crc(lump.bytes);
+    data = data.subspan(2 + length);
+  }
+  return input;
+}
+
+/// One controller in a world of its own, with what it has said.
+class Listener {
+ public:
+  Listener(const Input& input, int rotary_switch)
+      : world_(bench_for(input, rotary_switch), options_for(input), {}) {}
+
+  void set_bulk_ticks(bool on) { world_.set_bulk_ticks(on); }
+
+  void hear(const Lump& lump) {
+    advance(lump.gap);
+    line().receive(lump.bytes, world_.now());
+    advance(0ns);
+  }
+  void advance(SimTime duration) {
+    world_.advance_to(world_.now() + duration);
+    const auto due = world_.next_due();
+    demand(!due || *due > world_.now(), "what is due has been done");
+    const auto output = line().output();
+    said_.insert(said_.end(), output.begin(), output.end());
+    line().take_output(output.size());
+  }
+
+  pty::Line& line() { return world_.line(0).line; }
+  const emulator::Device& device() { return world_.device(0); }
+  const emulator::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
+  SimTime now() const { return world_.now(); }
+  const std::vector<std::uint8_t>& said() const { return said_; }
+
+ private:
+  static emulator::Bench bench_for(const Input& input, int rotary_switch) {
+    emulator::Bench bench;
+    emulator::DeviceSetup device{.model = emulator::find_model("simple2-r3"), .settings = {}};
+    device.settings.name = "device";
+    device.settings.address = rotary_switch;
+    device.settings.baud = 115200;
+    if (input.alternative_choices) {
+      device.settings.choices = {{"station_0_request", "ignored"}, {"switch_0_broadcast", "silent"}};
+    }
+    bench.devices.push_back(device);
+    bench.lines.push_back(
+        {.name = "line", .link = {}, .baud = 115200, .timing = input.timing, .stations = {0}});
+    return bench;
+  }
+  static emulator::WorldOptions options_for(const Input& input) {
+    return {.strict_framing = input.strict_framing, .enforce_settings = false};
+  }
+
+  emulator::World world_;
+  std::vector<std::uint8_t> said_;
+};
+
+/// How long the reply is whose beginning is here; nothing if it is none.
+std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
+  if (said.size() < 5) return std::nullopt;
+  if ((said[1] & 0x80) != 0) return 5;
+  switch (said[1]) {
+    case 0x03:
+    case 0x04: return 5U + said[2];
+    case 0x06:
+    case 0x10: return 8;
+    default: return std::nullopt;
+  }
+}
+
+void check_replies(Listener& listener, int rotary_switch) {
+  if (listener.line().counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
+  std::span<const std::uint8_t> said = listener.said();
+  std::uint64_t replies = 0;
+  std::uint64_t exceptions = 0;
+  while (!said.empty()) {
+    const auto size = reply_size(said);
+    demand(size && *size <= said.size(), "replies are whole frames");
+    demand(*size <= 256, "a reply is no longer than 256 bytes");
+    demand(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
+    demand(rotary_switch == 0 || said[0] == rotary_switch, "a station gives its own number");
+    if ((said[1] & 0x80) != 0) {
+      ++exceptions;
+      demand(said[2] >= 1 && said[2] <= 3, "there are three exceptions");
+    }
+    ++replies;
+    said = said.subspan(*size);
+  }
+  demand(replies == listener.counters().replies, "every reply leaves");
+  demand(exceptions == listener.counters().exceptions, "exceptions are counted");
+  demand(replies <= listener.counters().requests, "nothing is said without a request");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Input input = read_input({data, size});
+  Listener listener(input, input.rotary_switch);
+  Listener stepped(input, input.rotary_switch);  // the same, every tick run one by one
+  Listener other(input, input.other_switch);     // hears the same, is meant by little of it
+  Listener untouched(input, input.other_switch);
+  stepped.set_bulk_ticks(false);
+  for (const Lump& lump : input.lumps) {
+    for (Listener* each : {&listener, &stepped, &other}) each->hear(lump);
+  }
+  for (Listener* each : {&listener, &stepped, &other}) each->advance(kAfterwards);
+  untouched.advance(other.now());
+
+  check_replies(listener, input.rotary_switch);
+  check_replies(other, input.other_switch);
+  demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  demand(stepped.device().same_state(listener.device()), "ticks left out leave the same state");
+  if (other.counters().requests == 0) {
+    demand(other.device().same_state(untouched.device()), "frames for others change nothing");
+    demand(other.said().empty(), "frames for others are not answered");
+  }
+  return 0;
+}
