@@ -17,6 +17,8 @@ namespace {
 // Free running and long advances look up from their work this often (wall time), so that ports and the
 // control socket are served meanwhile.
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
+// The kernel tells that a host closes a moment before it has; so much later it has.
+constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 // What they do before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
@@ -131,11 +133,21 @@ std::optional<WallTime> Daemon::next_wake() const {
   return due ? pacer_.wall_time_of(*due) : std::nullopt;
 }
 
+void Daemon::wait_until(std::optional<WallTime> planned) {
+  const auto in_doubt = [](const std::unique_ptr<Port>& port) { return port->wants_another_look(); };
+  if (std::none_of(ports_.begin(), ports_.end(), in_doubt)) return loop_.wait(planned);
+  const WallTime look = wall_now() + kSecondLook;
+  loop_.wait(planned ? std::min(*planned, look) : look);
+  for (const auto& port : ports_) {
+    if (in_doubt(port)) port->look_again();
+  }
+}
+
 void Daemon::run() {
   pacer_.moved_to(world_.now(), wall_now());  // opening the ports took no simulated time
   while (!stopping_) {
     const std::optional<WallTime> planned = next_wake();
-    loop_.wait(planned);
+    wait_until(planned);
     if (stopping_) break;
     if (advance_done_) {
       work_on_advance();

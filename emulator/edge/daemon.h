@@ -53,6 +53,7 @@ class Daemon {
   void make_ports(const Bench& bench);
   void work_on_advance();
   std::optional<WallTime> next_wake() const;
+  void wait_until(std::optional<WallTime> planned);
 
   EventLoop loop_;
   std::function<void(const std::string&)> log_;

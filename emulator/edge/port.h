@@ -24,6 +24,9 @@ class Port {
 
   /// Hands over what the wire has brought, and takes bytes again where the line has room.
   void flush();
+  /// Whether a host has gone cannot be told yet: look again in a few milliseconds.
+  bool wants_another_look() const { return terminal_.is_in_doubt(); }
+  void look_again() { on_presence({}); }
 
   const pty::PseudoTerminal& terminal() const { return terminal_; }
   std::size_t line_number() const { return line_number_; }
