@@ -11,9 +11,9 @@ Device::Device(const Model& model, DeviceSettings settings)
 
 void Device::mention_unmodelled(const RegisterRow& row) const {
   const auto number = static_cast<std::size_t>(&row - registers().rows().data());
-  if (mentioned_[number]) return;
+  if (mentioned_[number] || !log_) return;
   mentioned_[number] = true;
-  if (log_) log_(name() + ": " + std::string(row.name) + " is not modelled: " + std::string(row.unmodelled));
+  log_(name() + ": " + std::string(row.name) + " is not modelled: " + std::string(row.unmodelled));
 }
 
 std::string range_text(const RegisterRow& row) {

@@ -31,11 +31,6 @@ Firmware parse_firmware(std::string_view text) {
   return static_cast<Firmware>(hundredths);
 }
 
-std::string format_firmware(Firmware firmware) {
-  const std::string digits = std::to_string(1000 + firmware % 1000).substr(1);
-  return digits.substr(0, 1) + "." + digits.substr(1);
-}
-
 namespace {
 
 template <typename Items, typename Format>
@@ -49,9 +44,9 @@ void check(const Model& model, const DeviceSettings& settings) {
   const auto& firmwares = model.firmwares;
   if (settings.firmware != 0 &&
       std::find(firmwares.begin(), firmwares.end(), settings.firmware) == firmwares.end()) {
-    throw SettingError("firmware", "'" + format_firmware(settings.firmware) + "' is unknown for " +
+    throw SettingError("firmware", "'" + version_text(settings.firmware) + "' is unknown for " +
                                        std::string(model.name) + "; expected one of " +
-                                       list_of(firmwares, format_firmware));
+                                       list_of(firmwares, version_text));
   }
   if (settings.address < model.rtu.lowest_address || settings.address > model.rtu.highest_address) {
     throw SettingError("address", std::to_string(settings.address) + " is no station number of " +
@@ -69,7 +64,8 @@ void check(const Model& model, const DeviceSettings& settings) {
 
 }  // namespace
 
-std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given) {
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
+                                    std::function<void(const std::string&)> log) {
   check(model, given);
   DeviceSettings settings = given;
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
@@ -81,11 +77,11 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   } catch (const ChoiceError& error) {
     throw SettingError("choices", error.what());
   }
+  device->set_log(std::move(log));
   for (const auto& [name, value] : settings.set) {
     const auto place = model.registers.find(name, settings.firmware);
     if (!place) {
-      throw SettingError("set", "no register is called '" + name + "'; the nearest is '" +
-                                    model.registers.nearest_name(name) + "'");
+      throw SettingError("set", model.registers.why_not(name, settings.firmware));
     }
     switch (write_value(*device, *place, value)) {
       case Refusal::none: break;

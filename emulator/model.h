@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -79,6 +80,7 @@ struct Model {
   std::span<const ChoiceRow> choices;
   std::span<const TerminalRow> terminals;
   std::span<const AxisRow> axes;
+  std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   RtuRules rtu;
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
@@ -97,11 +99,11 @@ struct SettingError : std::runtime_error {
 };
 
 /// Checks the settings against the model, makes the device and gives the registers of `set` their
-/// values. Throws SettingError.
-std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& settings);
+/// values. Throws SettingError. `log` gets what the device has to tell, from its settings on.
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& settings,
+                                    std::function<void(const std::string&)> log = {});
 
 /// "1.52" as 152; 0 if it is not a version.
 Firmware parse_firmware(std::string_view text);
-std::string format_firmware(Firmware firmware);
 
 }  // namespace understudy::emulator

@@ -22,4 +22,9 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 80;
+  return "'" + one_line(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "") + "'";
+}
+
 }  // namespace understudy::emulator

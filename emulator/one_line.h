@@ -9,4 +9,7 @@ namespace understudy::emulator {
 /// can neither break a message in two nor reach the terminal.
 std::string one_line(std::string_view text);
 
+/// The same for something that is quoted, cut if it is long.
+std::string quoted(std::string_view text);
+
 }  // namespace understudy::emulator

@@ -18,6 +18,8 @@ inline constexpr SimTime kTickLength = std::chrono::milliseconds(1);
 /// "There is nothing to wait for."
 inline constexpr Tick kNever = INT64_MAX;
 inline constexpr SimTime kForever = SimTime::max();
+/// Where simulated time ends: a century after power-up, far from what its count can hold.
+inline constexpr SimTime kHorizon = std::chrono::hours(24 * 365 * 100);
 
 constexpr SimTime time_of(Tick tick) { return tick == kNever ? kForever : tick * kTickLength; }
 /// The last tick that is not later than `time`.

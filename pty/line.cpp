@@ -10,7 +10,12 @@ namespace understudy::pty {
 class Line::Voice final : public Transmitter {
  public:
   Voice(Line& line, std::size_t member) : line_(line), member_(member) {}
-  void transmit(std::span<const std::uint8_t> bytes) override { line_.say(member_, bytes); }
+  void transmit(std::span<const std::uint8_t> bytes) override {
+    line_.say(member_, bytes, line_.is_host_open_);
+  }
+  void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) override {
+    line_.say(member_, bytes, line_.is_host_open_ && last_character > line_.last_departed_);
+  }
 
  private:
   Line& line_;
@@ -30,16 +35,26 @@ void Line::attach(Station& station) { members_.emplace_back().station = &station
 
 std::size_t Line::room() const { return kInputCapacity - input_count_; }
 
-void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) {
+void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) { take(bytes, now, !is_host_open_); }
+
+void Line::receive_departed(std::span<const std::uint8_t> bytes, SimTime now) { take(bytes, now, true); }
+
+void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed) {
   bytes = bytes.first(std::min(bytes.size(), room()));
   counters_.bytes_in += bytes.size();
   const bool was_idle = input_count_ == 0;
   for (const std::uint8_t value : bytes) {
     input_[(input_first_ + input_count_) % kInputCapacity] = place(arriving_, value, now);
+    input_[(input_first_ + input_count_) % kInputCapacity].number = ++last_received_;
     ++input_count_;
   }
-  if (!is_host_open_) departed_count_ = input_count_;
+  if (is_departed) last_departed_ = last_received_;
   if (was_idle && !bytes.empty()) begin_character(input_[input_first_].start);
+}
+
+void Line::nothing_more(SimTime now) {
+  for (const Member& member : members_) member.station->hear_nothing_more();
+  run(now);
 }
 
 void Line::host_opened() {
@@ -53,8 +68,7 @@ void Line::host_settings(std::optional<HostSettings> settings) { host_settings_ 
 void Line::host_closed() {
   is_host_open_ = false;
   departed_settings_ = host_settings_;
-  departed_count_ = input_count_;
-  answers_departed_until_ = last_due_station();
+  last_departed_ = last_received_;
   leaving_.clear();
   leaving_first_ = 0;
   output_.clear();
@@ -143,7 +157,7 @@ TimedByte Line::place(Burst& burst, std::uint8_t value, SimTime now) const {
 
 /// A start bit: decides who hears the character that follows.
 void Line::begin_character(SimTime at) {
-  const bool is_departed = departed_count_ > 0;
+  const bool is_departed = input_[input_first_].number <= last_departed_;
   const std::optional<HostSettings>& settings = is_departed ? departed_settings_ : host_settings_;
   const bool is_speed_known = options_.enforce_settings && settings;
   if (options_.enforce_settings && !settings && !is_departed && !members_.empty()) {
@@ -175,26 +189,7 @@ void Line::deliver_character() {
   for (const Member& member : members_) {
     if (!member.is_deaf) member.station->hear(byte);
   }
-  if (departed_count_ > 0) {
-    --departed_count_;
-    answers_departed_until_ = last_due_station();
-  } else if (is_instant()) {
-    // Frames were served before this character, all at one instant: what comes now is for its sender.
-    answers_departed_until_ = SimTime{-1};
-  }
   if (input_count_ > 0) begin_character(input_[input_first_].start);
-}
-
-/// When the last station will have dealt with what it has heard up to now. What is due much later is no
-/// answer to that.
-SimTime Line::last_due_station() const {
-  constexpr SimTime kLongestSilence = std::chrono::milliseconds(20);
-  SimTime last = clock_;
-  for (const Member& member : members_) {
-    const SimTime due = member.station->due().value_or(clock_);
-    if (due <= clock_ + kLongestSilence) last = std::max(last, due);
-  }
-  return last;
 }
 
 // --- from the stations -------------------------------------------------------------------------
@@ -204,7 +199,7 @@ void Line::run_station(std::size_t index) {
   members_[index].station->run(clock_, voice);
 }
 
-void Line::say(std::size_t index, std::span<const std::uint8_t> bytes) {
+void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening) {
   if (bytes.empty()) return;
   Member& member = members_[index];
   const bool is_new = is_instant() || clock_ >= member.speech.end;
@@ -219,7 +214,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes) {
     }
     const TimedByte character = place(member.speech, bytes[i], clock_);
     if (i == 0) first_end = character.end;
-    if (!is_anybody_listening()) continue;  // it takes the wire's time all the same
+    if (!is_anybody_listening) continue;  // it takes the wire's time all the same
     if (is_instant()) {
       leave_wire(character.value);
     } else {

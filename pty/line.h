@@ -61,6 +61,11 @@ class Line {
   /// Bytes that the host has written, seen at `now`. On the wire the first starts at `now` or when the
   /// one before it is over. At most room() bytes; what is beyond that is ignored.
   void receive(std::span<const std::uint8_t> bytes, SimTime now);
+  /// The same for bytes of a host that has closed since.
+  void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
+
+  /// The clock stands, and no byte has come for as long as a frame is waited for: see Station.
+  void nothing_more(SimTime now);
 
   /// A host opened the line; what the one before had set is forgotten. A new line counts as opened.
   void host_opened();
@@ -112,16 +117,15 @@ class Line {
   bool is_instant() const { return options_.timing == Timing::instant; }
   Event next_event() const;
   void handle(const Event& event);
+  void take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed);
   TimedByte place(Burst& burst, std::uint8_t value, SimTime now) const;
   void begin_character(SimTime at);
   void deliver_character();
   void run_station(std::size_t index);
-  SimTime last_due_station() const;
-  void say(std::size_t index, std::span<const std::uint8_t> bytes);
+  void say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t speaker);
   void leave_wire(std::uint8_t value);
-  bool is_anybody_listening() const { return is_host_open_ && clock_ > answers_departed_until_; }
   void warn_once(bool& has_warned, std::string_view what);
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 
@@ -135,15 +139,14 @@ class Line {
   bool is_host_open_ = true;
   std::optional<HostSettings> host_settings_;
   std::optional<HostSettings> departed_settings_;  // of the host before
-  SimTime answers_departed_until_{-1};             // what is said until then is for it
+  std::uint64_t last_departed_ = 0;                // number of its last character
+  std::uint64_t last_received_ = 0;                // number of the last character of all
   bool has_warned_deaf_ = false;
   bool has_warned_no_speed_ = false;
   bool has_warned_collision_ = false;
 
-  // Host to stations: a ring of what has not wholly arrived; the first `departed_count_` of it are from
-  // a host that has gone.
+  // Host to stations: a ring of what has not wholly arrived.
   std::vector<TimedByte> input_;
-  std::size_t departed_count_ = 0;
   std::size_t input_first_ = 0;
   std::size_t input_count_ = 0;
   Burst arriving_;

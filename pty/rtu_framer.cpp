@@ -97,7 +97,7 @@ void RtuFramer::push(const TimedByte& byte) {
   }
   if (used_ == kCapacity) make_room();
   values_[used_] = byte.value;
-  ends_[used_] = byte.end;
+  marks_[used_] = {byte.end, byte.number};
   ++used_;
   if (!framing_.strict && used_ - candidate_ >= look_again_at_) search();
 }
@@ -107,6 +107,10 @@ void RtuFramer::reset() {
   ready_first_ = ready_count_ = 0;
   oversize_ = 0;
   character_under_way_ = false;
+}
+
+void RtuFramer::give_up_waiting() {
+  if (!framing_.strict && undecided_ < used_ && !character_under_way_) end_of_silence();
 }
 
 /// Moves the candidate on for as long as what is in decides about it.
@@ -186,7 +190,7 @@ void RtuFramer::make_room() {
   }
   const std::size_t shift = ready_count_ > 0 ? ready_[ready_first_].first : undecided_;
   std::copy(values_.begin() + shift, values_.begin() + used_, values_.begin());
-  std::copy(ends_.begin() + shift, ends_.begin() + used_, ends_.begin());
+  std::copy(marks_.begin() + shift, marks_.begin() + used_, marks_.begin());
   for (std::size_t i = 0; i < ready_count_; ++i) {
     auto& frame = ready_[(ready_first_ + i) % kMaxReady];
     frame.first = static_cast<std::uint16_t>(frame.first - shift);
@@ -203,7 +207,7 @@ std::span<const std::uint8_t> RtuFramer::bytes(std::size_t first, std::size_t la
 std::optional<SimTime> RtuFramer::due() const {
   if (ready_count_ > 0) {
     const Ready& frame = ready_[ready_first_];
-    return ends_[frame.first + frame.size - std::size_t{1}] + framing_.silence;
+    return marks_[frame.first + frame.size - std::size_t{1}].end + framing_.silence;
   }
   if (undecided_ == used_ || character_under_way_) return std::nullopt;
   return last_end_ + patience();
@@ -216,7 +220,9 @@ std::optional<RtuFrame> RtuFramer::take(SimTime now) {
   RtuFrame frame;
   std::copy_n(values_.begin() + ready.first, ready.size, frame.bytes.begin());
   frame.size = ready.size;
-  frame.end = ends_[ready.first + ready.size - std::size_t{1}];
+  const Mark& last = marks_[ready.first + ready.size - std::size_t{1}];
+  frame.end = last.end;
+  frame.last_character = last.number;
   ready_first_ = (ready_first_ + 1) % kMaxReady;
   --ready_count_;
   rewind_if_empty();

@@ -32,7 +32,8 @@ struct RtuFraming {
 struct RtuFrame {
   std::array<std::uint8_t, kRtuMaxFrame> bytes{};
   std::size_t size = 0;
-  SimTime end{0};  // when its last character was over
+  SimTime end{0};                    // when its last character was over
+  std::uint64_t last_character = 0;  // its number
 };
 
 class RtuFramer {
@@ -44,8 +45,10 @@ class RtuFramer {
   void start_bit(SimTime at);
   /// Characters must come in the order of time.
   void push(const TimedByte& byte);
-  /// Forget what is buffered (another station used the line, the host closed mid-frame).
+  /// Forget what is buffered (another station used the line).
   void reset();
+  /// Nothing more will come of what is incomplete: judge it now, without waiting for patience.
+  void give_up_waiting();
 
   /// When take() is worth calling: end of a complete frame plus the silence rule, or the patience of
   /// an incomplete one. Nothing while the buffer is empty.
@@ -66,6 +69,10 @@ class RtuFramer {
   static constexpr std::size_t kCapacity = 3 * kRtuMaxFrame;
   static constexpr std::size_t kMaxReady = kCapacity / 4;
 
+  struct Mark {
+    SimTime end{0};
+    std::uint64_t number = 0;
+  };
   struct Ready {
     std::uint16_t first = 0;
     std::uint16_t size = 0;
@@ -83,7 +90,7 @@ class RtuFramer {
 
   RtuFraming framing_;
   std::array<std::uint8_t, kCapacity> values_{};
-  std::array<SimTime, kCapacity> ends_{};
+  std::array<Mark, kCapacity> marks_{};   // of the same characters
   std::array<Ready, kMaxReady> ready_{};  // a ring
   std::size_t ready_first_ = 0;
   std::size_t ready_count_ = 0;

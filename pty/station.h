@@ -15,12 +15,17 @@ struct TimedByte {
   SimTime start{0};
   SimTime end{0};
   std::uint8_t value = 0;
+  std::uint64_t number = 0;  // characters of a host are numbered as they come, from 1
 };
 
 /// Where a station puts what it says. The line takes care of the wire's time.
 class Transmitter {
  public:
+  /// Something said unasked.
   virtual void transmit(std::span<const std::uint8_t> bytes) = 0;
+  /// An answer to what ended with the character of that number. It is for the host that sent it, and goes
+  /// nowhere if that one has gone.
+  virtual void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) = 0;
 
  protected:
   ~Transmitter() = default;
@@ -44,6 +49,9 @@ class Station {
   /// Another station has begun to talk: the first character of its transmission is over. Once for a
   /// transmission; its bytes are not delivered (see Line).
   virtual void hear_other_station() = 0;
+
+  /// Nothing more has come for a while although the clock stands: what is incomplete is given up.
+  virtual void hear_nothing_more() {}
 
   /// When run() wants to be called next; nothing if it waits for bytes only.
   virtual std::optional<SimTime> due() const = 0;

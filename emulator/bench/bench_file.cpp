@@ -115,8 +115,11 @@ class BenchReader {
       const YamlFields link = fields.at("link");
       if (link.text().empty()) link.fail("is empty; expected a path");
       line.link = (std::filesystem::path(folder_) / link.text()).lexically_normal().string();
+      const auto absolute = [](const std::string& path) {
+        return std::filesystem::absolute(path).lexically_normal();
+      };
       for (const LineSetup& other : bench_.lines) {
-        if (other.link == line.link)
+        if (!other.link.empty() && absolute(other.link) == absolute(line.link))
           link.fail("line '" + other.name + "' has the same link; expected another path");
       }
     }

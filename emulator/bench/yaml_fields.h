@@ -6,12 +6,9 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
 

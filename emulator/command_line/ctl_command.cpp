@@ -70,39 +70,42 @@ Json message_for(const ControlArguments& arguments) {
 }
 
 void print_status(const Json& status) {
-  const Json& lateness = status["lateness"];
-  std::printf("simulated time %s, speed %s%s\n", status["simulated_time"].get<std::string>().c_str(),
-              status["speed"].get<std::string>().c_str(), status["paused"].get<bool>() ? ", paused" : "");
+  const Json& lateness = status.at("lateness");
+  std::printf("simulated time %s, speed %s%s\n", status.at("simulated_time").get<std::string>().c_str(),
+              status.at("speed").get<std::string>().c_str(),
+              status.at("paused").get<bool>() ? ", paused" : "");
   std::printf("lateness p50 %.1f us, p99 %.1f us, max %.1f us over %llu wakes, %llu slips\n",
-              lateness["p50_us"].get<double>(), lateness["p99_us"].get<double>(),
-              lateness["max_us"].get<double>(), lateness["wakes"].get<unsigned long long>(),
-              lateness["slips"].get<unsigned long long>());
+              lateness.at("p50_us").get<double>(), lateness.at("p99_us").get<double>(),
+              lateness.at("max_us").get<double>(), lateness.at("wakes").get<unsigned long long>(),
+              lateness.at("slips").get<unsigned long long>());
   std::printf("ticks %llu stepped, %llu crossed in bulk\n",
-              status["ticks"]["stepped"].get<unsigned long long>(),
-              status["ticks"]["crossed"].get<unsigned long long>());
-  for (const Json& line : status["lines"]) {
-    std::printf("line %s: %s -> %s, %s, %s, host %s", line["name"].get<std::string>().c_str(),
-                line["link"].get<std::string>().c_str(), line["pty"].get<std::string>().c_str(),
-                line["settings"].get<std::string>().c_str(), line["timing"].get<std::string>().c_str(),
-                line["host"].get<std::string>().c_str());
-    if (line.contains("host_baud")) std::printf(" at %d baud", line["host_baud"].get<int>());
+              status.at("ticks").at("stepped").get<unsigned long long>(),
+              status.at("ticks").at("crossed").get<unsigned long long>());
+  for (const Json& line : status.at("lines")) {
+    std::printf("line %s: %s -> %s, %s, %s, host %s", line.at("name").get<std::string>().c_str(),
+                line.at("link").get<std::string>().c_str(), line.at("pty").get<std::string>().c_str(),
+                line.at("settings").get<std::string>().c_str(), line.at("timing").get<std::string>().c_str(),
+                line.at("host").get<std::string>().c_str());
+    if (line.contains("host_baud")) std::printf(" at %d baud", line.at("host_baud").get<int>());
     std::printf("; %llu bytes in, %llu out, %llu unheard, %llu discarded\n",
-                line["bytes_in"].get<unsigned long long>(), line["bytes_out"].get<unsigned long long>(),
-                line["bytes_unheard"].get<unsigned long long>(),
-                line["bytes_discarded"].get<unsigned long long>());
-    for (const Json& station : line["stations"]) {
+                line.at("bytes_in").get<unsigned long long>(), line.at("bytes_out").get<unsigned long long>(),
+                line.at("bytes_unheard").get<unsigned long long>(),
+                line.at("bytes_discarded").get<unsigned long long>());
+    for (const Json& station : line.at("stations")) {
       std::printf("  station %d %s: %llu requests, %llu replies, %llu of them exceptions\n",
-                  station["address"].get<int>(), station["device"].get<std::string>().c_str(),
-                  station["requests"].get<unsigned long long>(), station["replies"].get<unsigned long long>(),
-                  station["exceptions"].get<unsigned long long>());
+                  station.at("address").get<int>(), station.at("device").get<std::string>().c_str(),
+                  station.at("requests").get<unsigned long long>(),
+                  station.at("replies").get<unsigned long long>(),
+                  station.at("exceptions").get<unsigned long long>());
     }
   }
-  for (const Json& device : status["devices"]) {
-    std::printf("device %s: %s, firmware %s\n", device["name"].get<std::string>().c_str(),
-                device["model"].get<std::string>().c_str(), device["firmware"].get<std::string>().c_str());
-    for (const auto& [axis, machine] : device["machines"].items()) {
+  for (const Json& device : status.at("devices")) {
+    std::printf("device %s: %s, firmware %s\n", device.at("name").get<std::string>().c_str(),
+                device.at("model").get<std::string>().c_str(),
+                device.at("firmware").get<std::string>().c_str());
+    for (const auto& [axis, machine] : device.at("machines").items()) {
       std::printf("  machine %s: at %lld pulses, %lld lost\n", axis.c_str(),
-                  machine["position_pulses"].get<long long>(), machine["lost_pulses"].get<long long>());
+                  machine.at("position_pulses").get<long long>(), machine.at("lost_pulses").get<long long>());
     }
   }
 }
@@ -111,26 +114,31 @@ void print_status(const Json& status) {
 
 int control(const ControlArguments& arguments) {
   const Json message = message_for(arguments);
-  const std::string line =
-      ask_control(socket_path(arguments), message.dump(-1, ' ', false, Json::error_handler_t::replace));
-  const Json reply = Json::parse(line);
-  const bool accepted = reply["ok"].get<bool>();
-  if (arguments.json) {
-    std::printf("%s\n", line.c_str());
-  } else if (!accepted) {
-    std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
-                 one_line(reply["error"].get<std::string>()).c_str());
-  } else if (reply.contains("status")) {
-    print_status(reply["status"]);
-  } else if (reply.contains("values")) {
-    for (const auto& [name, value] : reply["values"].items()) {
-      std::printf("%s %lld\n", name.c_str(), value.get<long long>());
+  const std::string path = socket_path(arguments);
+  const std::string line = ask_control(path, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+  try {
+    const Json reply = Json::parse(line);
+    const bool accepted = reply.at("ok").get<bool>();
+    if (arguments.json) {
+      std::printf("%s\n", line.c_str());
+    } else if (!accepted) {
+      std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
+                   one_line(reply.at("error").get<std::string>()).c_str());
+    } else if (reply.contains("status")) {
+      print_status(reply.at("status"));
+    } else if (reply.contains("values")) {
+      for (const auto& [name, value] : reply.at("values").items()) {
+        std::printf("%s %lld\n", name.c_str(), value.get<long long>());
+      }
+    } else if (reply.contains("simulated_time_ns")) {
+      std::printf("simulated time %s\n",
+                  format_duration(SimTime{reply.at("simulated_time_ns").get<std::int64_t>()}).c_str());
     }
-  } else if (reply.contains("simulated_time_ns")) {
-    std::printf("simulated time %s\n",
-                format_duration(SimTime{reply["simulated_time_ns"].get<std::int64_t>()}).c_str());
+    return accepted ? kExitWell : kExitBadInput;
+  } catch (const Json::exception&) {
+    throw ControlError(path +
+                       ": what answers is no understudy; expected the control socket of `understudy serve`");
   }
-  return accepted ? kExitWell : kExitBadInput;
 }
 
 }  // namespace understudy::emulator

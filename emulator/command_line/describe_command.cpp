@@ -18,8 +18,8 @@ const Model& demand_model(const std::string& name) {
 int list_models() {
   for (const Model* model : all_models()) {
     std::printf("%s  %s (firmware %s to %s)\n", std::string(model->name).c_str(),
-                std::string(model->title).c_str(), format_firmware(model->firmwares.front()).c_str(),
-                format_firmware(model->firmwares.back()).c_str());
+                std::string(model->title).c_str(), version_text(model->firmwares.front()).c_str(),
+                version_text(model->firmwares.back()).c_str());
   }
   return kExitWell;
 }

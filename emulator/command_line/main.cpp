@@ -14,6 +14,11 @@ namespace {
 
 using namespace understudy::emulator;
 
+/// `--link "$UNSET"` is a slip, not a wish for the default.
+const CLI::Validator kNotEmpty(
+    [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
+    "");
+
 struct CommandLine {
   CLI::App app{"Firmware-faithful emulator of industrial motion controllers.", "understudy"};
   DescribeArguments describe;
@@ -27,7 +32,7 @@ struct CommandLine {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "understudy: " + std::string(error.what()) + " (--help tells what is expected)\n";
+      return "understudy: " + one_line(error.what()) + " (--help tells what is expected)\n";
     });
     add_models();
     add_describe();
@@ -54,32 +59,40 @@ struct CommandLine {
   void add_serve() {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     command->add_option("BENCH", serve.bench, "A bench file; or else --model");
-    command->add_option("--model", serve.model, "One device of this model on one line");
+    command->add_option("--model", serve.model, "One device of this model on one line")->check(kNotEmpty);
     command->add_option("--station", serve.station, "Its station number (with --model) [1]");
-    command->add_option("--firmware", serve.firmware, "Its firmware version (with --model) [newest]");
+    command->add_option("--firmware", serve.firmware, "Its firmware version (with --model) [newest]")
+        ->check(kNotEmpty);
     command->add_option("--baud", serve.baud, "Its line speed (with --model) [the factory's]");
-    command->add_option("--link", serve.link, "Path of the link to its port (with --model) [a private one]");
-    command->add_option("--timing", serve.timing,
-                        "wire: bytes take their time; instant: none [wire, or the bench's]");
+    command->add_option("--link", serve.link, "Path of the link to its port (with --model) [a private one]")
+        ->check(kNotEmpty);
+    command
+        ->add_option("--timing", serve.timing,
+                     "wire: bytes take their time; instant: none [wire, or the bench's]")
+        ->check(kNotEmpty);
     command->add_flag("--strict-framing", serve.strict_framing,
                       "Only silence ends a frame, as on a real line");
     command->add_flag("--ignore-baud", serve.ignore_baud,
                       "Hear hosts that set another speed or other stop bits");
     command->add_option("--speed", serve.speed, "real, free, manual, or a factor such as 10x")
         ->capture_default_str();
-    command->add_option("--control", serve.control, "Path of the control socket [a private one]");
+    command->add_option("--control", serve.control, "Path of the control socket [a private one]")
+        ->check(kNotEmpty);
     command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
   }
 
   void add_control() {
     CLI::App* command = app.add_subcommand("ctl", "Look into a running `serve`, and act on it");
-    command->add_option("--control", control.socket,
-                        "Path of its control socket [UNDERSTUDY_CONTROL, or the private one]");
+    command
+        ->add_option("--control", control.socket,
+                     "Path of its control socket [UNDERSTUDY_CONTROL, or the private one]")
+        ->check(kNotEmpty);
     command->add_flag("--json", control.json, "Print the reply as it came: one JSON object");
     command->require_subcommand(1);
     const auto add = [&](const char* verb, const char* help, const char* operand, const char* operand_help) {
       CLI::App* sub = command->add_subcommand(verb, help);
       if (operand != nullptr) sub->add_option(operand, control.operands, operand_help);
+      sub->fallthrough();
       sub->callback([this, verb] {
         control.verb = verb;
         chosen = [this] { return understudy::emulator::control(control); };
@@ -100,7 +113,7 @@ struct CommandLine {
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
     command->add_option("--station", poll.station, "Whom to ask")->capture_default_str();
-    command->add_option("--model", poll.model, "Whose names to use");
+    command->add_option("--model", poll.model, "Whose names to use")->check(kNotEmpty);
     command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
     command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
     command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
@@ -109,7 +122,7 @@ struct CommandLine {
     command->add_option("--type", poll.type, "u16, s16, u32 or s32 of addresses without a model's name")
         ->capture_default_str();
     command->add_option("--timeout", poll.timeout, "How long to wait for a reply")->capture_default_str();
-    command->add_option("--every", poll.every, "Time between two rounds");
+    command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);
     command->add_option("--times", poll.times, "How many rounds; 0: without end")->capture_default_str();
     command->callback([this] { chosen = [this] { return poll_port(poll); }; });
   }
@@ -163,7 +176,9 @@ int main(int argc, char** argv) {
     return line.app.exit(error) == 0 ? kExitWell : kExitBadInput;
   }
   try {
-    return line.chosen();
+    const int code = line.chosen();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    return complain(std::runtime_error("standard output cannot be written"), kExitNoResource);
   } catch (const BenchError& error) {
     // It begins with the file's name and line, where editors look for it.
     std::fprintf(stderr, "%s\n", error.what());

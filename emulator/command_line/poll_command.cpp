@@ -3,6 +3,7 @@
 #include <modbus/modbus-rtu.h>
 #include <modbus/modbus.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/one_line.h"
 #include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
@@ -84,8 +86,7 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
   const Model& model = demand_model(arguments.model);
   const auto found = model.registers.find(what, model.firmwares.back());
   if (!found) {
-    throw UsageError("poll: no register is called '" + what + "'; the nearest is '" +
-                     model.registers.nearest_name(what) + "'");
+    throw UsageError("poll: " + model.registers.why_not(what, model.firmwares.back()));
   }
   const Place& place = found->place;
   item.low_word_first = model.registers.policy().low_word_first;
@@ -107,6 +108,11 @@ struct ContextDeleter {
 };
 using Context = std::unique_ptr<modbus_t, ContextDeleter>;
 
+// What libmodbus can set; for anything else it falls back to 9600 without a word.
+constexpr std::array kBauds{110,     300,     600,     1200,    2400,    4800,    9600,    19200,
+                            38400,   57600,   115200,  230400,  460800,  500000,  576000,  921600,
+                            1000000, 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
+
 Context connect(const PollArguments& arguments) {
   const char parity = arguments.parity == "even"   ? 'E'
                       : arguments.parity == "odd"  ? 'O'
@@ -115,11 +121,12 @@ Context connect(const PollArguments& arguments) {
   if (parity == '?')
     throw UsageError("--parity: '" + arguments.parity + "' is unknown; expected even, odd or none");
   const auto timeout = parse_duration(arguments.timeout);
-  if (!timeout || timeout->count() == 0)
+  if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
     throw UsageError("--timeout: '" + arguments.timeout + "' is no duration; expected one like 500ms");
   // Checked here, because libmodbus prints complaints of its own.
-  if (arguments.baud < 1) {
-    throw UsageError("--baud: " + std::to_string(arguments.baud) + " is no speed; expected bits a second");
+  if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
+    throw UsageError("--baud: " + std::to_string(arguments.baud) +
+                     " is no speed of a serial port; expected one like 9600, 19200 or 115200");
   }
   if (arguments.stop_bits != 1 && arguments.stop_bits != 2) throw UsageError("--stop-bits: expected 1 or 2");
   if (arguments.station < 0 || arguments.station > 247) throw UsageError("--station: expected 0 to 247");
@@ -198,6 +205,10 @@ int poll_port(const PollArguments& arguments) {
   for (const std::string& text : arguments.items) {
     items.push_back(parse_item(text, arguments));
     demand_fitting(items.back());
+    if (arguments.station == 0 && !items.back().write) {
+      throw UsageError(
+          "--station: 0 is a broadcast, which nobody answers; expected writes only, or 1 to 247");
+    }
   }
   SimTime every{0};
   if (!arguments.every.empty()) {
@@ -208,8 +219,8 @@ int poll_port(const PollArguments& arguments) {
   }
   const Context context = connect(arguments);
   if (modbus_connect(context.get()) != 0) {
-    std::fprintf(stderr, "understudy: poll: %s: %s; expected a serial port\n", arguments.port.c_str(),
-                 modbus_strerror(errno));
+    std::fprintf(stderr, "understudy: poll: %s: %s; expected a serial port\n",
+                 one_line(arguments.port).c_str(), modbus_strerror(errno));
     return kExitNoResource;
   }
   for (int round = 0; round < arguments.times || arguments.times == 0; ++round) {
@@ -217,7 +228,8 @@ int poll_port(const PollArguments& arguments) {
     for (const Item& item : items) {
       const bool good =
           item.write ? write_item(context.get(), item) : read_item(context.get(), item, arguments.function);
-      if (good) continue;
+      const bool is_broadcast = arguments.station == 0 && errno == ETIMEDOUT;  // nobody answers that
+      if (good || is_broadcast) continue;
       std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));
       return kExitFailed;
     }

@@ -1,3 +1,4 @@
+#include <signal.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -94,6 +95,7 @@ int serve(const ServeArguments& arguments) {
   }
   options.speed = *speed;
 
+  signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
   Daemon daemon(bench, options, log_line);
   for (const auto& port : daemon.ports()) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),

@@ -70,16 +70,16 @@ Json line_status(const Daemon& daemon, const Port& port) {
                                       {"address", station->device().settings().address},
                                       {"requests", station->counters().requests},
                                       {"replies", station->counters().replies},
-                                      {"exceptions", station->counters().exceptions}});
+                                      {"exceptions", station->counters().exceptions},
+                                      {"bytes_dropped", station->dropped_bytes()}});
   }
   return status;
 }
 
 Json device_status(const World& world, std::size_t number) {
   const Device& device = world.device(number);
-  Json status{{"name", device.name()},
-              {"model", device.model().name},
-              {"firmware", format_firmware(device.firmware())}};
+  Json status{
+      {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
   status["machines"] = Json::object();
   for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
     const PlantAxis& plant = world.plant(number, static_cast<int>(axis));
@@ -122,7 +122,6 @@ Json get(Daemon& daemon, const Json& message) {
     if (!name.is_string()) throw MessageError("names: expected a list of register names");
     const RegisterName found = find_register(daemon.world(), name.get<std::string>());
     const Device& device = daemon.world().device(found.device);
-    if (!found.place.place.row->unmodelled.empty()) device.mention_unmodelled(*found.place.place.row);
     values[name.get<std::string>()] = read_value(device, found.place);
   }
   return Json{{"ok", true}, {"values", values}};
@@ -167,6 +166,11 @@ Json input(Daemon& daemon, const Json& message) {
   std::vector<InputName> inputs;
   for (const auto& [name, level] : wanted) {
     inputs.push_back(find_input(daemon.world(), name));
+    for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
+      if (inputs[i].device == inputs.back().device && inputs[i].terminal == inputs.back().terminal) {
+        throw MessageError(name + ": is named twice; expected it once");
+      }
+    }
     if (level != 0 && level != 1)
       throw MessageError(name + ": " + std::to_string(level) + " is no level; expected 0 or 1");
   }

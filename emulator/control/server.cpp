@@ -60,7 +60,8 @@ void remove_dead_socket(const std::string& path) {
 
 struct ControlServer::Client {
   int descriptor = -1;
-  int awaited = 0;            // replies that are still to come
+  bool is_serving = false;    // serve_lines() is at work
+  bool is_awaiting = false;   // a reply is still to come
   bool has_said_all = false;  // it has closed its side
   std::string input;
   std::string output;
@@ -122,31 +123,43 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   if (count < 0) return drop(descriptor);
   if (count == 0) {
     // It may still be waiting for a reply.
-    if (client->awaited == 0 && client->output.empty()) return drop(descriptor);
+    if (!client->is_awaiting && client->output.empty()) return drop(descriptor);
     client->has_said_all = true;
     write_out(*client);
     return;
   }
   client->input.append(bytes.data(), static_cast<std::size_t>(count));
 
-  std::size_t end = 0;
-  while (client->descriptor >= 0 && (end = client->input.find('\n')) != std::string::npos) {
-    const std::string line = client->input.substr(0, end);
-    client->input.erase(0, end + 1);
-    ++client->awaited;
-    handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
-      if (const auto alive = weak.lock()) send(alive, reply);
-    });
-  }
+  serve_lines(client);
   if (client->descriptor >= 0 && client->input.size() > kLongestMessage) {
     send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
     drop(descriptor);
   }
 }
 
+/// One after the other: a message waits until the one before it has its reply.
+void ControlServer::serve_lines(const std::shared_ptr<Client>& client) {
+  if (client->is_serving) return;
+  client->is_serving = true;
+  std::size_t end = 0;
+  while (client->descriptor >= 0 && !client->is_awaiting &&
+         (end = client->input.find('\n')) != std::string::npos) {
+    const std::string line = client->input.substr(0, end);
+    client->input.erase(0, end + 1);
+    client->is_awaiting = true;
+    handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
+      const auto alive = weak.lock();
+      if (!alive) return;
+      alive->is_awaiting = false;
+      send(alive, reply);
+      serve_lines(alive);
+    });
+  }
+  client->is_serving = false;
+}
+
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (client->descriptor < 0) return;
-  --client->awaited;
   client->output += line + "\n";
   if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
 }
@@ -162,7 +175,9 @@ bool ControlServer::write_out(Client& client) {
     }
     client.output.erase(0, static_cast<std::size_t>(count));
   }
-  if (client.has_said_all && client.output.empty() && client.awaited == 0) return false;
+  if (client.has_said_all && client.output.empty() && !client.is_awaiting &&
+      client.input.find('\n') == std::string::npos)
+    return false;
   const std::uint32_t read = client.has_said_all ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.descriptor, read | write);

@@ -34,6 +34,7 @@ class ControlServer {
   struct Client;
   void accept_clients();
   void on_client(int descriptor, std::uint32_t ready);
+  void serve_lines(const std::shared_ptr<Client>& client);
   void send(const std::shared_ptr<Client>& client, const std::string& line);
   bool write_out(Client& client);
   void drop(int descriptor);

@@ -49,7 +49,9 @@ Sheet registers(const Model& model, SheetFormat format) {
   Sheet sheet{.columns = {"table", "address", "name", "access", "width", "signed", "min", "max", "unit",
                           "persistent", "default"},
               .rows = {}};
-  if (for_people) sheet.columns.emplace_back("not modelled");
+  if (for_people) {
+    for (const char* column : {"since", "section", "not modelled"}) sheet.columns.emplace_back(column);
+  }
   for (const RegisterRow& row : model.registers.rows()) {
     for (int index = 0; index < row.count; ++index) {
       sheet.rows.push_back(
@@ -57,7 +59,10 @@ Sheet registers(const Model& model, SheetFormat format) {
            std::string(to_string(row.access)), width_of(row), is_signed(row.type) ? "1" : "0",
            row.ranged ? std::to_string(row.min) : "", row.ranged ? std::to_string(row.max) : "",
            std::string(row.unit), row.persistent ? "1" : "0", std::to_string(row.factory)});
-      if (for_people) sheet.rows.back().emplace_back(row.unmodelled);
+      if (!for_people) continue;
+      sheet.rows.back().push_back(row.since == 0 ? "" : version_text(row.since));
+      sheet.rows.back().emplace_back(row.section);
+      sheet.rows.back().emplace_back(row.unmodelled);
     }
   }
   return sheet;
@@ -90,11 +95,13 @@ Sheet choices(const Model& model) {
   Sheet sheet{.columns = {"id", "section", "question", "chosen", "alternatives", "confidence", "why"},
               .rows = {}};
   for (const ChoiceRow& row : model.choices) {
-    const std::size_t bar = row.options.find('|');
+    const std::vector<std::string_view> options = options_of(row);
+    std::string alternatives;
+    for (std::size_t i = 1; i < options.size(); ++i)
+      alternatives += (i > 1 ? "|" : "") + std::string(options[i]);
     sheet.rows.push_back({std::string(row.id), std::string(row.section), std::string(row.question),
-                          std::string(row.options.substr(0, bar)),
-                          bar == std::string_view::npos ? "" : std::string(row.options.substr(bar + 1)),
-                          std::string(to_string(row.confidence)), std::string(row.why)});
+                          std::string(options.front()), alternatives, std::string(to_string(row.confidence)),
+                          std::string(row.why)});
   }
   return sheet;
 }

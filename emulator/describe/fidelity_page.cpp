@@ -28,6 +28,8 @@ std::string fidelity_page(const Model& model) {
       "\n## Not modelled yet\n\n"
       "These registers exist, with the manual's access and range, and the daemon says so once when one is "
       "used.\n\n";
+  for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
+  if (!model.gaps.empty()) page += "\n";
   page += missing.rows.empty() ? "Nothing: every register does what the manual says.\n"
                                : format_sheet(missing, SheetFormat::markdown);
   return page;

@@ -84,18 +84,32 @@ std::string as_table(const Sheet& sheet) {
   return text;
 }
 
+std::optional<std::int64_t> as_number(const std::string& text) {
+  std::int64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, number);
+  if (text.empty() || error != std::errc{} || parsed != end) return std::nullopt;
+  return number;
+}
+
 std::string as_json(const Sheet& sheet) {
+  // A column is of numbers if all it holds are; what it does not hold is null.
+  std::vector<bool> is_numeric(sheet.columns.size(), true);
+  for (const auto& row : sheet.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (!row[i].empty() && !as_number(row[i])) is_numeric[i] = false;
+    }
+  }
   auto array = nlohmann::ordered_json::array();
   for (const auto& row : sheet.rows) {
     auto object = nlohmann::ordered_json::object();
     for (std::size_t i = 0; i < row.size(); ++i) {
-      std::int64_t number = 0;
-      const char* const end = row[i].data() + row[i].size();
-      const auto [parsed, error] = std::from_chars(row[i].data(), end, number);
-      if (!row[i].empty() && error == std::errc{} && parsed == end) {
-        object[sheet.columns[i]] = number;
-      } else {
+      if (!is_numeric[i]) {
         object[sheet.columns[i]] = row[i];
+      } else if (const auto number = as_number(row[i])) {
+        object[sheet.columns[i]] = *number;
+      } else {
+        object[sheet.columns[i]] = nullptr;
       }
     }
     array.push_back(object);

@@ -5,8 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
+#include <utility>
 
 #include "emulator/control/messages.h"
 
@@ -17,18 +16,13 @@ namespace {
 // Free running and long advances look up from their work this often (wall time), so that ports and the
 // control socket are served meanwhile.
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
-// The kernel tells that a host closes a moment before it has; so much later it has.
-constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
-// What they do before they look at the clock again.
+// What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
 // An incomplete frame waits 10 ms of the host's time, however fast simulated time runs beside it.
 SimTime patience_at(const Speed& speed) {
-  constexpr SimTime kPatience = std::chrono::milliseconds(10);
-  constexpr double kFreeFactor = 10'000;
-  const double factor = speed.kind == Speed::Kind::free ? kFreeFactor : speed.factor;
-  return factor <= 1 ? kPatience
-                     : SimTime{static_cast<std::int64_t>(static_cast<double>(kPatience.count()) * factor)};
+  constexpr double kPatience_ns = 10e6;
+  return SimTime{static_cast<std::int64_t>(kPatience_ns * std::max(1.0, speed.rate()))};
 }
 
 WorldOptions world_options(const DaemonOptions& options) {
@@ -59,10 +53,6 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
 Daemon::~Daemon() {
   control_.reset();
   ports_.clear();
-  if (!private_folder_.empty()) {
-    std::error_code ignored;
-    std::filesystem::remove(private_folder_, ignored);
-  }
   if (signals_ >= 0) close(signals_);
 }
 
@@ -83,21 +73,41 @@ void Daemon::watch_signals() {
 void Daemon::make_ports(const Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     std::string link = bench.lines[i].link;
-    if (link.empty()) {
-      if (private_folder_.empty()) {
-        std::string folder = "/tmp/understudy-XXXXXX";
-        if (mkdtemp(folder.data()) == nullptr)
-          throw pty::PortError(folder + ": cannot be made; expected a writable /tmp");
-        private_folder_ = folder;
-      }
-      link = private_folder_ + "/" + bench.lines[i].name + ".port";
-    }
-    ports_.push_back(std::make_unique<Port>(
-        loop_, world_, i, link, [this] { catch_up(); }, log_));
+    if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
+    ports_.push_back(std::make_unique<Port>(loop_, world_, i, link, [this] { catch_up(); }));
   }
 }
 
-void Daemon::catch_up() { world_.advance_to(std::max(world_.now(), pacer_.target(wall_now()))); }
+void Daemon::catch_up() {
+  judge_stall();
+  const SimTime target = std::max(world_.now(), pacer_.target(wall_now()));
+  work_towards(target);
+  // Free means as fast as it goes: what it could not do is no debt.
+  if (pacer_.speed().kind == Speed::Kind::free && world_.now() < target)
+    pacer_.moved_to(world_.now(), wall_now());
+}
+
+/// Before anything catches up with the time that has passed: was it a stall?
+void Daemon::judge_stall() {
+  if (!planned_) return;
+  const WallTime planned = *std::exchange(planned_, std::nullopt);
+  const WallTime left_out = pacer_.woke(planned, wall_now());
+  // A machine that never keeps up would fill the log.
+  const bool worth_a_line = (pacer_.slips() & (pacer_.slips() - 1)) == 0;
+  if (left_out > WallTime{0} && worth_a_line) {
+    log_("stalled: " + format_duration(left_out) + " of simulated time were left out (stall number " +
+         std::to_string(pacer_.slips()) + ")");
+  }
+}
+
+/// For a slice of wall time at most; quiet spans are crossed in ever larger steps.
+void Daemon::work_towards(SimTime target) {
+  const WallTime until = wall_now() + kWorkSlice;
+  for (SimTime step = kSimSlice; world_.now() < target; step = std::min(2 * step, kHorizon / 4)) {
+    world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
+    if (wall_now() >= until) return;
+  }
+}
 
 void Daemon::pause() {
   pacer_.pause(wall_now());
@@ -107,17 +117,14 @@ void Daemon::pause() {
 void Daemon::resume() { pacer_.resume(wall_now()); }
 
 bool Daemon::advance(SimTime duration, std::function<void()> done) {
-  if (!pacer_.standing() || advance_done_) return false;
+  if (!pacer_.standing() || advance_done_ || duration > kHorizon - world_.now()) return false;
   advance_target_ = world_.now() + duration;
   advance_done_ = std::move(done);
   return true;
 }
 
 void Daemon::work_on_advance() {
-  const WallTime until = wall_now() + kWorkSlice;
-  while (world_.now() < advance_target_ && wall_now() < until) {
-    world_.advance_to(std::min(world_.now() + kSimSlice, advance_target_));
-  }
+  work_towards(advance_target_);
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;
   // What the advance has put on the line is on its way before the caller hears that it is over.
@@ -128,40 +135,36 @@ void Daemon::work_on_advance() {
 }
 
 std::optional<WallTime> Daemon::next_wake() const {
-  if (advance_done_ || (pacer_.speed().kind == Speed::Kind::free && !pacer_.paused())) return WallTime{0};
+  if (advance_done_) return WallTime{0};
   const auto due = world_.next_due();
   return due ? pacer_.wall_time_of(*due) : std::nullopt;
 }
 
-void Daemon::wait_until(std::optional<WallTime> planned) {
-  const auto in_doubt = [](const std::unique_ptr<Port>& port) { return port->wants_another_look(); };
-  if (std::none_of(ports_.begin(), ports_.end(), in_doubt)) return loop_.wait(planned);
-  const WallTime look = wall_now() + kSecondLook;
-  loop_.wait(planned ? std::min(*planned, look) : look);
+void Daemon::wait() {
+  planned_ = next_wake();
+  std::optional<WallTime> wake = planned_;
   for (const auto& port : ports_) {
-    if (in_doubt(port)) port->look_again();
+    const auto look = port->next_look(pacer_.standing());
+    if (look && (!wake || *look < *wake)) wake = look;
   }
+  loop_.wait(wake);
 }
 
 void Daemon::run() {
   pacer_.moved_to(world_.now(), wall_now());  // opening the ports took no simulated time
   while (!stopping_) {
-    const std::optional<WallTime> planned = next_wake();
-    wait_until(planned);
+    wait();
     if (stopping_) break;
     if (advance_done_) {
       work_on_advance();
-    } else if (pacer_.speed().kind == Speed::Kind::free && !pacer_.paused()) {
-      const WallTime until = wall_now() + kWorkSlice;
-      while (wall_now() < until) world_.advance_to(world_.now() + kSimSlice);
-      pacer_.moved_to(world_.now(), wall_now());
-    } else if (planned) {
-      if (const WallTime left_out = pacer_.woke(*planned, wall_now()); left_out > WallTime{0}) {
-        log_("stalled: " + format_duration(left_out) + " of simulated time were left out");
-      }
+    } else if (planned_) {
       catch_up();
     }
-    for (const auto& port : ports_) port->flush();
+    const WallTime now = wall_now();
+    for (const auto& port : ports_) {
+      port->look(now, pacer_.standing());
+      port->flush();
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include "emulator/edge/event_loop.h"
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
+#include "emulator/edge/private_folder.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator {
@@ -51,19 +52,22 @@ class Daemon {
  private:
   void watch_signals();
   void make_ports(const Bench& bench);
+  void judge_stall();
+  void work_towards(SimTime target);
   void work_on_advance();
   std::optional<WallTime> next_wake() const;
-  void wait_until(std::optional<WallTime> planned);
+  void wait();
 
   EventLoop loop_;
   std::function<void(const std::string&)> log_;
   World world_;
   Pacer pacer_;
-  std::string private_folder_;  // for links that nobody asked for
+  PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;
   std::unique_ptr<ControlServer> control_;
   int signals_ = -1;
   bool stopping_ = false;
+  std::optional<WallTime> planned_;  // for when the loop meant to wake; judged once
 
   SimTime advance_target_{0};
   std::function<void()> advance_done_;  // set while an advance is under way

@@ -19,6 +19,15 @@ std::optional<Speed> parse_speed(std::string_view text) {
   return Speed{.factor = factor};
 }
 
+double Speed::rate() const {
+  switch (kind) {
+    case Kind::factor: return factor;
+    case Kind::free: return kFreest;
+    case Kind::manual: break;
+  }
+  return 0;
+}
+
 std::string format_speed(const Speed& speed) {
   switch (speed.kind) {
     case Speed::Kind::free: return "free";
@@ -49,15 +58,17 @@ WallTime Lateness::percentile(int percent) const {
 SimTime Pacer::target(WallTime wall) const {
   if (standing()) return anchor_sim_;
   const WallTime passed = wall - anchor_wall_;
-  if (speed_.kind == Speed::Kind::free || speed_.factor == 1.0) return anchor_sim_ + passed;
-  return anchor_sim_ + SimTime{std::llround(static_cast<double>(passed.count()) * speed_.factor)};
+  if (speed_.rate() == 1.0) return std::min(anchor_sim_ + passed, kHorizon);
+  const double ahead_ns = static_cast<double>(passed.count()) * speed_.rate();
+  if (ahead_ns >= static_cast<double>((kHorizon - anchor_sim_).count())) return kHorizon;
+  return anchor_sim_ + SimTime{std::llround(ahead_ns)};
 }
 
 std::optional<WallTime> Pacer::wall_time_of(SimTime time) const {
-  if (standing() || speed_.kind == Speed::Kind::free) return std::nullopt;
+  if (standing()) return std::nullopt;
   const SimTime ahead = time - anchor_sim_;
-  if (speed_.factor == 1.0) return anchor_wall_ + ahead;
-  const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.factor);
+  if (speed_.rate() == 1.0) return anchor_wall_ + ahead;
+  const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.rate());
   if (wall_ns > 1e18) return WallTime::max() / 2;  // thirty years on: beyond what the clock counts
   // Rounded up: waking a nanosecond early would find nothing due.
   return anchor_wall_ + WallTime{static_cast<std::int64_t>(wall_ns) + 1};
@@ -67,7 +78,7 @@ WallTime Pacer::woke(WallTime planned, WallTime wall) {
   const WallTime late = wall - planned;
   if (late < WallTime{0}) return WallTime{0};  // woken by something else, in time
   lateness_.record(late);
-  if (late <= kLongestStall || standing()) return WallTime{0};
+  if (late <= kLongestStall || standing() || speed_.kind == Speed::Kind::free) return WallTime{0};
   const WallTime left_out = late - kLongestStall;
   anchor_wall_ += left_out;
   ++slips_;

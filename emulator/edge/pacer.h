@@ -16,10 +16,15 @@ namespace understudy::emulator {
 struct Speed {
   enum class Kind : std::uint8_t {
     factor,  // simulated seconds a second; 1 is real time
-    free,    // as fast as it goes
+    free,    // as fast as it goes, up to kFreest
     manual,  // only when told to
   } kind = Kind::factor;
   double factor = 1.0;
+
+  /// Free running is bounded, so that what a host does takes some simulated time and not years of it.
+  static constexpr double kFreest = 10'000;
+  /// Simulated seconds a second, at most; of `manual`: 0.
+  double rate() const;
 };
 
 /// "real", "free", "manual" or a factor above 0 and at most 10000, such as "2.5" or "10x".
@@ -49,7 +54,7 @@ class Pacer {
 
   /// Where simulated time should be.
   SimTime target(WallTime wall) const;
-  /// When simulated time will be there; nothing while the clock stands still (or is free).
+  /// When simulated time will be there; nothing while the clock stands still.
   std::optional<WallTime> wall_time_of(SimTime time) const;
 
   /// The edge woke at `wall` for something planned for `planned`. Records how late that is; a stall is

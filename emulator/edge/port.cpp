@@ -5,13 +5,20 @@
 
 namespace understudy::emulator {
 
+namespace {
+
+// The kernel tells that a host closes a moment before it has; so much later it has.
+constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
+constexpr WallTime kPatience = std::chrono::milliseconds(10);
+
+}  // namespace
+
 Port::Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
-           std::function<void()> catch_up, std::function<void(const std::string&)> log)
+           std::function<void()> catch_up)
     : loop_(loop),
       world_(world),
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
-      log_(std::move(log)),
       terminal_(link_path) {
   loop_.watch(terminal_.presence_descriptor(), EventLoop::readable,
               [this](std::uint32_t) { on_presence({}); });
@@ -31,14 +38,7 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   catch_up_();
   // Both at once: one went and another came, or one came and has gone again.
   if (presence.closed && terminal_.host_present()) line().host_closed();
-  if (presence.opened) {
-    line().host_opened();
-    if (!left_behind_.empty()) {
-      log_("line " + line().name() + ": " + std::to_string(left_behind_.size()) +
-           " bytes that a host left behind were dropped when the next one opened the line");
-      left_behind_.clear();
-    }
-  }
+  if (presence.opened) line().host_opened();
   if (presence.closed && !terminal_.host_present()) {
     line().host_settings(terminal_.poll_host_settings());
     line().host_closed();
@@ -65,10 +65,14 @@ void Port::keep_what_was_left_behind() {
   pass_on_what_was_left_behind();
 }
 
+/// It stays ahead of what the next host writes, as on a wire.
 void Port::pass_on_what_was_left_behind() {
   const std::size_t count = std::min(left_behind_.size(), line().room());
-  receive(std::span(left_behind_).first(count));
+  if (count == 0) return;
+  catch_up_();
+  line().receive_departed(std::span(left_behind_).first(count), world_.now());
   left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
+  world_.advance_to(world_.now());
 }
 
 void Port::on_data(std::uint32_t ready) {
@@ -90,6 +94,22 @@ void Port::receive(std::span<const std::uint8_t> bytes) {
   if (terminal_.host_present()) line().host_settings(terminal_.poll_host_settings());
   line().receive(bytes, world_.now());
   world_.advance_to(world_.now());
+  last_bytes_ = wall_now();
+}
+
+std::optional<WallTime> Port::next_look(bool clock_stands) const {
+  if (terminal_.is_in_doubt()) return wall_now() + kSecondLook;
+  // Where the clock stands, patience with an incomplete frame would never end.
+  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + kPatience;
+  return std::nullopt;
+}
+
+void Port::look(WallTime now, bool clock_stands) {
+  if (terminal_.is_in_doubt()) on_presence({});
+  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + kPatience) {
+    last_bytes_ = WallTime{0};
+    line().nothing_more(world_.now());
+  }
 }
 
 void Port::flush() {

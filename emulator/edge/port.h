@@ -17,16 +17,17 @@ class Port {
  public:
   /// `catch_up` brings the world to the present moment. Throws pty::PortError.
   Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
-       std::function<void()> catch_up, std::function<void(const std::string&)> log);
+       std::function<void()> catch_up);
   ~Port();
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
   /// Hands over what the wire has brought, and takes bytes again where the line has room.
   void flush();
-  /// Whether a host has gone cannot be told yet: look again in a few milliseconds.
-  bool wants_another_look() const { return terminal_.is_in_doubt(); }
-  void look_again() { on_presence({}); }
+  /// When look() should be called, though nothing is readable: a host's going is in doubt, or a frame is
+  /// incomplete while the clock stands.
+  std::optional<WallTime> next_look(bool clock_stands) const;
+  void look(WallTime now, bool clock_stands);
 
   const pty::PseudoTerminal& terminal() const { return terminal_; }
   std::size_t line_number() const { return line_number_; }
@@ -34,6 +35,7 @@ class Port {
   std::optional<pty::HostSettings> host_settings() const { return terminal_.poll_host_settings(); }
 
  private:
+  const pty::Line& line() const { return world_.line(line_number_).line; }
   pty::Line& line() { return world_.line(line_number_).line; }
   void on_data(std::uint32_t ready);
   void on_presence(std::span<const std::uint8_t> bytes);
@@ -45,9 +47,9 @@ class Port {
   World& world_;
   std::size_t line_number_;
   std::function<void()> catch_up_;
-  std::function<void(const std::string&)> log_;
   pty::PseudoTerminal terminal_;
   std::vector<std::uint8_t> left_behind_;  // by a host that has closed; as much as the kernel holds
+  WallTime last_bytes_{0};                 // when the host's last bytes came; 0: nothing is waited for
 };
 
 }  // namespace understudy::emulator

@@ -26,11 +26,8 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::Transmitter& out) 
   std::array<std::uint8_t, pty::kRtuMaxFrame> bytes;
   bytes[0] = address;
   std::copy_n(reply.pdu.begin(), reply.size, bytes.begin() + 1);
-  const std::size_t size = reply.size + 1;
-  const std::uint16_t crc = pty::rtu_crc(std::span(bytes).first(size));
-  bytes[size] = static_cast<std::uint8_t>(crc);
-  bytes[size + 1] = static_cast<std::uint8_t>(crc >> 8);
-  out.transmit(std::span(bytes).first(size + 2));
+  const std::size_t size = pty::append_rtu_crc(bytes, reply.size + 1);
+  out.answer(std::span(bytes).first(size), frame.last_character);
 }
 
 }  // namespace understudy::emulator

@@ -22,6 +22,7 @@ class RtuStation final : public pty::Station {
   void hear_start_bit(pty::SimTime at) override { framer_.start_bit(at); }
   void hear(const pty::TimedByte& byte) override { framer_.push(byte); }
   void hear_other_station() override { framer_.reset(); }
+  void hear_nothing_more() override { framer_.give_up_waiting(); }
   std::optional<pty::SimTime> due() const override { return framer_.due(); }
   void run(pty::SimTime now, pty::Transmitter& out) override;
 

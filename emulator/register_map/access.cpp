@@ -52,6 +52,12 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
   return bits;
 }
 
+/// Reading back what was written misses nothing; reading what the controller should say by itself does.
+void mention_if_missed(const Device& device, const Place& place) {
+  if (!place.row->unmodelled.empty() && place.row->access == Access::read)
+    device.mention_unmodelled(*place.row);
+}
+
 /// One register that a request touches, with what the request makes of it.
 struct Change {
   Place place;
@@ -124,8 +130,9 @@ void carry_out(Device& device, Changes& changes) {
   for (std::size_t i = 0; i < changes.count; ++i) {
     const Change& change = changes.all[i];
     const RegisterRow& row = *change.place.row;
+    if (change.bits == 0 && !row.acts_on_zero) continue;
     if (!row.unmodelled.empty()) device.mention_unmodelled(row);
-    if (row.effect == nullptr || (change.bits == 0 && !row.acts_on_zero)) continue;
+    if (row.effect == nullptr) continue;
     Cell cell = cell_of(change.place);
     cell.high_half = !is_32_bit(row.type) || change.high;
     row.effect(device, cell, typed(change.bits, row.type));
@@ -181,7 +188,7 @@ Refusal read_words(const Device& device, Table table, std::uint16_t first, std::
       words[i] = 0;
       continue;
     }
-    if (!place.row->unmodelled.empty()) device.mention_unmodelled(*place.row);
+    mention_if_missed(device, place);
     words[i] = word_of(present_bits(device, place), place.part);
   }
   return Refusal::none;
@@ -195,6 +202,8 @@ Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<
 }
 
 Value read_value(const Device& device, const Place& place) {
+  if (place.row->access == Access::write) return 0;
+  mention_if_missed(device, place);
   const std::uint32_t bits = present_bits(device, place);
   if (place.part != Place::Part::whole) return word_of(bits, place.part);
   return typed(bits, place.row->type);

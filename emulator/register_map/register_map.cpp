@@ -5,6 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "emulator/one_line.h"
+
 namespace understudy::emulator {
 
 std::string RegisterMap::name_of(const RegisterRow& row, int index, std::string_view pattern) {
@@ -101,11 +103,32 @@ std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firm
   return found;
 }
 
+std::string version_text(Firmware firmware) {
+  const std::string digits = std::to_string(1000 + firmware % 1000).substr(1);
+  return digits.substr(0, 1) + "." + digits.substr(1);
+}
+
+std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const {
+  const std::string_view base = name.substr(0, name.rfind('.'));
+  if (const auto it = names_.find(std::string(base)); it != names_.end()) {
+    if (firmware < it->second.row->since) {
+      return "register " + quoted(base) + " is there from firmware " + version_text(it->second.row->since) +
+             " on";
+    }
+    const bool whole_32 = is_32_bit(it->second.row->type) && it->second.part == Place::Part::whole;
+    return "register " + quoted(base) + " has no bit " +
+           quoted(name.substr(std::min(base.size() + 1, name.size()))) + "; expected 0 to " +
+           (whole_32 ? "31" : "15");
+  }
+  return "no register is called " + quoted(name) + "; the nearest is '" + nearest_name(name) + "'";
+}
+
 std::string RegisterMap::nearest_name(std::string_view name) const {
   return nearest_word(name.substr(0, name.rfind('.')), names_in_order_);
 }
 
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
+  word = word.substr(0, 64);  // no name is longer, and the work grows with it
   std::string best;
   std::size_t best_distance = SIZE_MAX;
   std::vector<std::size_t> row;

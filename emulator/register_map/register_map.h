@@ -52,6 +52,8 @@ class RegisterMap {
 
   /// "Aaxis_Pulse", "Aaxis_Pulse_L" (a half), "STATUS.4" (a bit).
   std::optional<NamedPlace> find(std::string_view name, Firmware firmware) const;
+  /// Why find() found nothing, as one line: no such name (and the nearest), no such bit, a newer firmware.
+  std::string why_not(std::string_view name, Firmware firmware) const;
   /// The known name that is most like it, for messages.
   std::string nearest_name(std::string_view name) const;
 
@@ -81,6 +83,9 @@ class RegisterMap {
   std::unordered_map<std::string, Place> names_;  // looked up, never iterated
   std::vector<std::string> names_in_order_;
 };
+
+/// 152 as "1.52".
+std::string version_text(Firmware firmware);
 
 /// The candidate with the smallest edit distance to `word`; empty if there are no candidates.
 std::string nearest_word(std::string_view word, std::span<const std::string> candidates);

@@ -121,6 +121,10 @@ struct RegisterRow {
     acts_on_zero = false;
     return does(function, with_argument);
   }
+  constexpr RegisterRow& missing_trigger(std::string_view what_is_missing) {
+    acts_on_zero = false;
+    return not_modelled(what_is_missing);
+  }
   constexpr RegisterRow& not_modelled(std::string_view what_is_missing) {
     unmodelled = what_is_missing;
     return *this;

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/one_line.h"
+
 namespace understudy::emulator {
 
 namespace {
@@ -22,8 +24,8 @@ Split split(const World& world, std::string_view name) {
   std::vector<std::string> devices;
   for (std::size_t i = 0; i < world.device_count(); ++i) devices.push_back(world.device(i).name());
   const std::string first(name.substr(0, dot));
-  throw NameError("no device is called '" + first + "'; the nearest is '" + nearest_word(first, devices) +
-                  "'");
+  throw NameError("no device is called " + quoted(first) + "; the nearest is '" +
+                  nearest_word(first, devices) + "'");
 }
 
 }  // namespace
@@ -32,8 +34,7 @@ RegisterName find_register(const World& world, std::string_view name) {
   const auto [number, rest] = split(world, name);
   const Device& device = world.device(number);
   if (const auto place = device.registers().find(rest, device.firmware())) return {number, *place};
-  throw NameError("no register of " + device.name() + " is called '" + std::string(rest) +
-                  "'; the nearest is '" + device.registers().nearest_name(rest) + "'");
+  throw NameError(device.name() + ": " + device.registers().why_not(rest, device.firmware()));
 }
 
 InputName find_input(const World& world, std::string_view name) {
@@ -48,8 +49,8 @@ InputName find_input(const World& world, std::string_view name) {
   for (const TerminalRow& row : model.terminals) {
     if (row.kind == TerminalRow::Kind::digital_in) names.emplace_back(row.name);
   }
-  throw NameError("no input of " + world.device(number).name() + " is called '" + std::string(rest) +
-                  "'; the nearest is '" + nearest_word(rest, names) + "'");
+  throw NameError("no input of " + world.device(number).name() + " is called " + quoted(rest) +
+                  "; the nearest is '" + nearest_word(rest, names) + "'");
 }
 
 }  // namespace understudy::emulator

@@ -8,8 +8,7 @@ World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
     : wires_(bench.wires) {
   for (const DeviceSetup& setup : bench.devices) {
-    devices_.push_back(make_device(*setup.model, setup.settings));
-    devices_.back()->set_log(log);
+    devices_.push_back(make_device(*setup.model, setup.settings, log));
     plants_.emplace_back(setup.model->axes.size());
     inputs_.emplace_back(setup.model->terminals.size());
   }

@@ -45,7 +45,7 @@ TEST(Firmware, IsWrittenWithTwoDecimals) {
       {"1.52", 152}, {"1.40", 140}, {"0.01", 1}, {"9.99", 999}};
   for (const auto& [text, firmware] : versions) {
     EXPECT_EQ(parse_firmware(text), firmware);
-    EXPECT_EQ(format_firmware(firmware), text);
+    EXPECT_EQ(version_text(firmware), text);
   }
   for (const char* text : {"", "1", "1.5", "1.520", "152", "v1.52", "1,52", " 1.52", "1.52 ", "-1.5", "a.bc",
                            "1.5x", "12.5", "0.00", "٣.52"}) {
@@ -127,7 +127,7 @@ TEST(MakeDevice, RegistersOfNewerFirmwareCannotBeSetInOlderOnes) {
   DeviceSettings settings;
   settings.firmware = 150;
   settings.set = {{"NEW_PWD", 1}};
-  EXPECT_TRUE(error_of(settings).starts_with("set: no register is called 'NEW_PWD'"));
+  EXPECT_TRUE(error_of(settings).starts_with("set: register 'NEW_PWD' is there from firmware 1.51 on"));
   settings.firmware = 151;
   EXPECT_EQ(error_of(settings), "");
 }

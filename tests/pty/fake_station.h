@@ -36,7 +36,7 @@ class FakeSlave : public Station {
     const auto frame = framer_.take(now);
     if (!frame || frame->bytes[0] != address_) return;
     served_at.push_back(now);
-    out.transmit(reply_);
+    out.answer(reply_, frame->last_character);
   }
 
   LineSettings listens_to;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/choices.h"
 #include "emulator/devices/simple2_r3/device.h"
 #include "emulator/devices/simple2_r3/parameters.h"
@@ -40,19 +41,20 @@ constexpr std::array<TerminalRow, kInputCount + kOutputCount> kTerminals{{
     {Kind::digital_out, "DOUT_6"},
 }};
 
-// The limit and home inputs are where the I/O assignment registers (0x0A00...) expect them.
-constexpr std::array<AxisRow, 2> kAxes{{
-    {.name = "A",
-     .upper_limit_input = 2,
-     .lower_limit_input = 3,
-     .home_input = 4,
-     .pulses_per_revolution = 3200},
-    {.name = "B",
-     .upper_limit_input = 7,
-     .lower_limit_input = 8,
-     .home_input = 9,
-     .pulses_per_revolution = 3200},
-}};
+constexpr AxisRow axis_row(std::string_view name, const AxisSlots& slots) {
+  return {.name = name,
+          .upper_limit_input = slots.upper_input,
+          .lower_limit_input = slots.lower_input,
+          .home_input = slots.home_input,
+          .pulses_per_revolution = static_cast<int>(factory_value(slots.resolution))};
+}
+constexpr std::array<AxisRow, 2> kAxes{axis_row("A", kAxisSlots[kAxisA]), axis_row("B", kAxisSlots[kAxisB])};
+
+constexpr std::array<std::string_view, 3> kGaps{
+    "STATUS bits 6 to 9 (homing, home reached) stay 0.",
+    "Aaxis_Mode and Baxis_Mode stay 0: position mode is the only one.",
+    "What the manual keeps over power-off is lost when the daemon ends.",
+};
 
 std::vector<InstructionRow> instruction_rows() {
   std::vector<InstructionRow> rows;
@@ -80,6 +82,7 @@ const Model& model() {
       .choices = kChoices,
       .terminals = kTerminals,
       .axes = kAxes,
+      .gaps = kGaps,
       .rtu = {.bauds = kBauds,
               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
               .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds

@@ -25,6 +25,11 @@ inline constexpr Value k2To15 = 32768;
 inline constexpr Value k2To31 = 2147483648;
 
 inline constexpr std::string_view kNoHoming = "homing; the command is accepted and nothing moves";
+inline constexpr std::string_view kForHoming = "homing, which it is for; the value is kept";
+inline constexpr std::string_view kForVelocity = "velocity mode, which it is for; the value is kept";
+inline constexpr std::string_view kForSync = "encoder-synchronous mode, which it is for; the value is kept";
+inline constexpr std::string_view kForEncoderSpeed = "encoder speed, which it is for; the value is kept";
+inline constexpr std::string_view kForAnalog = "analog inputs, which it is for; the value is kept";
 inline constexpr std::string_view kNoVelocity = "velocity mode; the value is kept and nothing moves";
 inline constexpr std::string_view kNoPwm = "PWM mode; the value is kept and nothing is output";
 inline constexpr std::string_view kNoSync =
@@ -75,12 +80,12 @@ inline constexpr auto kAssignmentRows = section("輸入輸出功能指配相關"
     reg(0x0A05, "DIN1_Aaxis_Ready",    u16, RW).range(0, 1).kept(),
     reg(0x0A06, "DIN2_Aaxis_UP_Limit", u16, RW).range(0, 1).kept(),
     reg(0x0A07, "DIN3_Aaxis_DN_Limit", u16, RW).range(0, 1).kept(),
-    reg(0x0A08, "DIN4_Aaxis_Home",     u16, RW).range(0, 1).kept(),
+    reg(0x0A08, "DIN4_Aaxis_Home",     u16, RW).range(0, 1).kept().not_modelled(kForHoming),
     reg(0x0A09, "DIN5_Baxis_Alarm",    u16, RW).range(0, 1).kept(),
     reg(0x0A0A, "DIN6_Baxis_Ready",    u16, RW).range(0, 1).kept(),
     reg(0x0A0B, "DIN7_Baxis_UP_Limit", u16, RW).range(0, 1).kept(),
     reg(0x0A0C, "DIN8_Baxis_DN_Limit", u16, RW).range(0, 1).kept(),
-    reg(0x0A0D, "DIN9_Baxis_Home",     u16, RW).range(0, 1).kept(),
+    reg(0x0A0D, "DIN9_Baxis_Home",     u16, RW).range(0, 1).kept().not_modelled(kForHoming),
 });
 
 inline constexpr auto kIoRows = section("輸入輸出相關", {
@@ -97,8 +102,8 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
     reg(0x0E06, "Cord_B",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads(read_coordinate, kAxisB).does(preset_coordinate, kAxisB),
     reg(0x0E08, "Analog_A", u16, R).range(0, 65535).not_modelled(kNoAnalog),
     reg(0x0E09, "Analog_B", u16, R).range(0, 65535).not_modelled(kNoAnalog),
-    reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
-    reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
+    reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept().not_modelled(kForEncoderSpeed),
+    reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept().not_modelled(kForEncoderSpeed),
     reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").not_modelled(kNoEncoderSpeed),
     reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").not_modelled(kNoEncoderSpeed),
 });
@@ -119,9 +124,9 @@ inline constexpr auto kMotionRows = section("運動相關", {
     reg(0x100D, "ALL_STOP",        u16, W).range(0, 1).in("ON/OFF").triggers(stop_motion, kAllAxes),
     reg(0x100E, "Aaxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).triggers(stop_motion, kAxisA),
     reg(0x100F, "Baxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).triggers(stop_motion, kAxisB),
-    reg(0x1010, "ALL_GoHome",      u16, W).range(0, 1).in("ON/OFF").not_modelled(kNoHoming),
-    reg(0x1011, "Aaxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).not_modelled(kNoHoming),
-    reg(0x1012, "Baxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).not_modelled(kNoHoming),
+    reg(0x1010, "ALL_GoHome",      u16, W).range(0, 1).in("ON/OFF").missing_trigger(kNoHoming),
+    reg(0x1011, "Aaxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).missing_trigger(kNoHoming),
+    reg(0x1012, "Baxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).missing_trigger(kNoHoming),
     reg(0x1013, "ALL_SVON",        u16, W).range(0, 1).in("ON/OFF").does(switch_servo, kAllAxes),
     reg(0x1014, "Aaxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads(read_servo, kAxisA).does(switch_servo, kAxisA),
     reg(0x1015, "Baxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads(read_servo, kAxisB).does(switch_servo, kAxisB),
@@ -153,9 +158,9 @@ inline constexpr auto kIncrementalBySetRows = section("預存位置表相關運�
 });
 
 inline constexpr auto kVelocityBySetRows = section("預存速度表相關運動指令", {
-    reg(0x2103, "ALL_ParmsDirectmRPM",   u16, W).range(0, 16).not_modelled(kNoVelocity),
-    reg(0x2104, "Aaxis_ParmsDirectmRPM", u16, W).range(0, 16).not_modelled(kNoVelocity),
-    reg(0x2105, "Baxis_ParmsDirectmRPM", u16, W).range(0, 16).not_modelled(kNoVelocity),
+    reg(0x2103, "ALL_ParmsDirectmRPM",   u16, W).range(0, 16).missing_trigger(kNoVelocity),
+    reg(0x2104, "Aaxis_ParmsDirectmRPM", u16, W).range(0, 16).missing_trigger(kNoVelocity),
+    reg(0x2105, "Baxis_ParmsDirectmRPM", u16, W).range(0, 16).missing_trigger(kNoVelocity),
 });
 
 inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動指令(絕對位置移動)", {
@@ -167,7 +172,7 @@ inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動�
 // A program cell travels as 16 bits but holds 8.
 inline constexpr auto kProgramRows = section("程式控制", {
     reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).range(0, 255).in("line").not_modelled(kNoProgram),
-    reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).range(0, 1).not_modelled(kNoProgram),
+    reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).range(0, 1).missing_trigger(kNoProgram),
     reg(0x3004, "PROG_MAIN_Erase_ALL",      u16, W).range(0, 1).triggers(erase_program),
     reg(0x3010, "PROG_MAIN_NowLine",        u16, R).range(0, 255).in("line").not_modelled(kNoProgram),
     reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).range(0, 1).not_modelled(kNoProgram),
@@ -181,14 +186,14 @@ inline constexpr auto kProgramRows = section("程式控制", {
 
 // EncSync is printed up to 2^16, which 16 bits cannot hold. 0xF02A is printed like 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", {
-    reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept(),
-    reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept(),
+    reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept().not_modelled(kForHoming),
+    reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept().not_modelled(kForHoming),
     reg(0xF002, "Aaxis_Resoultion",    u32, RW).also("Axis_Resoultion").range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0xF004, "Baxis_Resoultion",    u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0xF006, "Aaxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").not_modelled(kNoVelocity),
     reg(0xF008, "Baxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").not_modelled(kNoVelocity),
-    reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).also("Axis_Home_AccTime").range(0, 3000).in("10ms").kept(),
-    reg(0xF011, "Baxis_Home_AccTime",  u16, RW).range(0, 3000).in("10ms").kept(),
+    reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).also("Axis_Home_AccTime").range(0, 3000).in("10ms").kept().not_modelled(kForHoming),
+    reg(0xF011, "Baxis_Home_AccTime",  u16, RW).range(0, 3000).in("10ms").kept().not_modelled(kForHoming),
     reg(0xF012, "Aaxis_SVON_Polarity", u16, RW).range(0, 1).from_factory(1).kept(),
     reg(0xF013, "Baxis_SVON_Polarity", u16, RW).range(0, 1).from_factory(1).kept(),
     reg(0xF014, "Aaxis_ALM_Polarity",  u16, RW).range(0, 1).kept(),
@@ -197,22 +202,22 @@ inline constexpr auto kSystemRows = section("系統參數相關", {
     reg(0xF017, "Baxis_DIR_Polarity",  u16, RW).range(0, 1).kept(),
     reg(0xF018, "Axis_ENC_Polarity",   u16, RW).also("Aaxis_ENC_Polarity").range(0, 1).kept(),
     reg(0xF019, "Baxis_ENC_Polarity",  u16, RW).range(0, 1).kept(),
-    reg(0xF01A, "Axis_GoHome_DIR",     u16, RW).also("Aaxis_GoHome_DIR").range(0, 1).kept(),
-    reg(0xF01B, "Baxis_GoHome_DIR",    u16, RW).range(0, 1).kept(),
-    reg(0xF01C, "Axis_VelMode_ACC",    u16, RW).also("Aaxis_VelMode_ACC").range(1, k2To15).in("2mRPM/s").from_factory(1000).kept(),
-    reg(0xF01D, "Baxis_VelMode_ACC",   u16, RW).range(1, k2To15).in("2mRPM/s").from_factory(1000).kept(),
+    reg(0xF01A, "Axis_GoHome_DIR",     u16, RW).also("Aaxis_GoHome_DIR").range(0, 1).kept().not_modelled(kForHoming),
+    reg(0xF01B, "Baxis_GoHome_DIR",    u16, RW).range(0, 1).kept().not_modelled(kForHoming),
+    reg(0xF01C, "Axis_VelMode_ACC",    u16, RW).also("Aaxis_VelMode_ACC").range(1, k2To15).in("2mRPM/s").from_factory(1000).kept().not_modelled(kForVelocity),
+    reg(0xF01D, "Baxis_VelMode_ACC",   u16, RW).range(1, k2To15).in("2mRPM/s").from_factory(1000).kept().not_modelled(kForVelocity),
     reg(0xF01E, "AutoStart_MainProg",  u16, RW).range(0, 1).kept().not_modelled(kNoProgram),
-    reg(0xF020, "Axis_EncSync_NUM",    u16, RW).also("Aaxis_EncSync_NUM").range(0, 65535).from_factory(1).kept(),
-    reg(0xF021, "Axis_EncSync_DEN",    u16, RW).also("Aaxis_EncSync_DEN").range(1, 65535).from_factory(1).kept(),
-    reg(0xF022, "Baxis_EncSync_NUM",   u16, RW).range(0, 65535).from_factory(1).kept(),
-    reg(0xF023, "Baxis_EncSync_DEN",   u16, RW).range(1, 65535).from_factory(1).kept(),
-    reg(0xF024, "ALL_SyncMode",        u16, W).range(0, 1).not_modelled(kNoSync),
-    reg(0xF025, "Aaxis_SyncMode",      u16, W).range(0, 1).not_modelled(kNoSync),
-    reg(0xF026, "Baxis_SyncMode",      u16, W).range(0, 1).not_modelled(kNoSync),
-    reg(0xF027, "Axis_SyncSlope",      u16, RW).also("Aaxis_SyncSlope").range(0, 255).kept(),
-    reg(0xF028, "Baxis_SyncSlope",     u16, RW).range(0, 255).kept(),
-    reg(0xF029, "Axis_SyncRPM",        u16, RW).also("Aaxis_SyncRPM").range(1, 3000).in("RPM").from_factory(3000).kept(),
-    reg(0xF02A, "Baxis_SyncRPM",       u16, RW).range(1, 3000).in("RPM").from_factory(3000).kept(),
+    reg(0xF020, "Axis_EncSync_NUM",    u16, RW).also("Aaxis_EncSync_NUM").range(0, 65535).from_factory(1).kept().not_modelled(kForSync),
+    reg(0xF021, "Axis_EncSync_DEN",    u16, RW).also("Aaxis_EncSync_DEN").range(1, 65535).from_factory(1).kept().not_modelled(kForSync),
+    reg(0xF022, "Baxis_EncSync_NUM",   u16, RW).range(0, 65535).from_factory(1).kept().not_modelled(kForSync),
+    reg(0xF023, "Baxis_EncSync_DEN",   u16, RW).range(1, 65535).from_factory(1).kept().not_modelled(kForSync),
+    reg(0xF024, "ALL_SyncMode",        u16, W).range(0, 1).missing_trigger(kNoSync),
+    reg(0xF025, "Aaxis_SyncMode",      u16, W).range(0, 1).missing_trigger(kNoSync),
+    reg(0xF026, "Baxis_SyncMode",      u16, W).range(0, 1).missing_trigger(kNoSync),
+    reg(0xF027, "Axis_SyncSlope",      u16, RW).also("Aaxis_SyncSlope").range(0, 255).kept().not_modelled(kForSync),
+    reg(0xF028, "Baxis_SyncSlope",     u16, RW).range(0, 255).kept().not_modelled(kForSync),
+    reg(0xF029, "Axis_SyncRPM",        u16, RW).also("Aaxis_SyncRPM").range(1, 3000).in("RPM").from_factory(3000).kept().not_modelled(kForSync),
+    reg(0xF02A, "Baxis_SyncRPM",       u16, RW).range(1, 3000).in("RPM").from_factory(3000).kept().not_modelled(kForSync),
 });
 
 inline constexpr auto kApplicationRows = section("程式應用相關", {
@@ -226,10 +231,10 @@ inline constexpr auto kApplicationRows = section("程式應用相關", {
 inline constexpr auto kFactoryRows = section("附錄 C", {
     reg(0xFF00, "ADC_A",         u16, R).not_modelled(kNoAnalog),
     reg(0xFF01, "ADC_B",         u16, R).not_modelled(kNoAnalog),
-    reg(0xFF02, "ADC_10V_A",     u16, RW).from_factory(4000).kept(),
-    reg(0xFF03, "ADC_10V_B",     u16, RW).from_factory(4000).kept(),
-    reg(0xFF04, "ADC_1V_A",      u16, RW).from_factory(400).kept(),
-    reg(0xFF05, "ADC_1V_B",      u16, RW).from_factory(400).kept(),
+    reg(0xFF02, "ADC_10V_A",     u16, RW).from_factory(4000).kept().not_modelled(kForAnalog),
+    reg(0xFF03, "ADC_10V_B",     u16, RW).from_factory(4000).kept().not_modelled(kForAnalog),
+    reg(0xFF04, "ADC_1V_A",      u16, RW).from_factory(400).kept().not_modelled(kForAnalog),
+    reg(0xFF05, "ADC_1V_B",      u16, RW).from_factory(400).kept().not_modelled(kForAnalog),
     reg(0xFF06, "Factory_Reset", u16, W).range(0, 1).triggers(reset_to_factory),
     reg(0xFF07, "PWD_Input",     u16, RW).also("PWD_INPUT").range(0, 65535).since_firmware(151).not_modelled(kNoPassword),
     reg(0xFF08, "PROG_UNLOCK",   u16, R).range(0, 1).from_factory(1).since_firmware(151).not_modelled(kNoPassword),
@@ -256,6 +261,16 @@ consteval std::size_t slot(std::string_view name) {
     next += static_cast<std::size_t>(row.count);
   }
   throw "no such register";
+}
+
+/// The factory's value of the register that is kept in a slot.
+constexpr Value factory_value(std::size_t number) {
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    next += static_cast<std::size_t>(row.count);
+    if (number < next) return row.factory;
+  }
+  return 0;
 }
 
 }  // namespace understudy::emulator::simple2_r3

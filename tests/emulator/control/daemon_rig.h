@@ -17,11 +17,11 @@ namespace understudy::emulator {
 using Json = nlohmann::json;
 
 /// A new folder below /tmp that goes with its owner.
-struct PrivateFolder {
-  PrivateFolder() { EXPECT_NE(mkdtemp(path.data()), nullptr); }
-  ~PrivateFolder() { std::filesystem::remove_all(path); }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
+struct TestFolder {
+  TestFolder() { EXPECT_NE(mkdtemp(path.data()), nullptr); }
+  ~TestFolder() { std::filesystem::remove_all(path); }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
   std::string path = "/tmp/understudy-test-XXXXXX";
 };
 
@@ -74,7 +74,7 @@ struct DaemonRig {
     return daemon.world().now() == SimTime{0};
   }
 
-  PrivateFolder folder;
+  TestFolder folder;
   std::vector<std::string> log;
   Bench bench;
   Daemon daemon;

@@ -69,7 +69,7 @@ struct ServerRig {
     for (int look = 0; look < 40; ++look) loop.wait(wall_now());
   }
 
-  PrivateFolder folder;
+  TestFolder folder;
   std::string path = folder.path + "/control";
   EventLoop loop;
   std::vector<std::string> heard;
@@ -283,14 +283,14 @@ TEST(ControlServer, AClientThatNeverReadsIsDroppedBeforeItsRepliesFillTheMemory)
 }
 
 TEST(AskControl, ComplainsWhenNobodyAnswers) {
-  const PrivateFolder folder;
+  const TestFolder folder;
   EXPECT_THROW(ask_control(folder.path + "/nobody", "{}"), ControlError);
   EXPECT_THROW(ask_control("", "{}"), ControlError);
   EXPECT_THROW(ask_control(std::string(200, 'x'), "{}"), ControlError);
 }
 
 TEST(AskControl, ComplainsWhenTheServerGoesBeforeItAnswers) {
-  const PrivateFolder folder;
+  const TestFolder folder;
   const std::string path = folder.path + "/control";
   const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
   const sockaddr_un address = address_of(path);

@@ -40,13 +40,22 @@ TEST(SheetFormats, AReaderOfCsvGetsTheCellsBack) {
   EXPECT_EQ(csv_cells(line.substr(0, line.size() - 1)), kSheet.rows[1]);
 }
 
-TEST(SheetFormats, JsonIsAnArrayOfObjectsWithNumbersAsNumbers) {
+TEST(SheetFormats, AColumnOfNumbersIsOfNumbersInJsonWithNullForNone) {
+  const Sheet sheet{.columns = {"address", "max"}, .rows = {{"0x10", "12"}, {"16", ""}, {"0x12", "-3"}}};
+  const auto parsed = nlohmann::json::parse(format_sheet(sheet, SheetFormat::json));
+  EXPECT_EQ(parsed[0]["max"], 12);
+  EXPECT_TRUE(parsed[1]["max"].is_null());
+  EXPECT_EQ(parsed[2]["max"], -3);
+  EXPECT_EQ(parsed[1]["address"], "16") << "the others are none";
+}
+
+TEST(SheetFormats, JsonIsAnArrayOfObjects) {
   const std::string json = format_sheet(kSheet, SheetFormat::json);
   const auto parsed = nlohmann::json::parse(json);
   ASSERT_TRUE(parsed.is_array());
   ASSERT_EQ(parsed.size(), kSheet.rows.size());
-  EXPECT_EQ(parsed[0]["count"], 12);
-  EXPECT_EQ(parsed[1]["count"], -3);
+  EXPECT_EQ(parsed[0]["count"], "12");
+  EXPECT_EQ(parsed[1]["count"], "-3");
   EXPECT_EQ(parsed[1]["remark"], "says \"no\"");
   EXPECT_EQ(parsed[2]["count"], "");
   EXPECT_EQ(parsed[2]["remark"], "two\nlines");

@@ -72,10 +72,17 @@ TEST(Pacer, AMomentTooFarAwayForTheWallClockIsNotInThePast) {
   }
 }
 
-TEST(Pacer, FreeAndManualHaveNoMomentsAndManualStands) {
-  const Pacer free({.kind = Speed::Kind::free}, kStart);
-  EXPECT_FALSE(free.wall_time_of(1s));
+TEST(Pacer, FreeIsBoundedAndOwesNothing) {
+  Pacer free({.kind = Speed::Kind::free}, kStart);
   EXPECT_FALSE(free.standing());
+  EXPECT_EQ(free.target(kStart + 1ms), 10s) << "10,000 times real time";
+  EXPECT_EQ(free.wall_time_of(10s), kStart + 1ms + 1ns);
+  EXPECT_EQ(free.target(kStart + 24h * 365 * 20), kHorizon) << "simulated time has an end";
+  EXPECT_EQ(free.woke(kStart, kStart + 5s), 0s) << "what it could not do is no stall";
+  EXPECT_EQ(free.slips(), 0U);
+}
+
+TEST(Pacer, ManualHasNoMomentsAndStands) {
   Pacer manual({.kind = Speed::Kind::manual}, kStart);
   EXPECT_FALSE(manual.wall_time_of(1s));
   EXPECT_TRUE(manual.standing());

@@ -37,6 +37,7 @@ struct StationRig final : pty::Transmitter {
       : device(make_simple2(settings)), station(*device, framing) {}
 
   void transmit(std::span<const std::uint8_t> bytes) override { said.push_back(text(bytes)); }
+  void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
 
   /// Sends a frame and waits; what the station said, one text a transmission.
   std::vector<std::string> exchange(const Bytes& frame) {

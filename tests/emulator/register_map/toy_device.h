@@ -75,6 +75,7 @@ struct Toy {
               .choices = {},
               .terminals = {},
               .axes = {},
+              .gaps = {},
               .rtu = {.bauds = kToyBauds, .settings = {}, .functions = kToyFunctions},
               .make = nullptr},
         device(model, settings(firmware)) {
