@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "pty/port_claim.h"
+
 namespace understudy::pty {
 namespace {
 
@@ -37,7 +39,11 @@ void demand_stale(const std::string& path, const std::string& absolute_path) {
   const std::string expected = ", not a link of ours; expected a free path or a stale link";
   if (!S_ISLNK(status.st_mode)) throw PortError(path + ": is " + kind_of(status.st_mode) + expected);
   const std::string target = link_target(absolute_path);
-  if (target.starts_with("/dev/pts/")) return;
+  if (target.starts_with("/dev/pts/")) {
+    if (!is_port_claimed(target)) return;
+    throw PortError(
+        path + ": is the link of another understudy, which is running; expected a free path or a stale link");
+  }
   const bool dangles = ::stat(absolute_path.c_str(), &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
   if (!dangles) throw PortError(path + ": is a link to " + target + expected);
 }

@@ -16,8 +16,8 @@ class PortLink {
   PortLink() = default;  // no link
 
   /// Links `path` to `target`. What is there is replaced if it is a stale link: a symbolic link that
-  /// dangles, or one to a /dev/pts entry (left by a run that was killed; its number may be another
-  /// program's by now). Anything else is left alone: throws PortError.
+  /// dangles, or one to a /dev/pts entry that no understudy serves (left by a run that was killed; its
+  /// number may be another program's by now). Anything else is left alone: throws PortError.
   PortLink(const std::string& path, std::string target);
   /// Removes the link, unless it has become another's.
   ~PortLink();

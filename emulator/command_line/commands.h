@@ -10,7 +10,7 @@ namespace understudy::emulator {
 
 enum ExitCode : int {
   kExitWell = 0,
-  kExitFailed = 1,      // a scenario or replay failed
+  kExitFailed = 1,      // a scenario or replay failed; a poll was refused or not answered
   kExitBadInput = 2,    // usage, file or configuration
   kExitNoResource = 3,  // a port or socket could not be had
   kExitInternal = 4,

@@ -38,6 +38,22 @@ TEST(TolerantFraming, AnswersARequestWithAPause) {
   EXPECT_GT(answers_to_paused_requests(daemon), kTimes / 2);
 }
 
+TEST(TolerantFraming, IsPatientByTheHostsClockHoweverFastTimeRuns) {
+  for (const char* speed : {"free", "100", "0.5"}) {
+    const RunningUnderstudy daemon({"--speed", speed, "--timing", "instant"});
+    EXPECT_GT(answers_to_paused_requests(daemon), kTimes / 2) << speed;
+  }
+}
+
+TEST(TolerantFraming, GivesUpAnIncompleteRequestAlsoWhereTheClockStands) {
+  const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200));
+  host.write(hex("01 10 10 00 00 7B F6 00 00"));  // the beginning of a request of 255 bytes
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
+}
+
 const Bytes kNoise = hex("FF 00 01 03 42");
 
 Bytes after_noise(const Bytes& request) {

@@ -61,6 +61,16 @@ TEST(Link, OfAKilledDaemonIsReplacedByTheNext) {
   EXPECT_FALSE(fs::is_symlink(killed.port()));
 }
 
+TEST(Link, OfADaemonThatRunsIsNotTakenByAnother) {
+  const RunningUnderstudy first;
+  const Finished second = understudy({"serve", "--model", "simple2-r3", "--link", first.port(), "--control",
+                                      first.folder() / "another_control"});
+  EXPECT_EQ(second.exit_code, 3);
+  EXPECT_EQ(lines_of(second.errors).size(), 1U) << second.errors;
+  ModbusHost host(first.port());
+  EXPECT_EQ(host.read(kHardwareCode), Registers{0xC001});
+}
+
 TEST(Link, ThatDanglesIsReplaced) {
   const PrivateFolder folder;
   fs::create_symlink("/dev/pts/nothing", folder / "port");

@@ -86,5 +86,39 @@ TEST_P(LineDeparted, AStationThatSpeaksUnaskedLaterIsHeard) {
   EXPECT_EQ(rig_.out.size(), 2U);
 }
 
+TEST_P(LineDeparted, ARequestItDidNotFinishDoesNotSilenceTheNextHost) {
+  open(0s);
+  rig_.send(Bytes(kRequest.begin(), kRequest.begin() + 5), 0s);
+  rig_.run(4ms);
+  rig_.line.host_closed();
+  open(4ms);
+  rig_.run(30ms);  // patience has ended
+  rig_.send(kRequest, 30ms);
+  rig_.run(1s);
+  EXPECT_EQ(rig_.out.size(), kReply.size());
+}
+
+TEST_P(LineDeparted, ARequestItDidNotFinishIsNoiseBeforeTheNextHosts) {
+  open(0s);
+  rig_.send(Bytes(kRequest.begin(), kRequest.begin() + 5), 0s);
+  rig_.line.host_closed();
+  open(0s);
+  rig_.send(kRequest, 0s);
+  rig_.run(1s);
+  EXPECT_EQ(slave_.served_at.size(), 1U);
+  EXPECT_EQ(rig_.out.size(), kReply.size());
+}
+
+TEST_P(LineDeparted, WhatItLeftInThePortCountsAsItsOwnThoughTheNextHostIsThere) {
+  open(0s);
+  rig_.line.host_closed();
+  open(0s);
+  rig_.line.receive_departed(kRequest, 0s);
+  rig_.send(kRequest, 0s);
+  rig_.run(1s);
+  EXPECT_EQ(slave_.served_at.size(), 2U);
+  EXPECT_EQ(rig_.out.size(), kReply.size());
+}
+
 }  // namespace
 }  // namespace understudy::pty

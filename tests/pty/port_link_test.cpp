@@ -1,6 +1,7 @@
 // Which paths may become a port's link, and what stays of it.
 #include "pty/port_link.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -41,14 +42,18 @@ TEST(PortLink, IsAWorkingPathAndGoesWithThePort) {
 TEST(PortLink, ReplacesStaleLinks) {
   const ScratchDirectory directory;
   const std::string link = directory / "feeder.port";
-  // One that dangles, one of a run that was killed, and one whose number is in use again.
-  PseudoTerminal other("");
-  for (const std::string& target : {directory / "nothing", std::string("/dev/pts/99999"), other.path()}) {
+  // One that dangles, one of a run that was killed, and one whose number is another program's by now.
+  const int other = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(other, 0);
+  ASSERT_EQ(::unlockpt(other), 0);
+  const std::string others = ::ptsname(other);
+  for (const std::string& target : {directory / "nothing", std::string("/dev/pts/99999"), others}) {
     fs::create_symlink(target, link);
     const PseudoTerminal port(link);
     EXPECT_EQ(fs::read_symlink(link), port.path()) << target;
     EXPECT_EQ(std::distance(fs::directory_iterator(directory / ""), fs::directory_iterator()), 1);
   }
+  ::close(other);
 }
 
 TEST(PortLink, LeavesWhatIsNotOursAlone) {
@@ -93,6 +98,7 @@ TEST(PortLink, IsNotRemovedWhenItHasBecomeAnothers) {
   const ScratchDirectory directory;
   const std::string link = directory / "feeder.port";
   auto first = std::make_unique<PseudoTerminal>(link);
+  fs::remove(link);
   const PseudoTerminal second(link);
   first.reset();
   EXPECT_EQ(fs::read_symlink(link), second.path());
@@ -109,6 +115,19 @@ TEST(PortLink, IsRemovedAlsoFromAnotherWorkingDirectory) {
     EXPECT_TRUE(fs::is_symlink(directory / "feeder.port"));
   }
   EXPECT_FALSE(fs::is_symlink(directory / "feeder.port"));
+}
+
+TEST(PortLink, OfAnUnderstudyThatRunsIsNotTaken) {
+  const ScratchDirectory directory;
+  const std::string link = directory / "feeder.port";
+  {
+    const PseudoTerminal first(link);
+    EXPECT_EQ(
+        error_of(link),
+        link + ": is the link of another understudy, which is running; expected a free path or a stale link");
+    EXPECT_EQ(fs::read_symlink(link), first.path());
+  }
+  EXPECT_EQ(error_of(link), "");
 }
 
 }  // namespace
