@@ -5,23 +5,23 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace understudy::pty {
 
-Descriptor claim_port(const std::string& terminal) {
+Descriptor claim_link(const std::string& canonical_path) {
   Descriptor claim(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (!claim) return claim;
   sockaddr_un address = {};
   address.sun_family = AF_UNIX;
-  // A name that begins with a zero byte is abstract.
-  const std::string name = std::string(1, '\0') + "understudy serves " + terminal;
-  if (name.size() > sizeof address.sun_path) return Descriptor();
+  // A name that begins with a zero byte is abstract. Paths are longer than names may be: their FNV-1a hash.
+  std::uint64_t hash = 0xCBF29CE484222325;
+  for (const char c : canonical_path) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
+  const std::string name = std::string(1, '\0') + "understudy link " + std::to_string(hash);
   std::copy(name.begin(), name.end(), address.sun_path);
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
   if (::bind(claim.get(), reinterpret_cast<const sockaddr*>(&address), size) != 0) return Descriptor();
   return claim;
 }
-
-bool is_port_claimed(const std::string& terminal) { return !claim_port(terminal); }
 
 }  // namespace understudy::pty

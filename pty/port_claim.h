@@ -1,4 +1,4 @@
-// Says of a pseudo-terminal, for as long as we serve it, that it is served: so that its link is not taken
+// Says of a port's link, for as long as we serve it, that it is served: so that another run does not take it
 // for a stale one. An abstract Unix socket carries its name; the kernel takes it away with the process, and
 // no file is left anywhere.
 #pragma once
@@ -9,10 +9,7 @@
 
 namespace understudy::pty {
 
-/// Claims `terminal` ("/dev/pts/3") until the descriptor closes. An empty one: it is claimed already.
-Descriptor claim_port(const std::string& terminal);
-
-/// Whether somebody serves it now.
-bool is_port_claimed(const std::string& terminal);
+/// Claims the link of that path until the descriptor closes. An empty one: another run serves it.
+Descriptor claim_link(const std::string& canonical_path);
 
 }  // namespace understudy::pty

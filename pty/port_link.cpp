@@ -39,11 +39,7 @@ void demand_stale(const std::string& path, const std::string& absolute_path) {
   const std::string expected = ", not a link of ours; expected a free path or a stale link";
   if (!S_ISLNK(status.st_mode)) throw PortError(path + ": is " + kind_of(status.st_mode) + expected);
   const std::string target = link_target(absolute_path);
-  if (target.starts_with("/dev/pts/")) {
-    if (!is_port_claimed(target)) return;
-    throw PortError(
-        path + ": is the link of another understudy, which is running; expected a free path or a stale link");
-  }
+  if (target.starts_with("/dev/pts/")) return;
   const bool dangles = ::stat(absolute_path.c_str(), &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
   if (!dangles) throw PortError(path + ": is a link to " + target + expected);
 }
@@ -67,6 +63,13 @@ PortLink::PortLink(const std::string& path, std::string target) {
                      "; expected a writable directory");
   };
   const std::string name = absolute_path.string();
+  std::error_code ignored;
+  const auto canonical_parent = std::filesystem::canonical(absolute_path.parent_path(), ignored);
+  claim_ = claim_link((canonical_parent / absolute_path.filename()).string());
+  if (!claim_) {
+    throw PortError(
+        path + ": is the link of another understudy, which is running; expected a free path or a stale link");
+  }
   // A free path is taken in one step, which never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {
     if (errno != EEXIST) throw fail(errno);
@@ -90,11 +93,14 @@ PortLink::~PortLink() {
 }
 
 PortLink::PortLink(PortLink&& other) noexcept
-    : absolute_path_(std::move(other.absolute_path_)), target_(std::exchange(other.target_, {})) {}
+    : absolute_path_(std::move(other.absolute_path_)),
+      target_(std::exchange(other.target_, {})),
+      claim_(std::move(other.claim_)) {}
 
 PortLink& PortLink::operator=(PortLink&& other) noexcept {
   std::swap(absolute_path_, other.absolute_path_);
   std::swap(target_, other.target_);
+  std::swap(claim_, other.claim_);
   return *this;
 }
 

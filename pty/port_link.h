@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "pty/descriptor.h"
+
 namespace understudy::pty {
 
 /// A port could not be had: one line, naming the path and what was expected.
@@ -16,8 +18,8 @@ class PortLink {
   PortLink() = default;  // no link
 
   /// Links `path` to `target`. What is there is replaced if it is a stale link: a symbolic link that
-  /// dangles, or one to a /dev/pts entry that no understudy serves (left by a run that was killed; its
-  /// number may be another program's by now). Anything else is left alone: throws PortError.
+  /// dangles, or one to a /dev/pts entry (left by a run that was killed; its number may be another
+  /// program's by now). A link that another run serves, and anything else, is left alone: throws PortError.
   PortLink(const std::string& path, std::string target);
   /// Removes the link, unless it has become another's.
   ~PortLink();
@@ -27,6 +29,7 @@ class PortLink {
  private:
   std::string absolute_path_;  // the working directory may change before the link is removed
   std::string target_;         // empty: no link
+  Descriptor claim_;           // says that the link is in use
 };
 
 }  // namespace understudy::pty

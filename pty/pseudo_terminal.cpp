@@ -12,7 +12,6 @@
 #include <system_error>
 #include <utility>
 
-#include "pty/port_claim.h"
 #include "pty/terminal_settings.h"
 
 namespace understudy::pty {
@@ -64,7 +63,6 @@ PseudoTerminal::PseudoTerminal(const std::string& link_path) : link_path_(link_p
     throw cannot_have(link_path, path_ + " cannot be watched", errno);
   }
   if (!link_path.empty()) link_ = PortLink(link_path, path_);
-  claim_ = claim_port(path_);  // not before: a stale link may lead to the very number that we got
 }
 
 PseudoTerminal::~PseudoTerminal() = default;

@@ -70,7 +70,6 @@ class PseudoTerminal {
   Descriptor master_;
   Descriptor slave_;  // ours, so that the master never hangs up
   Descriptor watch_;  // inotify on the slave
-  Descriptor claim_;  // says that it is served
   PortLink link_;
 
   bool is_present_ = false;
