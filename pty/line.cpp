@@ -53,6 +53,7 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
 }
 
 void Line::nothing_more(SimTime now) {
+  if (input_count_ > 0) return;  // the rest is still on the wire
   for (const Member& member : members_) member.station->hear_nothing_more();
   run(now);
 }

@@ -64,7 +64,8 @@ class Line {
   /// The same for bytes of a host that has closed since.
   void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
 
-  /// The clock stands, and no byte has come for as long as a frame is waited for: see Station.
+  /// The clock stands, and no byte has come for as long as a frame is waited for: see Station. Nothing
+  /// happens while characters are on their way.
   void nothing_more(SimTime now);
 
   /// A host opened the line; what the one before had set is forgotten. A new line counts as opened.

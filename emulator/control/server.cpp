@@ -117,6 +117,7 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
+  if (client->has_said_all) return drop(descriptor);  // not read from any more, so it has hung up
   std::array<char, 4096> bytes;
   const ssize_t count = recv(descriptor, bytes.data(), bytes.size(), 0);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;

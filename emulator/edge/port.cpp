@@ -56,6 +56,7 @@ void Port::keep_what_was_left_behind() {
     const std::size_t count = terminal_.read(bytes);
     if (terminal_.host_present()) {
       // The next host came while we read: these may be its bytes, and it must get its reply.
+      pass_on_what_was_left_behind();
       return on_presence(std::span(bytes).first(count));
     }
     if (count == 0) break;
@@ -97,15 +98,23 @@ void Port::receive(std::span<const std::uint8_t> bytes) {
   last_bytes_ = wall_now();
 }
 
-std::optional<WallTime> Port::next_look(bool clock_stands) const {
-  if (terminal_.is_in_doubt()) return wall_now() + kSecondLook;
+std::optional<WallTime> Port::next_look(bool clock_stands) {
+  if (!terminal_.is_in_doubt()) {
+    second_look_ = WallTime{0};
+  } else {
+    if (second_look_ == WallTime{0}) second_look_ = wall_now() + kSecondLook;
+    return second_look_;
+  }
   // Where the clock stands, patience with an incomplete frame would never end.
   if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + kPatience;
   return std::nullopt;
 }
 
 void Port::look(WallTime now, bool clock_stands) {
-  if (terminal_.is_in_doubt()) on_presence({});
+  if (second_look_ > WallTime{0} && now >= second_look_) {
+    second_look_ = WallTime{0};
+    on_presence({});
+  }
   if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + kPatience) {
     last_bytes_ = WallTime{0};
     line().nothing_more(world_.now());

@@ -26,7 +26,7 @@ class Port {
   void flush();
   /// When look() should be called, though nothing is readable: a host's going is in doubt, or a frame is
   /// incomplete while the clock stands.
-  std::optional<WallTime> next_look(bool clock_stands) const;
+  std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
 
   const pty::PseudoTerminal& terminal() const { return terminal_; }
@@ -49,6 +49,7 @@ class Port {
   std::function<void()> catch_up_;
   pty::PseudoTerminal terminal_;
   std::vector<std::uint8_t> left_behind_;  // by a host that has closed; as much as the kernel holds
+  WallTime second_look_{0};                // when a doubtful going is looked at again; 0: there is none
   WallTime last_bytes_{0};                 // when the host's last bytes came; 0: nothing is waited for
 };
 

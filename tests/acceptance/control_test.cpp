@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "tests/acceptance/modbus_host.h"
+#include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
@@ -192,6 +193,19 @@ TEST(ManualSpeed, CompletesAMoveThatTheWireHasStarted) {
   expect_done(daemon, {"advance", "1ms"});
   EXPECT_FALSE(host.is_moving());
   EXPECT_EQ(host.read_long(kCordA), 32000);
+}
+
+TEST(ManualSpeed, KeepsARequestThatIsStillOnTheWire) {
+  const RunningUnderstudy daemon({"--speed", "manual", "--timing", "wire"});
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200));
+  host.write(kReadHardwareCode);
+  ASSERT_TRUE(
+      eventually([&] { return daemon.ctl({"status"}).output.find(" 8 bytes in") != std::string::npos; }));
+  expect_done(daemon, {"advance", "2ms"});                     // three of eight characters
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // longer than any patience
+  expect_done(daemon, {"advance", "20ms"});
+  EXPECT_EQ(host.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
 TEST(ControlAdvance, IsRefusedWhereTimeRunsByItself) {

@@ -226,6 +226,35 @@ TEST(ControlServer, AReplyMayComeLater) {
   EXPECT_EQ(client.hear(), "there\n");
 }
 
+TEST(ControlServer, MessagesOfOneClientAreAnsweredInTheirOrder) {
+  ServerRig rig;
+  rig.serve(rig.path);
+  rig.answers = false;
+  Client client(rig.path);
+  client.say("advance\nget\n");
+  rig.settle();
+  EXPECT_EQ(rig.heard, std::vector<std::string>{"advance"}) << "the next one waits";
+  rig.answers = true;
+  rig.replies.at(0)("there");
+  rig.settle();
+  EXPECT_EQ(client.hear(), "there\nyou said: get\n");
+}
+
+TEST(ControlServer, AClientThatHasSaidAllStillGetsItsReply) {
+  ServerRig rig;
+  rig.serve(rig.path);
+  rig.answers = false;
+  Client client(rig.path);
+  client.say("advance\nget\n");
+  shutdown(client.descriptor, SHUT_WR);
+  rig.settle();
+  rig.answers = true;
+  rig.replies.at(0)("there");
+  rig.settle();
+  EXPECT_EQ(client.hear(), "there\nyou said: get\n");
+  EXPECT_TRUE(client.is_over);
+}
+
 TEST(ControlServer, ALineThatNeverEndsIsRefusedAndTheClientDropped) {
   ServerRig rig;
   rig.serve(rig.path);
