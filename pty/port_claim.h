@@ -10,6 +10,7 @@
 namespace understudy::pty {
 
 /// Claims the link of that path until the descriptor closes. An empty one: another run serves it.
+/// Throws std::system_error if that cannot be told.
 Descriptor claim_link(const std::string& canonical_path);
 
 }  // namespace understudy::pty

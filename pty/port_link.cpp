@@ -65,7 +65,12 @@ PortLink::PortLink(const std::string& path, std::string target) {
   const std::string name = absolute_path.string();
   std::error_code ignored;
   const auto canonical_parent = std::filesystem::canonical(absolute_path.parent_path(), ignored);
-  claim_ = claim_link((canonical_parent / absolute_path.filename()).string());
+  try {
+    claim_ = claim_link((canonical_parent / absolute_path.filename()).string());
+  } catch (const std::system_error& error) {
+    throw PortError(path + ": whether the link is in use cannot be told: " + error.what() +
+                    "; expected a free descriptor and Unix sockets");
+  }
   if (!claim_) {
     throw PortError(
         path + ": is the link of another understudy, which is running; expected a free path or a stale link");

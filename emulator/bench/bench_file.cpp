@@ -116,7 +116,7 @@ class BenchReader {
       if (link.text().empty()) link.fail("is empty; expected a path");
       line.link = (std::filesystem::path(folder_) / link.text()).lexically_normal().string();
       const auto absolute = [](const std::string& path) {
-        return std::filesystem::absolute(path).lexically_normal();
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
       };
       for (const LineSetup& other : bench_.lines) {
         if (!other.link.empty() && absolute(other.link) == absolute(line.link))

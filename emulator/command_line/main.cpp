@@ -1,4 +1,7 @@
 // The flags of `understudy`. The only file that includes CLI11: it is slow to compile.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <system_error>
@@ -163,7 +166,16 @@ int complain(const std::exception& error, int code) {
 
 }  // namespace
 
+/// With a standard descriptor closed, a port would get its number, and what is printed would go out on it.
+void open_standard_descriptors() {
+  int descriptor = 0;
+  while ((descriptor = open("/dev/null", O_RDWR)) >= 0 && descriptor <= STDERR_FILENO) {
+  }
+  if (descriptor > STDERR_FILENO) close(descriptor);
+}
+
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   CommandLine line;
   try {
     line.app.parse(argc, argv);

@@ -101,7 +101,9 @@ int serve(const ServeArguments& arguments) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
                 port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }
-  std::fflush(stdout);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
+  }
   notify_service_manager("READY=1");
   daemon.run();
   notify_service_manager("STOPPING=1");

@@ -188,6 +188,10 @@ void advance(Daemon& daemon, const Json& message, const std::function<void(const
   if (!duration) throw MessageError("by: expected a duration with a unit, such as \"250ms\"");
   if (*duration > std::chrono::hours(24 * 365))
     throw MessageError("by: is more than a year; expected at most that");
+  if (*duration > kHorizon - daemon.world().now()) {
+    throw MessageError("by: is beyond the end of simulated time; expected at most " +
+                       format_duration(kHorizon - daemon.world().now()));
+  }
   const bool begun = daemon.advance(*duration, [&daemon, reply] {
     reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());
   });
@@ -214,7 +218,9 @@ void handle_message(Daemon& daemon, const std::string& line,
     if (verb == "advance") return advance(daemon, message, reply);
     if (verb == "pause" || verb == "resume") {
       demand_keys(message, {"do"});
-      verb == "pause" ? daemon.pause() : daemon.resume();
+      if (verb == "pause") daemon.pause();
+      if (verb == "resume" && !daemon.resume())
+        throw MessageError("time is being advanced; expected `resume` after that");
       return reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());
     }
     throw MessageError("'" + verb +

@@ -132,7 +132,8 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   client->input.append(bytes.data(), static_cast<std::size_t>(count));
 
   serve_lines(client);
-  if (client->descriptor >= 0 && client->input.size() > kLongestMessage) {
+  if (client->descriptor >= 0 && client->input.size() > kLongestMessage &&
+      client->input.find('\n') == std::string::npos) {
     send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
     drop(descriptor);
   }
@@ -154,9 +155,11 @@ void ControlServer::serve_lines(const std::shared_ptr<Client>& client) {
       alive->is_awaiting = false;
       send(alive, reply);
       serve_lines(alive);
+      if (alive->descriptor >= 0 && !alive->is_serving && !write_out(*alive)) drop(alive->descriptor);
     });
   }
   client->is_serving = false;
+  if (client->descriptor >= 0 && client->is_awaiting) write_out(*client);  // reads on, or has enough
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
@@ -179,7 +182,9 @@ bool ControlServer::write_out(Client& client) {
   if (client.has_said_all && client.output.empty() && !client.is_awaiting &&
       client.input.find('\n') == std::string::npos)
     return false;
-  const std::uint32_t read = client.has_said_all ? 0U : EventLoop::readable;
+  // What waits behind a message whose reply is to come is bounded, too: the rest stays in the socket.
+  const bool has_enough = client.is_awaiting && client.input.size() > kLongestMessage;
+  const std::uint32_t read = client.has_said_all || has_enough ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.descriptor, read | write);
   return true;

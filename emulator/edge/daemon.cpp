@@ -92,8 +92,9 @@ void Daemon::judge_stall() {
   if (!planned_) return;
   const WallTime planned = *std::exchange(planned_, std::nullopt);
   const WallTime left_out = pacer_.woke(planned, wall_now());
-  // A machine that never keeps up would fill the log.
-  const bool worth_a_line = (pacer_.slips() & (pacer_.slips() - 1)) == 0;
+  // Every real stall is told; a machine that never keeps up slips by little again and again, and would fill
+  // the log.
+  const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
   if (left_out > WallTime{0} && worth_a_line) {
     log_("stalled: " + format_duration(left_out) + " of simulated time were left out (stall number " +
          std::to_string(pacer_.slips()) + ")");
@@ -110,11 +111,17 @@ void Daemon::work_towards(SimTime target) {
 }
 
 void Daemon::pause() {
+  judge_stall();
   pacer_.pause(wall_now());
-  catch_up();  // to the moment at which the clock stopped
+  catch_up();                                 // to the moment at which the clock stopped,
+  pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
 }
 
-void Daemon::resume() { pacer_.resume(wall_now()); }
+bool Daemon::resume() {
+  if (advance_done_) return false;
+  pacer_.resume(wall_now());
+  return true;
+}
 
 bool Daemon::advance(SimTime duration, std::function<void()> done) {
   if (!pacer_.standing() || advance_done_ || duration > kHorizon - world_.now()) return false;
@@ -135,14 +142,14 @@ void Daemon::work_on_advance() {
 }
 
 std::optional<WallTime> Daemon::next_wake() const {
-  if (advance_done_) return WallTime{0};
   const auto due = world_.next_due();
   return due ? pacer_.wall_time_of(*due) : std::nullopt;
 }
 
 void Daemon::wait() {
-  planned_ = next_wake();
-  std::optional<WallTime> wake = planned_;
+  // An advance is work in hand, not a moment that was planned for.
+  planned_ = advance_done_ ? std::nullopt : next_wake();
+  std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   for (const auto& port : ports_) {
     const auto look = port->next_look(pacer_.standing());
     if (look && (!wake || *look < *wake)) wake = look;

@@ -42,7 +42,8 @@ class Daemon {
   const std::string& control_path() const;
 
   void pause();
-  void resume();
+  /// False while an advance is under way.
+  bool resume();
   /// Moves simulated time on by `duration`, then calls `done`. Only where the clock stands; false
   /// otherwise, or while another advance is under way.
   bool advance(SimTime duration, std::function<void()> done);

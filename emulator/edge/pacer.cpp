@@ -65,7 +65,7 @@ SimTime Pacer::target(WallTime wall) const {
 }
 
 std::optional<WallTime> Pacer::wall_time_of(SimTime time) const {
-  if (standing()) return std::nullopt;
+  if (standing() || time > kHorizon) return std::nullopt;
   const SimTime ahead = time - anchor_sim_;
   if (speed_.rate() == 1.0) return anchor_wall_ + ahead;
   const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.rate());

@@ -55,9 +55,13 @@ void Port::keep_what_was_left_behind() {
   while (!terminal_.host_present()) {
     const std::size_t count = terminal_.read(bytes);
     if (terminal_.host_present()) {
-      // The next host came while we read: these may be its bytes, and it must get its reply.
+      // The next host came while we read: these may be its bytes, and it must get its reply. Where they
+      // have to wait behind what was left they are served in their order, without one.
       pass_on_what_was_left_behind();
-      return on_presence(std::span(bytes).first(count));
+      const auto read = std::span(bytes).first(count);
+      if (left_behind_.empty() && count <= line().room()) return on_presence(read);
+      left_behind_.insert(left_behind_.end(), read.begin(), read.end());
+      return on_presence({});
     }
     if (count == 0) break;
     left_behind_.insert(left_behind_.end(), bytes.begin(),

@@ -36,7 +36,8 @@ struct PreparedWrite {
 };
 
 /// Judges a write as one from the wire, and makes the words for it; those will not be refused, whatever is
-/// written before them. A bit is written by way of its register, as it is at this moment.
+/// written before them (but for a register that changes the order of words). A bit is written by way of its
+/// register, as it is at this moment.
 Refusal prepare_value(const Device& device, const NamedPlace& place, Value value, PreparedWrite& write);
 Refusal write_prepared(Device& device, const PreparedWrite& write);
 /// Both at once.

@@ -78,6 +78,26 @@ TEST(RunningDaemon, AWireCarriesAnOutputToAnInputOneTickLater) {
   EXPECT_EQ(daemon.get("turner.DIN_10"), 0);
 }
 
+TEST(RunningDaemon, AnAdvanceIsNoStallAndCannotBeResumedAway) {
+  Running daemon;
+  // So slow that every tick of two hours has to be stepped: some tenths of a second of work.
+  daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":2000000000,)"
+             R"("feeder.Aaxis_Speed":1,"feeder.Aaxis_Move_INC":1}})");
+  std::thread advance([&] { EXPECT_EQ(daemon.ask(R"({"do":"advance","by":"2h"})")["ok"], true); });
+  bool was_refused = false;
+  std::int64_t time = 0;
+  while (time < 7'200'000'000'000) {
+    if (time > 0) was_refused = was_refused || daemon.ask(R"({"do":"resume"})")["ok"] == false;
+    const Json status = daemon.ask(R"({"do":"status"})")["status"];
+    time = status["simulated_time_ns"].get<std::int64_t>();
+    EXPECT_LT(status["lateness"]["max_us"].get<double>(), 60e6);
+    EXPECT_EQ(status["lateness"]["slips"], 0);
+  }
+  advance.join();
+  EXPECT_EQ(time, 7'200'000'000'000);
+  EXPECT_TRUE(was_refused);
+}
+
 TEST(RunningDaemon, BadMessagesDoNotStopIt) {
   Running daemon;
   for (const std::string message :

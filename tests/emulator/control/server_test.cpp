@@ -240,6 +240,29 @@ TEST(ControlServer, MessagesOfOneClientAreAnsweredInTheirOrder) {
   EXPECT_EQ(client.hear(), "there\nyou said: get\n");
 }
 
+TEST(ControlServer, ManyMessagesMayWaitBehindOneAndEachIsAnswered) {
+  ServerRig rig;
+  rig.serve(rig.path);
+  rig.answers = false;
+  Client client(rig.path);
+  client.say("advance\n");
+  rig.settle();
+  std::string waiting;  // more than one message may be long
+  for (int i = 0; i < 10'000; ++i) waiting += "get number " + std::to_string(i) + "\n";
+  std::size_t said = 0;
+  std::string heard;
+  rig.answers = true;
+  for (int round = 0; round < 1000 && heard.find("number 9999\n") == std::string::npos; ++round) {
+    said += client.say(waiting.substr(said));
+    rig.settle();
+    if (round == 10) rig.replies.at(0)("there");
+    heard += client.hear();
+  }
+  EXPECT_TRUE(heard.starts_with("there\nyou said: get number 0\n")) << heard.substr(0, 100);
+  EXPECT_NE(heard.find("number 9999\n"), std::string::npos);
+  EXPECT_EQ(rig.heard.size(), 10'001U);
+}
+
 TEST(ControlServer, AClientThatHasSaidAllStillGetsItsReply) {
   ServerRig rig;
   rig.serve(rig.path);
