@@ -1,10 +1,10 @@
 #include "emulator/bench/yaml_fields.h"
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "emulator/bench/bench_file.h"
+#include "emulator/parse_integer.h"
 #include "emulator/register_map/register_map.h"
 
 namespace understudy::emulator {
@@ -67,20 +67,12 @@ std::string YamlFields::text() const {
 
 std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) const {
   const std::string digits = text();
-  const bool negative = digits.starts_with("-");
-  const std::string_view magnitude = std::string_view(digits).substr(negative ? 1 : 0);
-  const bool hexadecimal = magnitude.starts_with("0x");
-  const std::string_view rest = magnitude.substr(hexadecimal ? 2 : 0);
-  std::int64_t value = 0;
-  const char* const end = rest.data() + rest.size();
-  const auto [parsed, error] = std::from_chars(rest.data(), end, value, hexadecimal ? 16 : 10);
-  if (negative) value = -value;
-  if (rest.empty() || rest[0] == '-' || error != std::errc{} || parsed != end || value < lowest ||
-      value > highest) {
+  const auto value = parse_integer(digits);
+  if (!value || *value < lowest || *value > highest) {
     fail("'" + digits + "' is not possible; expected a whole number from " + std::to_string(lowest) + " to " +
          std::to_string(highest));
   }
-  return value;
+  return *value;
 }
 
 }  // namespace understudy::emulator

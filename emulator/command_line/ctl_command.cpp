@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -7,6 +6,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/control/server.h"
 #include "emulator/one_line.h"
+#include "emulator/parse_integer.h"
 #include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
@@ -27,22 +27,15 @@ Json assignments(const ControlArguments& arguments) {
   for (const std::string& operand : arguments.operands) {
     const std::size_t equals = operand.find('=');
     const std::string name = operand.substr(0, equals);
-    std::int64_t value = 0;
-    bool good = equals != std::string::npos && !name.empty();
-    if (good) {
-      std::string_view text = std::string_view(operand).substr(equals + 1);
-      const bool hexadecimal = text.starts_with("0x");
-      if (hexadecimal) text.remove_prefix(2);
-      const auto [end, error] =
-          std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal ? 16 : 10);
-      good = !text.empty() && error == std::errc{} && end == text.data() + text.size();
-    }
-    if (!good)
+    const auto value = equals == std::string::npos
+                           ? std::nullopt
+                           : parse_integer(std::string_view(operand).substr(equals + 1));
+    if (!value || name.empty())
       throw UsageError("ctl " + arguments.verb + ": '" + operand +
                        "' is not understood; expected NAME=VALUE");
     if (values.contains(name))
       throw UsageError("ctl " + arguments.verb + ": '" + name + "' is given twice; expected it once");
-    values[name] = value;
+    values[name] = *value;
   }
   if (values.empty()) throw UsageError("ctl " + arguments.verb + ": nothing to do; expected NAME=VALUE");
   return values;

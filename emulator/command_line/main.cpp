@@ -164,8 +164,6 @@ int complain(const std::exception& error, int code) {
   return code;
 }
 
-}  // namespace
-
 /// With a standard descriptor closed, a port would get its number, and what is printed would go out on it.
 void open_standard_descriptors() {
   int descriptor = 0;
@@ -173,6 +171,8 @@ void open_standard_descriptors() {
   }
   if (descriptor > STDERR_FILENO) close(descriptor);
 }
+
+}  // namespace
 
 int main(int argc, char** argv) {
   open_standard_descriptors();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/one_line.h"
+#include "emulator/parse_integer.h"
 #include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
@@ -32,18 +32,9 @@ struct Item {
 };
 
 std::int64_t demand_integer(std::string_view text, const std::string& item) {
-  const bool negative = text.starts_with("-");
-  if (negative) text.remove_prefix(1);
-  const bool hexadecimal = text.starts_with("0x");
-  if (hexadecimal) text.remove_prefix(2);
-  std::int64_t value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value, hexadecimal ? 16 : 10);
-  if (text.empty() || text[0] == '-' || error != std::errc{} || end != text.data() + text.size()) {
-    throw UsageError("poll: '" + item +
-                     "' is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
-  }
-  return negative ? -value : value;
+  if (const auto value = parse_integer(text)) return *value;
+  throw UsageError("poll: '" + item +
+                   "' is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
 }
 
 Type demand_type(const std::string& name) {

@@ -19,10 +19,10 @@ constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
 // What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
-// An incomplete frame waits 10 ms of the host's time, however fast simulated time runs beside it.
+// In simulated time, which may run fast beside the host's.
 SimTime patience_at(const Speed& speed) {
-  constexpr double kPatience_ns = 10e6;
-  return SimTime{static_cast<std::int64_t>(kPatience_ns * std::max(1.0, speed.rate()))};
+  const double factor = std::max(1.0, speed.rate());
+  return SimTime{static_cast<std::int64_t>(static_cast<double>(kFramePatience.count()) * factor)};
 }
 
 WorldOptions world_options(const DaemonOptions& options) {

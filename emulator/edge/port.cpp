@@ -9,7 +9,6 @@ namespace {
 
 // The kernel tells that a host closes a moment before it has; so much later it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
-constexpr WallTime kPatience = std::chrono::milliseconds(10);
 
 }  // namespace
 
@@ -110,7 +109,7 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
     return second_look_;
   }
   // Where the clock stands, patience with an incomplete frame would never end.
-  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + kPatience;
+  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + kFramePatience;
   return std::nullopt;
 }
 
@@ -119,7 +118,7 @@ void Port::look(WallTime now, bool clock_stands) {
     second_look_ = WallTime{0};
     on_presence({});
   }
-  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + kPatience) {
+  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + kFramePatience) {
     last_bytes_ = WallTime{0};
     line().nothing_more(world_.now());
   }

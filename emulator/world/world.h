@@ -21,10 +21,13 @@
 
 namespace understudy::emulator {
 
+/// How long an incomplete frame is waited for, by the host's clock.
+inline constexpr std::chrono::nanoseconds kFramePatience = std::chrono::milliseconds(10);
+
 struct WorldOptions {
   bool strict_framing = false;
   /// How long an incomplete frame waits where the framing is tolerant (simulated time).
-  SimTime patience = std::chrono::milliseconds(10);
+  SimTime patience = kFramePatience;
   bool enforce_settings = true;  // devices are deaf to a host with another speed
 };
 
@@ -49,7 +52,6 @@ class World {
     pty::Line line;
     std::vector<std::unique_ptr<RtuStation>> stations;
   };
-  std::size_t line_count() const { return lines_.size(); }
   OneLine& line(std::size_t number) { return *lines_[number]; }
   const OneLine& line(std::size_t number) const { return *lines_[number]; }
 
