@@ -1,37 +1,368 @@
 #include "motion/axis.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "motion/bad_motion.h"
+
+// Commands and reactions; the tick is in axis_step.cpp.
 namespace understudy::motion {
 
-void Axis::start(const Profile& move, int move_direction, Tick first_tick) {
-  stop();
-  if (move.distance_pulses == 0) return;
-  drive = Drive::position;
-  direction = move_direction < 0 ? std::int8_t{-1} : std::int8_t{+1};
-  start_tick = first_tick;
-  profile = move;
+namespace {
+
+/// Farther than this a coordinate in double would no longer hold every pulse.
+constexpr std::int64_t kFarthest = std::int64_t{1} << 53;
+
+std::int64_t size_of(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
+
+void demand_reach(std::int64_t distance_pulses) {
+  if (distance_pulses < -kFarthest || distance_pulses > kFarthest) {
+    throw BadMotion(Refusal::out_of_range, "move", "distance must be within 2^53 pulses");
+  }
 }
 
-void Axis::hang(int move_direction) {
-  stop();
-  drive = Drive::hanging;
-  direction = move_direction < 0 ? std::int8_t{-1} : std::int8_t{+1};
+int sign_of(std::int64_t pulses) { return pulses < 0 ? -1 : +1; }
+
+/// Still at the very beginning. Not so is what was changed at this moment, and goes on by a profile that
+/// begins now.
+bool not_begun(const PulseDrive& drive, Instant at) {
+  return drive.elapsed_s(at) <= 0 && drive.sample(at).position_u <= 0;
 }
 
-void Axis::stop() {
-  drive = Drive::idle;
-  sent_pulses = 0;
-  profile = Profile{};
+/// Where the drive is, and never behind a pulse that is sent: moments are rounded.
+Sample forward_sample(const PulseDrive& drive, Instant at) {
+  Sample here = drive.sample(at);
+  here.position_u = std::max(here.position_u, static_cast<double>(drive.sent_pulses));
+  here.speed_u_s = std::max(here.speed_u_s, 0.0);
+  return here;
 }
 
-std::int64_t Axis::step(Tick tick) {
-  if (drive != Drive::position) return 0;
-  const std::int64_t total = profile.pulses_at(tick - start_tick);
-  const std::int64_t now = (total - sent_pulses) * direction;
-  sent_pulses = total;
-  if (total == profile.distance_pulses && tick - start_tick >= profile.end_tick()) stop();
-  return now;
+/// On to the target, and never back: a drive has one direction. What cannot stop there any more slows down
+/// as far as it gets, and ends there abruptly.
+Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
+  Profile rest = change_target(here, target_u, law);
+  if (rest.segment_count == 0) return rest;
+  const Segment& last = rest.segments[static_cast<std::size_t>(rest.segment_count - 1)];
+  if (last.speed_u_s >= 0 && rest.end_speed_u_s >= 0) return rest;
+  rest = slow_to_stop(here, law);
+  rest.cut_at(std::max(target_u, here.position_u));
+  rest.end_exactly_at(target_u);
+  return rest;
 }
 
-Tick Axis::next_active_tick(Tick done) const { return drive == Drive::position ? done + 1 : kNever; }
+}  // namespace
+
+bool Comparator::holds(std::int64_t travel) const {
+  const std::int64_t at = counter.at(travel);
+  switch (relation) {
+    case Relation::off: break;
+    case Relation::at_least: return at >= value;
+    case Relation::below: return at < value;
+    case Relation::equal: return at == value;
+  }
+  return false;
+}
+
+std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, int direction) const {
+  if (relation == Relation::off) return std::nullopt;
+  std::optional<std::int64_t> nearest;
+  const auto consider = [&](std::optional<std::int64_t> steps) {
+    if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;
+  };
+  // The relation changes where the count arrives at or leaves `value`, and where it comes round.
+  consider(counter.steps_until(value, travel, direction));
+  if (direction > 0 && value < INT64_MAX) consider(counter.steps_until(value + 1, travel, direction));
+  if (direction < 0 && value > INT64_MIN) consider(counter.steps_until(value - 1, travel, direction));
+  if (const auto turning = direction > 0 ? counter.least() : counter.greatest()) {
+    consider(counter.steps_until(*turning, travel, direction));
+  }
+  return nearest;
+}
+
+Cause Axis::forbidden(int way) const {
+  if (settings.needs_servo && !servo_on) return Cause::servo_off;
+  const auto blocks = [&](Signal signal, Reaction reaction) {
+    return (signals & bit(signal)) != 0 && reaction != Reaction::ignore;
+  };
+  if (blocks(Signal::emergency, settings.at_emergency)) return Cause::emergency;
+  if (blocks(Signal::alarm, settings.at_alarm)) return Cause::alarm;
+  if (way > 0) {
+    if (blocks(Signal::limit_plus, settings.at_limit_plus)) return Cause::limit_plus;
+    if (settings.at_soft_limit != Reaction::ignore && settings.soft_limit_plus &&
+        travel_pulses >= *settings.soft_limit_plus) {
+      return Cause::soft_limit_plus;
+    }
+  } else {
+    if (blocks(Signal::limit_minus, settings.at_limit_minus)) return Cause::limit_minus;
+    if (settings.at_soft_limit != Reaction::ignore && settings.soft_limit_minus &&
+        travel_pulses <= *settings.soft_limit_minus) {
+      return Cause::soft_limit_minus;
+    }
+  }
+  return Cause::none;
+}
+
+// ---- Beginning
+
+Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
+                  bool for_homing) {
+  check(speed);
+  // Planned before anything changes, so that a motion that cannot be changes nothing.
+  const Profile profile = what == Task::endless ? plan_endless(speed)
+                                                : plan(static_cast<double>(size_of(distance_pulses)), speed);
+  const bool reversal = last_direction != 0 && last_direction != way && settings.backlash_pulses > 0;
+  if (reversal) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+  if (const Cause why_not = forbidden(way); why_not != Cause::none) return why_not;
+
+  drop();
+  if (!for_homing) homing.phase = -1;
+  task = what;
+  law = speed;
+  target_pulses = what == Task::move ? size_of(distance_pulses) : 0;
+  cause = Cause::none;
+  if (!for_homing) events_between |= bit(Event::started);
+  last_direction = static_cast<std::int8_t>(way);
+  base_pulses = travel_pulses;
+  if (reversal) {
+    in_backlash = true;
+    Profile extra;
+    const auto pulses = static_cast<double>(settings.backlash_pulses);
+    extra.append(pulses / settings.backlash_speed_pps, settings.backlash_speed_pps, 0, 0);
+    extra.end_exactly_at(pulses);
+    drive.start(extra, way, at);
+  } else {
+    drive.start(profile, way, at);
+  }
+  return Cause::none;
+}
+
+Profile Axis::planned(const SpeedLaw& speed) const {
+  return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
+}
+
+/// What runs is no more, and was no end either.
+void Axis::drop() {
+  drive.stop();
+  task = Task::none;
+  in_backlash = slowing = comes_back = settling = false;
+  follower.phase = 0;
+  base_pulses = travel_pulses;
+  attentive = true;
+}
+
+Cause Axis::move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) {
+  demand_reach(distance_pulses);
+  check(speed);
+  if (distance_pulses == 0) {
+    homing.phase = -1;
+    if (task != Task::none) end(Cause::arrived, {.tick = now});
+    return Cause::none;
+  }
+  return begin(Task::move, sign_of(distance_pulses), distance_pulses, speed, {.tick = now + 1});
+}
+
+Cause Axis::run(int way, const SpeedLaw& speed, Tick now) {
+  return begin(Task::endless, way < 0 ? -1 : +1, 0, speed, {.tick = now + 1});
+}
+
+Cause Axis::hang(int way) {
+  if (const Cause why_not = forbidden(way); why_not != Cause::none) return why_not;
+  drop();
+  homing.phase = -1;
+  task = Task::hanging;
+  cause = Cause::none;
+  drive.hang(way);
+  events_between |= bit(Event::started);
+  return Cause::none;
+}
+
+Cause Axis::take_part() {
+  if (settings.needs_servo && !servo_on) return Cause::servo_off;
+  drop();
+  homing.phase = -1;
+  task = Task::coordinated;
+  cause = Cause::none;
+  drive.direction = 0;  // until the first pulse: a limit behind the axis is no matter
+  events_between |= bit(Event::started);
+  return Cause::none;
+}
+
+void Axis::arrive() {
+  if (task == Task::coordinated) end(Cause::arrived, {.tick = 0});
+}
+
+Cause Axis::follow(const Follower& by) {
+  by.check();
+  if (settings.needs_servo && !servo_on) return Cause::servo_off;
+  drop();
+  homing.phase = -1;
+  task = Task::following;
+  cause = Cause::none;
+  drive.direction = 0;  // until the first pulse: a limit behind the axis is no matter
+  follower = by;
+  events_between |= bit(Event::started);
+  return Cause::none;
+}
+
+void Axis::feed(std::int64_t counts) {
+  if (task == Task::following) follower.feed(counts);
+}
+
+// ---- Changing what runs
+
+void Axis::change_speed(const SpeedLaw& speed, Tick now) {
+  check(speed);
+  if ((task != Task::move && task != Task::endless) || slowing || settling || homing.active()) return;
+  go_on_by(speed, {.tick = now});
+}
+
+void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
+  if (in_backlash || not_begun(drive, at)) {
+    // Not begun yet: it will begin so.
+    const Profile whole = planned(speed);
+    law = speed;
+    if (!in_backlash) drive.go_on(whole, drive.beginning());
+    attentive = true;
+    return;
+  }
+  const Profile rest = task == Task::endless
+                           ? motion::change_speed(forward_sample(drive, at), speed.top_speed_u_s, speed)
+                           : forward_to(forward_sample(drive, at), static_cast<double>(target_pulses), speed);
+  law = speed;
+  drive.go_on(rest, at);
+  attentive = true;
+}
+
+void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now) {
+  demand_reach(distance_pulses);
+  if (task != Task::move || (slowing && !comes_back) || settling || homing.active()) return;
+  const Instant at{.tick = now};
+  if (in_backlash || not_begun(drive, at)) {
+    if (distance_pulses < 0 && !stop_if_passed) {
+      const Cause why = begin(Task::move, -drive.direction, distance_pulses, law, {.tick = now + 1});
+      if (why != Cause::none) end(why, at);
+      return;
+    }
+    if (distance_pulses <= 0) {
+      end(stop_if_passed ? Cause::stopped : Cause::arrived, at);
+      return;
+    }
+    const Profile whole = plan(static_cast<double>(distance_pulses), law);
+    target_pulses = distance_pulses;
+    if (!in_backlash) drive.go_on(whole, drive.beginning());
+    attentive = true;
+    return;
+  }
+  if (stop_if_passed && distance_pulses <= drive.sent_pulses) {
+    stop();
+    return;
+  }
+  const auto target = static_cast<double>(distance_pulses);
+  // What cannot be must be refused now, not when it is time to return.
+  const auto demand_return = [&](double from_u) {
+    plan(std::abs(std::floor(from_u) - target), law);
+    if (settings.backlash_pulses > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+  };
+  if (comes_back) {
+    demand_return(drive.profile.end_position_u);
+    target_pulses = distance_pulses;  // it stops first, and goes there then
+    return;
+  }
+  const Sample here = forward_sample(drive, at);
+  const Profile to_stop = slow_to_stop(here, law);
+  // At the pulse: what stops within half a pulse of the target reaches it.
+  if (!stop_if_passed && to_stop.end_position_u > target + 0.5) {
+    demand_return(to_stop.end_position_u);
+    comes_back = slowing = true;
+    drive.go_on(to_stop, at);
+  } else {
+    drive.go_on(forward_to(here, target, law), at);
+  }
+  target_pulses = distance_pulses;
+  attentive = true;
+}
+
+// ---- Stopping
+
+void Axis::slow_down(Tick now, Cause why) { slow({.tick = now}, why); }
+
+void Axis::slow(Instant at, Cause why) {
+  if (homing.active()) homing_slows(why);
+  if (task == Task::none || (slowing && !comes_back)) return;
+  cause = why;
+  comes_back = false;
+  if (slowing) return;  // what was to turn round now only stops
+  if (settling || in_backlash || (task != Task::move && task != Task::endless) || not_begun(drive, at)) {
+    end(why, at);
+    return;
+  }
+  Profile rest = slow_to_stop(forward_sample(drive, at), law);
+  if (rest.segment_count == 0) {
+    end(why, at);
+    return;
+  }
+  // A stop while a move slows down anyhow must not pass its target.
+  if (task == Task::move) {
+    rest.cut_at(std::max(static_cast<double>(target_pulses), rest.segments[0].position_u));
+  }
+  slowing = true;
+  drive.go_on(rest, at);
+  attentive = true;
+}
+
+void Axis::stop(Cause why) {
+  if (task != Task::none) end(why, {.tick = 0});
+}
+
+void Axis::end(Cause why, Instant at) {
+  drop();
+  cause = why;
+  if (homing.active()) {
+    homing_stands(why, at);
+  } else {
+    events_between |= bit(Event::ended);
+  }
+}
+
+void Axis::react(Reaction reaction, Cause why, Instant at) {
+  if (task == Task::none || reaction == Reaction::ignore) return;
+  if (reaction == Reaction::slow_down && !in_backlash && (task == Task::move || task == Task::endless)) {
+    slow(at, why);
+  } else {
+    end(why, at);
+  }
+}
+
+void Axis::switch_servo(bool on) {
+  servo_on = on;
+  if (!on && settings.needs_servo && task != Task::none) end(Cause::servo_off, {.tick = 0});
+}
+
+// ---- Numbers
+
+void Axis::set(const AxisSettings& changed) {
+  demand_not_negative(static_cast<double>(changed.backlash_pulses), "backlash", "pulses");
+  if (changed.backlash_pulses > 0) demand_positive(changed.backlash_speed_pps, "backlash", "speed");
+  settings = changed;
+  attentive = true;
+}
+
+void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
+  Comparator& mine = comparators.at(number);
+  const bool same_question = mine.relation == comparator.relation && mine.count == comparator.count;
+  const bool was_true = mine.was_true;
+  mine = comparator;
+  // A number that is written can make the relation true, which is an event; a relation that is true when it
+  // is first asked for waits for the next time it becomes so.
+  mine.was_true =
+      same_question ? was_true : mine.holds(mine.count == Count::command ? travel_pulses : encoder_pulses);
+  attentive = true;
+}
+
+void Axis::set_encoder(std::int64_t pulses) {
+  if (pulses == encoder_pulses) return;
+  encoder_pulses = pulses;
+  attentive = true;
+}
 
 }  // namespace understudy::motion

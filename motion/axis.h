@@ -1,49 +1,276 @@
-// One axis's pulse generator, as a value: it steps by ticks, and says how many pulses it sent.
+// One axis of a controller, as a value: a pulse generator with its limits, signals, backlash and events.
 //
-// The axis knows directions and pulses. What a pulse means (a coordinate, a direction pin) and when a
-// move is allowed (servo, alarm, limit) is for its owner to say.
+//   commands ──> drive (profile on the clock) ──> travel ──> counters, comparators   <── surroundings
+//                   ^ reactions to limits, alarm, emergency, homing <──────────────────────┘
+//
+// Travel is the sum of the pulses the user's coordinate counts, in 64 bits, from power-up. Everything that
+// looks at positions (soft limits, comparators, switches) does so in travel, so one window of two numbers
+// says how far the axis may go before anything can happen: the tick in between is a cubic and two
+// comparisons.
+//
+// Edges are met at their pulse, within the tick, as a chip meets them.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
-#include "motion/profile.h"
+#include "motion/counter.h"
+#include "motion/following.h"
+#include "motion/homing.h"
+#include "motion/move.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
 
 namespace understudy::motion {
 
-enum class Drive : std::uint8_t {
-  idle,
-  position,  // a profile is running
-  hanging,   // a move at speed 0: it counts as moving, sends nothing, and ends only by stop()
+/// How an axis answers to something it meets.
+enum class Reaction : std::uint8_t { ignore, stop_at_once, slow_down };
+
+/// What a motion ended by, or what it is refused for.
+enum class Cause : std::uint8_t {
+  none,
+  arrived,
+  stopped,  // by command
+  limit_plus,
+  limit_minus,
+  soft_limit_plus,
+  soft_limit_minus,
+  comparator,
+  alarm,
+  emergency,
+  servo_off,
+  homing_failed,
+};
+
+/// What happened in a tick, or between it and the one before; one bit each. The first eight are the MCX314's
+/// factors of synchronous action, in its order, with comparators 0 to 3 as P>=C+, P<C+, P<C- and P>=C-.
+enum class Event : std::uint8_t {
+  comparator_0,
+  comparator_1,
+  comparator_2,
+  comparator_3,
+  started,
+  ended,
+  mark_on,
+  mark_off,
+  homed,
+};
+using Events = std::uint16_t;
+constexpr Events bit(Event event) { return static_cast<Events>(1U << static_cast<unsigned>(event)); }
+
+enum class Count : std::uint8_t { command, encoder };
+
+/// A position compare: an event each time the relation becomes true, by motion or because a number was
+/// written. The relation is that of the count itself, so where the count wraps it changes, too.
+struct Comparator {
+  enum class Relation : std::uint8_t { off, at_least, below, equal };
+
+  Relation relation = Relation::off;
+  Count count = Count::command;
+  Reaction reaction = Reaction::ignore;  // of the axis itself; others' through motion/synchronous.h
+  bool was_true = false;
+  Counter counter{};  // which numbers `value` is meant in
+  std::int64_t value = 0;
+
+  bool operator==(const Comparator&) const = default;
+
+  bool holds(std::int64_t travel) const;
+  /// Pulses (1 ...) in `direction` until it may change; nothing if it will not.
+  std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;
+};
+
+struct AxisSettings {
+  Reaction at_limit_plus = Reaction::stop_at_once;
+  Reaction at_limit_minus = Reaction::stop_at_once;
+  Reaction at_soft_limit = Reaction::stop_at_once;
+  Reaction at_alarm = Reaction::stop_at_once;
+  Reaction at_emergency = Reaction::stop_at_once;
+  bool needs_servo = true;             // commands are refused and motion ends while the servo is off
+  bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
+  // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.
+  std::optional<std::int64_t> soft_limit_plus = std::nullopt;
+  std::optional<std::int64_t> soft_limit_minus = std::nullopt;
+  // Extra pulses first at each reversal; they are output, but are no travel.
+  std::int64_t backlash_pulses = 0;
+  double backlash_speed_pps = 0;  // > 0 where there is backlash
+
+  bool operator==(const AxisSettings&) const = default;
+};
+
+/// What an axis was asked to do.
+enum class Task : std::uint8_t {
+  none,
+  move,
+  endless,
+  hanging,
+  following,
+  coordinated,  // carried along a path with others (motion/coordinated.h)
 };
 
 struct Axis {
-  Drive drive = Drive::idle;
-  std::int8_t direction = +1;    // +1 or -1, of the running move
-  Tick start_tick = 0;           // the tick at which the profile is at its beginning
-  std::int64_t sent_pulses = 0;  // of the running move, counted from 0 upwards
-  Profile profile;
+  // What every tick needs, first.
+  std::int64_t travel_pulses = 0;
+  std::int64_t watch_low = 0;  // while travel stays within, nothing can happen on account of the place
+  std::int64_t watch_high = 0;
+  std::int64_t base_pulses = 0;  // travel where the drive's coordinate is 0
+  std::uint32_t seen_version = 0;
+  Events events = 0;      // of the last tick
+  bool attentive = true;  // look at everything in the next tick
+  bool inverted = false;  // pulses come out in the other sense
+  PulseDrive drive;
+
+  AxisSettings settings;
+  std::array<Comparator, 4> comparators{};
+  std::int64_t encoder_pulses = 0;    // as told by set_encoder()
+  std::int64_t backlash_sent = 0;     // all extra pulses so far, signed by direction
+  Signals signals = 0;                // as last seen
+  Events events_between = 0;          // since the last tick
+  std::array<Instant, 8> event_at{};  // of each comparator and mark event the last one, to the pulse
+  Cause cause = Cause::none;          // of the last end, or of the stop under way
+  std::int8_t last_direction = 0;     // of the last motion; 0 before the first
+  bool servo_on = false;
+
+  // The motion that was asked for. While backlash is taken up the drive runs that, and this waits.
+  Task task = Task::none;
+  bool in_backlash = false;
+  bool slowing = false;             // to a stop, for `cause`
+  bool comes_back = false;          // and then back to the target, which was passed
+  bool settling = false;            // all pulses sent, waiting for in-position
+  std::int64_t target_pulses = 0;   // of a move: its whole distance, in the drive's coordinate
+  std::int64_t carried_pulses = 0;  // of a coordinated motion, in the coming tick
+  SpeedLaw law;
+  Follower follower;
+  Homing homing;
 
   bool operator==(const Axis&) const = default;
 
-  /// Begins a move from standstill at `first_tick`, which is the first tick to be stepped; a move that
-  /// is running is dropped where it is. A profile of no distance ends the motion at once.
-  void start(const Profile& move, int move_direction, Tick first_tick);
-  /// Begins a move that never sends a pulse.
-  void hang(int move_direction);
-  /// No pulse after this.
-  void stop();
+  // ---- Commands, between ticks; `now` is the last tick that was stepped. A motion from rest is at its
+  // beginning in the next tick; a change acts from now. All give Cause::none when taken, else what they are
+  // refused for; a refused one changes nothing. All throw BadMotion as motion/move.h says, and then have
+  // changed nothing.
 
-  bool moving() const { return drive != Drive::idle; }
+  /// A move by `distance_pulses`, signed, from where the axis is; what runs is dropped. 0 ends it and is over
+  /// at once.
+  Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
+  /// On and on in `way` (+1 or -1).
+  Cause run(int way, const SpeedLaw& speed, Tick now);
+  /// A move at speed 0: moving, but no pulse (Simple2-R3).
+  Cause hang(int way);
+  /// Follows what feed() brings, until stopped (motion/following.h).
+  Cause follow(const Follower& by);
+  void feed(std::int64_t counts);
+  /// Takes part in a coordinated motion: carry() moves it, until arrive(), stop() or a reaction ends it.
+  Cause take_part();
+  void arrive();
 
-  /// The tick's pulses, signed. Ticks must come in order, but may be skipped: the pulses of what was
-  /// skipped then come together.
-  std::int64_t step(Tick tick);
+  /// Another law of speed from now on, for a move or an endless run; nothing when none runs or it is
+  /// stopping.
+  void change_speed(const SpeedLaw& speed, Tick now);
+  /// Another distance for the running move, counted from where it began, in its direction. What is already
+  /// passed or too near is overshot and returned to, or with `stop_if_passed` (MCX314), when passed, ends at
+  /// once.
+  void change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now);
+  void slow_down(Tick now, Cause why = Cause::stopped);
+  /// No pulse from now on.
+  void stop(Cause why = Cause::stopped);
+  void switch_servo(bool on);
+  /// Homing by a table of phases (motion/homing.h). It lasts until Event::homed, or until Event::ended with
+  /// Cause::homing_failed or stopped: homing.ended_by and ended_in tell why and where. Commands for a motion
+  /// of another kind end it; changes of speed and distance leave it as it is.
+  Cause home(const HomingProgram& program, Tick now);
 
-  /// The next tick whose step can send a pulse or end the move, when `done` is the last one stepped;
-  /// kNever when nothing runs.
-  Tick next_active_tick(Tick done) const;
+  void set_comparator(std::size_t number, const Comparator& comparator);
+  void set_encoder(std::int64_t pulses);
+  void set(const AxisSettings& changed);
 
-  static constexpr Tick kNever = INT64_MAX;
+  // ---- State
+
+  bool moving() const { return task != Task::none || homing.active(); }
+  /// Why a motion in `way` would be refused now; none if it may begin.
+  Cause forbidden(int way) const;
+  /// Position in the drive's coordinate, speed and acceleration along the motion, after tick `now`.
+  Sample sample(Tick now) const { return drive.sample({.tick = now}); }
+  /// Travel at a moment of the tick just stepped: to the pulse while the drive that ran then still runs.
+  std::int64_t travel_at(Instant at) const {
+    return drive.moving() && !in_backlash ? base_pulses + drive.direction * drive.pulses_at_moment(at)
+                                          : travel_pulses;
+  }
+  /// Pulses of the running move that are still to come.
+  std::int64_t remaining_pulses() const {
+    if (task != Task::move || settling) return 0;
+    return in_backlash ? target_pulses : target_pulses - drive.sent_pulses;
+  }
+
+  // ---- The tick
+
+  /// One tick, the next after the last one. Returns the pulses that come out, signed as they come out.
+  std::int64_t step(Tick tick, const Surroundings& here) {
+    if (tick < drive.next_look && here.version == seen_version && !attentive) [[likely]] {
+      const std::int64_t sent = drive.pulses_of_segment(tick);
+      const std::int64_t travel = base_pulses + drive.direction * sent;
+      if (travel >= watch_low && travel <= watch_high) [[likely]] {
+        const std::int64_t pulses = travel - travel_pulses;
+        travel_pulses = travel;
+        drive.sent_pulses = sent;
+        events = 0;
+        return inverted ? -pulses : pulses;
+      }
+    }
+    return step_with_care(tick, here);
+  }
+
+  /// One tick of an axis that takes part: instead of step(), goes by `pulses`. Edges are met at their pulse,
+  /// but at the tick's end in time. What a reaction leaves of the pulses is not sent.
+  std::int64_t carry(std::int64_t pulses, Tick tick, const Surroundings& here) {
+    const std::int64_t travel = travel_pulses + pulses;
+    const bool turns = settings.backlash_pulses > 0;
+    if (here.version == seen_version && !attentive && !turns && travel >= watch_low && travel <= watch_high &&
+        task == Task::coordinated) [[likely]] {
+      if (pulses != 0) {
+        drive.direction = pulses < 0 ? -1 : +1;
+        last_direction = static_cast<std::int8_t>(drive.direction);
+      }
+      travel_pulses = base_pulses = travel;
+      events = 0;
+      return inverted ? -pulses : pulses;
+    }
+    carried_pulses = pulses;
+    return step_with_care(tick, here);
+  }
+
+ private:
+  std::int64_t step_with_care(Tick tick, const Surroundings& here);
+
+  // Starting and ending, at moments within a tick.
+  Cause begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
+              bool for_homing = false);
+  void go_on_by(const SpeedLaw& speed, Instant at);
+  Profile planned(const SpeedLaw& speed) const;  // of the task from its beginning
+  void drop();
+  void slow(Instant at, Cause why);
+  void react(Reaction reaction, Cause why, Instant at);
+  void end(Cause why, Instant at);
+
+  // Inside a tick.
+  Instant take_up_backlash(Tick tick);
+  void run_until(Tick tick, Instant at, const Surroundings& here);
+  void go_by(std::int64_t wanted, Instant at, const Surroundings& here);
+  void meet(const Surroundings& here, Instant at);
+  void see(Signals now_on, Instant at);
+  void compare(Count count, std::int64_t value, Instant at);
+  void watch(const Surroundings& here);
+
+  // Homing: motion/homing_run.cpp.
+  bool homing_takes(Signal signal) const;         // the phase deals with it: no reaction of the axis
+  void homing_sees(Signals changed, Instant at);  // `signals` are the new ones
+  void homing_slows(Cause why);                   // ... down to a stop for `why`, or does so already
+  void homing_stands(Cause why, Instant at);      // the phase's motion has ended
+  Cause enter_phase(std::int8_t number, Instant at, bool running);
+  Cause begin_phase(Instant at);
+  void go_to_phase(std::int8_t number, Instant at, bool running);
+  void mark_reference();
+  void end_homing(Cause why);
 };
 
 }  // namespace understudy::motion

@@ -1,66 +1,90 @@
 #include "motion/profile.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+
+#include "motion/bisection.h"
 
 namespace understudy::motion {
 
-namespace {
-
 Sample sample_segment(const Segment& s, double t) {
-  const double half_jerk = 0.5 * s.jerk_pps3;
+  const double half_jerk = 0.5 * s.jerk_u_s3;
   return {
-      .position_pulses = s.position_pulses + t * (s.speed_pps + t * (0.5 * s.acceleration_pps2 +
-                                                                     t * (s.jerk_pps3 * (1.0 / 6.0)))),
-      .speed_pps = s.speed_pps + t * (s.acceleration_pps2 + t * half_jerk),
-      .acceleration_pps2 = s.acceleration_pps2 + t * s.jerk_pps3,
+      .position_u = s.position_u +
+                    t * (s.speed_u_s + t * (0.5 * s.acceleration_u_s2 + t * (s.jerk_u_s3 * (1.0 / 6.0)))),
+      .speed_u_s = s.speed_u_s + t * (s.acceleration_u_s2 + t * half_jerk),
+      .acceleration_u_s2 = s.acceleration_u_s2 + t * s.jerk_u_s3,
+      .jerk_u_s3 = s.jerk_u_s3,
   };
 }
 
-}  // namespace
+Profile Profile::from(double position_u) {
+  Profile profile;
+  profile.end_position_u = position_u;
+  return profile;
+}
 
-void Profile::append(double segment_duration_s, double start_speed_pps, double acceleration_pps2,
-                     double jerk_pps3) {
-  if (segment_duration_s <= 0) return;
-  assert(segment_count < static_cast<std::int32_t>(segments.size()));
-  double position_pulses = 0;
-  if (segment_count > 0) {
-    const Segment& last = segments[static_cast<std::size_t>(segment_count - 1)];
-    position_pulses = sample_segment(last, last.duration_s).position_pulses;
-  }
-  segments[static_cast<std::size_t>(segment_count)] = {.duration_s = segment_duration_s,
-                                                       .position_pulses = position_pulses,
-                                                       .speed_pps = start_speed_pps,
-                                                       .acceleration_pps2 = acceleration_pps2,
-                                                       .jerk_pps3 = jerk_pps3};
+void Profile::append(double segment_duration_s, double speed_u_s, double acceleration_u_s2,
+                     double jerk_u_s3) {
+  if (!(segment_duration_s > 0)) return;
+  assert(segment_count < static_cast<std::int32_t>(kMaxSegments));
+  Segment& added = segments[static_cast<std::size_t>(segment_count)];
+  added = {.begin_s = duration_s,
+           .position_u = end_position_u,
+           .speed_u_s = speed_u_s,
+           .acceleration_u_s2 = acceleration_u_s2,
+           .jerk_u_s3 = jerk_u_s3};
   ++segment_count;
   duration_s += segment_duration_s;
+  if (std::isinf(segment_duration_s)) {
+    end_position_u = std::numeric_limits<double>::infinity();
+    end_speed_u_s = speed_u_s;
+    return;
+  }
+  const Sample end = sample_segment(added, segment_duration_s);
+  end_position_u = end.position_u;
+  end_speed_u_s = end.speed_u_s;
 }
+
+void Profile::cut_at(double position_u) {
+  if (!(end_position_u > position_u)) return;
+  const double end_s = endless() ? segments[static_cast<std::size_t>(segment_count - 1)].begin_s : duration_s;
+  double cut_s = time_of(*this, position_u, 0, end_s);
+  if (endless() && sample(end_s).position_u < position_u) {
+    const Segment& last = segments[static_cast<std::size_t>(segment_count - 1)];
+    cut_s = last.begin_s + (position_u - last.position_u) / last.speed_u_s;
+  }
+  while (segment_count > 0 && segments[static_cast<std::size_t>(segment_count - 1)].begin_s >= cut_s) {
+    segments[static_cast<std::size_t>(--segment_count)] = Segment{};
+  }
+  end_speed_u_s = 0;
+  if (segment_count > 0) {
+    const Segment& last = segments[static_cast<std::size_t>(segment_count - 1)];
+    end_speed_u_s = sample_segment(last, cut_s - last.begin_s).speed_u_s;
+  }
+  duration_s = cut_s;
+  end_position_u = position_u;
+}
+
+bool Profile::endless() const { return std::isinf(duration_s); }
 
 Sample Profile::sample(double t_s) const {
-  if (segment_count == 0 || t_s >= duration_s) {
-    return {.position_pulses = static_cast<double>(distance_pulses)};
-  }
-  double t = std::max(t_s, 0.0);
-  std::size_t i = 0;
-  const auto last = static_cast<std::size_t>(segment_count - 1);
-  while (i < last && t >= segments[i].duration_s) {
-    t -= segments[i].duration_s;
-    ++i;
-  }
-  return sample_segment(segments[i], t);
+  if (segment_count == 0 || t_s >= duration_s) return {.position_u = end_position_u};
+  if (t_s <= 0) return sample_segment(segments[0], 0);
+  auto i = static_cast<std::size_t>(segment_count - 1);
+  while (i > 0 && t_s < segments[i].begin_s) --i;
+  return sample_segment(segments[i], t_s - segments[i].begin_s);
 }
 
-std::int64_t Profile::pulses_at(Tick elapsed) const {
-  if (elapsed <= 0) return 0;
-  const double t_s = static_cast<double>(elapsed) / 1000.0;
-  if (t_s * 1000.0 >= duration_s * 1000.0 - kTickTolerance) return distance_pulses;
-  const auto pulses = static_cast<std::int64_t>(
-      std::floor(sample(t_s).position_pulses + pulse_tolerance(static_cast<double>(distance_pulses))));
-  return std::clamp<std::int64_t>(pulses, 0, distance_pulses);
+double time_of(const Profile& profile, double position_u, double from_s, double to_s) {
+  const bool upwards = profile.sample(to_s).position_u >= profile.sample(from_s).position_u;
+  const auto reached = [&](double t_s) {
+    const double here_u = profile.sample(t_s).position_u;
+    return upwards ? here_u >= position_u : here_u <= position_u;
+  };
+  if (reached(from_s)) return from_s;
+  return turnover(from_s, to_s, reached).after;
 }
-
-Tick Profile::end_tick() const { return static_cast<Tick>(std::ceil(duration_s * 1000.0 - kTickTolerance)); }
 
 }  // namespace understudy::motion

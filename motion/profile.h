@@ -2,8 +2,11 @@
 //
 //   speed            ______
 //                   /      \          segment 0: accelerate, 1: cruise, 2: decelerate
-//                  /        \         (an S-curve has up to seven)
+//                  /        \         (an S-curve has up to seven; a change of target while moving adds some)
 //                 /__________\___ time
+//
+// The coordinate's unit u is pulses for an axis, a unit of length for a path. Profiles are counted in the
+// direction of the motion: from where it began upwards; only a return after an overshoot goes down.
 //
 // Pure and in closed form: any moment can be asked for, in any order, at the same cost.
 #pragma once
@@ -13,57 +16,68 @@
 
 namespace understudy::motion {
 
-/// Simulated milliseconds since power-up: the tick that every axis steps by.
-using Tick = std::int64_t;
-
-/// Within this much of a tick (1 ns) a duration counts as a whole number of ticks. Durations come out
-/// of divisions (3.05 s as 3.0500000000000003 s) and must not cost a tick for that.
-inline constexpr double kTickTolerance = 1e-6;
-
-/// Within this much below a whole pulse the pulse counts as sent, for the same reason: a few roundings of a
-/// position as large as the distance. More would send the last pulses of a slow, long ramp too early.
-constexpr double pulse_tolerance(double distance_pulses) { return 1e-12 + distance_pulses * 5e-16; }
-
 /// Motion at constant jerk. Quantities are those at the segment's beginning.
 struct Segment {
-  double duration_s = 0;
-  double position_pulses = 0;
-  double speed_pps = 0;
-  double acceleration_pps2 = 0;
-  double jerk_pps3 = 0;
+  double begin_s = 0;  // from the beginning of the profile
+  double position_u = 0;
+  double speed_u_s = 0;
+  double acceleration_u_s2 = 0;
+  double jerk_u_s3 = 0;
 
   bool operator==(const Segment&) const = default;
 };
 
 /// Where a profile is at one moment.
 struct Sample {
-  double position_pulses = 0;
-  double speed_pps = 0;
-  double acceleration_pps2 = 0;
+  double position_u = 0;
+  double speed_u_s = 0;
+  double acceleration_u_s2 = 0;
+  double jerk_u_s3 = 0;
 };
 
-/// A move from rest to rest over a whole number of pulses, always counted from 0 upwards: direction
-/// belongs to the axis. A default-made profile is a move of no distance and no duration.
+/// Within this much of a whole pulse the pulse counts as reached: a few roundings of a position as large as
+/// the distance. More would send the last pulses of a slow, long ramp too early.
+constexpr double pulse_tolerance(double distance_u) { return 1e-12 + distance_u * 5e-16; }
+
+/// Where `segment` is `t_s` after its own beginning.
+Sample sample_segment(const Segment& segment, double t_s);
+
+/// A default-made profile is a move of no distance and no duration.
 struct Profile {
-  std::array<Segment, 7> segments{};
+  // A change of target that overshoots: up to four segments to stop, and to come back seven and one to creep.
+  static constexpr std::size_t kMaxSegments = 12;
+
+  std::array<Segment, kMaxSegments> segments{};
   std::int32_t segment_count = 0;
-  std::int64_t distance_pulses = 0;
-  double duration_s = 0;
+  double duration_s = 0;      // infinite: the last segment goes on for ever
+  double end_position_u = 0;  // exactly what the move was to reach
+  double end_speed_u_s = 0;   // of the last segment's end: not 0 where the motion ends abruptly
 
   bool operator==(const Profile&) const = default;
 
-  /// Adds a segment that begins where the last one ended. `duration_s` >= 0; one of 0 is left out.
-  void append(double segment_duration_s, double start_speed_pps, double acceleration_pps2, double jerk_pps3);
+  /// A profile that begins at `position_u`, so far of no duration.
+  static Profile from(double position_u);
 
-  /// t_s < 0 gives the beginning, t_s > duration_s exactly the end.
+  /// Adds a segment that begins where the last one ended. `segment_duration_s` >= 0 or infinite; one of 0 is
+  /// left out. end_position_u, end_speed_u_s and duration_s follow.
+  void append(double segment_duration_s, double speed_u_s, double acceleration_u_s2, double jerk_u_s3);
+
+  /// Ends the profile where it first reaches `position_u`, abruptly if it must; a profile that ends before
+  /// that stays as it is. For profiles that never go back.
+  void cut_at(double position_u);
+
+  /// Declares the end to be exactly `position_u`, which the sum of the segments meets but for rounding.
+  void end_exactly_at(double position_u) { end_position_u = position_u; }
+
+  /// t_s < 0 gives the beginning, t_s >= duration_s exactly the end, at rest.
   Sample sample(double t_s) const;
 
-  /// Whole pulses sent `elapsed` ticks after the beginning: floor of the position, and exactly
-  /// `distance_pulses` from end_tick() on.
-  std::int64_t pulses_at(Tick elapsed) const;
-
-  /// The first tick, counted from the beginning, at which the profile is over.
-  Tick end_tick() const;
+  bool endless() const;
 };
+
+/// The moment in [from_s, to_s] at which the profile first is at or beyond `position_u`, to the last bit;
+/// to_s where it is not reached. Moments before 0 count as 0. The profile must not turn round between the
+/// two. Bounded: at most 67 samples.
+double time_of(const Profile& profile, double position_u, double from_s, double to_s);
 
 }  // namespace understudy::motion

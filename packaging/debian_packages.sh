@@ -1,7 +1,7 @@
 # Sourced by ./run and ./test: what they need from Debian, and how it is installed.
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libcli11-dev libmodbus-dev libspdlog-dev
-                libyaml-cpp-dev nlohmann-json3-dev libgtest-dev)
+                libyaml-cpp-dev nlohmann-json3-dev libgtest-dev libeigen3-dev)
 host_packages=(mbpoll)
 
 # install_missing PACKAGE...: says what is missing and installs that; silent when nothing is.

@@ -2,12 +2,27 @@
 // read consistently). Times are whole milliseconds, speeds ratios of pulses per millisecond.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
-#include "motion/trapezoid_by_times.h"
+#include "motion/move.h"
+#include "motion/pulse_drive.h"
 
 namespace understudy::motion {
+
+/// Whole pulses that a drive has sent `elapsed` ticks after the beginning of `profile`.
+inline std::int64_t pulses_at(const Profile& profile, Tick elapsed) {
+  if (elapsed < 0) return 0;
+  PulseDrive drive;
+  drive.start(profile, +1, 0);
+  return drive.pulses_at(elapsed);
+}
+
+/// The first tick, counted from the beginning, at which `profile` is over.
+inline Tick end_tick(const Profile& profile) {
+  return static_cast<Tick>(std::ceil(profile.duration_s * kTicksPerSecond - kTickTolerance));
+}
 
 __extension__ using Int128 = __int128;
 
@@ -76,14 +91,12 @@ struct RegisterMove {
     return {distance_pulses * den - u * u, den};
   }
 
-  Profile plan() const {
-    return motion::plan(TrapezoidByTimes{
-        .distance_pulses = distance_pulses,
-        .top_speed_pps = limit_pps(),
-        .acceleration_time_s = static_cast<double>(acceleration_10ms) / 100.0,
-        .deceleration_time_s = static_cast<double>(deceleration_10ms) / 100.0,
-    });
+  SpeedLaw law() const {
+    return {.top_speed_u_s = limit_pps(),
+            .up = RampLaw::by_time(static_cast<double>(acceleration_10ms) / 100.0),
+            .down = RampLaw::by_time(static_cast<double>(deceleration_10ms) / 100.0)};
   }
+  Profile plan() const { return motion::plan(static_cast<double>(distance_pulses), law()); }
 
   /// As code to paste into a test.
   std::string code() const {

@@ -4,11 +4,35 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <random>
 
 #include "tests/motion/exact_trapezoid.h"
 
 namespace understudy::motion {
+
+/// UNDERSTUDY_SEED overrides; print the seed in force with every failure.
+inline std::uint64_t seed() {
+  const char* given = std::getenv("UNDERSTUDY_SEED");
+  return given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'611;
+}
+
+/// How many random cases a test tries: `usual`, a tenth of it under sanitizers, UNDERSTUDY_MOVES if given.
+inline int random_cases(int usual) {
+  if (const char* given = std::getenv("UNDERSTUDY_MOVES")) return std::atoi(given);
+#if defined(__SANITIZE_ADDRESS__)
+  return usual / 10;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+  return usual / 10;
+#else
+  return usual;
+#endif
+#else
+  return usual;
+#endif
+}
 
 class RandomMoves {
  public:

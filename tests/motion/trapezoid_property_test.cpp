@@ -1,25 +1,18 @@
 // Random moves against exact arithmetic. A failure prints the move as code.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <iostream>
 
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
 namespace {
 
-constexpr int kMoves = 250'000;
 constexpr std::int64_t kLongestMs = 1'000'000'000;  // eleven days
 
 /// How early a pulse may be sent: a few roundings of doubles as large as the distance.
 int pulse_slack_billionths(std::int64_t distance_pulses) {
   return 1 + static_cast<int>(distance_pulses / 200'000);
-}
-
-/// UNDERSTUDY_SEED overrides; the seed in force is printed with a failure.
-std::uint64_t seed() {
-  const char* given = std::getenv("UNDERSTUDY_SEED");
-  return given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'611;
 }
 
 testing::AssertionResult bad(const RegisterMove& move, const std::string& what) {
@@ -28,19 +21,19 @@ testing::AssertionResult bad(const RegisterMove& move, const std::string& what) 
 
 testing::AssertionResult ends_when_and_where_it_must(const RegisterMove& move, const Profile& profile) {
   const Ratio total = move.total_ms();
-  const Tick end = profile.end_tick();
+  const Tick end = end_tick(profile);
   // Later than that by 1 ns at most counts as on the tick.
   const bool on_time = end == total.ceil() || end == total.plus_millionths(-1).ceil();
   if (!on_time) return bad(move, "ends at tick " + std::to_string(end));
   for (const Tick t : {end, end + 1, end + 1'000'000}) {
-    if (profile.pulses_at(t) != move.distance_pulses)
+    if (pulses_at(profile, t) != move.distance_pulses)
       return bad(move, "is off target at " + std::to_string(t));
   }
   return testing::AssertionSuccess();
 }
 
 testing::AssertionResult is_where_it_must_be(const RegisterMove& move, const Profile& profile, Tick t) {
-  const std::int64_t pulses = profile.pulses_at(t);
+  const std::int64_t pulses = pulses_at(profile, t);
   const Ratio exact = t >= move.total_ms().ceil() ? Ratio{move.distance_pulses, 1} : move.position(t);
   const std::int64_t least = exact.floor();
   const std::int64_t most = std::min(
@@ -49,8 +42,8 @@ testing::AssertionResult is_where_it_must_be(const RegisterMove& move, const Pro
     return bad(move, "pulses_at(" + std::to_string(t) + ") is " + std::to_string(pulses) + ", not " +
                          std::to_string(least));
   }
-  if (profile.pulses_at(t + 1) < pulses) return bad(move, "goes back after tick " + std::to_string(t));
-  const double speed = profile.sample(static_cast<double>(t) / 1000.0).speed_pps;
+  if (pulses_at(profile, t + 1) < pulses) return bad(move, "goes back after tick " + std::to_string(t));
+  const double speed = profile.sample(static_cast<double>(t) / 1000.0).speed_u_s;
   const double limit = move.limit_pps() * (1 + 1e-12);
   if (speed > limit || speed < -1e-9 * limit) return bad(move, "speed at " + std::to_string(t) + " ms");
   return testing::AssertionSuccess();
@@ -59,14 +52,15 @@ testing::AssertionResult is_where_it_must_be(const RegisterMove& move, const Pro
 TEST(TrapezoidProperty, EveryMoveIsWhereExactArithmeticHasItAndEndsOnItsTick) {
   RecordProperty("seed", std::to_string(seed()));
   std::cout << "seed " << seed() << "\n";
+  const int moves = random_cases(250'000);
   RandomMoves random(seed());
   int triangles = 0;
-  for (int i = 0; i < kMoves; ++i) {
+  for (int i = 0; i < moves; ++i) {
     const RegisterMove move = random.next(kLongestMs);
     const Profile profile = move.plan();
     triangles += move.reaches_limit() ? 0 : 1;
     ASSERT_TRUE(ends_when_and_where_it_must(move, profile));
-    const Tick end = profile.end_tick();
+    const Tick end = end_tick(profile);
     const Tick a = move.acceleration_ms();
     const Tick d = move.deceleration_ms();
     for (const Tick t : {Tick{0}, Tick{1}, a - 1, a, a + 1, end - d - 1, end - d, end - d + 1, end - 1,
@@ -76,8 +70,8 @@ TEST(TrapezoidProperty, EveryMoveIsWhereExactArithmeticHasItAndEndsOnItsTick) {
     }
   }
   // The mix is what it is meant to be.
-  EXPECT_GT(triangles, kMoves / 10);
-  EXPECT_LT(triangles, kMoves * 9 / 10);
+  EXPECT_GT(triangles, moves / 10);
+  EXPECT_LT(triangles, moves * 9 / 10);
 }
 
 TEST(TrapezoidProperty, ShortMovesNeverGoBackAndNeverSendMoreThanTheLimitInATick) {
@@ -87,8 +81,8 @@ TEST(TrapezoidProperty, ShortMovesNeverGoBackAndNeverSendMoreThanTheLimitInATick
     const Profile profile = move.plan();
     const std::int64_t most_per_tick = move.limit().ceil() + 1;  // a partial pulse before, one after
     std::int64_t before = 0;
-    for (Tick t = 1; t <= profile.end_tick(); ++t) {
-      const std::int64_t pulses = profile.pulses_at(t);
+    for (Tick t = 1; t <= end_tick(profile); ++t) {
+      const std::int64_t pulses = pulses_at(profile, t);
       ASSERT_GE(pulses, before) << "seed " << seed() + 1 << ": " << move.code() << " tick " << t;
       ASSERT_LE(pulses - before, most_per_tick)
           << "seed " << seed() + 1 << ": " << move.code() << " tick " << t;
@@ -116,12 +110,12 @@ TEST(TrapezoidProperty, SpeedIntegratesToPositionAndAccelerationToSpeed) {
       const double step = (to - from) / kSteps;
       for (int n = 0; n < kSteps && step > 0; ++n) {
         const Sample middle = profile.sample(from + (n + 0.5) * step);
-        ASSERT_NEAR(middle.position_pulses,
-                    position + speed * step / 2 + middle.acceleration_pps2 * step * step / 8,
+        ASSERT_NEAR(middle.position_u,
+                    position + speed * step / 2 + middle.acceleration_u_s2 * step * step / 8,
                     1e-9 * distance + 1e-9)
             << "seed " << seed() + 2 << ": " << move.code() << " at " << from + (n + 0.5) * step << " s";
-        position += middle.speed_pps * step;
-        speed += middle.acceleration_pps2 * step;
+        position += middle.speed_u_s * step;
+        speed += middle.acceleration_u_s2 * step;
       }
       from = to;
     }

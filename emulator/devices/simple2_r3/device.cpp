@@ -6,7 +6,7 @@
 #include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/choices.h"
 #include "emulator/devices/simple2_r3/model.h"
-#include "motion/trapezoid_by_times.h"
+#include "motion/move.h"
 
 namespace understudy::emulator::simple2_r3 {
 
@@ -113,13 +113,13 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   // Times of 0 count as 1 (appendix A), that is 10 ms.
   const auto seconds = [](std::uint32_t time_10ms) { return std::max(time_10ms, 1U) / 100.0; };
   const double speed_pps = static_cast<double>(move.speed_rpm) * resolution_of(state_, axis_number) / 60.0;
-  axis.motor.start(motion::plan(motion::TrapezoidByTimes{
-                       .distance_pulses = std::abs(move.distance_pulses),
-                       .top_speed_pps = std::min(speed_pps, kMaxPulseRate_pps),
-                       .acceleration_time_s = seconds(move.acceleration_10ms),
-                       .deceleration_time_s = seconds(move.deceleration_10ms),
-                   }),
-                   direction, now() + 1);
+  const motion::SpeedLaw law{
+      .top_speed_u_s = std::min(speed_pps, kMaxPulseRate_pps),
+      .up = motion::RampLaw::by_time(seconds(move.acceleration_10ms)),
+      .down = motion::RampLaw::by_time(seconds(move.deceleration_10ms)),
+  };
+  axis.motor.start(motion::plan(static_cast<double>(std::abs(move.distance_pulses)), law), direction,
+                   now() + 1);
 }
 
 void Simple2R3::stop(int axis_number) {

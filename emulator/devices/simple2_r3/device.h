@@ -7,7 +7,7 @@
 
 #include "emulator/device.h"
 #include "emulator/devices/simple2_r3/registers.h"
-#include "motion/axis.h"
+#include "motion/pulse_drive.h"
 
 namespace understudy::emulator::simple2_r3 {
 
@@ -17,7 +17,7 @@ inline constexpr int kOutputCount = 7;
 enum class Command : std::uint8_t { none, incremental, absolute };
 
 struct AxisState {
-  motion::Axis motor;
+  motion::PulseDrive motor;
   Command command = Command::none;  // whose trigger register reads 1
   bool servo_on = false;
   std::int32_t coordinate_pulses = 0;

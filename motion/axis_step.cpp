@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include "motion/axis.h"
+
+// The tick of an axis, where something can happen in it.
+namespace understudy::motion {
+
+namespace {
+
+/// Nothing is watched for farther off than this: it is looked for again there.
+constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
+
+/// No drive is that fast; a state from outside may say so, and must not keep its tick for ever.
+constexpr std::int64_t kMostInATick = 1'000'000;
+
+Event comparator_event(std::size_t number) {
+  return static_cast<Event>(static_cast<unsigned>(Event::comparator_0) + number);
+}
+
+}  // namespace
+
+std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
+  const std::int64_t travel_before = travel_pulses;
+  const std::int64_t backlash_before = backlash_sent;
+  Instant at{.tick = tick - 1};
+  seen_version = here.version;
+  attentive = false;
+  meet(here, at);
+  compare(Count::encoder, encoder_pulses, at);
+
+  if (task == Task::following) {
+    go_by(follower.step(), {.tick = tick}, here);
+  } else if (task == Task::coordinated) {
+    go_by(carried_pulses, {.tick = tick}, here);
+    carried_pulses = 0;
+  } else if (task != Task::hanging) {
+    bool turned = false;  // within the tick, for homing: the backlash begins in it, too
+    do {
+      if (in_backlash) at = take_up_backlash(tick);
+      turned = !in_backlash && drive.moving();
+      if (turned) run_until(tick, at, here);
+      turned = turned && in_backlash;
+    } while (turned);
+  }
+  watch(here);
+  // A path may turn towards the limit that the axis stands on, or stands still at first.
+  const bool at_a_limit =
+      task == Task::coordinated && (forbidden(+1) != Cause::none || forbidden(-1) != Cause::none);
+  attentive = attentive || in_backlash || at_a_limit || task == Task::following;
+  events = events_between;
+  events_between = 0;
+  const std::int64_t pulses = travel_pulses - travel_before + backlash_sent - backlash_before;
+  return inverted ? -pulses : pulses;
+}
+
+/// Sends what of the backlash is due, and begins the motion proper where it is over. Gives that moment.
+Instant Axis::take_up_backlash(Tick tick) {
+  const std::int64_t sent = drive.pulses_at(tick);
+  backlash_sent += (sent - drive.sent_pulses) * drive.direction;
+  drive.sent_pulses = sent;
+  const Instant until{.tick = tick};
+  if (!drive.over_at(tick)) return until;
+  // The motion begins at the very moment, and so has run for a part of this tick.
+  const double over_s = std::max(0.0, drive.elapsed_s(until) - drive.profile.duration_s);
+  Instant at{.tick = tick - 1, .after_s = 1 / kTicksPerSecond - over_s};
+  if (over_s <= 0) at = until;
+  const Profile rest = planned(law);
+  const int way = drive.direction;
+  in_backlash = false;
+  drive.start(rest, way, at);
+  return at;
+}
+
+void Axis::run_until(Tick tick, Instant at, const Surroundings& here) {
+  const Instant until{.tick = tick};
+  while (drive.moving() && !in_backlash) {
+    watch(here);
+    const std::int64_t travel = base_pulses + drive.direction * drive.pulses_at(tick);
+    if (travel >= watch_low && travel <= watch_high) {
+      drive.sent_pulses = drive.pulses_at(tick);
+      travel_pulses = travel;
+      break;
+    }
+    // On to the first pulse beyond what was watched, at the moment it is sent.
+    const bool too_fast = std::abs(travel - travel_pulses) > kMostInATick;
+    const std::int64_t edge = too_fast ? travel : travel > watch_high ? watch_high + 1 : watch_low - 1;
+    const std::int64_t pulse = (edge - base_pulses) * drive.direction;
+    at = drive.time_of_pulse(pulse, at, until);
+    drive.sent_pulses = pulse;
+    travel_pulses = edge;
+    meet(here, at);
+  }
+  if (drive.moving() && !in_backlash && drive.over_at(tick)) {
+    if (comes_back) {
+      const std::int64_t back = base_pulses + drive.direction * target_pulses - travel_pulses;
+      drop();
+      if (back == 0) {
+        end(Cause::arrived, until);
+      } else if (const Cause why = begin(Task::move, back < 0 ? -1 : +1, back, law, until);
+                 why != Cause::none) {
+        end(why, until);
+      }
+    } else if (!slowing && settings.waits_for_in_position && (signals & bit(Signal::in_position)) == 0) {
+      drive.stop();
+      base_pulses = travel_pulses;
+      settling = true;
+    } else {
+      end(slowing ? cause : Cause::arrived, until);
+    }
+  }
+}
+
+/// Goes by pulses that come from elsewhere. Backlash comes out at once: there is no time of its own for it.
+void Axis::go_by(std::int64_t wanted, Instant at, const Surroundings& here) {
+  const Task carried_by = task;
+  if (wanted == 0) return;
+  const int way = wanted < 0 ? -1 : +1;
+  const auto against = [&] {
+    // The one pulse beyond a soft limit is sent, as by the drive's motions: it is what triggers.
+    const auto& soft_limit = way > 0 ? settings.soft_limit_plus : settings.soft_limit_minus;
+    const Cause why = forbidden(way);
+    const bool soft = why == Cause::soft_limit_plus || why == Cause::soft_limit_minus;
+    return soft && travel_pulses == *soft_limit ? Cause::none : why;
+  };
+  if (against() != Cause::none) {
+    // Against a limit a wheel turns in vain; a path cannot go on.
+    if (task == Task::coordinated) end(against(), at);
+    return;
+  }
+  drive.direction = way;
+  if (last_direction != 0 && last_direction != way) backlash_sent += settings.backlash_pulses * way;
+  last_direction = static_cast<std::int8_t>(way);
+  while (wanted != 0 && task == carried_by && against() == Cause::none) {
+    watch(here);
+    const std::int64_t room = way > 0 ? watch_high - travel_pulses : travel_pulses - watch_low;
+    const std::int64_t now = std::min(wanted * way, room + 1);
+    travel_pulses += now * way;
+    base_pulses = travel_pulses;
+    wanted -= now * way;
+    meet(here, at);
+  }
+  if (wanted != 0 && task == Task::coordinated) end(against(), at);
+}
+
+/// Everything that depends on the place, at the place the axis has come to.
+void Axis::meet(const Surroundings& here, Instant at) {
+  compare(Count::command, travel_pulses, at);
+  see(here.at(travel_pulses), at);
+  if (settings.soft_limit_plus && travel_pulses > *settings.soft_limit_plus && drive.direction > 0) {
+    react(settings.at_soft_limit, Cause::soft_limit_plus, at);
+  }
+  if (settings.soft_limit_minus && travel_pulses < *settings.soft_limit_minus && drive.direction < 0) {
+    react(settings.at_soft_limit, Cause::soft_limit_minus, at);
+  }
+}
+
+void Axis::compare(Count count, std::int64_t value, Instant at) {
+  for (std::size_t i = 0; i < comparators.size(); ++i) {
+    Comparator& mine = comparators[i];
+    if (mine.relation == Comparator::Relation::off || mine.count != count) continue;
+    const bool holds = mine.holds(value);
+    if (holds && !mine.was_true) {
+      events_between |= bit(comparator_event(i));
+      event_at[i] = at;
+      mine.was_true = true;
+      react(mine.reaction, Cause::comparator, at);
+    }
+    mine.was_true = holds;
+  }
+}
+
+void Axis::see(Signals now_on, Instant at) {
+  const auto changed = static_cast<Signals>(signals ^ now_on);
+  signals = now_on;
+  if ((changed & bit(Signal::mark)) != 0) {
+    const Event edge = (now_on & bit(Signal::mark)) != 0 ? Event::mark_on : Event::mark_off;
+    events_between |= bit(edge);
+    event_at[static_cast<std::size_t>(edge)] = at;
+  }
+  if (homing.active() && changed != 0) homing_sees(changed, at);
+  const auto is_on = [&](Signal signal) { return (now_on & bit(signal)) != 0 && !homing_takes(signal); };
+  if (is_on(Signal::emergency)) react(settings.at_emergency, Cause::emergency, at);
+  if (is_on(Signal::alarm)) react(settings.at_alarm, Cause::alarm, at);
+  if (drive.direction > 0 && is_on(Signal::limit_plus)) react(settings.at_limit_plus, Cause::limit_plus, at);
+  if (drive.direction < 0 && is_on(Signal::limit_minus))
+    react(settings.at_limit_minus, Cause::limit_minus, at);
+  if (settling && (now_on & bit(Signal::in_position)) != 0) end(Cause::arrived, at);
+}
+
+/// How far the axis may go before meet() has anything to do.
+void Axis::watch(const Surroundings& here) {
+  std::int64_t up = kNoEdge;
+  std::int64_t down = kNoEdge;
+  const auto consider = [](std::int64_t& nearest, std::optional<std::int64_t> steps) {
+    if (steps) nearest = std::min(nearest, *steps);
+  };
+  consider(up, here.steps_until_change(travel_pulses, +1));
+  consider(down, here.steps_until_change(travel_pulses, -1));
+  for (const Comparator& mine : comparators) {
+    if (mine.count != Count::command) continue;
+    consider(up, mine.steps_until_change(travel_pulses, +1));
+    consider(down, mine.steps_until_change(travel_pulses, -1));
+  }
+  // Soft limits may be far out of reach, up to the last number there is.
+  const auto& most = settings.soft_limit_plus;
+  const auto& least = settings.soft_limit_minus;
+  if (most && travel_pulses <= *most && *most < travel_pulses + kNoEdge) {
+    consider(up, *most + 1 - travel_pulses);
+  }
+  if (least && travel_pulses >= *least && *least > travel_pulses - kNoEdge) {
+    consider(down, travel_pulses + 1 - *least);
+  }
+  watch_high = travel_pulses + (up - 1);
+  watch_low = travel_pulses - (down - 1);
+}
+
+}  // namespace understudy::motion

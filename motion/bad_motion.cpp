@@ -1,0 +1,34 @@
+#include "motion/bad_motion.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace understudy::motion {
+
+namespace {
+
+std::string demand(std::string_view quantity, std::string_view wanted, double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  return std::string(quantity) + " must be " + std::string(wanted) + ", is " + std::string(digits, end);
+}
+
+}  // namespace
+
+void demand_finite(double value, std::string_view law, std::string_view quantity) {
+  if (!std::isfinite(value)) {
+    throw BadMotion(Refusal::not_finite, law, demand(quantity, "a finite number", value));
+  }
+}
+
+void demand_positive(double value, std::string_view law, std::string_view quantity) {
+  demand_finite(value, law, quantity);
+  if (value <= 0) throw BadMotion(Refusal::not_positive, law, demand(quantity, "above 0", value));
+}
+
+void demand_not_negative(double value, std::string_view law, std::string_view quantity) {
+  demand_finite(value, law, quantity);
+  if (value < 0) throw BadMotion(Refusal::negative, law, demand(quantity, "0 or above", value));
+}
+
+}  // namespace understudy::motion

@@ -1,0 +1,98 @@
+#include "motion/coordinated.h"
+
+#include <cmath>
+
+namespace understudy::motion {
+
+namespace {
+
+/// Half away from zero. Beyond 1e18 nobody counts: it stays there.
+std::int64_t nearest(double value) {
+  const double size = std::abs(value);
+  const auto whole = size < 1e18 ? static_cast<std::int64_t>(size + 0.5) : 1'000'000'000'000'000'000;
+  return value < 0 ? -whole : whole;
+}
+
+/// Nothing for kNone, and for an axis that the span does not have.
+Axis* axis_at(std::int8_t number, std::span<Axis> axes) {
+  const bool there = number >= 0 && static_cast<std::size_t>(number) < axes.size();
+  return there ? &axes[static_cast<std::size_t>(number)] : nullptr;
+}
+
+}  // namespace
+
+std::int64_t Coordinated::travel_at(std::size_t i, double place_u) const {
+  return zero_pulses[i] +
+         nearest(place_u * static_cast<double>(scale[i].multiplier) / static_cast<double>(scale[i].divider));
+}
+
+bool Coordinated::takes(std::size_t axis) const {
+  for (const std::int8_t mine : axis_of) {
+    if (engaged && mine >= 0 && static_cast<std::size_t>(mine) == axis) return true;
+  }
+  return false;
+}
+
+Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
+  for (const std::int8_t mine : axis_of) {
+    const Axis* axis = axis_at(mine, axes);
+    if (axis != nullptr && axis->settings.needs_servo && !axis->servo_on) return Cause::servo_off;
+  }
+  run.start(now);  // first: it may throw
+  run.stand_at(from);
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    Axis* axis = axis_at(axis_of[i], axes);
+    if (axis == nullptr) continue;
+    axis->take_part();
+    zero_pulses[i] = 0;
+    zero_pulses[i] = axis->travel_pulses - travel_at(i, from[static_cast<Eigen::Index>(i)]);
+  }
+  engaged = true;
+  cause = Cause::none;
+  return Cause::none;
+}
+
+void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
+                       std::span<std::int64_t> pulses, bool stays_engaged) {
+  if (!engaged) return;
+  const Point place = run.step(tick);
+  Cause ended_by = Cause::none;
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    Axis* axis = axis_at(axis_of[i], axes);
+    if (axis == nullptr) continue;
+    const auto number = static_cast<std::size_t>(axis_of[i]);
+    if (axis->task == Task::coordinated) {
+      const std::int64_t target = travel_at(i, place[static_cast<Eigen::Index>(i)]);
+      pulses[number] += axis->carry(target - axis->travel_pulses, tick, here[number]);
+    } else {
+      // Stopped or begun otherwise between the ticks: it has its tick all the same.
+      pulses[number] += axis->step(tick, here[number]);
+    }
+    if (axis->task != Task::coordinated && ended_by == Cause::none) {
+      ended_by = axis->cause == Cause::none ? Cause::stopped : axis->cause;
+    }
+  }
+  if (ended_by != Cause::none) {
+    stop(axes, ended_by);
+  } else if (run.queued() == 0 && !run.paused() && !stays_engaged) {
+    for (const std::int8_t mine : axis_of) {
+      if (Axis* axis = axis_at(mine, axes)) axis->arrive();
+    }
+    engaged = false;
+    cause = Cause::arrived;
+    run.abandon();
+  }
+}
+
+void Coordinated::stop(std::span<Axis> axes, Cause why) {
+  if (!engaged) return;
+  engaged = false;
+  cause = why;
+  run.abandon();
+  for (const std::int8_t mine : axis_of) {
+    Axis* axis = axis_at(mine, axes);
+    if (axis != nullptr && axis->task == Task::coordinated) axis->stop(why);
+  }
+}
+
+}  // namespace understudy::motion

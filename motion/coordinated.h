@@ -1,0 +1,52 @@
+// Coordinated motion: a run along paths (motion/path_run.h) carries up to four axes.
+//
+// Each axis is at the whole pulse nearest to the path's place at every tick, so it is never more than half a
+// pulse off.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "motion/axis.h"
+#include "motion/path_run.h"
+#include "motion/unit_scale.h"
+
+namespace understudy::motion {
+
+struct Coordinated {
+  static constexpr std::int8_t kNone = -1;
+
+  PathRun run;
+  // For each coordinate of the path, 0 .. 3: the axis that goes by it, in the span given to the tick, or
+  // kNone. One that the span does not have is left out.
+  std::array<std::int8_t, kPathAxes> axis_of{kNone, kNone, kNone, kNone};
+  std::array<UnitScale, kPathAxes> scale{};
+  std::array<std::int64_t, kPathAxes> zero_pulses{};  // travel of the axis where its coordinate is 0
+
+  // State.
+  bool engaged = false;
+  Cause cause = Cause::none;  // of the last end
+
+  bool operator==(const Coordinated&) const = default;
+
+  /// Takes the axes along `axis_of` and begins what is queued. `from` is the place they are at, in path
+  /// units. What one axis is refused for, all are: then nothing has changed.
+  Cause begin(const Point& from, std::span<Axis> axes, Tick now);
+
+  /// One tick of the axes that take part before it, instead of their own step(); `here` and `pulses` (added
+  /// to, signed as they come out) go with `axes`. When one is stopped, by whatever, all are, where they are,
+  /// and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the owner keeps
+  /// them with `stays_engaged`).
+  void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
+            std::span<std::int64_t> pulses, bool stays_engaged = false);
+
+  /// No pulse after this, for all of them.
+  void stop(std::span<Axis> axes, Cause why = Cause::stopped);
+
+  bool takes(std::size_t axis) const;
+  /// The travel of the axis of coordinate `i` at a place: round half away from zero.
+  std::int64_t travel_at(std::size_t coordinate, double place_u) const;
+};
+
+}  // namespace understudy::motion

@@ -1,0 +1,41 @@
+// Position counters: what a controller shows of an axis's travel.
+//
+// An axis counts its travel once, in 64 bits, from power-up; every counter of the device (logical position,
+// absolute position, RCUN1, a coordinate in a register) is that travel plus an offset, wrapped as the device
+// wraps. Counters therefore cost nothing while the axis moves.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace understudy::motion {
+
+struct Counter {
+  enum class Range : std::uint8_t {
+    linear,  // 64 bits: never wraps
+    bits32,  // signed 32 bits (MCX314 LP and EP, Simple2-R3 coordinates)
+    bits28,  // signed 28 bits (PCL6045 RCUN)
+    ring,    // 0 .. ring_top: past the top comes 0 (MCX314 variable ring)
+  };
+
+  Range range = Range::linear;
+  std::int64_t ring_top = 0;  // for ring: 0 .. 2^63 - 2
+  std::int64_t offset = 0;
+
+  bool operator==(const Counter&) const = default;
+
+  /// The count at `travel`.
+  std::int64_t at(std::int64_t travel) const;
+  /// Makes the count `value` (wrapped into the range) at `travel`.
+  void set(std::int64_t value, std::int64_t travel);
+
+  /// How many steps (1 ...) in `direction` (+1 or -1) until the count is `value`; nothing if it never will
+  /// be.
+  std::optional<std::int64_t> steps_until(std::int64_t value, std::int64_t travel, int direction) const;
+
+  /// The least and greatest count; nothing for linear.
+  std::optional<std::int64_t> least() const;
+  std::optional<std::int64_t> greatest() const;
+};
+
+}  // namespace understudy::motion

@@ -1,0 +1,41 @@
+// External pulse drive: two inputs that make an axis move, as the MCX314 takes them from EXP+ and EXP-.
+//
+// Levels are as at the pin: true is high. Source: RS-M8194H manual 3.17.
+#pragma once
+
+#include <cstdint>
+
+namespace understudy::motion {
+
+struct ExternalDrive {
+  enum class Mode : std::uint8_t {
+    off,
+    multiply,  // EXP- low: a rising edge of EXP+ sends `pulses` forwards, a falling edge as many backwards
+    fixed,  // a falling edge of EXP+ or EXP- sends `pulses` forwards or backwards, unless some are being sent
+    continuous,  // while EXP+ or EXP- is low, on and on forwards or backwards; back at high it stops
+  };
+
+  Mode mode = Mode::off;
+  std::int64_t pulses = 0;
+  // State: the levels last seen, and the way a continuous run was begun in (0: none).
+  bool plus_high = true;
+  bool minus_high = true;
+  std::int8_t running = 0;
+
+  bool operator==(const ExternalDrive&) const = default;
+};
+
+/// What an input asks of its axis.
+struct DriveOrder {
+  enum class What : std::uint8_t { nothing, move, run, slow_down };
+  What what = What::nothing;
+  std::int64_t pulses = 0;  // of a move, signed
+  std::int8_t way = 0;      // of a run
+
+  bool operator==(const DriveOrder&) const = default;
+};
+
+/// The order that follows from the inputs as they are now; to be asked once a tick.
+DriveOrder watch_inputs(ExternalDrive& drive, bool plus_high, bool minus_high, bool axis_moving);
+
+}  // namespace understudy::motion

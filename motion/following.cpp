@@ -1,0 +1,72 @@
+#include "motion/following.h"
+
+#include <algorithm>
+
+#include "motion/bad_motion.h"
+
+namespace understudy::motion {
+
+namespace {
+
+__extension__ using Wide = __int128;
+
+std::int64_t floor_divide(std::int64_t value, std::int64_t by) {
+  const std::int64_t quotient = value / by;
+  return value % by < 0 ? quotient - 1 : quotient;
+}
+
+std::int64_t saturated(Wide value) {
+  return static_cast<std::int64_t>(std::clamp<Wide>(value, INT64_MIN / 4, INT64_MAX / 4));
+}
+
+}  // namespace
+
+void Follower::check() const {
+  const auto demand = [](bool met, const char* what) {
+    if (!met) throw BadMotion(Refusal::out_of_range, "following", what);
+  };
+  demand(denominator >= 1 && denominator <= INT32_MAX, "denominator must be 1 to 2147483647");
+  demand(numerator >= -INT32_MAX && numerator <= INT32_MAX, "numerator must be -2147483647 to 2147483647");
+  demand(period_ticks >= 1 && period_ticks <= 1000, "period must be 1 to 1000 ticks");
+  demand(top_speed_pps >= 0 && top_speed_pps <= INT32_MAX, "top speed must be 0 to 2147483647");
+  demand(slope_pps >= 0 && slope_pps <= INT32_MAX, "slope must be 0 to 2147483647");
+}
+
+std::int64_t Follower::step() {
+  if (phase == 0) {
+    // The pulses of what was gathered, with what the last divisions left.
+    const Wide scaled = Wide{gathered} * numerator + left_over;
+    Wide whole = scaled / denominator;
+    if (scaled % denominator < 0) --whole;
+    left_over = static_cast<std::int64_t>(scaled - whole * denominator);
+    gathered = 0;
+    std::int64_t wanted = saturated(whole + (catches_up ? behind_pulses : 0));
+    const std::int64_t asked = wanted;
+    const auto in_a_period = [&](std::int64_t pps) { return pps * period_ticks / 1000; };
+    if (slope_pps > 0) {
+      const std::int64_t change = std::max<std::int64_t>(in_a_period(slope_pps), 1);
+      wanted = std::clamp(wanted, period_pulses - change, period_pulses + change);
+    }
+    if (top_speed_pps > 0) {
+      // The bound is met on the average: what a thousandth of it leaves over counts for the next period.
+      const std::int64_t milli = top_speed_pps * period_ticks + speed_left_over;
+      const std::int64_t bound = milli / 1000;
+      speed_left_over = milli % 1000;
+      wanted = std::clamp(wanted, -bound, bound);
+    }
+    behind_pulses = catches_up ? asked - wanted : 0;
+    period_pulses = wanted;
+  }
+  const std::int64_t each_tick = floor_divide(period_pulses, period_ticks);
+  const std::int64_t rest = period_pulses - each_tick * period_ticks;
+  const std::int64_t rest_before = rest * phase / period_ticks;
+  const std::int64_t done = phase + 1;
+  phase = static_cast<std::int32_t>(done % period_ticks);
+  return each_tick + rest * done / period_ticks - rest_before;
+}
+
+bool Follower::quiet() const {
+  return gathered == 0 && behind_pulses == 0 && period_pulses == 0 && phase == 0;
+}
+
+}  // namespace understudy::motion

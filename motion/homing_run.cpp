@@ -1,0 +1,227 @@
+#include <cstdlib>
+#include <string>
+
+#include "motion/axis.h"
+#include "motion/bad_motion.h"
+
+// Runs a homing table. Phases begin and end inside ticks, at the edges that separate them.
+namespace understudy::motion {
+
+namespace {
+
+/// As motion/axis.h bounds a move.
+constexpr std::int64_t kFarthest = std::int64_t{1} << 53;
+
+void demand(bool holds, const char* what) {
+  if (!holds) throw BadMotion(Refusal::out_of_range, "homing table", what);
+}
+
+/// The number `where` stands for, seen from row `phase`.
+std::int8_t row_number(const Homing& homing, std::int8_t where) {
+  if (where == HomingPhase::kNext) where = homing.row().next;
+  return where == HomingPhase::kRowBelow ? static_cast<std::int8_t>(homing.phase + 1) : where;
+}
+
+bool as_sought(const HomingPhase& row, Signals signals) {
+  return ((signals & bit(row.until)) != 0) == row.until_on;
+}
+
+bool is_limit(Cause why) { return why == Cause::limit_plus || why == Cause::limit_minus; }
+
+}  // namespace
+
+void HomingProgram::add(const HomingPhase& phase) {
+  if (static_cast<std::size_t>(phase_count) == kMaxPhases) {
+    throw BadMotion(Refusal::no_room, "homing table", "at most 8 phases");
+  }
+  phases[static_cast<std::size_t>(phase_count++)] = phase;
+}
+
+void check(const HomingProgram& program) {
+  demand(
+      program.phase_count >= 0 && static_cast<std::size_t>(program.phase_count) <= HomingProgram::kMaxPhases,
+      "phases must be 0 to 8");
+  const auto is_row = [&](std::int8_t where) {
+    return where <= program.phase_count && where >= HomingPhase::kFail;  // just below: home is found
+  };
+  for (std::int8_t i = 0; i < program.phase_count; ++i) {
+    const HomingPhase& row = program.phases[static_cast<std::size_t>(i)];
+    demand(is_row(row.next), "the next phase must be one of the table");
+    demand(is_row(row.if_limit), "the phase after a limit must be one of the table");
+    demand(is_row(row.if_gone) || row.if_gone == HomingPhase::kNext,
+           "the phase after a signal that is gone must be one of the table");
+    demand(is_row(row.if_already) || row.if_already == HomingPhase::kAwait ||
+               (row.if_already == HomingPhase::kNext && row.count == 1),
+           "a signal to be counted must be awaited");
+    demand(row.way == +1 || row.way == -1, "way must be +1 or -1");
+    demand(row.count >= 1, "count must be at least 1");
+    demand(row.distance_pulses >= -kFarthest && row.distance_pulses <= kFarthest,
+           "distance must be within 2^53 pulses");
+    demand(row.again_while == 0 || row.distance_pulses != 0, "a distance to be repeated must not be 0");
+    demand(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
+           "speed must be one of the table");
+    if (row.does == HomingPhase::Does::hang) continue;
+    const SpeedLaw& speed = program.speeds[static_cast<std::size_t>(row.speed)];
+    check(speed);
+    if (row.does == HomingPhase::Does::go) {
+      (void)plan(static_cast<double>(std::abs(row.distance_pulses)), speed);
+    }
+  }
+}
+
+Cause Axis::home(const HomingProgram& program, Tick now) {
+  check(program);
+  if (settings.needs_servo && !servo_on) return Cause::servo_off;
+  const Homing before = homing;
+  homing = Homing{.program = program};
+  Cause refused = Cause::none;
+  try {
+    refused = enter_phase(0, {.tick = now + 1}, false);
+  } catch (const BadMotion&) {
+    homing = before;
+    throw;
+  }
+  if (refused != Cause::none) {
+    homing = before;
+    return refused;
+  }
+  events_between |= bit(Event::started);
+  return Cause::none;
+}
+
+bool Axis::homing_takes(Signal signal) const {
+  return homing.active() && homing.row().does == HomingPhase::Does::search && homing.row().until == signal;
+}
+
+void Axis::homing_sees(Signals changed, Instant at) {
+  const HomingPhase& row = homing.row();
+  const bool looks = row.does == HomingPhase::Does::search && !slowing;
+  if (!looks || (changed & bit(row.until)) == 0 || !as_sought(row, signals)) return;
+  if (++homing.counted < row.count) return;
+  homing.met = true;
+  if (row.marks) mark_reference();
+  switch (row.then) {
+    case HomingPhase::Then::stop_at_once: end(Cause::arrived, at); break;
+    case HomingPhase::Then::slow_down: slow(at, Cause::arrived); break;
+    case HomingPhase::Then::run_on: go_to_phase(row_number(homing, row.next), at, true); break;
+  }
+}
+
+void Axis::mark_reference() {
+  homing.reference_known = true;
+  homing.reference_pulses = travel_pulses;
+}
+
+/// What a stop under way is for may get worse: a limit or a stop command while it slows down for home.
+void Axis::homing_slows(Cause why) {
+  const bool goes_on =
+      why == Cause::arrived || (is_limit(why) && homing.row().if_limit != HomingPhase::kFail);
+  if (!goes_on && homing.ended_by == Cause::none) homing.ended_by = why;
+}
+
+void Axis::homing_stands(Cause why, Instant at) {
+  const HomingPhase& row = homing.row();
+  const bool limit_is_harmless = is_limit(why) && row.if_limit != HomingPhase::kFail;
+  if (homing.ended_by != Cause::none) {
+    end_homing(homing.ended_by);
+  } else if (why != Cause::arrived && !limit_is_harmless) {
+    end_homing(why);
+  } else if (limit_is_harmless && !homing.met) {
+    go_to_phase(row_number(homing, row.if_limit), at, false);
+  } else if (row.does == HomingPhase::Does::go && (signals & row.again_while) != 0) {
+    go_to_phase(homing.phase, at, false);
+  } else if (row.does == HomingPhase::Does::search && !as_sought(row, signals)) {
+    go_to_phase(row_number(homing, row.if_gone), at, false);
+  } else {
+    go_to_phase(row_number(homing, row.next), at, false);
+  }
+}
+
+void Axis::go_to_phase(std::int8_t number, Instant at, bool running) {
+  Cause failed = Cause::homing_failed;
+  try {
+    failed = enter_phase(number, at, running);
+  } catch (const BadMotion&) {
+    // A way back that the speed law cannot plan: known only here, and a tick does not throw.
+  }
+  if (failed != Cause::none) end_homing(failed);
+}
+
+/// Begins phase `number`, or the first one after it that has anything to do; none when that runs or home is
+/// found. `running`: the axis is to go on in motion.
+Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
+  // A table may lead in a circle of phases that have nothing to do; each is entered once at most.
+  for (std::size_t entered = 0; entered <= HomingProgram::kMaxPhases; ++entered) {
+    if (number < 0) return Cause::homing_failed;  // kFail
+    if (number >= homing.program.phase_count) {
+      end_homing(Cause::arrived);
+      return Cause::none;
+    }
+    homing.phase = number;
+    homing.met = false;
+    homing.counted = 0;
+    const HomingPhase& row = homing.row();
+    const std::int8_t next = row_number(homing, row.next);
+    if (row.does == HomingPhase::Does::search) {
+      if (as_sought(row, signals) && row.if_already != HomingPhase::kAwait) {
+        if (row.marks && row.if_already == HomingPhase::kNext) mark_reference();
+        number = row_number(homing, row.if_already);
+        continue;
+      }
+      if (running && drive.direction == row.way) {
+        const SpeedLaw& speed = homing.program.speeds[static_cast<std::size_t>(row.speed)];
+        if (speed != law) go_on_by(speed, at);
+        return Cause::none;
+      }
+    } else if (row.does == HomingPhase::Does::go) {
+      const bool needless = row.again_while != 0 && (signals & row.again_while) == 0;
+      if (needless || row.distance_pulses == 0) {
+        number = next;
+        continue;
+      }
+    } else if (row.does == HomingPhase::Does::go_back && homing.reference_pulses == travel_pulses) {
+      number = next;
+      continue;
+    }
+    const Cause refused = begin_phase(at);
+    if (!is_limit(refused) || row.if_limit == HomingPhase::kFail) return refused;
+    number = row_number(homing, row.if_limit);
+  }
+  return Cause::homing_failed;
+}
+
+Cause Axis::begin_phase(Instant at) {
+  const HomingPhase& row = homing.row();
+  const SpeedLaw& speed = homing.program.speeds[static_cast<std::size_t>(row.speed)];
+  const auto go = [&](std::int64_t distance) {
+    return begin(Task::move, distance < 0 ? -1 : +1, distance, speed, at, true);
+  };
+  switch (row.does) {
+    case HomingPhase::Does::search: return begin(Task::endless, row.way, 0, speed, at, true);
+    case HomingPhase::Does::go: return go(row.distance_pulses);
+    case HomingPhase::Does::go_back: return go(homing.reference_pulses - travel_pulses);
+    case HomingPhase::Does::hang: break;
+  }
+  if (const Cause why_not = forbidden(row.way); why_not != Cause::none) return why_not;
+  drop();
+  task = Task::hanging;
+  cause = Cause::none;
+  drive.hang(row.way);
+  return Cause::none;
+}
+
+void Axis::end_homing(Cause why) {
+  drop();
+  homing.ended_in = homing.phase;
+  homing.ended_by = why;
+  homing.phase = -1;
+  homing.met = false;
+  events_between |= bit(Event::ended);
+  if (why == Cause::arrived) {
+    events_between |= bit(Event::homed);
+    if (!homing.reference_known) homing.reference_pulses = travel_pulses;
+  }
+  cause = why == Cause::arrived || why == Cause::stopped ? why : Cause::homing_failed;
+}
+
+}  // namespace understudy::motion

@@ -1,0 +1,223 @@
+#include "motion/homing_tables.h"
+
+#include <algorithm>
+#include <string>
+
+#include "motion/bad_motion.h"
+
+namespace understudy::motion {
+
+namespace {
+
+using Does = HomingPhase::Does;
+using Then = HomingPhase::Then;
+constexpr std::int8_t kFail = HomingPhase::kFail;
+constexpr std::int8_t kNext = HomingPhase::kNext;
+constexpr std::int8_t kAwait = HomingPhase::kAwait;
+
+// Which of a program's laws.
+constexpr std::int8_t kFast = 0;
+constexpr std::int8_t kCreep = 1;
+
+std::int8_t sign(int way) { return way < 0 ? std::int8_t{-1} : std::int8_t{+1}; }
+std::int8_t opposite(int way) { return way < 0 ? std::int8_t{+1} : std::int8_t{-1}; }
+Signal limit_towards(int way) { return way < 0 ? Signal::limit_minus : Signal::limit_plus; }
+
+HomingProgram hanging(int way) {
+  HomingProgram program;
+  program.add({.does = Does::hang, .way = sign(way)});
+  return program;
+}
+
+// ---- SUPER-40NC
+
+enum class At : std::uint8_t { dog, limit };
+
+/// What follows the DOG or the limit.
+enum class After : std::uint8_t { nothing, edge_again, off_again, index };
+enum class Direction : std::uint8_t { on, back };
+enum class Law : std::uint8_t { fast, creep };
+
+struct Mode {
+  At at;      // what is sought at Vh
+  Then then;  // and done there
+  After after;
+  Direction direction;
+  Law law;
+  Then then_2;
+  bool zero;  // at last a move to COUNTER2 = 0, the reference
+};
+
+constexpr Then kStop = Then::stop_at_once;
+constexpr Then kSlowDown = Then::slow_down;
+constexpr Then kRunOn = Then::run_on;
+
+// clang-format off
+constexpr std::array<Mode, 13> kModes{{
+    // at        then       after              direction        law         then       to zero
+    {At::dog,   kSlowDown, After::nothing,    Direction::on,   Law::fast,  kStop,     false},  // 0
+    {At::dog,   kSlowDown, After::edge_again, Direction::on,   Law::creep, kStop,     false},  // 1
+    {At::dog,   kRunOn,    After::index,      Direction::on,   Law::creep, kStop,     false},  // 2
+    {At::dog,   kRunOn,    After::index,      Direction::on,   Law::fast,  kSlowDown, false},  // 3
+    {At::dog,   kSlowDown, After::index,      Direction::back, Law::creep, kStop,     false},  // 4
+    {At::dog,   kSlowDown, After::index,      Direction::back, Law::fast,  kSlowDown, false},  // 5
+    {At::limit, kSlowDown, After::off_again,  Direction::back, Law::creep, kStop,     false},  // 6
+    {At::limit, kSlowDown, After::index,      Direction::back, Law::creep, kStop,     false},  // 7
+    {At::limit, kSlowDown, After::index,      Direction::back, Law::fast,  kSlowDown, false},  // 8
+    {At::dog,   kSlowDown, After::nothing,    Direction::on,   Law::fast,  kStop,     true},   // 9
+    {At::dog,   kRunOn,    After::index,      Direction::on,   Law::fast,  kSlowDown, true},   // 10
+    {At::dog,   kSlowDown, After::index,      Direction::back, Law::fast,  kSlowDown, true},   // 11
+    {At::limit, kSlowDown, After::index,      Direction::back, Law::fast,  kSlowDown, true},   // 12
+}};
+// clang-format on
+
+const Mode& mode_row(int mode) {
+  if (mode < 0 || mode > 12) {
+    throw BadMotion(Refusal::out_of_range, "homing", "mode must be 0 to 12, is " + std::to_string(mode));
+  }
+  return kModes[static_cast<std::size_t>(mode)];
+}
+
+}  // namespace
+
+bool super40nc_homes_by_limit(int mode) { return mode_row(mode).at == At::limit; }
+
+HomingProgram super40nc_homing(const Super40ncHoming& how) {
+  const Mode& mode = mode_row(how.mode);
+  const std::int8_t on = sign(how.way);
+  const std::int8_t back = opposite(how.way);
+  HomingProgram program{.speeds = {how.fast, how.creep}};
+
+  if (mode.at == At::dog) {
+    program.add({.does = Does::go,
+                 .speed = kCreep,
+                 .again_while = bit(Signal::home),
+                 .distance_pulses = back * std::max<std::int64_t>(how.leave_pulses, 1)});
+  }
+  const bool at_once = mode.at == At::limit && how.limit_stops_at_once;
+  // Behind the switch it would look for the index from a wrong place (《X32.》 note). Modes 0 and 9 do not.
+  const bool must_stay = mode.then == kSlowDown && mode.after != After::nothing;
+  program.add({.way = on,
+               .speed = kFast,
+               .until = mode.at == At::dog ? Signal::home : limit_towards(how.way),
+               .then = at_once ? kStop : mode.then,
+               .marks = mode.after == After::nothing,
+               .if_gone = must_stay ? kFail : kNext});
+
+  const std::int8_t law = mode.law == Law::fast ? kFast : kCreep;
+  switch (mode.after) {
+    case After::nothing: break;
+    case After::edge_again:
+      program.add({.way = back, .speed = law, .until = Signal::home, .until_on = false, .then = kStop});
+      program.add({.way = on, .speed = law, .until = Signal::home, .then = mode.then_2, .marks = true});
+      break;
+    case After::off_again:
+      program.add({.way = back,
+                   .speed = law,
+                   .until = limit_towards(how.way),
+                   .until_on = false,
+                   .then = mode.then_2,
+                   .marks = true});
+      break;
+    case After::index:
+      program.add({.way = mode.direction == Direction::on ? on : back,
+                   .speed = law,
+                   .until = Signal::index,
+                   .then = mode.then_2,
+                   .marks = true,
+                   .count = how.index_count,
+                   .if_already = kAwait});
+      break;
+  }
+  if (mode.zero) program.add({.does = Does::go_back, .speed = kFast});
+  program.add({.does = Does::go, .speed = kFast, .distance_pulses = how.offset_pulses});
+  return program;
+}
+
+// ---- RS-M8194H
+
+HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
+  const auto& [way_1, way_2, way_3, way_4] = how.ways;
+  constexpr std::int8_t kDrive = 0;
+  constexpr std::int8_t kHome = 1;
+  HomingProgram program{.speeds = {how.drive, how.home}};
+  if (way_1 != 0) {
+    program.add({.way = sign(way_1),
+                 .speed = kDrive,
+                 .until = Signal::near_home,
+                 .then = kSlowDown,
+                 .code = 3,
+                 .if_limit = HomingPhase::kRowBelow});
+  }
+  if (way_2 != 0) {
+    const Signal home = how.limit_is_home ? limit_towards(way_2) : Signal::home;
+    const std::int8_t search = program.phase_count;
+    const auto leave = static_cast<std::int8_t>(search + 1);      // irregular (a): home is on already
+    const auto come_back = static_cast<std::int8_t>(search + 2);  // irregular (b) and (c): the limit is on
+    const auto step_3 = static_cast<std::int8_t>(search + 3);
+    program.add({.way = sign(way_2),
+                 .speed = kHome,
+                 .until = home,
+                 .then = kStop,
+                 .marks = true,
+                 .code = 15,
+                 .next = step_3,
+                 .if_already = leave,
+                 .if_limit = come_back});
+    program.add({.way = opposite(way_2),
+                 .speed = kHome,
+                 .until = home,
+                 .until_on = false,
+                 .then = kStop,
+                 .code = 12,
+                 .next = search});
+    program.add(
+        {.way = opposite(way_2), .speed = kHome, .until = home, .then = kRunOn, .code = 8, .next = leave});
+  }
+  if (way_3 != 0) {
+    program.add({.way = sign(way_3),
+                 .speed = kHome,
+                 .until = Signal::index,
+                 .then = kStop,
+                 .marks = true,
+                 .code = 20,
+                 .if_already = kFail});
+  }
+  if (way_4 != 0) {
+    program.add(
+        {.does = Does::go, .speed = kDrive, .code = 25, .distance_pulses = sign(way_4) * how.offset_pulses});
+  }
+  return program;
+}
+
+// ---- Simple2-R3
+
+HomingProgram simple2_homing(const Simple2Homing& how) {
+  if (how.speed.top_speed_u_s == 0) return hanging(how.way);
+  // Rows that others go to.
+  constexpr std::int8_t kLeave = 1;
+  constexpr std::int8_t kOtherWay = 2;
+  constexpr std::int8_t kBeyond = 3;
+  constexpr std::int8_t kReturn = 5;
+  const std::int8_t on = sign(how.way);
+  const std::int8_t back = opposite(how.way);
+  HomingProgram program{.speeds = {how.speed}};
+  program.add({.way = on, .marks = true, .next = kReturn, .if_already = kLeave, .if_limit = kOtherWay});
+  program.add({.way = back, .until_on = false, .next = 0});
+  program.add({.way = back, .then = kRunOn, .next = kBeyond});
+  program.add({.way = back, .until_on = false});
+  program.add({.way = on, .marks = true});
+  program.add({.does = Does::go_back});
+  return program;
+}
+
+// ---- SLIM
+
+HomingProgram slim_homing(const SlimHoming& how) {
+  if (how.jog.top_speed_u_s == 0) return hanging(how.way);
+  HomingProgram program{.speeds = {how.jog}};
+  program.add({.way = sign(how.way), .then = kSlowDown, .marks = true});
+  return program;
+}
+
+}  // namespace understudy::motion

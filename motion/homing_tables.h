@@ -1,0 +1,57 @@
+// How the four controllers go home, as tables for motion/homing.h, made from their parameters in pulses and
+// pulses per second. What their counters show afterwards is for the devices to say.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "motion/homing.h"
+
+namespace understudy::motion {
+
+/// SUPER-40NC, parameters X20 to X31 (manual, 《X20.》): 13 modes, after the PCL6045 chip's.
+/// Signals: home is DOG, index is EZ.
+struct Super40ncHoming {
+  int mode = 0;                      // X20, 0 .. 12
+  int way = +1;                      // X23
+  SpeedLaw fast;                     // X21, Vh
+  SpeedLaw creep;                    // X22, Vc
+  std::int32_t index_count = 1;      // X31 + 1
+  std::int64_t leave_pulses = 5;     // X25, away from a DOG that is on at the start; 0 acts as 1
+  std::int64_t offset_pulses = 0;    // X30, signed, whatever `way`
+  bool limit_stops_at_once = false;  // modes 6 to 8 and 12: as the chip would with D9x01 = 0
+};
+/// The reference is the DOG's edge (0, 1, 9), the limit's (6), else the last EZ counted.
+/// Throws BadMotion(out_of_range) for a mode that does not exist.
+HomingProgram super40nc_homing(const Super40ncHoming& how);
+/// Modes that look for the limit on the side of `way`, and cannot find home where that is not in use.
+bool super40nc_homes_by_limit(int mode);
+
+/// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each in a
+/// direction of its own or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is what
+/// input 92 + a shows meanwhile.
+struct Rsm8194hHoming {
+  std::array<int, 4> ways{};       // of steps 1 to 4: +1, -1, or 0: skipped
+  SpeedLaw drive;                  // V: steps 1 and 4
+  SpeedLaw home;                   // HV: steps 2 and 3
+  std::int64_t offset_pulses = 0;  // of step 4, >= 0
+  bool limit_is_home = false;      // HOME_LIMIT 1: the limit in step 2's direction instead of HOME
+};
+HomingProgram rsm8194h_homing(const Rsm8194hHoming& how);
+
+/// Simple2-R3, *_Home_Speed, *_Home_AccTime, *_GoHome_DIR. The manual gives no sequence; this one always
+/// ends on the home switch's edge that is met in the direction `way`, wherever it began.
+struct Simple2Homing {
+  int way = -1;    // GoHome_DIR: 0 -1, 1 +1
+  SpeedLaw speed;  // a top speed of 0 hangs, as every Simple2-R3 move does
+};
+HomingProgram simple2_homing(const Simple2Homing& how);
+
+/// SLIM, H: at -VJ until horg is on, and slow down there.
+struct SlimHoming {
+  int way = -1;  // +1 for a negative VJ
+  SpeedLaw jog;  // VJ; a top speed of 0 hangs
+};
+HomingProgram slim_homing(const SlimHoming& how);
+
+}  // namespace understudy::motion

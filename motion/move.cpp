@@ -1,0 +1,260 @@
+#include "motion/move.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "motion/bad_motion.h"
+#include "motion/bisection.h"
+#include "motion/short_move.h"
+
+namespace understudy::motion {
+
+namespace {
+
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
+const RampLaw& reckoned(const SpeedLaw& law) {
+  return law.slow_down_reckoned_by ? *law.slow_down_reckoned_by : law.down;
+}
+
+double start_speed(const SpeedLaw& law) { return std::min(law.start_speed_u_s, law.top_speed_u_s); }
+
+/// How much remains when slowing down from `speed_u_s` begins.
+double slow_down_distance(const SpeedLaw& law, double speed) {
+  const double start = start_speed(law);
+  const double reckoned_u = law.slow_down_at_u ? *law.slow_down_at_u
+                            : speed > start    ? ramp_distance(reckoned(law), speed, start)
+                                               : 0;
+  return reckoned_u + law.slow_down_offset_u;
+}
+
+/// Less than this is what roundings leave of a distance, not a distance to be covered.
+double rounding_of(double target) { return 1e-9 + 1e-14 * std::abs(target); }
+
+bool slows_down_by_chip_rules(const SpeedLaw& law) {
+  return law.slow_down_at_u || law.slow_down_reckoned_by || law.slow_down_offset_u != 0;
+}
+
+/// Slows down from `speed_u_s` and ends on `target_u`: creeps what is left, or is cut off.
+void finish(Profile& profile, const SpeedLaw& law, double speed, double target) {
+  const double start = start_speed(law);
+  if (speed > start) append_ramp(profile, law.down, speed, start);
+  if (slows_down_by_chip_rules(law) || speed <= start) {
+    const double left = target - profile.end_position_u;
+    if (left > rounding_of(target)) {
+      if (start <= 0) {
+        throw BadMotion(Refusal::not_positive, "move",
+                        "start speed must be above 0 to creep the rest at, is 0");
+      }
+      profile.append(left / start, start, 0, 0);
+    } else if (left < -rounding_of(target)) {
+      profile.cut_at(target);
+    }
+  }
+  profile.end_exactly_at(target);
+}
+
+/// Adds a whole move, forwards or back.
+void append_move(Profile& profile, const Profile& move, double sign) {
+  for (std::int32_t i = 0; i < move.segment_count; ++i) {
+    const Segment& s = move.segments[static_cast<std::size_t>(i)];
+    const bool last = i + 1 == move.segment_count;
+    const double end_s = last ? move.duration_s : move.segments[static_cast<std::size_t>(i + 1)].begin_s;
+    profile.append(end_s - s.begin_s, sign * s.speed_u_s, sign * s.acceleration_u_s2, sign * s.jerk_u_s3);
+  }
+}
+
+/// Up as far as slowing down allows, with the ramp broken off there.
+Profile rise_and_break_off(const SpeedLaw& law, double target) {
+  Profile profile;
+  append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
+  const auto must_slow_down = [&](const Sample& here) {
+    return here.position_u + slow_down_distance(law, here.speed_u_s) >= target;
+  };
+  const Sample top{.position_u = profile.end_position_u, .speed_u_s = law.top_speed_u_s};
+  if (must_slow_down(top)) {
+    const auto too_late = [&](double t_s) { return must_slow_down(profile.sample(t_s)); };
+    profile.cut_at(profile.sample(turnover(0, profile.duration_s, too_late).before).position_u);
+  }
+  return profile;
+}
+
+/// Quantities may each be sound, and yet make a ramp of 1e400 s.
+void demand_doubles_hold(const Profile& profile, bool endless = false) {
+  bool held = endless || (std::isfinite(profile.duration_s) && std::isfinite(profile.end_position_u));
+  for (std::int32_t i = 0; i < profile.segment_count; ++i) {
+    const Segment& s = profile.segments[static_cast<std::size_t>(i)];
+    for (const double value : {s.begin_s, s.position_u, s.speed_u_s, s.acceleration_u_s2, s.jerk_u_s3}) {
+      held = held && std::isfinite(value);
+    }
+  }
+  if (!held)
+    throw BadMotion(Refusal::out_of_range, "move", "quantities must make a profile that doubles hold");
+}
+
+}  // namespace
+
+void check(const SpeedLaw& law) {
+  demand_positive(law.top_speed_u_s, "move", "top speed");
+  demand_not_negative(law.start_speed_u_s, "move", "start speed");
+  check(law.up);
+  check(law.down);
+  if (law.slow_down_reckoned_by) check(*law.slow_down_reckoned_by);
+  if (law.slow_down_at_u) demand_not_negative(*law.slow_down_at_u, "move", "slow-down place");
+  demand_finite(law.slow_down_offset_u, "move", "slow-down offset");
+}
+
+Profile plan(double distance, const SpeedLaw& law) {
+  check(law);
+  demand_not_negative(distance, "move", "distance");
+  Profile profile;
+  if (distance == 0) return profile;
+
+  const double start = start_speed(law);
+  double top = law.top_speed_u_s;
+  if (law.slow_down_at_u || law.when_short == Short::cut_ramp) {
+    profile = rise_and_break_off(law, distance);
+    top = profile.segment_count > 0 ? profile.end_speed_u_s : start;
+  } else {
+    const double room =
+        (distance - law.slow_down_offset_u) * (law.when_short == Short::keep_half ? 0.5 : 1.0);
+    const double whole_rise = top - start;
+    const double rise = rise_within(room, start, law.up, reckoned(law), whole_rise);
+    if (rise < whole_rise) {
+      top = start + rise;
+      // Beside a great start speed a small rise might be rounded up to more than there is room for.
+      if (top - start > rise) top = std::nextafter(top, start);
+    }
+    if (top > start) append_ramp(profile, law.up, start, top);
+  }
+  const double cruise = distance - profile.end_position_u - slow_down_distance(law, top);
+  if (cruise > 0) profile.append(cruise / top, top, 0, 0);
+  finish(profile, law, top, distance);
+  demand_doubles_hold(profile);
+  return profile;
+}
+
+Profile plan_endless(const SpeedLaw& law) {
+  check(law);
+  Profile profile;
+  append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
+  profile.append(kForEver, law.top_speed_u_s, 0, 0);
+  demand_doubles_hold(profile, true);
+  return profile;
+}
+
+namespace {
+
+/// Speeds below the start speed are jumped from and to, without acceleration.
+Sample without_jump(const Sample& now, const SpeedLaw& law) {
+  const double start = start_speed(law);
+  if (now.speed_u_s >= start) return now;
+  return {.position_u = now.position_u, .speed_u_s = start};
+}
+
+void check_state(const Sample& now) {
+  demand_finite(now.position_u, "move under way", "position");
+  demand_not_negative(now.speed_u_s, "move under way", "speed");
+  demand_finite(now.acceleration_u_s2, "move under way", "acceleration");
+  demand_finite(now.jerk_u_s3, "move under way", "jerk");
+}
+
+void append_change(Profile& profile, const Sample& now, double to, const SpeedLaw& law) {
+  append_change(
+      profile, now, to, law.up, law.down,
+      {.least_u_s = start_speed(law), .most_u_s = std::max({law.top_speed_u_s, now.speed_u_s, to})});
+}
+
+double speed_without_acceleration(const Sample& now, const SpeedLaw& law) {
+  return speed_without_acceleration(
+      now, law.up, law.down,
+      {.least_u_s = start_speed(law), .most_u_s = std::max(law.top_speed_u_s, now.speed_u_s)});
+}
+
+}  // namespace
+
+Profile change_speed(const Sample& state, double speed, const SpeedLaw& law) {
+  check(law);
+  check_state(state);
+  demand_not_negative(speed, "change of speed", "speed");
+  if (speed == 0) return slow_to_stop(state, law);
+  Profile profile = Profile::from(state.position_u);
+  if (speed > law.start_speed_u_s) {
+    append_change(profile, without_jump(state, law), speed, law);
+  } else if (state.speed_u_s > law.start_speed_u_s) {
+    append_change(profile, state, law.start_speed_u_s, law);
+  }
+  profile.append(kForEver, speed, 0, 0);
+  demand_doubles_hold(profile, true);
+  return profile;
+}
+
+Profile slow_to_stop(const Sample& state, const SpeedLaw& law) {
+  check(law);
+  check_state(state);
+  Profile profile = Profile::from(state.position_u);
+  const double start = start_speed(law);
+  if (state.speed_u_s > start) append_change(profile, state, start, law);
+  demand_doubles_hold(profile);
+  return profile;
+}
+
+Profile change_target(const Sample& state, double target, const SpeedLaw& law) {
+  check(law);
+  check_state(state);
+  demand_finite(target, "change of target", "target");
+  if (state.speed_u_s == 0) {
+    // At rest: a move of its own, forwards or back.
+    Profile profile = Profile::from(state.position_u);
+    const double distance = std::abs(target - state.position_u);
+    if (distance > rounding_of(target)) {
+      append_move(profile, plan(distance, law), target < state.position_u ? -1 : 1);
+    }
+    profile.end_exactly_at(target);
+    demand_doubles_hold(profile);
+    return profile;
+  }
+  const Sample now = without_jump(state, law);
+  const double start = start_speed(law);
+  const double top = std::max(start, law.top_speed_u_s);
+
+  // The distance of going to `peak`, and from there to the stop where slowing down begins.
+  const auto needed = [&](double peak) {
+    Profile change;
+    append_change(change, now, peak, law);
+    return change.end_position_u + slow_down_distance(law, peak);
+  };
+  const double room = target - now.position_u;
+  // What acceleration there is brings the speed here whatever is done.
+  const double faded = speed_without_acceleration(now, law);
+  Profile stop = slow_to_stop(now, law);
+  if (std::abs(stop.end_position_u - target) <= rounding_of(target)) {
+    stop.end_exactly_at(target);
+    return stop;
+  }
+  // A law that reckons with too short a ramp passes no target ahead: it is cut off there.
+  if (stop.end_position_u > target && (room < 0 || needed(faded) > room)) {
+    append_move(stop, plan(stop.end_position_u - target, law), -1);
+    stop.end_exactly_at(target);
+    demand_doubles_hold(stop);
+    return stop;
+  }
+  double peak = top;
+  if (needed(top) > room) {
+    // Slowing down on the way to slowing down takes longer than doing it at once; so where it goes on from
+    // `faded`, the peak is above that.
+    const double low = faded < top && needed(faded) <= room ? faded : start;
+    peak = turnover(low, top, [&](double middle) { return needed(middle) > room; }).before;
+  }
+  Profile profile = Profile::from(now.position_u);
+  append_change(profile, now, peak, law);
+  const double cruise = target - profile.end_position_u - slow_down_distance(law, peak);
+  // What roundings leave would take long at a crawl.
+  if (cruise > rounding_of(target) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
+  finish(profile, law, peak, target);
+  demand_doubles_hold(profile);
+  return profile;
+}
+
+}  // namespace understudy::motion

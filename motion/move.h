@@ -1,0 +1,72 @@
+// A move from rest to rest, and what can be done to it on the way: another speed, another target, a stop.
+//
+//   speed    top ______
+//           /          \            start: the speed a stepper is pulled to at once, and stopped from
+//   start  |            |___        creep: what remains at the start speed when slowing down began early
+//          |                |___ time
+//
+// Sources: the MCX314 and PCL6045 chips' laws as RS-M8194H and SUPER-40NC use them, Simple2-R3's appendix A,
+// SLIM's trapezoid on a path. u is the coordinate's unit (motion/profile.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "motion/profile.h"
+#include "motion/ramp.h"
+
+namespace understudy::motion {
+
+/// What happens when the distance is too short to reach the top speed.
+enum class Short : std::uint8_t {
+  lower_top,  // the top speed is lowered so that both ramps just fit, whole: a triangle, or its rounded form
+              // (PCL6045 with FH correction; MCX314 S-curve; every trapezoid)
+  keep_half,  // acceleration ends early enough for both ramps to take half the distance; the other half is
+              // run at constant speed (MCX314 with AVTRI)
+  cut_ramp,   // acceleration is broken off where slowing down must begin: of a rounded ramp the acceleration
+              // then jumps (PCL6045 without FH correction)
+};
+
+/// How fast a coordinate moves: everything about a move but its distance.
+struct SpeedLaw {
+  double start_speed_u_s = 0;  // >= 0; not above top_speed_u_s: the move then keeps the top speed throughout
+  double top_speed_u_s = 0;    // > 0
+  RampLaw up{};
+  RampLaw down{};
+  Short when_short = Short::lower_top;
+
+  // Where slowing down begins: when what remains is the distance of the ramp down, by `down` or, where given,
+  // by the law the chip reckons with; or at a fixed place; plus the offset. Begun early, the rest is crept at
+  // the start speed; begun late, the move ends abruptly on its target (a declared chip cut-off).
+  std::optional<RampLaw> slow_down_reckoned_by{};  // SUPER-40NC: deceleration longer than 2 x acceleration
+  std::optional<double> slow_down_at_u{};          // PCL6045 PRDP: >= 0, instead of reckoning
+  double slow_down_offset_u = 0;                   // MCX314 AO
+
+  bool operator==(const SpeedLaw&) const = default;
+};
+
+/// Throws BadMotion, naming the quantity, for what is outside the domains above or not finite.
+void check(const SpeedLaw& law);
+
+/// The move over `distance_u` >= 0, from 0; a distance of 0 gives the empty profile. Ends on `distance_u`
+/// exactly. Throws as check(), and BadMotion(not_positive) when it would have to creep at a start speed of 0.
+Profile plan(double distance_u, const SpeedLaw& law);
+
+/// From rest up to the top speed, which is then kept for ever.
+Profile plan_endless(const SpeedLaw& law);
+
+/// From any state (speed >= 0; position counted from the move's beginning) to another speed >= 0, then kept
+/// for ever; speed 0 is a stop. Speeds between 0 and the start speed are jumped to. Throws as check().
+Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law);
+
+/// From any state to a stop: down to the start speed, and there it ends. From below that, at once.
+Profile slow_to_stop(const Sample& now, const SpeedLaw& law);
+
+/// From any state (speed >= 0) to a target further on, or to one that is already passed or too near to stop
+/// at: then it stops, and comes back. `law` may be another than the move was begun with; its when_short is
+/// for moves from rest. With the law and the target of a move it goes on as that would have, but for ramps by
+/// time, which begin anew, and for moves that are cut off, which come back once they slow down. Less than
+/// about 1e-9 is no distance.
+Profile change_target(const Sample& now, double target_u, const SpeedLaw& law);
+
+}  // namespace understudy::motion

@@ -1,0 +1,136 @@
+// A path: geometry in up to four axes over arc length, without time. Where along it one is comes from a
+// profile (motion/profile.h); several in a row without stopping are a chain (motion/path_run.h).
+//
+//   line      ●────────────●           arc, circle, several turns      ╭──╮    helix: an arc while the
+//             begin      end           in any plane, by centre,        │ ●╯    other axes go straight
+//   spiral    an arc whose radius      radius or three points          ╰──     (rise)
+//             grows evenly with the angle
+//
+// Units: one unit of length for all axes (pulses, 0.001 mm, ...): u. Angles in radians, counter-clockwise
+// from the first axis of the plane towards its second. A path of no length is legal: it is over at once.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace understudy::motion {
+
+inline constexpr int kPathAxes = 4;
+
+/// A place, in axis order (X, Y, Z, U or W); axes that take no part are 0 or simply stand.
+/// Unaligned on purpose: a state is copied, compared and hashed as plain bytes.
+using Point = Eigen::Matrix<double, kPathAxes, 1, Eigen::DontAlign>;
+
+/// Two axes of a plane, by number 0..3 and different: first is the abscissa, second the ordinate.
+struct Plane {
+  std::int8_t first = 0;
+  std::int8_t second = 1;
+  bool operator==(const Plane&) const = default;
+};
+
+enum class Turn : std::uint8_t { counter_clockwise, clockwise };
+
+/// What is done with an arc whose end point is not on the circle about its centre.
+enum class OffCircle : std::uint8_t {
+  refuse,    // BadMotion(no_such_arc) when the radii differ by more than the tolerance, else as blend
+  blend,     // the radius goes evenly from the one to the other: the end point is met exactly
+  quadrant,  // as chips draw it: stay on the circle, end in the end point's quadrant where the shorter of the
+             // two coordinates (from the centre; the first axis's if equal) is reached; the path then ends
+             // there, not at the point given. A shorter one beyond the radius: BadMotion(no_such_arc)
+};
+
+/// How length is measured, and so what a constant speed along the path means.
+enum class Measure : std::uint8_t {
+  vector,        // true length: constant vector speed
+  longest_axis,  // chip style: the length of the axis that moves most at each place, so that axis has the
+                 // given speed, and the vector speed is up to 1.414 times (two axes) that. An arc counts its
+                 // plane only; a rise follows the angle. Not for oblique planes, nor for spirals: a radius
+                 // that changes by more than the tolerance is BadMotion(out_of_range).
+};
+
+/// One piece of a path, as a value. Made by the functions below only.
+struct Path {
+  enum class Kind : std::uint8_t { line, arc };  // an arc with `radius_slope` != 0 is a spiral
+
+  Kind kind = Kind::line;
+  Measure measure = Measure::vector;
+  Point begin = Point::Zero();
+  Point end = Point::Zero();
+  double length_u = 0;  // by `measure`; >= 0
+
+  // An arc: centre + radius(angle) * (cos(angle) * abscissa + sin(angle) * ordinate) + share * rise, where
+  // angle goes from begin_angle to begin_angle + sweep and share, the part of |sweep| done, from 0 to 1.
+  Point centre = Point::Zero();
+  Point abscissa = Point::Zero();  // unit vectors of the plane, at right angles
+  Point ordinate = Point::Zero();
+  Point rise = Point::Zero();
+  double begin_angle_rad = 0;
+  double sweep_rad = 0;  // > 0 counter-clockwise
+  double begin_radius_u = 0;
+  double radius_slope_u_rad = 0;  // change of radius for each radian of |sweep|
+
+  bool operator==(const Path&) const = default;
+
+  /// The place after `along_u` (clamped to 0..length_u; NaN is 0). Exactly `begin` at 0 and `end` at
+  /// length_u, in between exact but for rounding: within 2e-15 of the largest coordinate, the radius and the
+  /// length (by the longest axis also of the rise for each radian). A line by its longest axis has that axis
+  /// at a whole unit at each whole unit, if it began at one.
+  Point at(double along_u) const;
+  /// The unit vector of movement there (true geometry, whatever the measure); zero for a path of no length.
+  Point direction_at(double along_u) const;
+};
+
+/// Straight from `begin` to `end`, in as many axes as differ. All lines and arcs throw BadMotion(not_finite)
+/// for coordinates that are not finite, and (out_of_range) for coordinates beyond +-1e12.
+Path line(const Point& begin, const Point& end, Measure measure = Measure::vector);
+
+/// What the arcs have in common.
+struct ArcOptions {
+  Plane plane = {};
+  Measure measure = Measure::vector;
+  OffCircle off_circle = OffCircle::refuse;
+  double radius_tolerance_u = 1e-6;  // refuse: how much the two radii may differ
+};
+
+/// An arc about `centre` (its coordinates in the plane count) from `begin` to `end`, in the direction of
+/// `turn`. In the plane `end` == `begin` is a full circle, and so is an end that the centre sees within 1e-9
+/// rad of `begin`, on either side: rounding never decides between a whole turn and none. `more_turns` >= 0
+/// adds whole turns, up to 1e6 rad in all. What `end` differs from `begin` outside the plane is the rise: a
+/// helix. A centre on `begin` or `end`: BadMotion(no_such_arc).
+Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Turn turn,
+                   const ArcOptions& options = {}, std::int64_t more_turns = 0);
+
+/// An arc about `centre` through `sweep_rad` (> 0 counter-clockwise, any number of turns up to 1e6 rad),
+/// while the other axes go by `rise` (its part in the plane must be 0). A sweep of 0 is the line of `rise`
+/// alone. Whole quarters of a turn (a sweep as near to them as a double can be) end exactly there.
+Path arc_by_sweep(const Point& begin, const Point& centre, double sweep_rad,
+                  const Point& rise = Point::Zero(), const ArcOptions& options = {});
+
+/// An arc of `radius_u` to `end`: > 0 takes the way of at most half a turn, < 0 the longer one; where both
+/// are half a turn they are the same arc, and `turn` decides its side. The chord may exceed twice the radius
+/// by radius_tolerance_u (a half circle then); beyond that, or with `end` == `begin` in the plane, or a
+/// radius of 0: BadMotion(no_such_arc). A rise as in arc_by_centre.
+Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn turn,
+                   const ArcOptions& options = {});
+
+/// The arc from `begin` through `middle` to `end`, in the plane of the options; the turn follows from the
+/// points. Points on one line (a triangle lower than 1e-12 of its longest side), or two the same:
+/// BadMotion(no_such_arc). A rise as in arc_by_centre.
+Path arc_by_three_points(const Point& begin, const Point& middle, const Point& end,
+                         const ArcOptions& options = {});
+
+/// The same in whatever plane the three points span, oblique ones too (all four axes count).
+Path arc_in_space(const Point& begin, const Point& middle, const Point& end);
+
+/// A spiral about `centre` through `sweep_rad`, its radius changing by `growth_u_turn` for each whole turn. A
+/// radius that would pass below 0: BadMotion(no_such_arc). It may begin in its centre, and then leaves along
+/// the first axis, or end there. A sweep of 0 as in arc_by_sweep.
+Path spiral(const Point& begin, const Point& centre, double sweep_rad, double growth_u_turn,
+            const Point& rise = Point::Zero(), const ArcOptions& options = {});
+
+/// The deflection between the end of one path and the beginning of the next, in degrees 0..180: 0 is
+/// straight on. A path of no length has no direction: 0.
+double corner_deg(const Path& first, const Path& next);
+
+}  // namespace understudy::motion

@@ -1,0 +1,225 @@
+#include "motion/path_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/bad_motion.h"
+
+namespace understudy::motion {
+
+namespace {
+
+double seconds(Tick ticks) { return static_cast<double>(ticks) / kTicksPerSecond; }
+
+bool is_smooth(const Path& first, const Path& next, Joint joint) {
+  switch (joint.rule) {
+    case Joint::Rule::stop: return false;
+    case Joint::Rule::join: return true;
+    case Joint::Rule::join_below: return corner_deg(first, next) <= joint.corner_deg + kCornerTolerance_deg;
+  }
+  return false;
+}
+
+/// What a law cannot plan must come out when it is given, not in the tick in which a chain begins.
+void demand_plans(SpeedLaw law, double override_factor) {
+  if (override_factor > 0) law.top_speed_u_s *= override_factor;
+  const Profile endless = plan_endless(law);
+  constexpr double kLongest_u = 1e20;
+  const double with_ramps_u =
+      1 + 4 * endless.segments[static_cast<std::size_t>(endless.segment_count - 1)].position_u;
+  for (const double length_u : {1.0, with_ramps_u, kLongest_u}) plan(length_u, law);
+}
+
+}  // namespace
+
+/// The path whose end counts for the joint with the next: paths of no length have no direction, and so hide
+/// no corner.
+const Path& PathRun::path_before(std::size_t number) {
+  std::size_t before = number - 1;
+  while (before > 0 && piece(before).path.length_u == 0 && piece(before).joined) --before;
+  return piece(before).path;
+}
+
+void PathRun::append(const Path& path, Joint joint, Tick now) {
+  if (full()) throw BadMotion(Refusal::no_room, "path run", "at most 32 paths can be queued");
+  const bool joined = count_ > 0 && is_smooth(path_before(count_), path, joint);
+  const bool lengthens = joined && running_ && chain_count_ == count_ && chain_count_ > 0 &&
+                         !(late_joint_ == LateJoint::from_rest && slowing_for_the_end(now));
+  Piece& added = piece(count_);
+  added = {.path = path, .begin_u = chain_end_u_, .joined = joined};
+  ++count_;
+  if (lengthens) {
+    ++chain_count_;
+    chain_end_u_ += path.length_u;
+    replan(now);
+  } else if (running_ && chain_count_ == 0) {
+    lay_out_chain(now + 1);
+  } else if (chain_count_ + 1 == count_) {
+    added.joined = false;  // the chain before it will have ended
+  }
+}
+
+SpeedLaw PathRun::effective() const {
+  SpeedLaw law = law_;
+  law.top_speed_u_s *= override_;
+  return law;
+}
+
+void PathRun::set_speed(const SpeedLaw& speed, Tick now) {
+  check(speed);
+  const bool same_ramps = speed.up == law_.up && speed.down == law_.down;
+  if (!same_ramps && !at_rest(now)) {
+    throw BadMotion(Refusal::out_of_range, "path run", "acceleration can be changed at rest only");
+  }
+  if (speed == law_) return;
+  demand_plans(speed, override_);
+  law_ = speed;
+  replan(now);
+}
+
+void PathRun::set_override(double factor, Tick now) {
+  demand_not_negative(factor, "path run", "override");
+  if (factor > 10) throw BadMotion(Refusal::out_of_range, "path run", "override must be 0 to 10");
+  if (factor == override_) return;
+  if (law_.top_speed_u_s > 0) demand_plans(law_, factor);
+  override_ = factor;
+  replan(now);
+}
+
+void PathRun::start(Tick now) {
+  check(law_);
+  if (running_) return;
+  running_ = true;
+  if (count_ > 0) lay_out_chain(now + 1);
+}
+
+void PathRun::pause(Tick now) {
+  if (paused_) return;
+  paused_ = true;
+  replan(now);
+}
+
+void PathRun::resume(Tick now) {
+  if (!paused_) return;
+  paused_ = false;
+  replan(now);
+}
+
+void PathRun::abandon() {
+  head_ = count_ = chain_count_ = 0;
+  chain_end_u_ = 0;
+  profile_ = Profile{};
+  running_ = paused_ = false;
+}
+
+Sample PathRun::sample(Tick now) const {
+  if (chain_count_ == 0) return {.position_u = chain_end_u_};
+  // Not begun yet: a start speed is not yet there.
+  if (now < begin_tick_) return {.position_u = profile_.sample(0).position_u};
+  Sample here = profile_.sample(seconds(now - begin_tick_));
+  // A path has no way back, but the last digits of an S-curve's end may go below 0.
+  here.speed_u_s = std::max(0.0, here.speed_u_s);
+  return here;
+}
+
+bool PathRun::at_rest(Tick now) const { return sample(now).speed_u_s == 0; }
+
+bool PathRun::slowing_for_the_end(Tick now) const {
+  if (chain_count_ == 0 || held()) return false;
+  const Sample here = sample(now);
+  const Profile stop = slow_to_stop(here, effective());
+  return stop.end_position_u >= chain_end_u_ - 1e-9 * (1 + chain_end_u_);
+}
+
+/// Makes the chain of what is joined at the queue's front, and sets out on it.
+void PathRun::lay_out_chain(Tick begin_at) {
+  chain_count_ = 0;
+  chain_end_u_ = 0;
+  while (chain_count_ < count_) {
+    Piece& next = piece(chain_count_);
+    if (chain_count_ > 0 && !next.joined) break;
+    next.begin_u = chain_end_u_;
+    chain_end_u_ += next.path.length_u;
+    ++chain_count_;
+  }
+  begin_tick_ = begin_at;
+  profile_ = held() ? Profile{} : plan(chain_end_u_, effective());
+  if (held()) profile_.end_exactly_at(0);
+}
+
+/// The profile from where the chain is at `now` on.
+void PathRun::replan(Tick now) {
+  if (chain_count_ == 0) return;
+  Tick from = std::max(now, begin_tick_);
+  const Sample here = sample(from);
+  if (here.position_u >= chain_end_u_) return;
+  // From standstill a motion is at its beginning in the next tick, as everywhere; one that is at its
+  // beginning already stays there, or commands in every tick would keep it from ever setting out.
+  const bool stands = seconds(from - begin_tick_) >= profile_.duration_s;
+  if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
+  if (held()) {
+    SpeedLaw slowing = law_;
+    slowing.top_speed_u_s = std::max(slowing.top_speed_u_s, here.speed_u_s);
+    profile_ = slow_to_stop(here, slowing);
+    profile_.cut_at(chain_end_u_);
+  } else {
+    const SpeedLaw law = effective();
+    const Profile stop = slow_to_stop(here, law);
+    // A path has no way back: what cannot stop in time any more ends on the end.
+    if (stop.end_position_u > chain_end_u_) {
+      profile_ = stop;
+      profile_.cut_at(chain_end_u_);
+    } else {
+      profile_ = change_target(here, chain_end_u_, law);
+    }
+  }
+  begin_tick_ = from;
+}
+
+void PathRun::drop_front() {
+  last_place_ = piece(0).path.end;
+  head_ = (head_ + 1) % kMaxPaths;
+  --count_;
+  --chain_count_;
+  ++completed_;
+}
+
+Point PathRun::place(double along_u) {
+  while (chain_count_ > 1 && along_u >= piece(1).begin_u) drop_front();
+  const Piece& here = piece(0);
+  last_place_ = here.path.at(along_u - here.begin_u);
+  return last_place_;
+}
+
+void PathRun::check_queue() const {
+  bool fits = head_ < kMaxPaths && count_ <= kMaxPaths && chain_count_ <= count_;
+  fits = fits && chain_end_u_ >= 0 && std::isfinite(chain_end_u_) && override_ >= 0 && override_ <= 10;
+  constexpr Tick kFarthest = Tick{1} << 56;
+  fits = fits && begin_tick_ >= -kFarthest && begin_tick_ <= kFarthest && !profile_.endless();
+  for (const Piece& each : pieces_) fits = fits && std::isfinite(each.begin_u);
+  if (!fits) {
+    throw BadMotion(Refusal::out_of_range, "path run", "the queue's numbers do not fit each other");
+  }
+  if (running_) demand_plans(law_, override_);
+}
+
+Point PathRun::step(Tick tick) {
+  completed_ = 0;
+  if (chain_count_ == 0) return last_place_;
+  const double elapsed_s = seconds(tick - begin_tick_);
+  const bool over = elapsed_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
+  const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
+  if (!over || along_u < chain_end_u_) return place(along_u);
+  while (chain_count_ > 0) drop_front();
+  if (count_ > 0) {
+    lay_out_chain(tick);
+    // Paths of no length are over as soon as they begin.
+    while (chain_count_ > 0 && chain_end_u_ == 0) {
+      while (chain_count_ > 0) drop_front();
+      if (count_ > 0) lay_out_chain(tick);
+    }
+  }
+  return last_place_;
+}
+
+}  // namespace understudy::motion

@@ -1,0 +1,129 @@
+// A run along paths: several, one after another, driven by one profile along their length.
+//
+//        ┌ chain: run through without stopping ┐   ┌ next chain
+//   ●────●──────────●╮                     ╭───●   ●─────────●
+//                     ╰────────────────────╯   stop
+//
+// Paths that are joined make a chain, and a chain is one coordinate: its length so far. Speed, override,
+// pause and resume are all changes of the profile along it, so whatever happens in time, the place stays on
+// the path.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "motion/move.h"
+#include "motion/path.h"
+#include "motion/pulse_drive.h"
+
+namespace understudy::motion {
+
+/// How a path follows the one before it.
+struct Joint {
+  enum class Rule : std::uint8_t {
+    stop,        // from rest
+    join,        // without slowing down, whatever the corner: at a sharp one the velocity jumps
+    join_below,  // as join where the deflection is at most `corner_deg`, else as stop
+  };
+  Rule rule = Rule::stop;
+  double corner_deg = 0;
+
+  bool operator==(const Joint&) const = default;
+};
+
+/// Equal corners must count as equal: what roundings make of 45 degrees is 45 degrees.
+inline constexpr double kCornerTolerance_deg = 1e-9;
+
+class PathRun {
+ public:
+  static constexpr std::size_t kMaxPaths = 32;
+
+  /// A joined path that comes when slowing down for the end has begun: picked up (speeding up again), or
+  /// begun from rest as SLIM does.
+  enum class LateJoint : std::uint8_t { speed_up_again, from_rest };
+
+  bool operator==(const PathRun&) const = default;
+
+  void set_late_joint(LateJoint how) { late_joint_ = how; }
+
+  /// Adds a path to the end of the queue. Throws BadMotion(no_room) when full(). A path joined to the chain
+  /// that runs lengthens it at once; `now` is the last tick stepped.
+  void append(const Path& path, Joint joint, Tick now);
+  bool full() const { return count_ == kMaxPaths; }
+  std::size_t queued() const { return count_; }
+
+  /// The speed of what runs and what comes. Before a run begins, and at any time after, from `now` on. Throws
+  /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with.
+  /// Acceleration may be changed while at rest only: BadMotion(out_of_range) else.
+  void set_speed(const SpeedLaw& speed, Tick now);
+  /// Scales the top speed by a factor from 0 (holds, on the path) to 10. Throws BadMotion(out_of_range) else,
+  /// and for a top speed that would be too small to plan with.
+  void set_override(double factor, Tick now);
+
+  /// Begins what is queued, from rest, in the next tick. Further chains follow by themselves, and what is
+  /// appended later begins by itself, until abandon().
+  void start(Tick now);
+  /// Where it is while nothing has run yet: what step() gives until a path begins.
+  void stand_at(const Point& place) { last_place_ = place; }
+
+  /// Slows down on the path to a standstill, and stays.
+  void pause(Tick now);
+  /// Goes on exactly where it was; while still slowing down, speeds up again.
+  void resume(Tick now);
+  /// Forgets what is left, at once: also the velocity. To be called at rest, unless it is meant so.
+  void abandon();
+
+  bool running() const { return running_ && count_ > 0; }  // something is not done, paused or not
+  bool paused() const { return paused_; }                  // pause() is in force
+  bool at_rest(Tick now) const;                            // no speed after tick `now`
+  /// Length along the present chain, speed and acceleration after tick `now`.
+  Sample sample(Tick now) const;
+  double chain_length_u() const { return chain_end_u_; }
+
+  /// One tick, in order. The place after it; where nothing runs, where the last path ended.
+  Point step(Tick tick);
+  /// Paths that were completed in the last tick.
+  int completed() const { return completed_; }
+  /// The path being run; of the queue's front.
+  const Path& path() const { return pieces_[head_].path; }
+
+  /// Throws BadMotion(out_of_range) if the numbers do not fit each other: for states from outside.
+  void check_queue() const;
+
+ private:
+  friend struct StateFields;
+
+  struct Piece {
+    Path path;
+    double begin_u = 0;   // along its chain
+    bool joined = false;  // to the one before
+    bool operator==(const Piece&) const = default;
+  };
+
+  Piece& piece(std::size_t number) { return pieces_[(head_ + number) % kMaxPaths]; }
+  const Path& path_before(std::size_t number);
+  SpeedLaw effective() const;
+  bool held() const { return paused_ || override_ == 0; }
+  bool slowing_for_the_end(Tick now) const;
+  void lay_out_chain(Tick begin_at);
+  void replan(Tick now);
+  void drop_front();
+  Point place(double along_u);
+
+  std::array<Piece, kMaxPaths> pieces_{};
+  std::size_t head_ = 0;
+  std::size_t count_ = 0;
+  std::size_t chain_count_ = 0;  // of the front ones, that make the chain being run
+  double chain_end_u_ = 0;
+  Profile profile_;
+  Tick begin_tick_ = 0;
+  SpeedLaw law_;
+  double override_ = 1;
+  LateJoint late_joint_ = LateJoint::speed_up_again;
+  bool running_ = false;
+  bool paused_ = false;
+  int completed_ = 0;
+  Point last_place_ = Point::Zero();
+};
+
+}  // namespace understudy::motion

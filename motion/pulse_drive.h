@@ -1,0 +1,129 @@
+// A pulse generator, as a value: a profile running on the clock, in whole pulses.
+//
+// It knows one direction and pulses. What a pulse means (a coordinate, a direction pin) and when a move is
+// allowed (servo, alarm, limit) is for its owner to say: motion/axis.h, or a device of its own kind.
+#pragma once
+
+#include <cstdint>
+
+#include "motion/profile.h"
+#include "motion/tick.h"
+
+namespace understudy::motion {
+
+/// A moment between ticks: `after_s` (0 <= after_s < 0.001) after `tick`.
+struct Instant {
+  Tick tick = 0;
+  double after_s = 0;
+  bool operator==(const Instant&) const = default;
+};
+
+enum class Drive : std::uint8_t {
+  idle,
+  running,  // a profile
+  hanging,  // a move at speed 0: it counts as moving, sends nothing, and ends only by stop()
+};
+
+/// A segment in ticks: position = place + k (first + k (second + k third)), k ticks after its beginning.
+/// Counting in ticks keeps k exact where it is whole, and costs no division.
+struct TickSegment {
+  double begin_ticks = 0;  // after the drive's begin_tick
+  double place = 0;        // with the tolerance added: what is left to do is to drop the fraction
+  double first = 0;
+  double second = 0;
+  double third = 0;
+
+  bool operator==(const TickSegment&) const = default;
+};
+
+struct PulseDrive {
+  // What every tick needs, first: the segment that runs now.
+  TickSegment now{};
+  Tick begin_tick = 0;           // the tick at which the profile is at its beginning
+  Tick next_look = kNoTick;      // from this tick on `now` is not the segment that runs
+  std::int64_t sent_pulses = 0;  // counted from the beginning of the profile's coordinate
+  std::int64_t direction = +1;   // +1 or -1: the sense of a rising position; an owner may say 0 at rest
+  Drive drive = Drive::idle;
+  double begin_after_s = 0;  // of the profile, after `begin_tick`
+  double tolerance = 0;      // pulse_tolerance of the distance
+
+  Profile profile;
+
+  bool operator==(const PulseDrive&) const = default;
+
+  /// Begins `move` in `move_direction` (+1 or -1) from standstill, at `first_tick`, which is the first tick
+  /// to be stepped, or between ticks; what runs is dropped where it is. An empty profile ends the motion at
+  /// once.
+  void start(const Profile& move, int move_direction, Tick first_tick);
+  void start(const Profile& move, int move_direction, Instant begin);
+  /// Goes on by another profile, of the same coordinate and direction, that begins at `begin`.
+  void go_on(const Profile& rest, Instant begin);
+  /// Begins a move that never sends a pulse.
+  void hang(int move_direction);
+  /// No pulse after this.
+  void stop();
+
+  bool moving() const { return drive != Drive::idle; }
+  Instant beginning() const { return {.tick = begin_tick, .after_s = begin_after_s}; }
+
+  /// The tick's pulses, signed. Ticks must come in order, but may be skipped: the pulses of what was
+  /// skipped then come together. When the profile is over, the drive is idle again.
+  std::int64_t step(Tick tick) {
+    const std::int64_t total = pulses_at(tick);
+    const std::int64_t now_pulses = (total - sent_pulses) * direction;
+    sent_pulses = total;
+    if (over_at(tick)) stop();
+    return now_pulses;
+  }
+
+  /// Whole pulses sent by `tick`, from the beginning of the coordinate. Looks up the segment when it is time.
+  std::int64_t pulses_at(Tick tick) {
+    if (tick >= next_look) look_up_segment(tick);
+    return pulses_of_segment(tick);
+  }
+
+  /// The same in the midst of a segment, that is before `next_look`: a cubic and a rounding.
+  std::int64_t pulses_of_segment(Tick tick) const {
+    const double k = static_cast<double>(tick - begin_tick) - now.begin_ticks;
+    return whole(now.place + k * (now.first + k * (now.second + k * now.third)));
+  }
+
+  bool over_at(Tick tick) const {
+    return drive == Drive::running &&
+           elapsed_s(tick) * kTicksPerSecond >= profile.duration_s * kTicksPerSecond - kTickTolerance;
+  }
+
+  /// Position (not rounded), speed and acceleration at a moment; at rest when nothing runs.
+  Sample sample(Instant at) const;
+  /// The whole pulses at a moment.
+  std::int64_t pulses_at_moment(Instant at) const;
+  /// The moment after `from` and until `until` (less than two ticks apart) at which pulse number `pulse` is
+  /// sent.
+  Instant time_of_pulse(std::int64_t pulse, Instant from, Instant until) const;
+
+  /// The next tick whose step can send a pulse or end the move, when `done` is the last one stepped;
+  /// kNoTick when nothing runs.
+  Tick next_active_tick(Tick done) const { return drive == Drive::running ? done + 1 : kNoTick; }
+
+  double elapsed_s(Tick tick) const {
+    return static_cast<double>(tick - begin_tick) / kTicksPerSecond - begin_after_s;
+  }
+  double elapsed_s(Instant at) const {
+    return static_cast<double>(at.tick - begin_tick) / kTicksPerSecond + (at.after_s - begin_after_s);
+  }
+
+ private:
+  /// Floor, without the library's call; where nobody can count any more (9e18) it stays.
+  static std::int64_t whole(double place) {
+    constexpr std::int64_t kMost = 9'000'000'000'000'000'000;
+    if (place >= 0 && place < 9e18) [[likely]]
+      return static_cast<std::int64_t>(place);
+    if (!(place < 0)) return kMost;
+    if (place <= -9e18) return -kMost;
+    const auto cut = static_cast<std::int64_t>(place);
+    return cut - static_cast<std::int64_t>(static_cast<double>(cut) > place);
+  }
+  void look_up_segment(Tick tick);
+};
+
+}  // namespace understudy::motion

@@ -1,0 +1,215 @@
+#include "motion/ramp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "motion/bad_motion.h"
+
+namespace understudy::motion {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// What of its acceleration a law can have: more than it could have built up from standstill, as after a
+/// change to a softer law, is not its own and drops at once. So fading at most doubles the speed.
+double own_acceleration(const Sample& now, const RampLaw& up) {
+  if (now.acceleration_u_s2 <= 0 || up.kind != RampLaw::Kind::jerk) return now.acceleration_u_s2;
+  return std::min(now.acceleration_u_s2, std::sqrt(2 * up.jerk_u_s3 * now.speed_u_s) * (1 + 1e-12));
+}
+
+/// The jerk by which a law brings the acceleration to 0; 0 for laws that let it drop at once.
+double usual_jerk(const RampLaw& law, const Sample& now) {
+  switch (law.kind) {
+    case RampLaw::Kind::jerk: return law.jerk_u_s3;
+    case RampLaw::Kind::sections:
+      if (law.section_u_s <= 0) return 0;
+      // A small change has smaller sections than S, and so a greater jerk. It has no straight part, where
+      // jerk would not tell.
+      if (now.jerk_u_s3 != 0) return std::abs(now.jerk_u_s3);
+      return law.acceleration_u_s2 * law.acceleration_u_s2 / (2 * law.section_u_s);
+    case RampLaw::Kind::slope:
+    case RampLaw::Kind::time: break;
+  }
+  return 0;
+}
+
+/// The same, or more where that would leave the range of speeds.
+double jerk_within(const SpeedRange& range, const Sample& now, double acceleration, const RampLaw& up,
+                   const RampLaw& down) {
+  if (acceleration == 0) return 0;
+  const RampLaw& law = acceleration > 0 ? up : down;
+  const double usual = usual_jerk(law, now);
+  if (usual == 0 || (acceleration > 0 && law.kind == RampLaw::Kind::jerk)) return usual;
+  const double room = acceleration > 0 ? range.most_u_s - now.speed_u_s : now.speed_u_s - range.least_u_s;
+  return room > 0 ? std::max(usual, acceleration * acceleration / (2 * room)) : 0;
+}
+
+/// Less than this is what roundings leave of a change of speed, not a change to be made by a ramp.
+double rounding_of_change(double from, double to) { return 1e-12 * std::max(from, to); }
+
+}  // namespace
+
+RampLaw RampLaw::by_slope(double acceleration) {
+  RampLaw law{.kind = Kind::slope, .acceleration_u_s2 = acceleration};
+  check(law);
+  return law;
+}
+
+RampLaw RampLaw::by_time(double duration) {
+  RampLaw law{.kind = Kind::time, .duration_s = duration};
+  check(law);
+  return law;
+}
+
+RampLaw RampLaw::by_jerk(double jerk) {
+  RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = kInfinite, .jerk_u_s3 = jerk};
+  check(law);
+  return law;
+}
+
+RampLaw RampLaw::by_jerk(double jerk, double acceleration_limit) {
+  demand_finite(acceleration_limit, "jerk ramp", "acceleration limit");
+  RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = acceleration_limit, .jerk_u_s3 = jerk};
+  check(law);
+  return law;
+}
+
+RampLaw RampLaw::by_sections(double acceleration, double section) {
+  RampLaw law{.kind = Kind::sections, .acceleration_u_s2 = acceleration, .section_u_s = section};
+  check(law);
+  return law;
+}
+
+void check(const RampLaw& law) {
+  switch (law.kind) {
+    case RampLaw::Kind::slope: demand_positive(law.acceleration_u_s2, "ramp", "acceleration"); break;
+    case RampLaw::Kind::time: demand_positive(law.duration_s, "ramp", "duration"); break;
+    case RampLaw::Kind::jerk:
+      demand_positive(law.jerk_u_s3, "jerk ramp", "jerk");
+      if (law.acceleration_u_s2 != kInfinite) {
+        demand_positive(law.acceleration_u_s2, "jerk ramp", "acceleration limit");
+      }
+      break;
+    case RampLaw::Kind::sections:
+      demand_positive(law.acceleration_u_s2, "ramp with sections", "acceleration");
+      demand_not_negative(law.section_u_s, "ramp with sections", "section");
+      break;
+  }
+}
+
+double form_changes_at(const RampLaw& law) {
+  switch (law.kind) {
+    case RampLaw::Kind::jerk: return law.acceleration_u_s2 * law.acceleration_u_s2 / law.jerk_u_s3;
+    case RampLaw::Kind::sections: return 2 * law.section_u_s;
+    case RampLaw::Kind::slope:
+    case RampLaw::Kind::time: break;
+  }
+  return kInfinite;
+}
+
+RampTime time_law(const RampLaw& law, double dv) {
+  const double a = law.acceleration_u_s2;
+  switch (law.kind) {
+    case RampLaw::Kind::slope: return {.per_speed = 1 / a};
+    case RampLaw::Kind::time: return {.constant = law.duration_s};
+    case RampLaw::Kind::jerk:
+      if (dv <= form_changes_at(law)) return {.per_root = 2 / std::sqrt(law.jerk_u_s3)};
+      return {.per_speed = 1 / a, .constant = a / law.jerk_u_s3};
+    case RampLaw::Kind::sections:
+      if (dv <= form_changes_at(law)) return {.per_speed = 2 / a};
+      return {.per_speed = 1 / a, .constant = 2 * law.section_u_s / a};
+  }
+  return {};
+}
+
+Ramp ramp(const RampLaw& law, double dv) {
+  if (!(dv > 0)) return {};
+  const double a = law.acceleration_u_s2;
+  switch (law.kind) {
+    case RampLaw::Kind::slope: return {.middle_s = dv / a, .acceleration_u_s2 = a};
+    case RampLaw::Kind::time: return {.middle_s = law.duration_s, .acceleration_u_s2 = dv / law.duration_s};
+    case RampLaw::Kind::jerk: {
+      const double k = law.jerk_u_s3;
+      if (dv <= form_changes_at(law)) {
+        const double ends_s = std::sqrt(dv / k);
+        return {.ends_s = ends_s, .acceleration_u_s2 = k * ends_s, .jerk_u_s3 = k};
+      }
+      return {.ends_s = a / k, .middle_s = dv / a - a / k, .acceleration_u_s2 = a, .jerk_u_s3 = k};
+    }
+    case RampLaw::Kind::sections: {
+      const double section = std::min(law.section_u_s, dv / 2);
+      if (section <= 0) return {.middle_s = dv / a, .acceleration_u_s2 = a};
+      const double ends_s = 2 * section / a;
+      return {.ends_s = ends_s,
+              .middle_s = (dv - 2 * section) / a,
+              .acceleration_u_s2 = a,
+              .jerk_u_s3 = a / ends_s};
+    }
+  }
+  return {};
+}
+
+double ramp_distance(const RampLaw& law, double from, double to) {
+  return 0.5 * (from + to) * ramp(law, std::abs(to - from)).duration_s();
+}
+
+void append_ramp(Profile& profile, const RampLaw& law, double from, double to) {
+  const Ramp shape = ramp(law, std::abs(to - from));
+  const double sign = to < from ? -1 : 1;
+  const double a = sign * shape.acceleration_u_s2;
+  const double j = sign * shape.jerk_u_s3;
+  const double at_ends = 0.5 * a * shape.ends_s;  // the change of speed of each end
+  profile.append(shape.ends_s, from, 0, j);
+  profile.append(shape.middle_s, from + at_ends, a, 0);
+  profile.append(shape.ends_s, to - at_ends, a, -j);
+  // The sum of the parts may miss the speed by a rounding.
+  if (profile.segment_count > 0 && shape.duration_s() > 0) profile.end_speed_u_s = to;
+}
+
+double speed_without_acceleration(const Sample& now, const RampLaw& up, const RampLaw& down,
+                                  const SpeedRange& range) {
+  const double acceleration = own_acceleration(now, up);
+  const double jerk = jerk_within(range, now, acceleration, up, down);
+  if (jerk == 0) return now.speed_u_s;
+  const double faded = now.speed_u_s + acceleration * std::abs(acceleration) / (2 * jerk);
+  return std::max(range.least_u_s, faded);
+}
+
+void append_change(Profile& profile, const Sample& now, double to, const RampLaw& up, const RampLaw& down,
+                   const SpeedRange& range) {
+  double speed = now.speed_u_s;
+  const double acceleration = own_acceleration(now, up);
+  const double jerk = jerk_within(range, now, acceleration, up, down);
+  if (jerk > 0) {
+    const double sign = acceleration < 0 ? -1 : 1;
+    const double size = std::abs(acceleration);
+    const double faded = speed_without_acceleration(now, up, down, range);
+    if (sign * (to - faded) > rounding_of_change(faded, to)) {
+      // Further in the same direction: to the greatest acceleration, along it, and out of it.
+      const double further = sign * (to - speed);
+      const double bound = (acceleration > 0 ? up : down).acceleration_u_s2;
+      const double peak = std::min(bound, std::sqrt(jerk * further + 0.5 * size * size));
+      const double there_s = std::abs(peak - size) / jerk;
+      const double gained = 0.5 * (size + peak) * there_s;
+      const double fade_s = peak / jerk;
+      const double left = 0.5 * peak * fade_s;
+      profile.append(there_s, speed, acceleration, peak < size ? -sign * jerk : sign * jerk);
+      profile.append((further - gained - left) / peak, speed + sign * gained, sign * peak, 0);
+      profile.append(fade_s, to - sign * left, sign * peak, -sign * jerk);
+      profile.end_speed_u_s = to;
+      return;
+    }
+    profile.append(size / jerk, speed, acceleration, -sign * jerk);
+    profile.end_speed_u_s = faded;
+    speed = faded;
+  }
+  if (std::abs(to - speed) > rounding_of_change(speed, to)) {
+    append_ramp(profile, to < speed ? down : up, speed, to);
+  } else if (profile.segment_count > 0) {
+    profile.end_speed_u_s = to;
+  }
+}
+
+}  // namespace understudy::motion

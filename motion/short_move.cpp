@@ -1,0 +1,98 @@
+#include "motion/short_move.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace understudy::motion {
+
+namespace {
+
+// Both ramps cover (2 start + x) / 2 each time its duration; so x solves
+//   (2 start + x) * (a x + b + c sqrt x) = 2 distance,
+// with the sums of the two laws' coefficients, in the form that holds there.
+struct Sum {
+  double a = 0;
+  double b = 0;
+  double c = 0;
+
+  double distance(double start, double x) const {
+    return 0.5 * (2 * start + x) * (a * x + b + c * std::sqrt(x));
+  }
+};
+
+Sum sum_at(const RampLaw& up, const RampLaw& down, double x) {
+  const RampTime first = time_law(up, x);
+  const RampTime second = time_law(down, x);
+  return {.a = first.per_speed + second.per_speed,
+          .b = first.constant + second.constant,
+          .c = first.per_root + second.per_root};
+}
+
+/// Cube root of a value > 0, a little too large rather than too small: where Newton's method may begin.
+double above_cube_root(double value) {
+  // A third of the exponent, then two steps of Newton, which come down from above.
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  double y = std::bit_cast<double>(bits / 3 + 0x2A9F789300000000ULL);
+  for (int step = 0; step < 3; ++step) y = (2 * y + value / (y * y)) / 3;
+  return y * (1 + 1e-9);
+}
+
+double solve_quadratic(const Sum& sum, double start, double twice_distance) {
+  // a x^2 + (b + 2 start a) x + 2 start b - 2 distance = 0, in the form that does not cancel.
+  const double linear = sum.b + 2 * start * sum.a;
+  const double missing = twice_distance - 2 * start * sum.b;
+  if (missing <= 0) return 0;
+  if (sum.a == 0) return missing / linear;
+  return 2 * missing / (linear + std::sqrt(linear * linear + 4 * sum.a * missing));
+}
+
+double solve_with_root(const Sum& sum, double start, double twice_distance) {
+  // y = sqrt x: (2 start + y^2) (a y^2 + c y + b) = 2 distance; convex and rising, so Newton's method from
+  // above comes down to the root and never passes it.
+  const double missing = twice_distance - 2 * start * sum.b;
+  if (missing <= 0) return 0;
+  // Each power of y alone gives a bound; the least of them is at most four times too large.
+  double y = above_cube_root(missing / sum.c);
+  if (start > 0) y = std::min(y, missing / (2 * start * sum.c));
+  if (const double square = 2 * start * sum.a + sum.b; square > 0)
+    y = std::min(y, std::sqrt(missing / square));
+  if (sum.a > 0) y = std::min(y, std::sqrt(std::sqrt(missing / sum.a)));
+  y *= 1 + 1e-15;
+  for (int step = 0; step < 20; ++step) {
+    const double time = y * (sum.a * y + sum.c) + sum.b;
+    const double speeds = 2 * start + y * y;
+    const double value = speeds * time - twice_distance;
+    const double rise = 2 * y * time + speeds * (2 * sum.a * y + sum.c);
+    const double next = y - value / rise;
+    if (!(next < y)) break;
+    const bool settled = y - next <= 1e-16 * y;
+    y = next;
+    if (settled) break;
+  }
+  return y > 0 ? y * y : 0;
+}
+
+}  // namespace
+
+double rise_within(double distance, double start, const RampLaw& up, const RampLaw& down, double limit) {
+  if (!(distance > 0) || !(limit > 0)) return 0;
+  const double limit_needs = sum_at(up, down, limit).distance(start, limit);
+  if (limit_needs <= distance) return limit;
+  // Which form of each law holds at the solution: try the places where they change.
+  double low = 0;
+  double high = limit;
+  for (const double change : {form_changes_at(up), form_changes_at(down)}) {
+    if (change <= low || change >= high) continue;
+    (sum_at(up, down, change).distance(start, change) <= distance ? low : high) = change;
+  }
+  // Forms hold up to and with their change, so the one that holds inside holds at `high`, too.
+  const Sum sum = sum_at(up, down, high);
+  const double x =
+      sum.c > 0 ? solve_with_root(sum, start, 2 * distance) : solve_quadratic(sum, start, 2 * distance);
+  return std::clamp(x, low, high);
+}
+
+}  // namespace understudy::motion

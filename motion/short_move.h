@@ -1,0 +1,14 @@
+// How far up the speed of a short move can go, for move.cpp.
+#pragma once
+
+#include "motion/ramp.h"
+
+namespace understudy::motion {
+
+/// The change of speed x >= 0 above `start_u_s` after which a ramp up by `up` and one down by `down` together
+/// cover `distance_u`; at most `limit_u_s`, 0 where even no ramp fits. In closed form for slopes, times and
+/// sections; for jerk laws a few monotone Newton steps on a convex function, to the last bits.
+double rise_within(double distance_u, double start_u_s, const RampLaw& up, const RampLaw& down,
+                   double limit_u_s);
+
+}  // namespace understudy::motion

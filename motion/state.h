@@ -1,0 +1,38 @@
+// The state of motion as bytes: saved, restored, hashed.
+//
+// Every value of this room can be. The bytes are the same on every machine: numbers in little endian, doubles
+// by their bits, no padding. What a value consists of is written down once, in state_fields.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace understudy::motion {
+
+struct Axis;
+struct Coordinated;
+struct ExternalDrive;
+struct Follower;
+class PathRun;
+struct Profile;
+struct PulseDrive;
+struct Surroundings;
+struct SyncTable;
+
+/// T is one of the types above; others do not link.
+template <class T>
+std::vector<std::byte> save(const T& value);
+
+/// Makes `value` what was saved, from the front of `bytes`, and gives how many bytes that took. Throws
+/// BadMotion(out_of_range) for bytes that are too few or hold what the type cannot (a bool of 7, an
+/// enumeration's value that does not exist, a count beyond its table); `value` is then unchanged.
+template <class T>
+std::size_t restore(T& value, std::span<const std::byte> bytes);
+
+/// FNV-1a of the saved bytes, without saving them.
+template <class T>
+std::uint64_t hash(const T& value);
+
+}  // namespace understudy::motion

@@ -1,0 +1,147 @@
+// What a restored value must be so that its ticks can neither leave a table nor run away, for state.cpp: any
+// bytes may come in, and a type of a few numbers has more bit patterns than it has states.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "motion/axis.h"
+#include "motion/bad_motion.h"
+#include "motion/coordinated.h"
+#include "motion/external_drive.h"
+#include "motion/synchronous.h"
+
+namespace understudy::motion {
+
+inline void demand_state(bool holds, const char* what) {
+  if (!holds) throw BadMotion(Refusal::out_of_range, "saved state", what);
+}
+
+inline void demand_within(std::int64_t value, std::int64_t least, std::int64_t greatest) {
+  demand_state(value >= least && value <= greatest, "a number is beyond its range");
+}
+
+/// Pulses and ticks: sums with what a drive can send still fit 64 bits.
+inline void demand_reach(std::int64_t value) {
+  constexpr std::int64_t kFarthest = std::int64_t{1} << 56;
+  demand_within(value, -kFarthest, kFarthest);
+}
+
+template <class... Doubles>
+void demand_all_finite(Doubles... values) {
+  demand_state((std::isfinite(values) && ...), "a quantity must be finite");
+}
+
+/// Types that may hold any bits.
+template <class T>
+void check_restored(const T&) {}
+
+inline void check_restored(const Instant& at) {
+  demand_reach(at.tick);
+  demand_state(at.after_s >= 0 && at.after_s <= 1.001 / kTicksPerSecond, "a moment must be within its tick");
+}
+
+inline void check_restored(const Segment& s) {
+  demand_all_finite(s.begin_s, s.position_u, s.speed_u_s, s.acceleration_u_s2, s.jerk_u_s3);
+}
+
+inline void check_restored(const Profile& profile) {
+  demand_within(profile.segment_count, 0, static_cast<std::int64_t>(Profile::kMaxSegments));
+  demand_state(profile.duration_s >= 0 && !std::isnan(profile.end_position_u), "a profile must have an end");
+  demand_state(profile.endless() || std::isfinite(profile.end_position_u), "a profile must have an end");
+}
+
+inline void check_restored(const TickSegment& s) {
+  demand_all_finite(s.begin_ticks, s.place, s.first, s.second, s.third);
+}
+
+inline void check_restored(const PulseDrive& drive) {
+  check_restored(drive.beginning());
+  demand_within(drive.direction, -1, +1);
+  demand_reach(drive.sent_pulses);
+  demand_state(drive.tolerance >= 0 && drive.tolerance < 1e6, "a tolerance must be small");
+}
+
+inline void check_restored(const Counter& counter) {
+  if (counter.range == Counter::Range::ring) demand_within(counter.ring_top, 0, INT64_MAX - 1);
+}
+
+inline void check_restored(const Comparator& comparator) {
+  demand_within(comparator.value, INT64_MIN + 1, INT64_MAX - 1);
+}
+
+inline void check_restored(const Surroundings& here) {
+  demand_within(here.zone_count, 0, static_cast<std::int64_t>(Surroundings::kMaxZones));
+  demand_within(here.index_period, INT64_MIN, INT64_MAX / 2);
+}
+
+inline void check_restored(const Follower& follower) {
+  follower.check();
+  constexpr std::int64_t kMost = INT64_MAX / 2;  // Follower bounds its own numbers to half of it
+  for (const std::int64_t value : {follower.gathered, follower.behind_pulses, follower.period_pulses}) {
+    demand_within(value, -kMost, kMost);
+  }
+  demand_within(follower.left_over, 0, follower.denominator - 1);
+  demand_within(follower.phase, 0, follower.period_ticks - 1);
+  demand_within(follower.speed_left_over, 0, 999);
+}
+
+inline void check_restored(const ExternalDrive& drive) {
+  demand_reach(drive.pulses);
+  demand_within(drive.running, -1, +1);
+}
+
+inline void check_restored(const Homing& homing) {
+  check(homing.program);
+  demand_within(homing.phase, -1, homing.program.phase_count - 1);
+  demand_within(homing.counted, 0, INT32_MAX - 1);
+  demand_reach(homing.reference_pulses);
+}
+
+inline void check_restored(const AxisSettings& settings) {
+  demand_within(settings.backlash_pulses, 0, std::int64_t{1} << 53);
+  demand_state(settings.backlash_speed_pps >= 0 && std::isfinite(settings.backlash_speed_pps),
+               "a backlash speed must not be negative");
+}
+
+inline void check_restored(const Axis& axis) {
+  for (const std::int64_t pulses :
+       {axis.travel_pulses, axis.base_pulses, axis.backlash_sent, axis.target_pulses, axis.carried_pulses}) {
+    demand_reach(pulses);
+  }
+  demand_within(axis.last_direction, -1, +1);
+}
+
+inline void check_restored(const UnitScale& scale) { UnitScale::of(scale.multiplier, scale.divider); }
+
+inline void check_restored(const Path& path) {
+  for (const Point* point :
+       {&path.begin, &path.end, &path.centre, &path.abscissa, &path.ordinate, &path.rise}) {
+    for (const double coordinate : *point) {
+      demand_state(std::abs(coordinate) <= 1e15, "a path must be within +-1e15");
+    }
+  }
+  demand_state(path.length_u >= 0 && path.length_u <= 1e24, "a path must have a length");
+  demand_state(std::abs(path.begin_angle_rad) <= 7 && std::abs(path.sweep_rad) <= 1.001e6,
+               "an arc's angles must be within 1e6 rad");
+  demand_state(path.begin_radius_u >= 0 && path.begin_radius_u <= 1e15, "an arc must have a radius");
+  demand_all_finite(path.radius_slope_u_rad);
+  demand_state(path.kind == Path::Kind::line || path.measure == Measure::vector ||
+                   path.length_u <= 2e6 * path.begin_radius_u,
+               "an arc's length must be that of its sweep");
+}
+
+inline void check_restored(const PathRun& run) { run.check_queue(); }
+
+inline void check_restored(const Coordinated& group) {
+  for (const std::int8_t axis : group.axis_of) demand_within(axis, Coordinated::kNone, INT8_MAX);
+  for (const std::int64_t zero : group.zero_pulses) demand_reach(zero);
+}
+
+inline void check_restored(const SyncAction& action) { demand_reach(action.preset_value); }
+
+inline void check_restored(const SyncTable& table) {
+  for (const std::int64_t distance : table.distance_pulses) demand_reach(distance);
+}
+
+}  // namespace understudy::motion

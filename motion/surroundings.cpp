@@ -1,0 +1,77 @@
+#include "motion/surroundings.h"
+
+#include <algorithm>
+
+#include "motion/bad_motion.h"
+
+namespace understudy::motion {
+
+namespace {
+
+std::int64_t index_phase(const Surroundings& here, std::int64_t travel) {
+  const std::int64_t phase =
+      (travel % here.index_period - here.index_at % here.index_period) % here.index_period;
+  return phase < 0 ? phase + here.index_period : phase;
+}
+
+/// a - b, or the last number there is: a zone may well end at INT64_MAX.
+std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
+  std::int64_t difference = 0;
+  if (!__builtin_sub_overflow(a, b, &difference)) return difference;
+  return a < b ? INT64_MIN : INT64_MAX;
+}
+
+}  // namespace
+
+void Surroundings::add(Signal signal, std::int64_t from, std::int64_t to) {
+  if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "surroundings", "at most 8 zones an axis");
+  zones[zone_count++] = {.signal = signal, .from = from, .to = to};
+  ++version;
+}
+
+void Surroundings::set_steady(Signal signal, bool on) {
+  steady = static_cast<Signals>(on ? steady | bit(signal) : steady & ~bit(signal));
+  ++version;
+}
+
+Signals Surroundings::at(std::int64_t travel) const {
+  Signals on = steady;
+  for (std::size_t i = 0; i < zone_count; ++i) {
+    if (travel >= zones[i].from && travel <= zones[i].to) on |= bit(zones[i].signal);
+  }
+  if (index_period > 0 && index_phase(*this, travel) < index_width) on |= bit(Signal::index);
+  return on;
+}
+
+std::optional<std::int64_t> Surroundings::steps_until_change(std::int64_t travel, int direction) const {
+  std::optional<std::int64_t> nearest;
+  const auto consider = [&](std::int64_t steps) {
+    if (steps > 0 && steps < INT64_MAX) nearest = nearest ? std::min(*nearest, steps) : steps;
+  };
+  const auto consider_beyond = [&](std::int64_t last_steps) {
+    if (last_steps >= 0 && last_steps < INT64_MAX) consider(last_steps + 1);
+  };
+  for (std::size_t i = 0; i < zone_count; ++i) {
+    const Zone& zone = zones[i];
+    if (zone.to < zone.from) continue;
+    // The first pulse inside and the first one beyond, seen from either side.
+    if (direction > 0) {
+      consider(bounded_difference(zone.from, travel));
+      consider_beyond(bounded_difference(zone.to, travel));
+    } else {
+      consider(bounded_difference(travel, zone.to));
+      consider_beyond(bounded_difference(travel, zone.from));
+    }
+  }
+  if (index_period > 0 && index_width > 0 && index_width < index_period) {
+    const std::int64_t phase = index_phase(*this, travel);
+    if (direction > 0) {
+      consider(phase < index_width ? index_width - phase : index_period - phase);
+    } else {
+      consider(phase < index_width ? phase + 1 : phase - (index_width - 1));
+    }
+  }
+  return nearest;
+}
+
+}  // namespace understudy::motion

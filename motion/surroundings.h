@@ -1,0 +1,64 @@
+// What an axis meets on its way: its input signals, and where along its travel they change.
+//
+// The plant fills this in. Signals that depend on the place are given as zones and an index mark, so that an
+// axis can react at the very pulse of an edge, as a chip does, not at the end of the tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace understudy::motion {
+
+/// One axis's inputs; on means active, whatever the wiring's polarity.
+enum class Signal : std::uint8_t {
+  limit_plus,   // +EL, LMT+, upper limit
+  limit_minus,  // -EL, LMT-, lower limit
+  near_home,    // IN0
+  home,         // ORG, DOG, IN1
+  index,        // EZ, C, Z, IN2: one a revolution
+  mark,         // IN3
+  alarm,
+  in_position,
+  emergency,
+};
+inline constexpr int kSignals = 9;
+
+/// One bit a signal.
+using Signals = std::uint16_t;
+constexpr Signals bit(Signal signal) { return static_cast<Signals>(1U << static_cast<unsigned>(signal)); }
+
+struct Surroundings {
+  /// `signal` is on from `from` to `to`, both included, in pulses of the axis's travel.
+  struct Zone {
+    Signal signal = Signal::home;
+    std::int64_t from = 0;
+    std::int64_t to = -1;  // below `from`: nowhere
+    bool operator==(const Zone&) const = default;
+  };
+
+  static constexpr std::size_t kMaxZones = 8;
+
+  /// To be raised by whoever changes anything below: axes look again only then.
+  std::uint32_t version = 0;
+  Signals steady = 0;  // on wherever the axis is
+  std::uint8_t zone_count = 0;
+  std::array<Zone, kMaxZones> zones{};
+  // The index is on for `index_width` pulses from every `index_at + k * index_period`; no period, no index.
+  std::int64_t index_period = 0;
+  std::int64_t index_at = 0;
+  std::int64_t index_width = 1;
+
+  bool operator==(const Surroundings&) const = default;
+
+  /// Throws BadMotion(no_room) beyond kMaxZones. Raises the version.
+  void add(Signal signal, std::int64_t from, std::int64_t to);
+  void set_steady(Signal signal, bool on);
+
+  Signals at(std::int64_t travel) const;
+
+  /// How many pulses (1 ...) in `direction` (+1 or -1) until some signal may change; nothing if none will.
+  std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;
+};
+
+}  // namespace understudy::motion

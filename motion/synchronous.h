@@ -1,0 +1,83 @@
+// Synchronous actions between axes: what happens on one axis makes others start, stop or note their
+// positions.
+//
+// As the MCX314 has it: a trigger axis has factors (a mask of its events) and a mask of the axes it
+// activates; each axis has the one action it does when activated, by whichever trigger. Source: RS-M8194H
+// manual 7.3.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "motion/axis.h"
+
+namespace understudy::motion {
+
+struct SyncAction {
+  enum class Drive : std::uint8_t {
+    none,
+    fixed_plus,  // a move by `distance_pulses`; these four only while the axis stands
+    fixed_minus,
+    endless_plus,
+    endless_minus,
+    slow_down,
+    stop_at_once,
+  };
+  enum class Preset : std::uint8_t { none, command, encoder, distance, speed };
+
+  Drive drive = Drive::none;
+  bool latch_command = false;
+  bool latch_encoder = false;
+  Preset preset = Preset::none;
+  std::int64_t preset_value = 0;  // a count, pulses, or pulses a second
+  bool output = false;            // reported to the owner, who has the pin
+  bool interrupt = false;         // reported likewise
+
+  bool operator==(const SyncAction&) const = default;
+};
+
+/// What a group of up to four axes does for each other. Numbers of axes are 0 .. 3, masks one bit an axis.
+struct SyncTable {
+  static constexpr std::size_t kAxes = 4;
+
+  struct Trigger {
+    std::uint8_t factors = 0;    // the first eight events of motion/axis.h
+    std::uint8_t activates = 0;  // axes
+    bool operator==(const Trigger&) const = default;
+  };
+  struct Latch {
+    bool taken = false;
+    std::int64_t travel_pulses = 0;   // of the axis, when latch_command
+    std::int64_t encoder_pulses = 0;  // when latch_encoder
+    bool operator==(const Latch&) const = default;
+  };
+
+  std::array<Trigger, kAxes> triggers{};
+  std::array<SyncAction, kAxes> actions{};
+  std::array<Latch, kAxes> latches{};
+  // What a drive action moves by, and how: set by the owner, and by presets.
+  std::array<std::int64_t, kAxes> distance_pulses{};
+  std::array<SpeedLaw, kAxes> speeds{};
+
+  bool operator==(const SyncTable&) const = default;
+};
+
+/// What the owner has to do itself.
+struct SyncOutcome {
+  std::array<std::uint8_t, SyncTable::kAxes> fired{};  // the factors of each axis that fired
+  std::uint8_t outputs = 0;                            // axes whose action has an output
+  std::uint8_t interrupts = 0;                         // axes whose action calls an interrupt
+  std::uint8_t presets_command = 0;                    // axes whose command count is to be preset_value
+  std::uint8_t presets_encoder = 0;
+
+  bool operator==(const SyncOutcome&) const = default;
+};
+
+/// Acts on the events of tick `now`, after all the axes have stepped it; triggers in order of axes, and for
+/// each trigger the activated axes in order. Latches are of the moment of the event, to the pulse; drives act
+/// from the end of the tick, and throw for speeds and distances that Axis::move() does not take. Axes beyond
+/// `axes` are left out. Counters are the owner's: latches give travel.
+SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now);
+
+}  // namespace understudy::motion

@@ -1,0 +1,26 @@
+// Lengths in a user's unit to pulses and back, by a multiplier and a divider, in whole numbers throughout.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace understudy::motion {
+
+/// pulses = units * multiplier / divider, both 1 .. 2^31 - 1 (SUPER-40NC CMX/CDV, SLIM PN45/PN46). Rounds
+/// half away from zero; always convert absolute positions, so that roundings do not pile up.
+struct UnitScale {
+  std::int64_t multiplier = 1;
+  std::int64_t divider = 1;
+
+  bool operator==(const UnitScale&) const = default;
+
+  /// Throws BadMotion for a multiplier or divider outside its range.
+  static UnitScale of(std::int64_t multiplier, std::int64_t divider);
+
+  /// Nothing where the result does not fit 64 bits.
+  std::optional<std::int64_t> to_pulses(std::int64_t units) const;
+  std::optional<std::int64_t> to_units(std::int64_t pulses) const;
+  double pulses_per_unit() const { return static_cast<double>(multiplier) / static_cast<double>(divider); }
+};
+
+}  // namespace understudy::motion

@@ -1,0 +1,136 @@
+// The short way through a tick and the careful one are the same, and so are a copy and its original.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/motion/axis_scenario.h"
+
+namespace understudy::motion {
+namespace {
+
+constexpr int kTicks = 1'500;
+
+/// Without what only says how the next tick is to be done.
+Axis state_of(Axis axis) {
+  axis.attentive = false;
+  axis.watch_low = axis.watch_high = 0;
+  return axis;
+}
+
+/// Stepped with care, whatever the axis thinks of it.
+std::int64_t step_with_care(AxisCourse& course, std::int64_t counts) {
+  course.axis.attentive = true;
+  return step(course, counts);
+}
+
+TEST(AxisEquivalence, TheShortWayThroughATickIsTheCarefulOne) {
+  RandomMoves seeds(seed());
+  for (int i = 0; i < random_cases(600); ++i) {
+    AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));
+    AxisCourse quick = scenario.course();
+    AxisCourse careful = quick;
+    for (int tick = 0; tick < kTicks; ++tick) {
+      const auto command = scenario.next();
+      const std::int64_t counts = scenario.counts();
+      act(command, quick);
+      act(command, careful);
+      ASSERT_EQ(step(quick, counts), step_with_care(careful, counts)) << scenario.code() << " " << quick.now;
+      ASSERT_EQ(quick.axis.events, careful.axis.events) << scenario.code() << " " << quick.now;
+      ASSERT_EQ(quick.axis.travel_pulses, careful.axis.travel_pulses) << scenario.code() << " " << quick.now;
+      ASSERT_EQ(quick.axis.cause, careful.axis.cause) << scenario.code() << " " << quick.now;
+      if (tick % 16 == 0) {
+        ASSERT_EQ(state_of(quick.axis), state_of(careful.axis)) << scenario.code() << " " << quick.now;
+      }
+    }
+    ASSERT_EQ(state_of(quick.axis), state_of(careful.axis)) << scenario.code();
+  }
+}
+
+TEST(AxisEquivalence, ACopyGoesOnAsItsOriginalDoes) {
+  RandomMoves seeds(seed());
+  for (int i = 0; i < random_cases(200); ++i) {
+    AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));
+    AxisCourse original = scenario.course();
+    AxisCourse copy = original;
+    for (int tick = 0; tick < kTicks; ++tick) {
+      if (scenario.between(0, 200) == 0) copy = AxisCourse(original);
+      const auto command = scenario.next();
+      const std::int64_t counts = scenario.counts();
+      act(command, original);
+      act(command, copy);
+      ASSERT_EQ(step(original, counts), step(copy, counts)) << scenario.code() << " " << original.now;
+    }
+    ASSERT_EQ(original.axis, copy.axis) << scenario.code();
+  }
+}
+
+TEST(AxisEquivalence, WithinItsWindowNothingDependsOnThePlace) {
+  RandomMoves seeds(seed());
+  for (int i = 0; i < random_cases(150); ++i) {
+    AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));
+    AxisCourse course = scenario.course();
+    for (int tick = 0; tick < kTicks; ++tick) {
+      act(scenario.next(), course);
+      step(course, scenario.counts());
+      const Axis& axis = course.axis;
+      ASSERT_LE(axis.watch_low, axis.travel_pulses) << scenario.code() << " " << course.now;
+      ASSERT_GE(axis.watch_high, axis.travel_pulses) << scenario.code() << " " << course.now;
+      if (axis.attentive) continue;
+      const std::int64_t low = std::max(axis.watch_low, axis.travel_pulses - 1'000'000);
+      const std::int64_t high = std::min(axis.watch_high, axis.travel_pulses + 1'000'000);
+      for (const std::int64_t place : {low, high, scenario.between(low, high), scenario.between(low, high)}) {
+        ASSERT_EQ(course.here.at(place), axis.signals)
+            << scenario.code() << " " << course.now << " " << place;
+        for (const Comparator& comparator : axis.comparators) {
+          if (comparator.count != Count::command) continue;
+          ASSERT_EQ(comparator.holds(place), comparator.was_true)
+              << scenario.code() << " " << course.now << " " << place;
+        }
+        // A soft limit is met on the way out.
+        const auto& most = axis.settings.soft_limit_plus;
+        const auto& least = axis.settings.soft_limit_minus;
+        const bool matters = axis.settings.at_soft_limit != Reaction::ignore;
+        const std::int64_t way = matters ? axis.drive.direction : 0;
+        ASSERT_FALSE(way > 0 && most && axis.travel_pulses <= *most && place > *most)
+            << scenario.code() << " " << course.now;
+        ASSERT_FALSE(way < 0 && least && axis.travel_pulses >= *least && place < *least)
+            << scenario.code() << " " << course.now;
+      }
+    }
+  }
+}
+
+TEST(AxisEquivalence, WhatComesOutIsTravelAndBacklashAndNothingAtRest) {
+  RandomMoves seeds(seed());
+  for (int i = 0; i < random_cases(300); ++i) {
+    AxisScenario scenario(static_cast<std::uint64_t>(seeds.between(1, INT64_MAX)));
+    AxisCourse course = scenario.course();
+    for (int tick = 0; tick < kTicks; ++tick) {
+      act(scenario.next(), course);
+      const bool moved = course.axis.moving();
+      const std::int64_t pulses = step(course, scenario.counts());
+      ASSERT_TRUE(moved || pulses == 0) << scenario.code() << " " << course.now;
+      const std::int64_t output = course.axis.travel_pulses + course.axis.backlash_sent;
+      ASSERT_EQ(course.output_pulses, course.axis.inverted ? -output : output)
+          << scenario.code() << " " << course.now;
+    }
+  }
+}
+
+TEST(AxisEquivalence, AnEdgeAtEveryPulseIsSlowButSure) {
+  AxisCourse course;
+  course.here.index_period = 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    course.axis.set_comparator(i,
+                               {.relation = Comparator::Relation::equal,
+                                .counter = {.range = Counter::Range::ring, .ring_top = static_cast<int>(i)},
+                                .value = 0});
+  }
+  course.axis.run(-1, constant(1e6), 0);
+  course.step();
+  for (int tick = 1; tick <= 100; ++tick) ASSERT_EQ(course.step(), -1'000);
+  EXPECT_EQ(course.travel(), -100'000);
+}
+
+}  // namespace
+}  // namespace understudy::motion

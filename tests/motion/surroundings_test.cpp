@@ -1,0 +1,212 @@
+#include "motion/surroundings.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "motion/bad_motion.h"
+#include "tests/motion/random_moves.h"
+
+namespace understudy::motion {
+namespace {
+
+using Zone = Surroundings::Zone;
+
+/// The index counted from the one mark there is at `index_at`, without a division.
+bool index_at(const Surroundings& here, std::int64_t travel) {
+  if (here.index_period <= 0) return false;
+  std::int64_t mark = here.index_at;
+  while (mark > travel) mark -= here.index_period;
+  while (mark + here.index_period <= travel) mark += here.index_period;
+  return travel - mark < here.index_width;
+}
+
+Signals by_hand(const Surroundings& here, std::int64_t travel) {
+  unsigned on = here.steady;
+  for (std::size_t i = 0; i < here.zone_count; ++i) {
+    const Zone& zone = here.zones[i];
+    if (zone.from <= travel && travel <= zone.to) on |= bit(zone.signal);
+  }
+  if (index_at(here, travel)) on |= bit(Signal::index);
+  return static_cast<Signals>(on);
+}
+
+std::optional<std::int64_t> change_by_hand(const Surroundings& here, std::int64_t travel, int direction) {
+  for (std::int64_t steps = 1; steps <= 200; ++steps) {
+    if (by_hand(here, travel + direction * steps) != by_hand(here, travel)) return steps;
+  }
+  return std::nullopt;
+}
+
+std::string code(const Surroundings& here) {
+  std::string out = "seed " + std::to_string(seed()) + ": Surroundings here; ";
+  for (std::size_t i = 0; i < here.zone_count; ++i) {
+    out += "here.add(Signal(" + std::to_string(static_cast<int>(here.zones[i].signal)) + "), " +
+           std::to_string(here.zones[i].from) + ", " + std::to_string(here.zones[i].to) + "); ";
+  }
+  return out + "here.index_period = " + std::to_string(here.index_period) +
+         "; here.index_at = " + std::to_string(here.index_at) +
+         "; here.index_width = " + std::to_string(here.index_width) + ";";
+}
+
+TEST(Surroundings, AreEmptyAtFirst) {
+  const Surroundings here;
+  for (const std::int64_t travel : {INT64_C(0), INT64_MAX, INT64_MIN}) {
+    EXPECT_EQ(here.at(travel), 0);
+    EXPECT_EQ(here.steps_until_change(travel, +1), std::nullopt);
+    EXPECT_EQ(here.steps_until_change(travel, -1), std::nullopt);
+  }
+}
+
+TEST(Surroundings, AZoneIncludesBothItsEnds) {
+  Surroundings here;
+  here.add(Signal::home, -3, 2);
+  EXPECT_EQ(here.at(-4), 0);
+  EXPECT_EQ(here.at(-3), bit(Signal::home));
+  EXPECT_EQ(here.at(2), bit(Signal::home));
+  EXPECT_EQ(here.at(3), 0);
+  EXPECT_EQ(here.steps_until_change(-5, +1), 2);
+  EXPECT_EQ(here.steps_until_change(-3, +1), 6);
+  EXPECT_EQ(here.steps_until_change(-3, -1), 1);
+  EXPECT_EQ(here.steps_until_change(3, +1), std::nullopt);
+  EXPECT_EQ(here.steps_until_change(3, -1), 1);
+  EXPECT_EQ(here.steps_until_change(-4, -1), std::nullopt);
+}
+
+TEST(Surroundings, AZoneThatEndsBeforeItBeginsIsNowhere) {
+  Surroundings here;
+  here.add(Signal::home, 3, 2);
+  EXPECT_EQ(here.at(2), 0);
+  EXPECT_EQ(here.at(3), 0);
+  EXPECT_EQ(here.steps_until_change(0, +1), std::nullopt);
+}
+
+TEST(Surroundings, ZonesMayReachToTheEndOfAllNumbers) {
+  Surroundings here;
+  here.add(Signal::limit_plus, 1'000, INT64_MAX);
+  here.add(Signal::limit_minus, INT64_MIN, -1'000);
+  EXPECT_EQ(here.at(INT64_MAX), bit(Signal::limit_plus));
+  EXPECT_EQ(here.at(INT64_MIN), bit(Signal::limit_minus));
+  EXPECT_EQ(here.steps_until_change(0, +1), 1'000);
+  EXPECT_EQ(here.steps_until_change(0, -1), 1'000);
+  EXPECT_EQ(here.steps_until_change(5'000, -1), 4'001);
+  EXPECT_EQ(here.steps_until_change(-5'000, +1), 4'001);
+  for (const std::int64_t travel : {INT64_C(-5'000), INT64_C(0), INT64_C(5'000)}) {
+    // What is said of a change that never comes must be too far to matter.
+    if (const auto up = here.steps_until_change(travel, +1); travel >= 1'000 && up) {
+      EXPECT_GT(*up, INT64_MAX / 2);
+    }
+    if (const auto down = here.steps_until_change(travel, -1); travel <= -1'000 && down) {
+      EXPECT_GT(*down, INT64_MAX / 2);
+    }
+  }
+}
+
+TEST(Surroundings, TheIndexComesOnceARevolutionOnEitherSideOfZero) {
+  Surroundings here;
+  here.index_period = 100;
+  here.index_at = 7;
+  here.index_width = 3;
+  for (std::int64_t turn = -3; turn <= 3; ++turn) {
+    const std::int64_t mark = 7 + 100 * turn;
+    EXPECT_EQ(here.at(mark - 1), 0) << mark;
+    EXPECT_EQ(here.at(mark), bit(Signal::index)) << mark;
+    EXPECT_EQ(here.at(mark + 2), bit(Signal::index)) << mark;
+    EXPECT_EQ(here.at(mark + 3), 0) << mark;
+    EXPECT_EQ(here.steps_until_change(mark - 1, +1), 1);
+    EXPECT_EQ(here.steps_until_change(mark, +1), 3);
+    EXPECT_EQ(here.steps_until_change(mark + 3, +1), 97);
+    EXPECT_EQ(here.steps_until_change(mark + 3, -1), 1);
+    EXPECT_EQ(here.steps_until_change(mark + 2, -1), 3);
+    EXPECT_EQ(here.steps_until_change(mark - 1, -1), 97);
+  }
+}
+
+TEST(Surroundings, AnIndexAsWideAsItsPeriodNeverChangesAndOneOfNoWidthNeverIs) {
+  Surroundings here;
+  here.index_period = 10;
+  here.index_width = 10;
+  EXPECT_EQ(here.at(-123), bit(Signal::index));
+  EXPECT_EQ(here.steps_until_change(0, +1), std::nullopt);
+  here.index_width = 0;
+  EXPECT_EQ(here.at(-123), 0);
+  EXPECT_EQ(here.steps_until_change(0, -1), std::nullopt);
+}
+
+TEST(Surroundings, EveryChangeRaisesTheVersion) {
+  Surroundings here;
+  here.add(Signal::home, 1, 2);
+  EXPECT_EQ(here.version, 1U);
+  here.set_steady(Signal::alarm, true);
+  EXPECT_EQ(here.version, 2U);
+  EXPECT_EQ(here.at(0), bit(Signal::alarm));
+  here.set_steady(Signal::alarm, false);
+  EXPECT_EQ(here.version, 3U);
+  EXPECT_EQ(here.at(0), 0);
+}
+
+TEST(Surroundings, RefuseANinthZoneAndStayAsTheyWere) {
+  Surroundings here;
+  for (int i = 0; i < 8; ++i) here.add(Signal::mark, 10 * i, 10 * i + 4);
+  const Surroundings before = here;
+  EXPECT_THROW(here.add(Signal::mark, 100, 110), BadMotion);
+  EXPECT_EQ(here, before);
+}
+
+TEST(Surroundings, AreWhatLookingAtEveryPulseGives) {
+  RandomMoves random(seed());
+  for (int i = 0; i < random_cases(400); ++i) {
+    Surroundings here;
+    const std::int64_t zones = random.between(0, 8);
+    for (std::int64_t zone = 0; zone < zones; ++zone) {
+      const std::int64_t from = random.between(-30, 30);
+      here.add(static_cast<Signal>(random.between(0, kSignals - 1)), from, from + random.between(-2, 15));
+    }
+    here.index_period = random.between(0, 1) * random.between(1, 20);
+    here.index_at = random.between(-50, 50);
+    here.index_width = random.between(0, 5);
+    for (std::int64_t travel = -60; travel <= 60; ++travel) {
+      ASSERT_EQ(here.at(travel), by_hand(here, travel)) << code(here) << " at " << travel;
+      for (const int direction : {+1, -1}) {
+        // May be cautious, never late: until then nothing changes, and on from there it finds the change.
+        const std::optional<std::int64_t> change = change_by_hand(here, travel, direction);
+        std::int64_t steps = 0;
+        int looks = 0;
+        while (by_hand(here, travel + direction * steps) == by_hand(here, travel)) {
+          const auto more = here.steps_until_change(travel + direction * steps, direction);
+          if (!more || ++looks > 50) break;
+          ASSERT_GE(*more, 1);
+          for (std::int64_t between = 1; between < *more; ++between) {
+            ASSERT_EQ(by_hand(here, travel + direction * (steps + between)), by_hand(here, travel))
+                << code(here) << " at " << travel << ", " << direction;
+          }
+          steps += *more;
+        }
+        if (change) {
+          ASSERT_EQ(steps, *change) << code(here) << " at " << travel << ", " << direction;
+        }
+      }
+    }
+  }
+}
+
+TEST(Surroundings, OfOneSignalEachAreToldToThePulse) {
+  RandomMoves random(seed());
+  for (int i = 0; i < random_cases(300); ++i) {
+    Surroundings here;
+    for (const Signal signal : {Signal::limit_plus, Signal::limit_minus, Signal::home, Signal::mark}) {
+      const std::int64_t from = random.between(-30, 30);
+      here.add(signal, from, from + random.between(0, 20));
+    }
+    // Changes that cancel out do not occur: each signal has one zone.
+    for (std::int64_t travel = -60; travel <= 60; ++travel) {
+      ASSERT_EQ(here.steps_until_change(travel, +1), change_by_hand(here, travel, +1))
+          << code(here) << travel;
+      ASSERT_EQ(here.steps_until_change(travel, -1), change_by_hand(here, travel, -1))
+          << code(here) << travel;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace understudy::motion
