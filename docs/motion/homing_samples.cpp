@@ -1,0 +1,78 @@
+#include "docs/motion/homing_samples.h"
+
+#include <fstream>
+
+#include "motion/axis.h"
+#include "motion/homing_tables.h"
+
+namespace understudy::docs {
+
+namespace {
+
+using namespace understudy::motion;
+
+constexpr std::int64_t kHomeFrom = 6000;
+constexpr std::int64_t kHomeTo = 9000;
+constexpr std::int64_t kLimit = 15000;
+
+SpeedLaw speed(double top_pps) {
+  return {.start_speed_u_s = 100,
+          .top_speed_u_s = top_pps,
+          .up = RampLaw::by_slope(100000),
+          .down = RampLaw::by_slope(100000)};
+}
+
+/// A machine with a home switch, a limit beyond it on both sides, and an index each 2000 pulses.
+Surroundings machine() {
+  Surroundings here;
+  here.add(Signal::near_home, 4000, 9000);
+  here.add(Signal::home, kHomeFrom, kHomeTo);
+  here.add(Signal::limit_plus, kLimit, 100000);
+  here.add(Signal::limit_minus, -100000, -4000);
+  here.index_period = 2000;
+  here.index_at = 500;
+  return here;
+}
+
+/// time s, travel, phase; every other tick until it stands.
+void trace(std::ofstream& file, const HomingProgram& program) {
+  const Surroundings here = machine();
+  Axis axis;
+  AxisSettings settings;
+  settings.needs_servo = false;
+  settings.at_limit_plus = settings.at_limit_minus = Reaction::slow_down;
+  axis.set(settings);
+  axis.step(0, here);
+  axis.home(program, 0);
+  for (Tick tick = 1; axis.moving() && tick < 20000; ++tick) {
+    if (tick % 4 == 1) {
+      file << static_cast<double>(tick) / kTicksPerSecond << ' ' << axis.travel_pulses << ' '
+           << static_cast<int>(axis.homing.phase) << '\n';
+    }
+    axis.step(tick, here);
+  }
+  file << "\n\n";
+}
+
+}  // namespace
+
+void write_homing_samples(const std::filesystem::path& folder) {
+  std::ofstream super(folder / "homing_super40nc.dat");
+  for (int mode = 0; mode <= 12; ++mode) {
+    trace(super, super40nc_homing({.mode = mode,
+                                   .way = +1,
+                                   .fast = speed(12000),
+                                   .creep = speed(3000),
+                                   .index_count = 2,
+                                   .offset_pulses = 0}));
+  }
+  std::ofstream others(folder / "homing_others.dat");
+  trace(others,
+        rsm8194h_homing(
+            {.ways = {+1, +1, -1, +1}, .drive = speed(12000), .home = speed(3000), .offset_pulses = 1500}));
+  trace(others, simple2_homing({.way = +1, .speed = speed(12000)}));
+  trace(others, simple2_homing({.way = -1, .speed = speed(12000)}));
+  trace(others, slim_homing({.way = +1, .jog = speed(12000)}));
+}
+
+}  // namespace understudy::docs
