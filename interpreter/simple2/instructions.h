@@ -153,6 +153,22 @@ inline constexpr std::array<Instruction, 115> kInstructions{{
     {0xFF, "END", Operand::none, Operand::none},
 }};
 
+/// Nothing where the manual lists no instruction.
+constexpr const Instruction* find_instruction(std::uint8_t opcode) {
+  for (const Instruction& instruction : kInstructions) {
+    if (instruction.opcode == opcode) return &instruction;
+  }
+  return nullptr;
+}
+
+/// In the manual's spelling; a compile error if there is no such instruction.
+consteval std::uint8_t opcode_of(std::string_view mnemonic) {
+  for (const Instruction& instruction : kInstructions) {
+    if (instruction.mnemonic == mnemonic) return instruction.opcode;
+  }
+  throw "the manual has no such instruction";
+}
+
 /// What an operand is, for people: "DIN number (0-10)".
 std::string_view describe(Operand operand);
 

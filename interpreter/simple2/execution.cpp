@@ -1,0 +1,120 @@
+#include "interpreter/simple2/execution.h"
+
+#include <algorithm>
+
+#include "interpreter/simple2/actions/table.h"
+
+namespace understudy::interpreter::simple2 {
+namespace {
+
+void finish(Execution& execution, Ending ending) {
+  execution = {.ending = ending, .now_line = execution.now_line};
+}
+
+bool waited_for_move_goes_on(const Execution& execution, const Machine& machine) {
+  return (execution.waits_for_a && machine.moving(Axis::a)) ||
+         (execution.waits_for_b && machine.moving(Axis::b));
+}
+
+void go_on_at(Execution& execution, int line, const Dialect& dialect) {
+  const bool wraps = dialect.after_last_line == Dialect::AfterLastLine::goes_on_at_0;
+  execution.next_line = static_cast<std::uint16_t>(wraps ? line % kLineCount : line);
+  const LoopState& loop = execution.loop;
+  const bool is_inside = execution.next_line >= loop.first_line && execution.next_line <= loop.loop_line;
+  if (loop.counts && !is_inside && dialect.loop_left == Dialect::LoopLeft::forgotten) execution.loop = {};
+}
+
+void execute_line(Execution& execution, std::int64_t now_ms, const Program& program, const Dialect& dialect,
+                  Machine& machine) {
+  const int number = execution.next_line;
+  if (number >= kLineCount) return finish(execution, Ending::past_last_line);
+  execution.now_line = static_cast<std::uint8_t>(number);
+
+  const Line& line = program.line(number);
+  const Action action = kActions[line.command];
+  if (action == nullptr) {
+    if (dialect.unknown_command == Dialect::UnknownCommand::ends) {
+      return finish(execution, Ending::unknown_command);
+    }
+    return go_on_at(execution, number + 1, dialect);
+  }
+  Step step{.line = line,
+            .line_number = number,
+            .now_ms = now_ms,
+            .execution = execution,
+            .program = program,
+            .dialect = dialect,
+            .machine = machine};
+  switch (action(step)) {
+    case Then::next_line: return go_on_at(execution, number + 1, dialect);
+    case Then::line_after_next: return go_on_at(execution, number + 2, dialect);
+    case Then::flag: return go_on_at(execution, step.flag_line(), dialect);
+    case Then::same_line: return go_on_at(execution, number, dialect);
+    case Then::end: return finish(execution, Ending::end_instruction);
+    case Then::end_for_nested_loop: return finish(execution, Ending::nested_loop);
+  }
+}
+
+/// Whether the next line has been executed and would do no more than wait on, as long as the machine stays as
+/// it is.
+bool would_wait_on(const Execution& execution, const Program& program, const Dialect& dialect,
+                   const Machine& machine) {
+  if (execution.next_line != execution.now_line) return false;
+  const Line& line = program.line(execution.now_line);
+  const auto stays = [&](Then then) { return then == Then::same_line; };
+  switch (line.command) {
+    case opcode_of("Wait_IO"): return !wait_io_is_over(line, machine);
+    case opcode_of("Wait_Move_A"): return stays(after_wait_move<Axes::a>(line, program, dialect, machine));
+    case opcode_of("Wait_Move_B"):
+      return !dialect.quirk_wait_move_b_is_move_inc_b_wait &&
+             stays(after_wait_move<Axes::b>(line, program, dialect, machine));
+    case opcode_of("Wait_Move_ALL"):
+      return stays(after_wait_move<Axes::all>(line, program, dialect, machine));
+    default: return false;
+  }
+}
+
+}  // namespace
+
+void start(Execution& execution, std::uint8_t line) {
+  execution = {.running = true, .now_line = line, .next_line = line};
+}
+
+void stop(Execution& execution) {
+  if (execution.running) finish(execution, Ending::stopped);
+}
+
+void step(Execution& execution, std::int64_t now_ms, const Program& program, const Dialect& dialect,
+          Machine& machine) {
+  if (!execution.running) return;
+  switch (execution.phase) {
+    case Phase::line: break;
+    case Phase::delay:
+      if (now_ms < execution.delay_until_ms) return;
+      execution.phase = Phase::line;
+      execution.delay_until_ms = 0;
+      break;
+    case Phase::move:
+      if (waited_for_move_goes_on(execution, machine)) return;
+      execution.phase = Phase::line;
+      execution.waits_for_a = false;
+      execution.waits_for_b = false;
+      return;  // the slot in which the move is found over still belongs to its line
+  }
+  execute_line(execution, now_ms, program, dialect, machine);
+}
+
+std::int64_t next_active_slot_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
+                                 const Dialect& dialect, const Machine& machine) {
+  if (!execution.running) return kNoSlot;
+  const auto first_slot_from = [](std::int64_t ms) { return (ms + kSlotMs - 1) / kSlotMs * kSlotMs; };
+  const std::int64_t next = first_slot_from(done_ms + 1);
+  switch (execution.phase) {
+    case Phase::delay: return std::max(next, first_slot_from(execution.delay_until_ms));
+    case Phase::move: return waited_for_move_goes_on(execution, machine) ? kNoSlot : next;
+    case Phase::line: return would_wait_on(execution, program, dialect, machine) ? kNoSlot : next;
+  }
+  return next;
+}
+
+}  // namespace understudy::interpreter::simple2

@@ -1,0 +1,49 @@
+// A Simple2-R3 program as text and back, without loss: any 1024 cells survive disassemble() and assemble().
+//
+//         Delay_mSec 1500          ; an instruction a line, in the manual's spelling, upper or lower case
+//         alike
+// again:  Out DOUT_0 ON            ; a label: some flag that is free, 1 to 64
+//         VAR_DirectAdd MEM3 -5    ; parameters by the manual's aliases, or by number
+//         Wait_IO DIN_3, OFF       ; commas may stand between operands
+//         Loop again 3
+// JMP7:   Jump JMP9                ; JMP1 to JMP64: just this flag
+// @200    NOP                      ; the JMP cell itself, 0 to 255, whether it makes a flag or not
+//         Wait_Move_A @0           ; and as an operand: a flag that no line can have
+//         .at 40                   ; the number of the next line; lines between are NOP
+//         .line 0x0A 1 2 7         ; the four cells of a line: CMD DATA1 DATA2 JMP
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/simple2/program.h"
+
+namespace understudy::interpreter::simple2 {
+
+struct ListingError {
+  int line = 0;       // of the text, from 1
+  int column = 0;     // in bytes, from 1
+  std::string field;  // "label", "mnemonic", "operand 2", ".at", ".line"
+  std::string what;
+  std::string expected;
+
+  bool operator==(const ListingError&) const = default;
+};
+
+/// "4:9: operand 2: 'maybe' is not a level; expected ON or OFF".
+std::string to_string(const ListingError& error);
+
+struct Assembly {
+  std::optional<Lines> lines;        // only if there is no error
+  std::vector<ListingError> errors;  // all of them, in the order of the text
+};
+
+Assembly assemble(std::string_view text);
+
+/// Lines of nothing but zeros at the end are left out, longer runs of them elsewhere are stepped over by
+/// `.at`.
+std::string disassemble(const Lines& lines);
+
+}  // namespace understudy::interpreter::simple2

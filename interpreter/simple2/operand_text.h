@@ -1,0 +1,47 @@
+// Operands as a listing writes them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/simple2/instructions.h"
+#include "interpreter/simple2/program.h"
+
+namespace understudy::interpreter::simple2 {
+
+/// One operand of the text: one cell, or the two cells of a 16-bit amount.
+struct OperandField {
+  Operand kind;
+  bool is_data1;
+};
+
+/// What a listing writes after the mnemonic. A 16-bit amount is the field of its low half.
+std::vector<OperandField> operand_fields(const Instruction& instruction);
+
+/// Signed where the manual gives -32768 to 32767.
+bool amount_is_signed(const Instruction& instruction);
+
+struct ParsedOperand {
+  int value = 0;
+  std::string problem;  // empty if there is none
+};
+
+/// Every kind but flags, which depend on labels, and amounts.
+ParsedOperand parse_operand(Operand kind, std::string_view text);
+ParsedOperand parse_amount(bool is_signed, std::string_view text);
+/// A whole number, decimal or 0x or 0b, within limits.
+ParsedOperand parse_number(std::string_view text, int min, int max);
+
+/// What an operand may be, for people: "ON or OFF".
+std::string expected_operand(Operand kind);
+std::string expected_amount(bool is_signed);
+
+/// Nothing if the cell holds what this kind cannot be.
+std::optional<std::string> operand_text(Operand kind, std::uint8_t cell);
+/// "JMP7", or "@200" for what is no flag.
+std::string flag_text(std::uint8_t cell);
+
+}  // namespace understudy::interpreter::simple2
