@@ -158,9 +158,7 @@ void PathRun::replan(Tick now) {
   const bool stands = seconds(from - begin_tick_) >= profile_.duration_s;
   if (here.speed_u_s == 0 && stands) from = std::max(from, now + 1);
   if (held()) {
-    SpeedLaw slowing = law_;
-    slowing.top_speed_u_s = std::max(slowing.top_speed_u_s, here.speed_u_s);
-    profile_ = slow_to_stop(here, slowing);
+    profile_ = slow_to_stop(here, law_);
     profile_.cut_at(chain_end_u_);
   } else {
     const SpeedLaw law = effective();

@@ -159,6 +159,9 @@ TEST(StateRefusal, WhatATypeCannotHoldIsRefusedByName) {
   Follower follower;
   follower.denominator = 0;
   EXPECT_TRUE(refuses(Follower{}, save(follower)));
+  Axis axis;
+  axis.homing.program.phase_count = 1;  // a row whose speed was never given
+  EXPECT_TRUE(refuses(Axis{}, save(axis)));
   Coordinated group;
   group.axis_of[0] = -2;
   EXPECT_TRUE(refuses(Coordinated{}, save(group)));
