@@ -3,6 +3,7 @@
 build_packages=(g++ cmake ninja-build ccache pkg-config libcli11-dev libmodbus-dev libspdlog-dev
                 libyaml-cpp-dev nlohmann-json3-dev libgtest-dev libeigen3-dev)
 host_packages=(mbpoll)
+test_packages=(dpkg-dev file man-db)  # for the package and its man page
 
 # install_missing PACKAGE...: says what is missing and installs that; silent when nothing is.
 install_missing() {

@@ -55,6 +55,7 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
 void Line::nothing_more(SimTime now) {
   if (input_count_ > 0) return;  // the rest is still on the wire
   for (const Member& member : members_) member.station->hear_nothing_more();
+  if (observer_ != nullptr) observer_->on_nothing_more();
   run(now);
 }
 
@@ -98,6 +99,9 @@ Line::Event Line::next_event() const {
   };
   // What is offered first wins at equal times.
   if (!is_instant()) offer_input();
+  if (observer_ != nullptr) {
+    if (const auto at = observer_->due()) offer(What::observer, *at, 0);
+  }
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (const auto at = members_[i].station->due()) offer(What::station, *at, i);
   }
@@ -128,6 +132,7 @@ void Line::handle(const Event& event) {
   switch (event.what) {
     case What::nothing: break;
     case What::character_in: deliver_character(); break;
+    case What::observer: observer_->run(clock_); break;
     case What::station: run_station(event.member); break;
     case What::character_out: {
       const std::uint8_t value = leaving_[leaving_first_].value;
@@ -179,7 +184,9 @@ void Line::begin_character(SimTime at) {
       member.station->hear_start_bit(at);
     }
   }
-  if (deaf > 0 && deaf == members_.size()) ++counters_.bytes_unheard;
+  is_heard_ = deaf == 0 || deaf < members_.size();
+  if (!is_heard_) ++counters_.bytes_unheard;
+  if (observer_ != nullptr && !is_instant()) observer_->on_start_bit(at);
 }
 
 /// A character has wholly arrived; the next one, if there is any, begins at that very moment.
@@ -190,6 +197,7 @@ void Line::deliver_character() {
   for (const Member& member : members_) {
     if (!member.is_deaf) member.station->hear(byte);
   }
+  if (observer_ != nullptr) observer_->on_character(byte, is_heard_);
   if (input_count_ > 0) begin_character(input_[input_first_].start);
 }
 
@@ -206,15 +214,20 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   const bool is_new = is_instant() || clock_ >= member.speech.end;
   // A station that keeps talking faster than the wire carries must not run ahead of it without bound.
   const SimTime latest = clock_ + options_.settings.duration_of(kOutputCapacity);
+  SimTime first_start = clock_;
   SimTime first_end = clock_;
   bool has_collided = false;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     if (member.speech.end >= latest) {
       counters_.bytes_discarded += bytes.size() - i;
+      bytes = bytes.first(i);
       break;
     }
     const TimedByte character = place(member.speech, bytes[i], clock_);
-    if (i == 0) first_end = character.end;
+    if (i == 0) {
+      first_start = character.start;
+      first_end = character.end;
+    }
     if (!is_anybody_listening) continue;  // it takes the wire's time all the same
     if (is_instant()) {
       leave_wire(character.value);
@@ -225,6 +238,9 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   if (is_new && !member.noticed_at) {
     member.noticed_at = first_end;
     ++notices_;
+  }
+  if (observer_ != nullptr && !bytes.empty()) {
+    observer_->on_speech({bytes, first_start, has_collided, is_anybody_listening});
   }
   if (!has_collided) return;
   ++counters_.collisions;

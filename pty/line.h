@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pty/line_observer.h"
 #include "pty/line_settings.h"
 #include "pty/station.h"
 
@@ -54,6 +55,8 @@ class Line {
 
   /// The station must outlive the line. Stations hear, and speak, in the order of attaching.
   void attach(Station& station);
+  /// Tells `observer` what goes over the wire, as long as the line lives; null: nobody.
+  void set_observer(LineObserver* observer) { observer_ = observer; }
 
   // --- the host's side -----------------------------------------------------------------------
   /// How many bytes receive() takes at this moment; the rest must wait in the pty (bounded buffers).
@@ -86,8 +89,9 @@ class Line {
   // --- time ----------------------------------------------------------------------------------
   std::optional<SimTime> due() const;
   /// Does everything that is due at `now` or earlier, in the order of time. At equal times: characters
-  /// that arrive, stations in the order of attaching, characters that leave. With Timing::instant the
-  /// stations come before the next character, so that requests in one lump are served one by one.
+  /// that arrive, the observer, stations in the order of attaching, characters that leave. With
+  /// Timing::instant the stations come before the next character, so that requests in one lump are served one
+  /// by one.
   void run(SimTime now);
 
   const std::string& name() const { return name_; }
@@ -108,7 +112,7 @@ class Line {
     std::optional<SimTime> noticed_at{};  // when the others hear that it talks
   };
   class Voice;
-  enum class What : std::uint8_t { nothing, character_in, station, character_out, notice };
+  enum class What : std::uint8_t { nothing, character_in, observer, station, character_out, notice };
   struct Event {
     What what = What::nothing;
     SimTime at{0};
@@ -135,6 +139,7 @@ class Line {
   std::function<void(const std::string&)> warn_;
   LineCounters counters_;
   std::vector<Member> members_;
+  LineObserver* observer_ = nullptr;
   SimTime clock_{0};  // of the last event
 
   bool is_host_open_ = true;
@@ -151,6 +156,7 @@ class Line {
   std::size_t input_first_ = 0;
   std::size_t input_count_ = 0;
   Burst arriving_;
+  bool is_heard_ = true;  // the character that arrives, by a station at least
 
   // Stations to host: characters on the wire, in the order of time, from `leaving_first_` on; then bytes
   // that wait to be taken, from `output_first_` on.

@@ -73,6 +73,13 @@ Verdict judge(std::span<const std::uint8_t> bytes, bool is_in_noise) {
 
 }  // namespace
 
+std::optional<std::size_t> rtu_request_size(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 2) return std::nullopt;
+  const LengthRule rule = rule_of(bytes[1]);
+  if (rule.fixed == 0 || bytes.size() <= rule.byte_count_at) return std::nullopt;
+  return rule.fixed + (rule.byte_count_at != 0 ? bytes[rule.byte_count_at] : std::size_t{0});
+}
+
 RtuFramer::RtuFramer(RtuFraming framing) : framing_(framing) {}
 
 SimTime RtuFramer::patience() const {
@@ -211,6 +218,12 @@ std::optional<SimTime> RtuFramer::due() const {
   }
   if (undecided_ == used_ || character_under_way_) return std::nullopt;
   return last_end_ + patience();
+}
+
+std::optional<std::uint64_t> RtuFramer::first_open_character() const {
+  if (ready_count_ > 0) return marks_[ready_[ready_first_].first].number;
+  if (undecided_ < used_) return marks_[undecided_].number;
+  return std::nullopt;
 }
 
 std::optional<RtuFrame> RtuFramer::take(SimTime now) {

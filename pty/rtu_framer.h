@@ -36,6 +36,10 @@ struct RtuFrame {
   std::uint64_t last_character = 0;  // its number
 };
 
+/// How long a request that begins with these bytes is, as its function and its byte count tell; nothing if
+/// they do not.
+std::optional<std::size_t> rtu_request_size(std::span<const std::uint8_t> bytes);
+
 class RtuFramer {
  public:
   explicit RtuFramer(RtuFraming framing = {});
@@ -57,6 +61,10 @@ class RtuFramer {
   /// At due() or later: the next good frame, or nothing (noise, bad checksum: dropped and counted).
   /// Call again while it returns a frame or due() is not later than now.
   std::optional<RtuFrame> take(SimTime now);
+
+  /// Number of the first character that is in a frame not taken yet, or may still become part of one;
+  /// nothing if there is none. What came before it was taken or dropped.
+  std::optional<std::uint64_t> first_open_character() const;
 
   /// Noise, wrong checksums, cut frames, and what did not fit; not what reset() forgot.
   std::uint64_t dropped_bytes() const { return dropped_; }

@@ -310,7 +310,7 @@ Bench parse_bench(const std::string& text, const std::string& name, const std::s
   }
 }
 
-Bench load_bench(const std::string& path) {
+Bench load_bench(const std::string& path, const std::string& links) {
   std::ifstream file(path);
   std::error_code ignored;
   if (!file || std::filesystem::is_directory(path, ignored)) {
@@ -318,7 +318,8 @@ Bench load_bench(const std::string& path) {
   }
   std::ostringstream text;
   text << file.rdbuf();
-  return parse_bench(text.str(), path, std::filesystem::path(path).parent_path().string());
+  return parse_bench(text.str(), path,
+                     links.empty() ? std::filesystem::path(path).parent_path().string() : links);
 }
 
 }  // namespace understudy::emulator

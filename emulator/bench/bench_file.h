@@ -14,8 +14,8 @@ struct BenchError : std::runtime_error {
   explicit BenchError(const std::string& text) : std::runtime_error(one_line(text)) {}
 };
 
-/// Links are made relative to the file's folder. Throws BenchError.
-Bench load_bench(const std::string& path);
+/// Links are relative to `links`, or else to the file's folder. Throws BenchError.
+Bench load_bench(const std::string& path, const std::string& links = "");
 
 /// The same from a text; `name` stands for the file in messages, links are relative to `folder`.
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder);

@@ -12,7 +12,7 @@ enum ExitCode : int {
   kExitWell = 0,
   kExitFailed = 1,      // a scenario or replay failed; a poll was refused or not answered
   kExitBadInput = 2,    // usage, file or configuration
-  kExitNoResource = 3,  // a port or socket could not be had
+  kExitNoResource = 3,  // a port, socket or capture could not be had
   kExitInternal = 4,
 };
 
@@ -37,11 +37,14 @@ struct ServeArguments {
   std::string firmware;
   std::optional<int> baud;
   std::string link;
+  std::string links;  // the folder for links that the bench leaves relative, or out
+  std::string group;
   std::string timing;
   bool strict_framing = false;
   bool ignore_baud = false;
   std::string speed = "real";
   std::string control;
+  std::string capture;
 };
 int serve(const ServeArguments& arguments);
 

@@ -11,6 +11,7 @@
 #include "emulator/control/server.h"
 #include "emulator/model.h"
 #include "emulator/one_line.h"
+#include "pty/capture_file.h"
 #include "pty/pseudo_terminal.h"
 
 namespace {
@@ -69,6 +70,10 @@ struct CommandLine {
     command->add_option("--baud", serve.baud, "Its line speed (with --model) [the factory's]");
     command->add_option("--link", serve.link, "Path of the link to its port (with --model) [a private one]")
         ->check(kNotEmpty);
+    command->add_option("--links", serve.links, "Folder for links that are relative, or that nobody named")
+        ->check(kNotEmpty);
+    command->add_option("--group", serve.group, "Group that may open the ports, such as dialout [none]")
+        ->check(kNotEmpty);
     command
         ->add_option("--timing", serve.timing,
                      "wire: bytes take their time; instant: none [wire, or the bench's]")
@@ -80,6 +85,11 @@ struct CommandLine {
     command->add_option("--speed", serve.speed, "real, free, manual, or a factor such as 10x")
         ->capture_default_str();
     command->add_option("--control", serve.control, "Path of the control socket [a private one]")
+        ->check(kNotEmpty);
+    command
+        ->add_option(
+            "--capture", serve.capture,
+            "Write what goes over the lines to this file: FILE.pcapng for Wireshark, else a text log")
         ->check(kNotEmpty);
     command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
   }
@@ -202,6 +212,8 @@ int main(int argc, char** argv) {
   } catch (const understudy::pty::PortError& error) {
     return complain(error, kExitNoResource);
   } catch (const ControlError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const understudy::pty::CaptureError& error) {
     return complain(error, kExitNoResource);
   } catch (const std::system_error& error) {
     return complain(error, kExitNoResource);

@@ -1,11 +1,8 @@
 #include <signal.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include "emulator/bench/bench_file.h"
 #include "emulator/command_line/commands.h"
@@ -13,6 +10,8 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/device.h"
 #include "emulator/edge/daemon.h"
+#include "emulator/edge/port_group.h"
+#include "emulator/edge/readiness.h"
 
 namespace understudy::emulator {
 
@@ -40,8 +39,9 @@ Bench bench_of_one(const ServeArguments& arguments) {
     }
   }
   bench.devices.push_back(device);
-  bench.lines.push_back(
-      {.name = "line", .link = arguments.link, .baud = device.settings.baud, .stations = {0}});
+  std::string link = arguments.link;
+  if (!link.empty()) link = (std::filesystem::path(arguments.links) / link).string();
+  bench.lines.push_back({.name = "line", .link = link, .baud = device.settings.baud, .stations = {0}});
   return bench;
 }
 
@@ -55,29 +55,36 @@ Bench make_bench(const ServeArguments& arguments) {
     throw UsageError(
         "serve: --station, --firmware, --baud and --link belong to --model; a bench file says them itself");
   }
-  Bench bench = arguments.bench.empty() ? bench_of_one(arguments) : load_bench(arguments.bench);
+  Bench bench =
+      arguments.bench.empty() ? bench_of_one(arguments) : load_bench(arguments.bench, arguments.links);
+  for (LineSetup& line : bench.lines) {
+    if (!arguments.links.empty() && line.link.empty())
+      line.link = arguments.links + "/" + line.name + ".port";
+  }
   if (!arguments.timing.empty()) {
     for (LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
   }
   return bench;
 }
 
-/// systemd's readiness protocol: a datagram to the socket that NOTIFY_SOCKET names.
-void notify_service_manager(const char* state) {
-  const char* const path = std::getenv("NOTIFY_SOCKET");
-  if (path == nullptr || (path[0] != '/' && path[0] != '@')) return;
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  const std::size_t length = std::strlen(path);
-  if (length >= sizeof(address.sun_path)) return;
-  std::memcpy(address.sun_path, path, length);
-  if (address.sun_path[0] == '@') address.sun_path[0] = '\0';  // an abstract socket
-  const int descriptor = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) return;
-  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + length);
-  sendto(descriptor, state, std::strlen(state), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),
-         size);
-  close(descriptor);
+std::string demand_capture(const ServeArguments& arguments) {
+  const std::string& path = arguments.capture;
+  if (path.ends_with(".pcap")) {
+    throw UsageError("--capture: " + path +
+                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+  }
+  std::error_code no_such_file;
+  if (!arguments.bench.empty() && std::filesystem::equivalent(path, arguments.bench, no_such_file)) {
+    throw UsageError("--capture: " + path + ": is the bench itself; expected a path of its own");
+  }
+  return path;
+}
+
+std::optional<gid_t> demand_group(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const auto group = find_group(name);
+  if (!group) throw UsageError("--group: '" + name + "' is unknown; expected a group such as dialout");
+  return group;
 }
 
 }  // namespace
@@ -88,16 +95,20 @@ int serve(const ServeArguments& arguments) {
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
+  options.capture_path = demand_capture(arguments);
   const auto speed = parse_speed(arguments.speed);
   if (!speed) {
     throw UsageError("--speed: '" + arguments.speed +
                      "' is unknown; expected real, free, manual or a factor such as 10x");
   }
   options.speed = *speed;
+  const auto group = demand_group(arguments.group);
 
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
+  signal(SIGXFSZ, SIG_IGN);  // a capture that may not grow further ends, the devices go on
   Daemon daemon(bench, options, log_line);
   for (const auto& port : daemon.ports()) {
+    if (group) share_port(port->terminal().path(), *group);
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
                 port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }

@@ -48,11 +48,14 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
     if (asked_for) throw;
     log_(std::string("no control socket: ") + error.what() + " (--control SOCKET gives this one its own)");
   }
+  // Last: a run that cannot start leaves the capture of the one before alone.
+  if (!options.capture_path.empty()) start_capture(options.capture_path);
 }
 
 Daemon::~Daemon() {
   control_.reset();
   ports_.clear();
+  finish_capture();
   if (signals_ >= 0) close(signals_);
 }
 
@@ -76,6 +79,26 @@ void Daemon::make_ports(const Bench& bench) {
     if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
     ports_.push_back(std::make_unique<Port>(loop_, world_, i, link, [this] { catch_up(); }));
   }
+}
+
+void Daemon::start_capture(const std::string& path) {
+  std::vector<pty::CapturedLine> lines;
+  for (const auto& port : ports_) {
+    const pty::Line& line = world_.line(port->line_number()).line;
+    lines.push_back({line.name(), line.options().settings.baud});
+  }
+  capture_ = std::make_unique<pty::CaptureFile>(path, std::move(lines), log_);
+  for (std::size_t i = 0; i < ports_.size(); ++i) {
+    World::OneLine& line = world_.line(ports_[i]->line_number());
+    captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
+        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); }));
+    line.line.set_observer(captured_lines_.back().get());
+  }
+}
+
+void Daemon::finish_capture() {
+  for (const auto& line : captured_lines_) line->finish();
+  if (capture_) capture_->finish();
 }
 
 void Daemon::catch_up() {

@@ -14,6 +14,8 @@
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/world/world.h"
+#include "pty/capture_file.h"
+#include "pty/capture_frames.h"
 
 namespace understudy::emulator {
 
@@ -22,11 +24,12 @@ struct DaemonOptions {
   bool strict_framing = false;
   bool enforce_settings = true;
   std::string control_path;  // empty: the default one, if it is free
+  std::string capture_path;  // empty: no capture
 };
 
 class Daemon {
  public:
-  /// Opens everything, or throws what says why not (SettingError, PortError, ControlError).
+  /// Opens everything, or throws what says why not (SettingError, PortError, ControlError, CaptureError).
   Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log);
   ~Daemon();
   Daemon(const Daemon&) = delete;
@@ -53,6 +56,8 @@ class Daemon {
  private:
   void watch_signals();
   void make_ports(const Bench& bench);
+  void start_capture(const std::string& path);
+  void finish_capture();
   void judge_stall();
   void work_towards(SimTime target);
   void work_on_advance();
@@ -62,6 +67,8 @@ class Daemon {
   EventLoop loop_;
   std::function<void(const std::string&)> log_;
   World world_;
+  std::unique_ptr<pty::CaptureFile> capture_;
+  std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;

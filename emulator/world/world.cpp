@@ -19,7 +19,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     pty::LineOptions line_options{.settings = devices_[setup.stations.front()]->line_settings(),
                                   .timing = setup.timing,
                                   .enforce_settings = options.enforce_settings};
-    lines_.push_back(std::make_unique<OneLine>(OneLine{pty::Line(setup.name, line_options, log), {}}));
+    lines_.push_back(std::make_unique<OneLine>(OneLine{pty::Line(setup.name, line_options, log), {}, {}}));
     OneLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {
       // Without wire time there is no silence to wait for, unless silence alone ends a frame.
@@ -28,6 +28,7 @@ World::World(const Bench& bench, const WorldOptions& options,
           .strict = options.strict_framing,
           .silence = no_silence ? SimTime{0} : devices_[number]->model().rtu.end_silence,
           .patience = options.patience};
+      if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
       line.stations.push_back(std::make_unique<RtuStation>(*devices_[number], framing));
       line.line.attach(*line.stations.back());
     }

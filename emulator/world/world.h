@@ -51,6 +51,7 @@ class World {
   struct OneLine {
     pty::Line line;
     std::vector<std::unique_ptr<RtuStation>> stations;
+    pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
   };
   OneLine& line(std::size_t number) { return *lines_[number]; }
   const OneLine& line(std::size_t number) const { return *lines_[number]; }

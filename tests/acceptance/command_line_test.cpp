@@ -40,6 +40,8 @@ const std::vector<BadUsage> kBadUsages = {
     {"SpeedZero", {"serve", "--model", "simple2-r3", "--speed", "0"}, "manual"},
     {"SpeedNegative", {"serve", "--model", "simple2-r3", "--speed", "-2x"}, "manual"},
     {"SpeedInfinite", {"serve", "--model", "simple2-r3", "--speed", "inf"}, "manual"},
+    {"GroupUnknown", {"serve", "--model", "simple2-r3", "--group", "no-such-group"}, "dialout"},
+    {"LinksFolderMissing", {"serve", "--model", "simple2-r3", "--links", "{}/none"}, "existing", 3},
     {"TimingUnknown", {"serve", "--model", "simple2-r3", "--timing", "slow"}, "instant"},
     {"ControlPathTooLong", {"serve", "--model", "simple2-r3", "--control", "{}/{120}"}, "characters", 3},
     {"BenchMissing", {"serve", "{}/missing.yaml"}, "missing.yaml"},

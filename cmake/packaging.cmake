@@ -1,0 +1,67 @@
+# `cmake --install build/release --prefix P`, and `cpack` in build/release for a Debian package.
+include(GNUInstallDirs)
+
+set(UNDERSTUDY_MAINTAINER "Understudy maintainers <maintainers@understudy.invalid>" CACHE STRING
+    "Whom the Debian package names as its maintainer")
+set(UNDERSTUDY_DEBIAN_REVISION 1)
+
+# The package holds this component. The licence's text is one of its own: Debian has it already.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME understudy)
+
+set(packaging ${CMAKE_CURRENT_LIST_DIR}/../packaging)
+set(scenarios_folder ${CMAKE_INSTALL_DATADIR}/understudy/scenarios)
+
+install(TARGETS understudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} PATTERN "*.port" EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+
+# Pages and pictures only; install(DIRECTORY) would leave empty folders where there are none.
+file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+     ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg)
+foreach(page IN LISTS pages)
+  cmake_path(GET page PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
+
+# What names the prefix, which is known at the installation only.
+install(CODE "
+  set(PACKAGING [[${packaging}]])
+  set(STAGING [[${PROJECT_BINARY_DIR}/packaging]])
+  set(PROGRAM [[$<TARGET_FILE:understudy>]])
+  set(VERSION ${PROJECT_VERSION})
+  set(DEBIAN_VERSION ${PROJECT_VERSION}-${UNDERSTUDY_DEBIAN_REVISION})
+  set(MAINTAINER [[${UNDERSTUDY_MAINTAINER}]])
+  set(PROGRAMS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR})
+  set(MANUALS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1)
+  set(DOCUMENTATION \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR})
+  set(SCENARIOS \${CMAKE_INSTALL_PREFIX}/${scenarios_folder})
+  # systemd looks here below /usr and /usr/local, whatever the libraries' folder is called.
+  set(UNITS \${CMAKE_INSTALL_PREFIX}/lib/systemd/system)")
+install(SCRIPT ${packaging}/install_generated.cmake)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME understudy)
+set(CPACK_PACKAGE_CONTACT ${UNDERSTUDY_MAINTAINER})
+set(CPACK_COMPONENTS_ALL understudy)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PROJECT_CONFIG_FILE ${packaging}/demand_debian_tools.cmake)
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${UNDERSTUDY_DEBIAN_REVISION})
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "mbpoll, wireshark")
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${packaging}/postinst ${packaging}/prerm ${packaging}/postrm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "firmware-faithful emulator of industrial motion controllers")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Host software that drives a motion controller over a serial line (an
+operator panel, a PLC, a test bench) opens a pseudo-terminal instead and
+meets the same registers, the same frames, the same exceptions, and the
+same motion to the millisecond and the pulse.
+.
+The systemd service understudy@NAME serves the bench /etc/understudy/NAME.yaml.")
+include(CPack)

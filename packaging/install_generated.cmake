@@ -1,0 +1,20 @@
+# Run at the installation (cmake/packaging.cmake sets what is used here): writes what names the prefix or
+# comes from the program itself, and installs it.
+file(MAKE_DIRECTORY "${STAGING}")
+
+# zip(FILE FOLDER): installs it compressed, without time or name, so that equal input gives equal bytes.
+function(zip file folder)
+  execute_process(COMMAND gzip -9nf "${file}" COMMAND_ERROR_IS_FATAL ANY)
+  file(INSTALL "${file}.gz" DESTINATION "${folder}")
+endfunction()
+
+execute_process(COMMAND sh "${PACKAGING}/manual.sh" "${PROGRAM}" "${PACKAGING}/understudy.1.in"
+                OUTPUT_FILE "${STAGING}/understudy.1.in" COMMAND_ERROR_IS_FATAL ANY)
+configure_file("${STAGING}/understudy.1.in" "${STAGING}/understudy.1" @ONLY)
+zip("${STAGING}/understudy.1" "${MANUALS}")
+
+configure_file("${PACKAGING}/changelog.in" "${STAGING}/changelog.Debian" @ONLY)
+zip("${STAGING}/changelog.Debian" "${DOCUMENTATION}")
+
+configure_file("${PACKAGING}/understudy@.service.in" "${STAGING}/understudy@.service" @ONLY)
+file(INSTALL "${STAGING}/understudy@.service" DESTINATION "${UNITS}")

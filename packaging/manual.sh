@@ -1,0 +1,93 @@
+#!/bin/sh
+# manual.sh UNDERSTUDY TEMPLATE: writes the man page to standard output.
+# The commands and flags are what `UNDERSTUDY --help` and each command's --help say, so they cannot drift
+# apart; they take the place of @COMMANDS@ in the template.
+set -eu
+understudy=$1
+template=$2
+
+# The help of one command, given as words, as roff; then that of its own commands.
+page_of() {
+  help=$("$understudy" "$@" --help)
+  [ $# -eq 0 ] || printf '%s\n' "$help" | awk -v command="$*" '
+    function roff(text) {  # so that no character of it means something to roff
+      gsub(/\\/, "\\e", text)
+      gsub(/-/, "\\-", text)
+      gsub(/\047/, "\\(aq", text)
+      gsub(/"/, "\\(dq", text)
+      return text
+    }
+    function prose(text,   word) {  # `words` in bold
+      text = roff(text)
+      while (match(text, /`[^`]*`/)) {
+        word = substr(text, RSTART + 1, RLENGTH - 2)
+        text = substr(text, 1, RSTART - 1) "\\fB" word "\\fR" substr(text, RSTART + RLENGTH)
+      }
+      return "\\&" text
+    }
+    function flush() {
+      if (entry == "") return
+      if (standard != "") description = description " [" standard "]"
+      print ".TP\n" entry "\n" prose(description)
+      entry = ""
+    }
+    # "--speed TEXT=real" or "MODEL TEXT REQUIRED": the name, what kind of value, and the one it has without
+    function begin(text,   words, count, i) {
+      flush()
+      count = split(text, words, " ")
+      standard = ""
+      entry = section == "Options" ? "\\fB" roff(words[1]) "\\fR" : "\\fI" roff(words[1]) "\\fR"
+      for (i = 2; i <= count; ++i) {
+        if (words[i] ~ /=/) {
+          standard = substr(words[i], index(words[i], "=") + 1)
+          words[i] = substr(words[i], 1, index(words[i], "=") - 1)
+        }
+        if (words[i] == "REQUIRED" || section == "Positionals" && words[i] != "...") continue
+        entry = entry " \\fI" roff(words[i]) "\\fR"
+      }
+      description = ""
+    }
+    NR == 1 { headline = $0; sub(/\.$/, "", headline); next }
+    NR == 2 && sub(/^Usage: /, "") {
+      print ".SS \"" roff($0) "\""
+      print prose(headline) "."
+      next
+    }
+    /^$/ { next }
+    /^(Positionals|Options|Subcommands):$/ { flush(); section = substr($0, 1, length($0) - 1); next }
+    section == "Subcommands" { next }
+    /^  -h,--help / { skipped = 1; next }  # every command has it
+    /^  [^ ]/ {
+      skipped = 0
+      sub(/^  /, "")
+      if (match($0, /  +/)) {
+        name = substr($0, 1, RSTART - 1)
+        rest = substr($0, RSTART + RLENGTH)
+      } else {
+        name = $0
+        rest = ""
+      }
+      begin(name)
+      description = rest
+      next
+    }
+    /^     +[^ ]/ {  # the description of a long entry goes on
+      sub(/^ +/, "")
+      if (!skipped) description = description (description == "" ? "" : " ") $0
+      next
+    }
+    { print "manual.sh: " command ": this line of help has no known form: " $0 > "/dev/stderr"; exit 1 }
+    END { flush() }'
+  for name in $(printf '%s\n' "$help" | sed -n '/^Subcommands:$/,$s/^  \([a-z][a-z-]*\) .*/\1/p'); do
+    page_of "$@" "$name"
+  done
+}
+
+commands=$(mktemp)
+trap 'rm -f "$commands"' EXIT
+page_of >"$commands"
+[ -s "$commands" ]
+sed "/^@COMMANDS@\$/{
+r $commands
+d
+}" "$template"

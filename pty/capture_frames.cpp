@@ -1,0 +1,110 @@
+#include "pty/capture_frames.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "pty/rtu_crc.h"
+
+namespace understudy::pty {
+namespace {
+
+// Dropped characters that follow each other become one packet, of so many bytes at most.
+constexpr std::size_t kLongestNoise = kRtuMaxFrame;
+// More than a framer can hold, so all of them are dropped: strict framing has so many open in a lump that is
+// too long for a frame.
+constexpr std::size_t kMostWaiting = 5 * kRtuMaxFrame;
+
+Remark why_dropped(std::span<const std::uint8_t> bytes) {
+  const auto size = rtu_request_size(bytes);
+  if (size ? bytes.size() < *size : bytes.size() < kRtuMinFrame) return Remark::incomplete;
+  if (size != bytes.size()) return Remark::not_a_frame;
+  return rtu_crc_ok(bytes) ? Remark::none : Remark::wrong_checksum;
+}
+
+}  // namespace
+
+CaptureFrames::CaptureFrames(std::size_t line, RtuFraming framing, Sink sink)
+    : line_(line), sink_(std::move(sink)), framer_(framing) {}
+
+void CaptureFrames::on_start_bit(SimTime at) {
+  framer_.start_bit(at);
+  give_what_was_dropped();
+}
+
+void CaptureFrames::on_character(const TimedByte& character, bool is_heard) {
+  if (is_heard != is_heard_) {
+    finish();  // the host has changed its speed
+    is_heard_ = is_heard;
+  }
+  waiting_.push_back(character);
+  framer_.push(character);
+  give_what_was_dropped();
+}
+
+void CaptureFrames::on_nothing_more() {
+  framer_.give_up_waiting();
+  give_what_was_dropped();
+}
+
+void CaptureFrames::on_speech(const Speech& speech) {
+  const Remark remark = speech.has_collided  ? Remark::collided
+                        : speech.is_for_host ? Remark::none
+                                             : Remark::to_nobody;
+  sink_({line_, Way::to_host, speech.start, speech.bytes, remark});
+}
+
+void CaptureFrames::run(SimTime now) {
+  for (auto at = due(); at && *at <= now; at = due()) {
+    const auto frame = framer_.take(now);
+    if (!frame) continue;
+    const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const TimedByte& character) {
+      return character.number == frame->last_character;
+    });
+    if (last == waiting_.end()) continue;  // given up before it came to this
+    const auto end = static_cast<std::size_t>(last - waiting_.begin()) + 1;
+    if (end < frame->size) continue;
+    give_dropped(end - frame->size);
+    give_packet(frame->size, Remark::none);
+  }
+  give_what_was_dropped();
+}
+
+void CaptureFrames::finish() {
+  framer_.give_up_waiting();
+  run(SimTime::max());
+  give_dropped(waiting_.size());
+  framer_.reset();
+}
+
+/// What the framer has dropped so far, once it is plain that nothing more belongs to it.
+void CaptureFrames::give_what_was_dropped() {
+  const auto open = framer_.first_open_character();
+  const auto first_open =
+      open ? std::find_if(waiting_.begin(), waiting_.end(),
+                          [&](const TimedByte& character) { return character.number >= *open; })
+           : waiting_.end();
+  const auto dropped = static_cast<std::size_t>(first_open - waiting_.begin());
+  if (!open || dropped >= kLongestNoise) give_dropped(dropped);
+  if (waiting_.size() >= kMostWaiting) give_dropped(waiting_.size());
+}
+
+void CaptureFrames::give_dropped(std::size_t count) {
+  for (; count > 0; count -= std::min(count, kLongestNoise)) {
+    std::array<std::uint8_t, kLongestNoise> bytes;
+    const std::size_t size = std::min(count, kLongestNoise);
+    for (std::size_t i = 0; i < size; ++i) bytes[i] = waiting_[i].value;
+    give_packet(size, why_dropped(std::span(bytes).first(size)));
+  }
+}
+
+/// The first `count` characters that wait, kRtuMaxFrame at most.
+void CaptureFrames::give_packet(std::size_t count, Remark remark) {
+  std::array<std::uint8_t, kRtuMaxFrame> bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;
+  sink_({line_, Way::from_host, waiting_.front().start, std::span(bytes).first(count),
+         is_heard_ ? remark : Remark::unheard});
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace understudy::pty

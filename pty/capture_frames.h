@@ -1,0 +1,45 @@
+// Makes packets of what goes over one line: requests as a station frames them, replies as stations say
+// them, and what was dropped. It frames with a framer of its own, so that a line with many stations still
+// gives each request once.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "pty/capture.h"
+#include "pty/line_observer.h"
+#include "pty/rtu_framer.h"
+
+namespace understudy::pty {
+
+class CaptureFrames final : public LineObserver {
+ public:
+  using Sink = std::function<void(const CapturedPacket&)>;
+
+  /// `framing`: as the line's stations have it; of different silences the shortest.
+  CaptureFrames(std::size_t line, RtuFraming framing, Sink sink);
+
+  void on_start_bit(SimTime at) override;
+  void on_character(const TimedByte& character, bool is_heard) override;
+  void on_nothing_more() override;
+  void on_speech(const Speech& speech) override;
+  std::optional<SimTime> due() const override { return framer_.due(); }
+  void run(SimTime now) override;
+
+  /// Nothing more will come: what waits for its end is a packet now.
+  void finish();
+
+ private:
+  void give_packet(std::size_t count, Remark remark);
+  void give_dropped(std::size_t count);
+  void give_what_was_dropped();
+
+  std::size_t line_;
+  Sink sink_;
+  RtuFramer framer_;
+  std::vector<TimedByte> waiting_;  // characters that are in no packet yet
+  bool is_heard_ = true;            // all of them
+};
+
+}  // namespace understudy::pty

@@ -1,0 +1,165 @@
+#include "pty/capture_pcapng.h"
+
+#include <string_view>
+
+namespace understudy::pty {
+namespace {
+
+// Blocks and options of pcapng (draft-ietf-opsawg-pcapng).
+constexpr std::uint32_t kSectionHeader = 0x0A0D0D0A;
+constexpr std::uint32_t kInterfaceDescription = 1;
+constexpr std::uint32_t kEnhancedPacket = 6;
+constexpr std::uint32_t kByteOrderMagic = 0x1A2B3C4D;
+
+constexpr std::uint16_t kEndOfOptions = 0;
+constexpr std::uint16_t kComment = 1;
+constexpr std::uint16_t kApplication = 4;  // of a section
+constexpr std::uint16_t kName = 2;         // of an interface
+constexpr std::uint16_t kSpeed = 8;        // bits a second
+constexpr std::uint16_t kTimeResolution = 9;
+constexpr std::uint16_t kFlags = 2;  // of a packet
+constexpr std::uint16_t kDropCount = 4;
+
+constexpr std::uint32_t kInbound = 1;
+constexpr std::uint32_t kOutbound = 2;
+constexpr std::uint32_t kChecksumError = 1U << 24;
+constexpr std::uint32_t kTooShort = 1U << 26;
+
+// "Wireshark upper PDU": big-endian tags, then the bytes for the dissector that they name.
+constexpr std::uint16_t kUpperPdu = 252;
+constexpr std::uint16_t kEndOfTags = 0;
+constexpr std::uint16_t kDissector = 12;
+constexpr std::uint16_t kPortType = 24;
+constexpr std::uint16_t kSourcePort = 25;
+constexpr std::uint16_t kDestinationPort = 26;
+constexpr std::uint32_t kTcp = 2;
+
+template <typename Number>
+void put(std::string& to, Number number) {
+  for (std::size_t i = 0; i < sizeof(Number); ++i) to += static_cast<char>(number >> (8 * i));
+}
+
+template <typename Number>
+void put_big_endian(std::string& to, Number number) {
+  for (std::size_t i = sizeof(Number); i-- > 0;) to += static_cast<char>(number >> (8 * i));
+}
+
+/// Everything but the numbers inside a block is filled up to 32 bits.
+void put_padded(std::string& to, std::string_view bytes) {
+  to += bytes;
+  to.append((4 - bytes.size() % 4) % 4, '\0');
+}
+
+void put_option(std::string& to, std::uint16_t code, std::string_view value) {
+  put(to, code);
+  put(to, static_cast<std::uint16_t>(value.size()));
+  put_padded(to, value);
+}
+
+template <typename Number>
+void put_number_option(std::string& to, std::uint16_t code, Number number) {
+  std::string value;
+  put(value, number);
+  put_option(to, code, value);
+}
+
+/// A block whose length, at its beginning and its end, is known when it is complete.
+class Block {
+ public:
+  Block(std::string& file, std::uint32_t type) : file_(file), start_(file.size()) {
+    put(file_, type);
+    put(file_, std::uint32_t{0});
+  }
+  ~Block() {
+    put_option(file_, kEndOfOptions, "");
+    std::string length;
+    put(length, static_cast<std::uint32_t>(file_.size() - start_ + sizeof(std::uint32_t)));
+    file_ += length;
+    file_.replace(start_ + sizeof(std::uint32_t), length.size(), length);
+  }
+  Block(const Block&) = delete;
+  Block& operator=(const Block&) = delete;
+
+ private:
+  std::string& file_;
+  std::size_t start_;
+};
+
+void put_number_tag(std::string& to, std::uint16_t tag, std::uint32_t number) {
+  put_big_endian(to, tag);
+  put_big_endian(to, std::uint16_t{sizeof(number)});
+  put_big_endian(to, number);
+}
+
+/// What is no frame is shown as bytes; a whole request with a wrong checksum is worth a look inside.
+std::string_view padded_dissector_of(const CapturedPacket& packet) {
+  using namespace std::string_view_literals;
+  const bool is_frame = packet.remark != Remark::incomplete && packet.remark != Remark::not_a_frame;
+  return is_frame ? "mbrtu\0\0\0"sv : "data"sv;
+}
+
+void put_tags(std::string& to, const CapturedPacket& packet) {
+  const auto host_port = static_cast<std::uint32_t>(packet.line + 1);
+  const bool is_from_host = packet.way == Way::from_host;
+  const std::string_view dissector = padded_dissector_of(packet);
+  put_big_endian(to, kDissector);
+  put_big_endian(to, static_cast<std::uint16_t>(dissector.size()));
+  to += dissector;
+  put_number_tag(to, kPortType, kTcp);
+  put_number_tag(to, kSourcePort, is_from_host ? host_port : kPcapngStationPort);
+  put_number_tag(to, kDestinationPort, is_from_host ? kPcapngStationPort : host_port);
+  put_big_endian(to, kEndOfTags);
+  put_big_endian(to, std::uint16_t{0});
+}
+
+std::uint32_t flags_of(const CapturedPacket& packet) {
+  std::uint32_t flags = packet.way == Way::from_host ? kInbound : kOutbound;
+  if (packet.remark == Remark::wrong_checksum) flags |= kChecksumError;
+  if (packet.remark == Remark::incomplete) flags |= kTooShort;
+  return flags;
+}
+
+}  // namespace
+
+void append_pcapng_head(std::string& file, std::span<const CapturedLine> lines) {
+  {
+    const Block block(file, kSectionHeader);
+    put(file, kByteOrderMagic);
+    put(file, std::uint16_t{1});  // version 1.0
+    put(file, std::uint16_t{0});
+    put(file, ~std::uint64_t{0});  // the section's length is not known
+    put_option(file, kComment,
+               "Times are simulated, since power-up. To tell requests from replies: -o mbrtu.tcp.port:" +
+                   std::to_string(kPcapngStationPort));
+    put_option(file, kApplication, "understudy");
+  }
+  for (const CapturedLine& line : lines) {
+    const Block block(file, kInterfaceDescription);
+    put(file, kUpperPdu);
+    put(file, std::uint16_t{0});
+    put(file, std::uint32_t{0});  // packets are never cut
+    put_option(file, kName, line.name);
+    put_number_option(file, kSpeed, static_cast<std::uint64_t>(line.baud));
+    put_number_option(file, kTimeResolution, std::uint8_t{9});  // nanoseconds
+  }
+}
+
+void append_pcapng_packet(std::string& file, const CapturedPacket& packet, std::uint64_t lost_before) {
+  std::string data;
+  put_tags(data, packet);
+  data.append(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
+
+  const Block block(file, kEnhancedPacket);
+  const auto time = static_cast<std::uint64_t>(packet.time.count());
+  put(file, static_cast<std::uint32_t>(packet.line));
+  put(file, static_cast<std::uint32_t>(time >> 32));
+  put(file, static_cast<std::uint32_t>(time));
+  put(file, static_cast<std::uint32_t>(data.size()));  // captured,
+  put(file, static_cast<std::uint32_t>(data.size()));  // and on the wire
+  put_padded(file, data);
+  if (packet.remark != Remark::none) put_option(file, kComment, text_of(packet.remark));
+  put_number_option(file, kFlags, flags_of(packet));
+  if (lost_before > 0) put_number_option(file, kDropCount, lost_before);
+}
+
+}  // namespace understudy::pty

@@ -1,0 +1,33 @@
+#include "pty/capture_text.h"
+
+#include <string_view>
+
+namespace understudy::pty {
+
+void append_text_head(std::string& file) {
+  file += "# simulated seconds, in (from the host) or out, line, bytes, # remark\n";
+}
+
+void append_text_packet(std::string& file, std::span<const CapturedLine> lines, const CapturedPacket& packet,
+                        std::uint64_t lost_before) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  file += std::to_string(packet.time.count() / kSecond);
+  file += '.';
+  file += std::to_string(packet.time.count() % kSecond + kSecond).substr(1);
+  file += packet.way == Way::from_host ? " in  " : " out ";
+  file += lines[packet.line].name;
+  for (const std::uint8_t byte : packet.bytes) {
+    file += ' ';
+    file += kDigits[byte >> 4];
+    file += kDigits[byte & 0x0F];
+  }
+  if (packet.remark != Remark::none) (file += "  # ") += text_of(packet.remark);
+  if (lost_before > 0) {
+    file += packet.remark == Remark::none ? "  # " : "; ";
+    file += std::to_string(lost_before) + " packets are missing before this one";
+  }
+  file += '\n';
+}
+
+}  // namespace understudy::pty

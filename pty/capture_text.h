@@ -1,0 +1,22 @@
+// A capture as text, one line a packet:
+//
+//   0.005333333 out rs485 01 03 02 C0 01 29 84  # remark
+//
+// simulated seconds since power-up, `in` (from the host) or `out`, the line's name, the bytes. Pure.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "pty/capture.h"
+
+namespace understudy::pty {
+
+void append_text_head(std::string& file);
+
+/// `lost_before`: packets of the same line that are missing before this one.
+void append_text_packet(std::string& file, std::span<const CapturedLine> lines, const CapturedPacket& packet,
+                        std::uint64_t lost_before);
+
+}  // namespace understudy::pty

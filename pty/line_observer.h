@@ -1,0 +1,40 @@
+// Who watches a line without being on it: told what goes over the wire, never answering, so that the line
+// and its stations do the same with and without one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "pty/station.h"
+
+namespace understudy::pty {
+
+/// One transmission of a station.
+struct Speech {
+  std::span<const std::uint8_t> bytes;  // as the station said them
+  SimTime start{0};                     // of the first character
+  bool has_collided = false;            // ran into what another station was saying
+  bool is_for_host = true;              // false: no host is there to read it
+};
+
+class LineObserver {
+ public:
+  virtual ~LineObserver() = default;
+
+  /// A character from the host has begun; on_character() follows. Only where characters take time.
+  virtual void on_start_bit(SimTime at) = 0;
+  /// A character from the host is over. `is_heard`: by a station at least.
+  virtual void on_character(const TimedByte& character, bool is_heard) = 0;
+  /// Nothing more has come for a while although the clock stands (Station::hear_nothing_more).
+  virtual void on_nothing_more() = 0;
+  /// A station has begun to talk.
+  virtual void on_speech(const Speech& speech) = 0;
+
+  /// When run() wants to be called next. At equal times it comes before the stations, so that what they
+  /// answer follows what they were asked.
+  virtual std::optional<SimTime> due() const = 0;
+  virtual void run(SimTime now) = 0;
+};
+
+}  // namespace understudy::pty

@@ -1,0 +1,210 @@
+// What `cmake --install` and `cpack` make: it runs from where it was put, and says of itself what is true.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "tests/acceptance/modbus_host.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+bool is_here(const std::string& program) { return run({"which", program}).exit_code == 0; }
+
+/// Every command's words, from `understudy` itself ({}) down to `ctl resume`.
+void collect_commands(const Words& command, std::vector<Words>& all) {
+  all.push_back(command);
+  Words asking = command;
+  asking.emplace_back("--help");
+  bool in_commands = false;
+  for (const std::string& line : lines_of(understudy(asking).output)) {
+    std::smatch found;
+    if (in_commands && std::regex_search(line, found, std::regex("^  ([a-z-]+) "))) {
+      Words sub = command;
+      sub.push_back(found[1]);
+      collect_commands(sub, all);
+    }
+    if (line == "Subcommands:") in_commands = true;
+  }
+}
+
+class Installation : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Finished installed = run({CMAKE_PROGRAM, "--install", BUILD_FOLDER, "--prefix", prefix()});
+    ASSERT_EQ(installed.exit_code, 0) << installed.output << installed.errors;
+  }
+
+  std::string prefix() const { return folder_ / "prefix"; }
+  std::string program() const { return prefix() + "/bin/understudy"; }
+  std::string page() const { return prefix() + "/share/man/man1/understudy.1.gz"; }
+  std::string unit() const { return contents(prefix() + "/lib/systemd/system/understudy@.service"); }
+  const PrivateFolder& folder() const { return folder_; }
+
+ private:
+  PrivateFolder folder_;
+};
+
+TEST_F(Installation, RunsFromWhereItIs) {
+  const Finished models = run({program(), "models"});
+  EXPECT_EQ(models.exit_code, 0) << models.errors;
+  EXPECT_EQ(models.output, understudy({"models"}).output);
+  EXPECT_NE(models.output.find("simple2-r3"), std::string::npos);
+}
+
+TEST_F(Installation, BringsBenchesThatAreValidAndPagesThatReadmeLinksTo) {
+  for (const auto& bench : fs::directory_iterator(prefix() + "/share/understudy/scenarios")) {
+    if (bench.path().extension() != ".yaml") continue;
+    const Finished checked = run({program(), "check", bench.path()});
+    EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  }
+  const std::string documentation = prefix() + "/share/doc/understudy/";
+  const std::string readme = contents(documentation + "README.md");
+  const std::regex link("\\]\\((docs/[^)#]+)\\)");
+  for (std::sregex_iterator it(readme.begin(), readme.end(), link), end; it != end; ++it)
+    EXPECT_TRUE(fs::exists(documentation + (*it)[1].str())) << (*it)[1];
+  EXPECT_TRUE(fs::exists(documentation + "LICENSE"));
+  EXPECT_TRUE(fs::exists(documentation + "copyright"));
+}
+
+TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
+  std::string text = run({"zcat", page()}).output;
+  for (const auto& [roff, plain] : {std::pair<const char*, const char*>{"\\\\-", "-"},
+                                    {"\\\\f[BIR]", ""},
+                                    {"\\\\\\(aq", "'"},
+                                    {"\\\\\\(dq", "\""},
+                                    {"\\\\&", ""},
+                                    {"`", ""}})
+    text = std::regex_replace(text, std::regex(roff), plain);
+  std::vector<Words> commands;
+  collect_commands({}, commands);
+  EXPECT_GT(commands.size(), 10U);
+  for (Words command : commands) {
+    command.emplace_back("--help");
+    for (const std::string& line : lines_of(understudy(command).output)) {
+      std::smatch found;
+      if (line.starts_with("Usage: ") && command.size() > 1) {
+        EXPECT_NE(text.find(line.substr(7)), std::string::npos) << line;
+      }
+      if (!std::regex_match(line, found, std::regex("  (-\\S+|[A-Z]\\S*) .*?  +(\\S.*)"))) continue;
+      if (found[1] == "-h,--help" || found[1] == "--version") continue;  // of all, of none
+      const std::string explained = std::regex_replace(found[2].str(), std::regex("`"), "");
+      EXPECT_NE(text.find(found[1].str()), std::string::npos) << line;
+      EXPECT_NE(text.find(explained), std::string::npos) << line;
+    }
+  }
+  EXPECT_EQ(text.find('@' + std::string("COMMANDS")), std::string::npos);
+  EXPECT_NE(text.find(understudy({"--version"}).output.substr(0, 5)), std::string::npos);
+}
+
+TEST_F(Installation, HasAManPageThatIsSetWithoutWarnings) {
+  if (!is_here("man")) GTEST_SKIP() << "man is not installed";
+  const Finished set = run({"man", "--warnings", "-l", page()}, {{"LC_ALL", "C.UTF-8"}, {"MANPAGER", "cat"}});
+  EXPECT_EQ(set.exit_code, 0);
+  EXPECT_EQ(set.errors, "");
+  EXPECT_NE(set.output.find("understudy serve [OPTIONS] [BENCH]"), std::string::npos) << set.output;
+}
+
+/// A relative link and none at all: the folder of the bench may be one that a user cannot write to.
+TEST_F(Installation, ServesAShippedBenchWithItsLinksElsewhere) {
+  fs::create_directory(folder() / "links");
+  Process daemon({program(), "serve", prefix() + "/share/understudy/scenarios/quickstart.yaml", "--links",
+                  folder() / "links", "--control", folder() / "control"});
+  ASSERT_TRUE(eventually([&] { return daemon.output().ends_with('\n'); })) << daemon.errors();
+  EXPECT_EQ(ModbusHost(folder() / "links/quickstart.port").read(kHardwareCode), Registers{0xC001});
+}
+
+/// What systemd does with the unit, in short: the specifiers, the variables, the words.
+Words start_command(const std::string& unit,
+                    const std::vector<std::pair<std::string, std::string>>& replaced) {
+  std::smatch found;
+  if (!std::regex_search(unit, found, std::regex("\nExecStart=(.*)"))) return {};
+  std::istringstream line(found[1].str());
+  Words words;
+  for (std::string word; line >> word;) {
+    for (const auto& [mark, text] : replaced)
+      for (std::size_t at = 0; (at = word.find(mark, at)) != std::string::npos; at += text.size())
+        word.replace(at, mark.size(), text);
+    if (!word.empty()) words.push_back(word);
+  }
+  return words;
+}
+
+TEST_F(Installation, HasAUnitWhoseCommandServesABench) {
+  fs::create_directories(folder() / "run/understudy/feeder");
+  folder().write("feeder.yaml", R"(understudy: 1
+lines:
+  bus: { stations: [ { name: a, model: simple2-r3 } ] }
+)");
+  const std::string manager = folder() / "notify";
+  const pty::Descriptor listener(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  manager.copy(address.sun_path, sizeof(address.sun_path) - 1);
+  ASSERT_EQ(bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+
+  EXPECT_NE(unit().find("\nType=notify\n"), std::string::npos);
+  const Words command = start_command(unit(), {{"%t", folder() / "run"},
+                                               {"%i", "feeder"},
+                                               {"/etc/understudy", folder().path()},
+                                               {"$SERVE_FLAGS", ""},
+                                               {"dialout", std::to_string(getegid())}});
+  ASSERT_FALSE(command.empty());
+  EXPECT_EQ(command[0], program());
+  Process daemon(command, {{"NOTIFY_SOCKET", manager}});
+  std::array<char, 256> heard{};
+  ASSERT_TRUE(eventually([&] { return recv(listener.get(), heard.data(), heard.size(), 0) > 0; }))
+      << daemon.errors();
+  EXPECT_STREQ(heard.data(), "READY=1");
+  const std::string port = folder() / "run/understudy/feeder/bus.port";
+  EXPECT_EQ(fs::status(port).permissions(), fs::perms(0660)) << "open to the group";
+  EXPECT_EQ(ModbusHost(port).read(kHardwareCode), Registers{0xC001});
+}
+
+TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
+  if (!is_here("dpkg-shlibdeps") || !is_here("file")) GTEST_SKIP() << "dpkg-dev and file are not installed";
+  const PrivateFolder folder;
+  Process cpack(
+      {CPACK_PROGRAM, "--config", BUILD_FOLDER "/CPackConfig.cmake", "-G", "DEB", "-B", folder.path()});
+  ASSERT_EQ(cpack.wait(Wait(60'000)), 0) << cpack.output() << cpack.errors();
+  std::string package;
+  for (const auto& file : fs::directory_iterator(folder.path()))
+    if (file.path().extension() == ".deb") package = file.path();
+  ASSERT_NE(package, "") << cpack.output();
+
+  const std::string needed = run({"dpkg-deb", "-f", package, "Depends"}).output;
+  for (const char* library : {"libc6", "libstdc++6", "libmodbus5", "libyaml-cpp", "libspdlog"})
+    EXPECT_NE(needed.find(library), std::string::npos) << needed;
+  EXPECT_EQ(run({"dpkg-deb", "-f", package, "Package"}).output, "understudy\n");
+
+  ASSERT_EQ(run({"dpkg-deb", "-x", package, folder / "root"}).exit_code, 0);
+  EXPECT_EQ(run({folder / "root/usr/bin/understudy", "models"}).output, understudy({"models"}).output);
+  const std::string unit = contents(folder / "root/usr/lib/systemd/system/understudy@.service");
+  EXPECT_NE(unit.find("ExecStart=/usr/bin/understudy serve "), std::string::npos) << unit;
+  const std::string page = run({"zcat", folder / "root/usr/share/man/man1/understudy.1.gz"}).output;
+  EXPECT_NE(page.find("cp /usr/share/understudy/scenarios/quickstart.yaml"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "root/usr/share/doc/understudy/LICENSE")) << "Debian has it";
+
+  ASSERT_EQ(run({"dpkg-deb", "-e", package, folder / "control"}).exit_code, 0);
+  for (const char* script : {"postinst", "prerm", "postrm"})
+    EXPECT_EQ(run({"sh", "-n", folder / (std::string("control/") + script)}).exit_code, 0) << script;
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

@@ -1,0 +1,38 @@
+#include "pty/capture_text.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/pty/wire_examples.h"
+
+namespace understudy::pty {
+namespace {
+
+const std::vector<CapturedLine> kLines = {{"rs485", 19200}, {"rs232", 115200}};
+
+std::string line_of(const CapturedPacket& packet, std::uint64_t lost_before = 0) {
+  std::string text;
+  append_text_packet(text, kLines, packet, lost_before);
+  return text;
+}
+
+TEST(CaptureText, HasTimeWayLineAndBytes) {
+  const Bytes request = hex("01 03 00 01 00 01 D5 CA");
+  EXPECT_EQ(line_of({.line = 0, .way = Way::from_host, .time = SimTime{0}, .bytes = request}),
+            "0.000000000 in  rs485 01 03 00 01 00 01 D5 CA\n");
+  const Bytes reply = hex("01 03 02 C0 01 29 84");
+  EXPECT_EQ(line_of({.line = 1, .way = Way::to_host, .time = SimTime{12'005'333'333}, .bytes = reply}),
+            "12.005333333 out rs232 01 03 02 C0 01 29 84\n");
+}
+
+TEST(CaptureText, HasRemarksAndGaps) {
+  const Bytes noise = hex("FF 00");
+  CapturedPacket packet{.line = 0, .way = Way::from_host, .time = SimTime{1}, .bytes = noise};
+  EXPECT_EQ(line_of(packet, 3), "0.000000001 in  rs485 FF 00  # 3 packets are missing before this one\n");
+  packet.remark = Remark::not_a_frame;
+  EXPECT_EQ(line_of(packet), "0.000000001 in  rs485 FF 00  # dropped: not a frame\n");
+  EXPECT_EQ(line_of(packet, 3),
+            "0.000000001 in  rs485 FF 00  # dropped: not a frame; 3 packets are missing before this one\n");
+}
+
+}  // namespace
+}  // namespace understudy::pty
