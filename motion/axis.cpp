@@ -110,8 +110,10 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
   // Planned before anything changes, so that a motion that cannot be changes nothing.
   const Profile profile = what == Task::endless ? plan_endless(speed)
                                                 : plan(static_cast<double>(size_of(distance_pulses)), speed);
-  const bool reversal = last_direction != 0 && last_direction != way && settings.backlash_pulses > 0;
-  if (reversal) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
+  // A stop from its greatest speed must be possible as well: a reaction cannot refuse.
+  (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
+  const std::int64_t play = play_before(way);
+  if (play > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
   if (const Cause why_not = forbidden(way); why_not != Cause::none) return why_not;
 
   drop();
@@ -121,12 +123,13 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
   target_pulses = what == Task::move ? size_of(distance_pulses) : 0;
   cause = Cause::none;
   if (!for_homing) events_between |= bit(Event::started);
+  play_pulses = way > 0 ? settings.backlash_pulses - play : play;
   last_direction = static_cast<std::int8_t>(way);
   base_pulses = travel_pulses;
-  if (reversal) {
+  if (play > 0) {
     in_backlash = true;
     Profile extra;
-    const auto pulses = static_cast<double>(settings.backlash_pulses);
+    const auto pulses = static_cast<double>(play);
     extra.append(pulses / settings.backlash_speed_pps, settings.backlash_speed_pps, 0, 0);
     extra.end_exactly_at(pulses);
     drive.start(extra, way, at);
@@ -134,6 +137,13 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
     drive.start(profile, way, at);
   }
   return Cause::none;
+}
+
+/// How many pulses of play are in the way of a motion in `way`. Before the first motion nobody knows: none.
+std::int64_t Axis::play_before(int way) const {
+  if (last_direction == 0) return 0;
+  const std::int64_t play = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
+  return way > 0 ? settings.backlash_pulses - play : play;
 }
 
 Profile Axis::planned(const SpeedLaw& speed) const {
@@ -176,8 +186,15 @@ Cause Axis::hang(int way) {
   return Cause::none;
 }
 
+/// What forbids motion either way.
+Cause Axis::forbidden_anywhere() const {
+  const Cause why_not = forbidden(+1);
+  return why_not == Cause::servo_off || why_not == Cause::emergency || why_not == Cause::alarm ? why_not
+                                                                                               : Cause::none;
+}
+
 Cause Axis::take_part() {
-  if (settings.needs_servo && !servo_on) return Cause::servo_off;
+  if (const Cause why_not = forbidden_anywhere(); why_not != Cause::none) return why_not;
   drop();
   homing.phase = -1;
   task = Task::coordinated;
@@ -188,18 +205,28 @@ Cause Axis::take_part() {
 }
 
 void Axis::arrive() {
-  if (task == Task::coordinated) end(Cause::arrived, {.tick = 0});
+  if (task != Task::coordinated || settling) return;
+  if (settings.waits_for_in_position && (signals & bit(Signal::in_position)) == 0) {
+    settling = attentive = true;
+    return;
+  }
+  end(Cause::arrived, {.tick = 0});
 }
 
 Cause Axis::follow(const Follower& by) {
   by.check();
-  if (settings.needs_servo && !servo_on) return Cause::servo_off;
+  if (const Cause why_not = forbidden_anywhere(); why_not != Cause::none) return why_not;
   drop();
   homing.phase = -1;
   task = Task::following;
   cause = Cause::none;
   drive.direction = 0;  // until the first pulse: a limit behind the axis is no matter
-  follower = by;
+  follower = Follower{.numerator = by.numerator,
+                      .denominator = by.denominator,
+                      .period_ticks = by.period_ticks,
+                      .top_speed_pps = by.top_speed_pps,
+                      .slope_pps = by.slope_pps,
+                      .catches_up = by.catches_up};
   events_between |= bit(Event::started);
   return Cause::none;
 }
@@ -328,6 +355,10 @@ void Axis::react(Reaction reaction, Cause why, Instant at) {
   if (task == Task::none || reaction == Reaction::ignore) return;
   if (reaction == Reaction::slow_down && !in_backlash && (task == Task::move || task == Task::endless)) {
     slow(at, why);
+  } else if (reaction == Reaction::slow_down && task == Task::coordinated) {
+    // The path slows down, with all its axes: motion/coordinated.h sees to it.
+    if (!slowing) cause = why;
+    slowing = true;
   } else {
     end(why, at);
   }
@@ -344,11 +375,15 @@ void Axis::set(const AxisSettings& changed) {
   demand_not_negative(static_cast<double>(changed.backlash_pulses), "backlash", "pulses");
   if (changed.backlash_pulses > 0) demand_positive(changed.backlash_speed_pps, "backlash", "speed");
   settings = changed;
+  play_pulses = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
   attentive = true;
 }
 
 void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
-  Comparator& mine = comparators.at(number);
+  if (number >= comparators.size()) {
+    throw BadMotion(Refusal::out_of_range, "comparator", "number must be 0 to 3");
+  }
+  Comparator& mine = comparators[number];
   const bool same_question = mine.relation == comparator.relation && mine.count == comparator.count;
   const bool was_true = mine.was_true;
   mine = comparator;

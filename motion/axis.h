@@ -123,7 +123,9 @@ struct Axis {
   AxisSettings settings;
   std::array<Comparator, 4> comparators{};
   std::int64_t encoder_pulses = 0;    // as told by set_encoder()
+  std::int64_t encoder_seen = 0;      // up to where comparators have looked
   std::int64_t backlash_sent = 0;     // all extra pulses so far, signed by direction
+  std::int64_t play_pulses = 0;       // 0 .. backlash_pulses: how far in its play the axis is towards plus
   Signals signals = 0;                // as last seen
   Events events_between = 0;          // since the last tick
   std::array<Instant, 8> event_at{};  // of each comparator and mark event the last one, to the pulse
@@ -246,6 +248,9 @@ struct Axis {
   Cause begin(Task what, int way, std::int64_t distance_pulses, const SpeedLaw& speed, Instant at,
               bool for_homing = false);
   void go_on_by(const SpeedLaw& speed, Instant at);
+  std::int64_t play_before(int way) const;
+  Cause forbidden_anywhere() const;
+  void follow_encoder_count(Instant at);
   Profile planned(const SpeedLaw& speed) const;  // of the task from its beginning
   void drop();
   void slow(Instant at, Cause why);

@@ -27,7 +27,7 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
   seen_version = here.version;
   attentive = false;
   meet(here, at);
-  compare(Count::encoder, encoder_pulses, at);
+  follow_encoder_count(at);
 
   if (task == Task::following) {
     go_by(follower.step(), {.tick = tick}, here);
@@ -58,6 +58,7 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
 Instant Axis::take_up_backlash(Tick tick) {
   const std::int64_t sent = drive.pulses_at(tick);
   backlash_sent += (sent - drive.sent_pulses) * drive.direction;
+  play_pulses += (sent - drive.sent_pulses) * drive.direction;
   drive.sent_pulses = sent;
   const Instant until{.tick = tick};
   if (!drive.over_at(tick)) return until;
@@ -121,7 +122,9 @@ void Axis::go_by(std::int64_t wanted, Instant at, const Surroundings& here) {
     const auto& soft_limit = way > 0 ? settings.soft_limit_plus : settings.soft_limit_minus;
     const Cause why = forbidden(way);
     const bool soft = why == Cause::soft_limit_plus || why == Cause::soft_limit_minus;
-    return soft && travel_pulses == *soft_limit ? Cause::none : why;
+    if (soft && travel_pulses == *soft_limit) return Cause::none;
+    // On its way to a standstill by then.
+    return slowing && why != Cause::servo_off ? Cause::none : why;
   };
   if (against() != Cause::none) {
     // Against a limit a wheel turns in vain; a path cannot go on.
@@ -129,12 +132,14 @@ void Axis::go_by(std::int64_t wanted, Instant at, const Surroundings& here) {
     return;
   }
   drive.direction = way;
-  if (last_direction != 0 && last_direction != way) backlash_sent += settings.backlash_pulses * way;
+  backlash_sent += play_before(way) * way;
+  play_pulses = way > 0 ? settings.backlash_pulses : 0;
   last_direction = static_cast<std::int8_t>(way);
+  const bool too_fast = wanted * way > kMostInATick;
   while (wanted != 0 && task == carried_by && against() == Cause::none) {
     watch(here);
     const std::int64_t room = way > 0 ? watch_high - travel_pulses : travel_pulses - watch_low;
-    const std::int64_t now = std::min(wanted * way, room + 1);
+    const std::int64_t now = too_fast ? wanted * way : std::min(wanted * way, room + 1);
     travel_pulses += now * way;
     base_pulses = travel_pulses;
     wanted -= now * way;
@@ -153,6 +158,25 @@ void Axis::meet(const Surroundings& here, Instant at) {
   if (settings.soft_limit_minus && travel_pulses < *settings.soft_limit_minus && drive.direction < 0) {
     react(settings.at_soft_limit, Cause::soft_limit_minus, at);
   }
+}
+
+/// The encoder's count goes from where it was to where it is: comparators meet all that lies between.
+void Axis::follow_encoder_count(Instant at) {
+  const int way = encoder_pulses < encoder_seen ? -1 : +1;
+  // A jump that far is no motion: only its end counts.
+  constexpr std::int64_t kFarthestWalk = 100'000;
+  while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&
+         encoder_seen <= encoder_pulses + kFarthestWalk) {
+    std::int64_t steps = std::abs(encoder_pulses - encoder_seen);
+    for (const Comparator& mine : comparators) {
+      if (mine.count != Count::encoder) continue;
+      if (const auto change = mine.steps_until_change(encoder_seen, way)) steps = std::min(steps, *change);
+    }
+    encoder_seen += steps * way;
+    compare(Count::encoder, encoder_seen, at);
+  }
+  encoder_seen = encoder_pulses;
+  compare(Count::encoder, encoder_pulses, at);
 }
 
 void Axis::compare(Count count, std::int64_t value, Instant at) {

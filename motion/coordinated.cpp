@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "motion/bad_motion.h"
+
 namespace understudy::motion {
 
 namespace {
@@ -36,8 +38,11 @@ bool Coordinated::takes(std::size_t axis) const {
 Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
   for (const std::int8_t mine : axis_of) {
     const Axis* axis = axis_at(mine, axes);
-    if (axis != nullptr && axis->settings.needs_servo && !axis->servo_on) return Cause::servo_off;
+    if (axis == nullptr) continue;
+    const Cause why_not = axis->forbidden(+1);
+    if (why_not == Cause::servo_off || why_not == Cause::emergency || why_not == Cause::alarm) return why_not;
   }
+  for (Eigen::Index i = 0; i < kPathAxes; ++i) demand_finite(from[i], "coordinated motion", "its place");
   run.start(now);  // first: it may throw
   run.stand_at(from);
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
@@ -48,7 +53,7 @@ Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
     zero_pulses[i] = axis->travel_pulses - travel_at(i, from[static_cast<Eigen::Index>(i)]);
   }
   engaged = true;
-  cause = Cause::none;
+  cause = slowing_for = Cause::none;
   return Cause::none;
 }
 
@@ -68,20 +73,35 @@ void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surround
       // Stopped or begun otherwise between the ticks: it has its tick all the same.
       pulses[number] += axis->step(tick, here[number]);
     }
-    if (axis->task != Task::coordinated && ended_by == Cause::none) {
+    const bool arrived = axis->task == Task::none && axis->cause == Cause::arrived;
+    if (axis->task != Task::coordinated && !arrived && ended_by == Cause::none) {
       ended_by = axis->cause == Cause::none ? Cause::stopped : axis->cause;
     }
+    if (axis->task == Task::coordinated && axis->slowing) slow_down(tick, axis->cause);
   }
   if (ended_by != Cause::none) {
     stop(axes, ended_by);
+  } else if (slowing_for != Cause::none && run.at_rest(tick)) {
+    stop(axes, slowing_for);
   } else if (run.queued() == 0 && !run.paused() && !stays_engaged) {
+    bool settling = false;
     for (const std::int8_t mine : axis_of) {
-      if (Axis* axis = axis_at(mine, axes)) axis->arrive();
+      Axis* axis = axis_at(mine, axes);
+      if (axis == nullptr) continue;
+      axis->arrive();
+      settling = settling || axis->task == Task::coordinated;
     }
+    if (settling) return;
     engaged = false;
     cause = Cause::arrived;
     run.abandon();
   }
+}
+
+void Coordinated::slow_down(Tick now, Cause why) {
+  if (!engaged || slowing_for != Cause::none) return;
+  slowing_for = why;
+  run.pause(now);
 }
 
 void Coordinated::stop(std::span<Axis> axes, Cause why) {

@@ -26,7 +26,8 @@ struct Coordinated {
 
   // State.
   bool engaged = false;
-  Cause cause = Cause::none;  // of the last end
+  Cause cause = Cause::none;        // of the last end
+  Cause slowing_for = Cause::none;  // slowing down on the path, to stop for this
 
   bool operator==(const Coordinated&) const = default;
 
@@ -41,6 +42,9 @@ struct Coordinated {
   void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
+  /// Slows down on the path from now on, and ends there for `why`; the rest is abandoned. An axis whose
+  /// reaction is to slow down (to a limit, say) does the same to all.
+  void slow_down(Tick now, Cause why = Cause::stopped);
   /// No pulse after this, for all of them.
   void stop(std::span<Axis> axes, Cause why = Cause::stopped);
 

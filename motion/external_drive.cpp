@@ -18,6 +18,7 @@ DriveOrder watch_inputs(ExternalDrive& drive, bool plus_high, bool minus_high, b
   drive.plus_high = plus_high;
   drive.minus_high = minus_high;
 
+  if (drive.mode != ExternalDrive::Mode::continuous) drive.running = 0;
   switch (drive.mode) {
     case ExternalDrive::Mode::off: break;
     case ExternalDrive::Mode::multiply:

@@ -20,9 +20,26 @@ bool is_smooth(const Path& first, const Path& next, Joint joint) {
   return false;
 }
 
+/// The same place but for roundings.
+bool meets(const Point& end, const Point& begin) {
+  const double size = 1 + end.cwiseAbs().maxCoeff();
+  return (end - begin).cwiseAbs().maxCoeff() <= 1e-6 * size;
+}
+
 /// What a law cannot plan must come out when it is given, not in the tick in which a chain begins.
 void demand_plans(SpeedLaw law, double override_factor) {
   if (override_factor > 0) law.top_speed_u_s *= override_factor;
+  bool may_creep = law.slow_down_at_u || law.slow_down_offset_u > 0;
+  for (const double part : {1.0, 0.5, 0.1, 1e-3}) {
+    const double speed = part * law.top_speed_u_s;
+    may_creep = may_creep ||
+                (law.slow_down_reckoned_by &&
+                 ramp_distance(*law.slow_down_reckoned_by, speed, 0) > ramp_distance(law.down, speed, 0));
+  }
+  if (may_creep && law.start_speed_u_s <= 0) {
+    throw BadMotion(Refusal::not_positive, "path run",
+                    "start speed must be above 0 where slowing down may begin early, is 0");
+  }
   const Profile endless = plan_endless(law);
   constexpr double kLongest_u = 1e20;
   const double with_ramps_u =
@@ -42,6 +59,9 @@ const Path& PathRun::path_before(std::size_t number) {
 
 void PathRun::append(const Path& path, Joint joint, Tick now) {
   if (full()) throw BadMotion(Refusal::no_room, "path run", "at most 32 paths can be queued");
+  if (count_ > 0 && !meets(piece(count_ - 1).path.end, path.begin)) {
+    throw BadMotion(Refusal::out_of_range, "path run", "a path must begin where the one before it ends");
+  }
   const bool joined = count_ > 0 && is_smooth(path_before(count_), path, joint);
   const bool lengthens = joined && running_ && chain_count_ == count_ && chain_count_ > 0 &&
                          !(late_joint_ == LateJoint::from_rest && slowing_for_the_end(now));
@@ -89,8 +109,8 @@ void PathRun::set_override(double factor, Tick now) {
 void PathRun::start(Tick now) {
   check(law_);
   if (running_) return;
-  running_ = true;
   if (count_ > 0) lay_out_chain(now + 1);
+  running_ = true;
 }
 
 void PathRun::pause(Tick now) {

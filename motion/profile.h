@@ -37,7 +37,10 @@ struct Sample {
 
 /// Within this much of a whole pulse the pulse counts as reached: a few roundings of a position as large as
 /// the distance. More would send the last pulses of a slow, long ramp too early.
-constexpr double pulse_tolerance(double distance_u) { return 1e-12 + distance_u * 5e-16; }
+constexpr double pulse_tolerance(double distance_u) {
+  const double tolerance = 1e-12 + distance_u * 5e-16;
+  return tolerance < 0.25 ? tolerance : 0.25;
+}
 
 /// Where `segment` is `t_s` after its own beginning.
 Sample sample_segment(const Segment& segment, double t_s);

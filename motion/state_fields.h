@@ -57,8 +57,8 @@ struct StateFields {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
   }
   static void of(Like<Axis> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, ab, ac, ad] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, ab, ac, ad);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, ab, ac, ad, ae, af] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, ab, ac, ad, ae, af);
   }
   static void of(Like<SyncAction> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
@@ -74,7 +74,7 @@ struct StateFields {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
   static void of(Like<Coordinated> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
+    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
   }
   // clang-format on
 };

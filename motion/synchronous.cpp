@@ -65,7 +65,7 @@ void drive(const SyncTable& table, std::size_t number, Axis& axis, Tick now) {
       if (!axis.moving()) axis.move(distance, speed, now);
       break;
     case SyncAction::Drive::fixed_minus:
-      if (!axis.moving()) axis.move(-distance, speed, now);
+      if (!axis.moving()) axis.move(distance == INT64_MIN ? distance : -distance, speed, now);
       break;
     case SyncAction::Drive::endless_plus:
       if (!axis.moving()) axis.run(+1, speed, now);

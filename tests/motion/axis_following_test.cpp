@@ -129,6 +129,8 @@ TEST(AxisFollowing, AlarmServoOffAndComparatorEndIt) {
   EXPECT_EQ(course.axis.cause, Cause::alarm);
   EXPECT_FALSE(course.axis.moving());
   course.here.set_steady(Signal::alarm, false);
+  EXPECT_EQ(course.axis.follow({}), Cause::alarm) << "as last seen";
+  course.step();
   course.axis.follow({});
   course.step();
   course.axis.switch_servo(false);
@@ -241,7 +243,7 @@ TEST(AxisCarried, AlarmStopServoAndComparatorEndItWithTheirCause) {
   EXPECT_EQ(course.carry(5), 0);
   EXPECT_EQ(course.axis.cause, Cause::alarm);
   course.axis.set_comparator(
-      3, {.relation = Comparator::Relation::below, .reaction = Reaction::slow_down, .value = 2});
+      3, {.relation = Comparator::Relation::below, .reaction = Reaction::stop_at_once, .value = 2});
   course.axis.take_part();
   EXPECT_EQ(course.carry(-1'000), -9);
   EXPECT_EQ(course.travel(), 1);

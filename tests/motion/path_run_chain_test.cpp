@@ -149,7 +149,12 @@ TEST(PathRunChain, OneTickMayPassManyPaths) {
 }
 
 TEST(PathRunChain, AFullQueueRefusesAndKeepsWhatItHas) {
-  PathRun run = run_of(std::vector<Path>(PathRun::kMaxPaths, line(place_of(0, 0), place_of(1, 0))), kStop);
+  std::vector<Path> there_and_back;
+  for (std::size_t i = 0; i < PathRun::kMaxPaths; ++i) {
+    const double from = i % 2 == 0 ? 0 : 1;
+    there_and_back.push_back(line(place_of(from, 0), place_of(1 - from, 0)));
+  }
+  PathRun run = run_of(there_and_back, kStop);
   const PathRun before = run;
   try {
     run.append(line(place_of(1, 0), place_of(2, 0)), kJoin, 0);
