@@ -12,7 +12,10 @@ struct AxisSlots {
   std::size_t pulse, speed, acc_time, dec_time;
   std::size_t resolution, direction_polarity, servo_polarity, alarm_polarity, encoder_polarity;
   std::size_t alarm_assigned, ready_assigned, upper_assigned, lower_assigned;
-  std::size_t servo_output_assigned, alarm_clear_output_assigned;
+  std::size_t home_assigned, servo_output_assigned, alarm_clear_output_assigned;
+  std::size_t home_speed, home_acc_time, home_direction;
+  std::size_t velocity, velocity_acceleration, pwm;
+  std::size_t sync_numerator, sync_denominator, sync_slope, sync_speed, encoder_resolution;
   int alarm_input, ready_input, upper_input, lower_input, home_input;
   int servo_output, alarm_clear_output;
 };
@@ -32,8 +35,20 @@ inline constexpr std::array<AxisSlots, 2> kAxisSlots{{
         .ready_assigned = slot("DIN1_Aaxis_Ready"),
         .upper_assigned = slot("DIN2_Aaxis_UP_Limit"),
         .lower_assigned = slot("DIN3_Aaxis_DN_Limit"),
+        .home_assigned = slot("DIN4_Aaxis_Home"),
         .servo_output_assigned = slot("DOUT0_Aaxis_SVON"),
         .alarm_clear_output_assigned = slot("DOUT1_Aaxis_ACLR"),
+        .home_speed = slot("Aaxis_Home_Speed"),
+        .home_acc_time = slot("Aaxis_Home_AccTime"),
+        .home_direction = slot("Axis_GoHome_DIR"),
+        .velocity = slot("Aaxis_DirectmRPM"),
+        .velocity_acceleration = slot("Axis_VelMode_ACC"),
+        .pwm = slot("Aaxis_DirectPWM"),
+        .sync_numerator = slot("Axis_EncSync_NUM"),
+        .sync_denominator = slot("Axis_EncSync_DEN"),
+        .sync_slope = slot("Axis_SyncSlope"),
+        .sync_speed = slot("Axis_SyncRPM"),
+        .encoder_resolution = slot("ENCA_Resoultion"),
         .alarm_input = 0,
         .ready_input = 1,
         .upper_input = 2,
@@ -56,8 +71,20 @@ inline constexpr std::array<AxisSlots, 2> kAxisSlots{{
         .ready_assigned = slot("DIN6_Baxis_Ready"),
         .upper_assigned = slot("DIN7_Baxis_UP_Limit"),
         .lower_assigned = slot("DIN8_Baxis_DN_Limit"),
+        .home_assigned = slot("DIN9_Baxis_Home"),
         .servo_output_assigned = slot("DOUT2_Baxis_SVON"),
         .alarm_clear_output_assigned = slot("DOUT3_Baxis_ACLR"),
+        .home_speed = slot("Baxis_Home_Speed"),
+        .home_acc_time = slot("Baxis_Home_AccTime"),
+        .home_direction = slot("Baxis_GoHome_DIR"),
+        .velocity = slot("Baxis_DirectmRPM"),
+        .velocity_acceleration = slot("Baxis_VelMode_ACC"),
+        .pwm = slot("Baxis_DirectPWM"),
+        .sync_numerator = slot("Baxis_EncSync_NUM"),
+        .sync_denominator = slot("Baxis_EncSync_DEN"),
+        .sync_slope = slot("Baxis_SyncSlope"),
+        .sync_speed = slot("Baxis_SyncRPM"),
+        .encoder_resolution = slot("ENCB_Resoultion"),
         .alarm_input = 5,
         .ready_input = 6,
         .upper_input = 7,

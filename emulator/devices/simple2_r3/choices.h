@@ -75,6 +75,52 @@ inline constexpr ChoiceRow kChoices[] = {
      "not said"},
     {"preset_while_moving", "編碼器，座標，類比輸入相關", "a coordinate written during an absolute move",
      "keeps_remaining_pulses", kProposal, "the move was planned as a number of pulses"},
+    // --- homing and the other modes ---
+    {"homing_sequence", "運動相關", "how the home switch is searched", "edge_met_in_direction", kProposal,
+     "the manual gives speed, times and the first direction only; the reference is always the edge that is "
+     "met "
+     "in that direction"},
+    {"home_coordinate", "運動相關", "the coordinate when home is found", "zero|kept", kProposal,
+     "not said; the zeroing instructions exist beside it"},
+    {"home_bit", "狀態相關", "when the home bit goes out", "homing_begins", kProposal,
+     "also at power-up and by a factory reset"},
+    {"velocity_unit", "系統參數相關", "the unit of VelMode_ACC, printed 2mRPM/s",
+     "literal|two_rpm_per_second", kProposal,
+     "the literal unit makes the steepest ramp 65.5 RPM/s; a factor of 1000 may have been lost"},
+    {"velocity_commit", "系統參數相關", "a lone write to DirectmRPM_L",
+     "waits_for_the_high_word|takes_effect", kProposal,
+     "the note that it takes effect at once stands in the row of the high word"},
+    {"mode_after_stop", "運動相關", "the mode after STOP or SVOFF", "position", kProposal,
+     "STOP is documented to leave sync mode; the others likewise"},
+    {"pwm", "運動相關", "what DirectPWM needs and counts", "servo_on_no_coordinate", kProposal, "not said"},
+    {"sync_ratio", "系統參數相關", "what EncSync_NUM / _DEN is", "pulses_per_encoder_count", kProposal,
+     "not said"},
+    {"sync_slope", "系統參數相關", "the unit of SyncSlope", "rpm_each_5ms", kProposal, "not printed"},
+    {"sync_lost_pulses", "系統參數相關", "pulses lost to SyncRPM or SyncSlope", "forgotten", kProposal,
+     "the axis follows speed; it does not catch up"},
+    {"encoder_speed", "編碼器，座標，類比輸入相關", "how ENCx_RPM is measured", "window_of_100ms", kProposal,
+     "not said"},
+    // --- programs ---
+    {"wait_move_b_139", "程式指令列表", "Wait_Move_B up to 1.39", "as_move_inc_b_wait|waits", kFollows,
+     "the text says both; the remark exists for B alone, so it is taken for a defect"},
+    {"loop_count", "程式指令列表", "a Loop of n", "passes|further_passes", kProposal,
+     "the sentence can be read both ways"},
+    {"loop_left", "程式指令列表", "a Loop left by a jump or a skip", "forgotten|remembered", kProposal,
+     "not said"},
+    {"loop_nesting", "程式指令列表", "when a Loop inside a Loop ends the program",
+     "when_met|when_outer_starts", kProposal, "not said"},
+    {"unknown_command", "程式指令列表", "a command that the list does not have", "does_nothing|ends",
+     kProposal, "not said"},
+    {"after_last_line", "程式控制", "after line 255", "ends|goes_on_at_0", kProposal, "not said"},
+    {"delay_counts", "程式指令列表", "what a delay is counted to", "to_next_line|before_next_slot", kProposal,
+     "not said"},
+    {"same_flag_twice", "程式指令列表", "several lines with one flag", "last_line", kFollows,
+     "the last one set counts, read by line number"},
+    {"arithmetic", "程式指令列表", "overflow and division", "wraps_truncates_zero_for_zero", kProposal,
+     "32 bits; by zero the result is 0 for all four divisions"},
+    {"timer_unit", "程式應用相關", "the unit of the timers", "1ms", kProposal, "not said"},
+    {"program_end", "程式控制", "what goes on when the program ends", "motion_and_timers", kProposal,
+     "not said"},
     {"old_firmware_direction", "1.40 以前", "DIR_Polarity up to 1.40", "coordinate_counts_physical_sense",
      kFollows, "absolute moves go wrong and incremental ones do not, which this explains"},
 };
@@ -87,5 +133,15 @@ inline constexpr std::size_t kAclrAgain = choice_number(kChoices, "aclr_again");
 inline constexpr std::size_t kServoAtPowerUp = choice_number(kChoices, "servo_at_power_up");
 inline constexpr std::size_t kLimitReaction = choice_number(kChoices, "limit_reaction");
 inline constexpr std::size_t kAlarmReaction = choice_number(kChoices, "alarm_reaction");
+inline constexpr std::size_t kHomeCoordinate = choice_number(kChoices, "home_coordinate");
+inline constexpr std::size_t kVelocityUnit = choice_number(kChoices, "velocity_unit");
+inline constexpr std::size_t kVelocityCommit = choice_number(kChoices, "velocity_commit");
+inline constexpr std::size_t kWaitMoveB139 = choice_number(kChoices, "wait_move_b_139");
+inline constexpr std::size_t kLoopCount = choice_number(kChoices, "loop_count");
+inline constexpr std::size_t kLoopLeft = choice_number(kChoices, "loop_left");
+inline constexpr std::size_t kLoopNesting = choice_number(kChoices, "loop_nesting");
+inline constexpr std::size_t kUnknownCommand = choice_number(kChoices, "unknown_command");
+inline constexpr std::size_t kAfterLastLine = choice_number(kChoices, "after_last_line");
+inline constexpr std::size_t kDelayCounts = choice_number(kChoices, "delay_counts");
 
 }  // namespace understudy::emulator::simple2_r3

@@ -1,18 +1,19 @@
 #include "emulator/devices/simple2_r3/device.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/choices.h"
 #include "emulator/devices/simple2_r3/model.h"
-#include "motion/move.h"
+#include "emulator/devices/simple2_r3/program_machine.h"
+#include "motion/homing_tables.h"
 
 namespace understudy::emulator::simple2_r3 {
 
 namespace {
 
 constexpr double kMaxPulseRate_pps = 100'000;  // appendix B
+constexpr Tick kFirstTick = 1;                 // of power-up: AutoStart_MainProg is looked at there
 
 // A half of a 32-bit register may have been written alone, so it can be anything: 0 would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis) {
@@ -27,7 +28,17 @@ Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), 
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count; ++i) state_.image[next++] = static_cast<std::uint32_t>(row.factory);
   }
-  for (AxisState& axis : state_.axes) axis.servo_on = choice(kServoAtPowerUp) == 1;
+  motion::AxisSettings motor;
+  const auto reaction = [&](std::size_t row) {
+    return choice(row) == 0 ? motion::Reaction::stop_at_once : motion::Reaction::ignore;
+  };
+  motor.at_limit_plus = motor.at_limit_minus = reaction(kLimitReaction);
+  motor.at_alarm = reaction(kAlarmReaction);
+  for (AxisState& axis : state_.axes) {
+    axis.motor.set(motor);
+    axis.motor.servo_on = choice(kServoAtPowerUp) == 1;
+  }
+  dialect_ = dialect_of(*this);
 }
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
@@ -77,16 +88,11 @@ bool Simple2R3::alarm_clear(int axis) const {
   return now() < state_.axes[static_cast<std::size_t>(axis)].alarm_clear_until;
 }
 
-bool Simple2R3::blocked(int axis, int direction) const {
-  if (choice(kLimitReaction) == 1) return false;
-  return direction > 0 ? upper_limit(axis) : lower_limit(axis);
-}
-
 bool Simple2R3::output_level(int number) const {
   for (int axis = 0; axis < 2; ++axis) {
     const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
     if (number == slots.servo_output && state_.image[slots.servo_output_assigned] != 0) {
-      return state_.axes[static_cast<std::size_t>(axis)].servo_on ==
+      return state_.axes[static_cast<std::size_t>(axis)].motor.servo_on ==
              (state_.image[slots.servo_polarity] == 1);
     }
     if (number == slots.alarm_clear_output && state_.image[slots.alarm_clear_output_assigned] != 0) {
@@ -96,41 +102,117 @@ bool Simple2R3::output_level(int number) const {
   return ((state_.written_outputs >> number) & 1) != 0;
 }
 
+motion::SpeedLaw Simple2R3::law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
+                                   std::uint32_t deceleration_10ms) const {
+  // Times of 0 count as 1 (appendix A), that is 10 ms.
+  const auto by_time = [](std::uint32_t time_10ms) {
+    return motion::RampLaw::by_time(std::max(time_10ms, 1U) / 100.0);
+  };
+  const double speed_pps = static_cast<double>(speed_rpm) * resolution_of(state_, axis) / 60.0;
+  return {.top_speed_u_s = std::min(speed_pps, kMaxPulseRate_pps),
+          .up = by_time(acceleration_10ms),
+          .down = by_time(deceleration_10ms)};
+}
+
+motion::Signals Simple2R3::signals_of(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  motion::Signals on = 0;
+  const auto add = [&](motion::Signal signal, bool is_on) {
+    if (is_on) on |= motion::bit(signal);
+  };
+  add(motion::Signal::alarm, alarm(axis));
+  add(motion::Signal::limit_plus, upper_limit(axis));
+  add(motion::Signal::limit_minus, lower_limit(axis));
+  add(motion::Signal::home, assigned_input(slots.home_assigned, slots.home_input));
+  return on;
+}
+
+void Simple2R3::refresh_signals(int axis) {
+  state_.axes[static_cast<std::size_t>(axis)].motor.signals = signals_of(axis);
+}
+
 void Simple2R3::start_move(int axis_number, Command command, const MoveParameters& move) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  if (!axis.servo_on) return;
+  if (!axis.motor.servo_on) return;
   if (choice(kAlarmReaction) == 0 && alarm(axis_number)) return;
   stop(axis_number);
   if (move.distance_pulses == 0) return;
+  refresh_signals(axis_number);
   const int direction = move.distance_pulses < 0 ? -1 : +1;
-  if (blocked(axis_number, direction)) return;
-
-  axis.command = command;
-  if (move.speed_rpm == 0) {
-    axis.motor.hang(direction);
-    return;
-  }
-  // Times of 0 count as 1 (appendix A), that is 10 ms.
-  const auto seconds = [](std::uint32_t time_10ms) { return std::max(time_10ms, 1U) / 100.0; };
-  const double speed_pps = static_cast<double>(move.speed_rpm) * resolution_of(state_, axis_number) / 60.0;
-  const motion::SpeedLaw law{
-      .top_speed_u_s = std::min(speed_pps, kMaxPulseRate_pps),
-      .up = motion::RampLaw::by_time(seconds(move.acceleration_10ms)),
-      .down = motion::RampLaw::by_time(seconds(move.deceleration_10ms)),
-  };
-  axis.motor.start(motion::plan(static_cast<double>(std::abs(move.distance_pulses)), law), direction,
-                   now() + 1);
+  const motion::Cause refused =
+      move.speed_rpm == 0
+          ? axis.motor.hang(direction)
+          : axis.motor.move(
+                move.distance_pulses,
+                law_of(axis_number, move.speed_rpm, move.acceleration_10ms, move.deceleration_10ms), now());
+  if (refused == motion::Cause::none) axis.command = command;
 }
 
-void Simple2R3::stop(int axis_number) {
+void Simple2R3::go_home(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  axis.motor.stop();
-  axis.command = Command::none;
+  if (!axis.motor.servo_on) return;
+  if (choice(kAlarmReaction) == 0 && alarm(axis_number)) return;
+  stop(axis_number);
+  axis.homed = false;
+  refresh_signals(axis_number);
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
+  const std::uint32_t time_10ms = state_.image[slots.home_acc_time];
+  const motion::Cause refused = axis.motor.home(
+      motion::simple2_homing(
+          {.way = state_.image[slots.home_direction] != 0 ? +1 : -1,
+           .speed = law_of(axis_number, state_.image[slots.home_speed], time_10ms, time_10ms)}),
+      now());
+  if (refused == motion::Cause::none) axis.command = Command::homing;
 }
+
+void Simple2R3::run_velocity(int axis, std::int64_t milli_rpm) {
+  refresh_signals(axis);
+  simple2_r3::run_velocity(state_.axes[static_cast<std::size_t>(axis)], milli_rpm);
+}
+
+void Simple2R3::output_pwm(int axis, std::uint8_t percent) {
+  refresh_signals(axis);
+  simple2_r3::output_pwm(state_.axes[static_cast<std::size_t>(axis)], percent);
+}
+
+void Simple2R3::follow_encoder(int axis) {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  if (choice(kAlarmReaction) == 0 && alarm(axis)) return;
+  const auto pps = [&](std::uint32_t rpm) {
+    const std::int64_t speed = static_cast<std::int64_t>(rpm) * resolution_of(state_, axis) / 60;
+    return std::clamp<std::int64_t>(speed, 1, static_cast<std::int64_t>(kMaxPulseRate_pps));
+  };
+  const std::uint32_t slope_rpm = state_.image[slots.sync_slope];
+  simple2_r3::follow_encoder(state_.axes[static_cast<std::size_t>(axis)],
+                             {.numerator = state_.image[slots.sync_numerator],
+                              .denominator = std::max<std::int64_t>(state_.image[slots.sync_denominator], 1),
+                              .period_ticks = 5,  // 200 Hz (appendix B)
+                              .top_speed_pps = pps(state_.image[slots.sync_speed]),
+                              // Of each 5 ms; 0 is without bound.
+                              .slope_pps = slope_rpm == 0 ? 0 : pps(slope_rpm)});
+}
+
+void Simple2R3::stop(int axis) { stop_drive(state_.axes[static_cast<std::size_t>(axis)]); }
 
 void Simple2R3::switch_servo(int axis, bool on) {
   if (!on) stop(axis);
-  state_.axes[static_cast<std::size_t>(axis)].servo_on = on;
+  state_.axes[static_cast<std::size_t>(axis)].motor.switch_servo(on);
+}
+
+void Simple2R3::start_program(std::uint8_t line) { interpreter::simple2::start(state_.execution, line); }
+
+void Simple2R3::stop_program() { interpreter::simple2::stop(state_.execution); }
+
+void Simple2R3::reload_program() {
+  constexpr std::array<std::size_t, 4> kColumns{slot("MAIN_LINE{}_CMD"), slot("MAIN_LINE{}_DATA1"),
+                                                slot("MAIN_LINE{}_DATA2"), slot("MAIN_LINE{}_JMP")};
+  for (std::size_t line = 0; line < 256; ++line) {
+    for (std::size_t column = 0; column < 4; ++column) {
+      const auto cell = static_cast<std::uint8_t>(state_.image[kColumns[column] + line]);
+      const auto number = static_cast<int>(4 * line + column);
+      if (state_.program.cell(number) != cell) state_.program.set_cell(number, cell);
+    }
+  }
 }
 
 void Simple2R3::reset_to_factory() {
@@ -144,9 +226,15 @@ void Simple2R3::reset_to_factory() {
       state_.image[next] = static_cast<std::uint32_t>(row.factory);
     }
   }
-  for (int axis = 0; axis < 2; ++axis) switch_servo(axis, false);
+  stop_program();
+  reload_program();
+  for (int axis = 0; axis < 2; ++axis) {
+    switch_servo(axis, false);
+    state_.axes[static_cast<std::size_t>(axis)].homed = false;
+  }
   if (choice(kFactoryResetVolatile) == 1) return;
   state_.written_outputs = 0;
+  state_.timers = {};
   for (AxisState& axis : state_.axes) axis.alarm_clear_until = 0;
 }
 
@@ -156,24 +244,39 @@ void Simple2R3::sample_inputs(Tick) {
   state_.touched = false;
 }
 
+bool Simple2R3::starts_by_itself() const { return state_.image[slot("AutoStart_MainProg")] != 0; }
+
+void Simple2R3::run_interpreters(Tick tick) {
+  if (tick == kFirstTick && starts_by_itself()) start_program(0);
+  if (!state_.execution.running || tick % interpreter::simple2::kSlotMs != 0) return;
+  ProgramMachine machine(*this);
+  interpreter::simple2::step(state_.execution, tick, state_.program, dialect_, machine);
+}
+
 void Simple2R3::step_motion(Tick tick) {
   for (int number = 0; number < 2; ++number) {
     AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
-    axis.pulses_this_tick = 0;
-    if (!axis.motor.moving()) continue;
-    const bool alarmed = choice(kAlarmReaction) == 0 && alarm(number);
-    if (alarmed || blocked(number, axis.motor.direction)) {
-      stop(number);
-      continue;
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(number)];
+    if (const motion::Signals on = signals_of(number); on != axis.signals.steady) {
+      axis.signals.steady = on;
+      ++axis.signals.version;
     }
-    const std::int64_t commanded = axis.motor.step(tick);
-    if (!axis.motor.moving()) axis.command = Command::none;
-    const bool reversed = state_.image[kAxisSlots[static_cast<std::size_t>(number)].direction_polarity] != 0;
+    const std::uint32_t resolution = resolution_of(state_, number);
+    const std::uint32_t acceleration = std::max(state_.image[slots.velocity_acceleration], 1U);
+    const std::int64_t commanded =
+        step_drive(axis,
+                   {.pulses_per_revolution = resolution,
+                    .velocity_step_urpm = choice(kVelocityUnit) == 0 ? acceleration : acceleration * 1000,
+                    .encoder_reversed = state_.image[slots.encoder_polarity] != 0},
+                   tick);
+    const bool reversed = state_.image[slots.direction_polarity] != 0;
     axis.pulses_this_tick = reversed ? -commanded : commanded;
     const std::int64_t counted = quirk_coordinate_counts_physical_sense() ? axis.pulses_this_tick : commanded;
     // Wraps at 32 bits.
     axis.coordinate_pulses = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.coordinate_pulses) +
                                                        static_cast<std::uint32_t>(counted));
+    const bool home_found = (axis.motor.events & motion::bit(motion::Event::homed)) != 0;
+    if (home_found && choice(kHomeCoordinate) == 0) axis.coordinate_pulses = 0;
   }
 }
 
@@ -189,9 +292,13 @@ Tick Simple2R3::next_active_tick(Tick done) const {
     if (input(i) != (((state_.inputs >> i) & 1) != 0)) return done + 1;
   }
   Tick next = kNever;
-  for (const AxisState& axis : state_.axes) {
-    next = std::min(next, axis.motor.next_active_tick(done));
-    if (axis.pulses_this_tick != 0) next = std::min(next, done + 1);
+  if (done < kFirstTick && starts_by_itself()) return kFirstTick;
+  if (state_.execution.running)
+    next = done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
+  for (int number = 0; number < 2; ++number) {
+    const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
+    if (signals_of(number) != axis.signals.steady) return done + 1;
+    next = std::min(next, simple2_r3::next_active_tick(axis, done));
     if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);
   }
   return next;

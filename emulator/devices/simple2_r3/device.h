@@ -6,32 +6,43 @@
 #include <cstdint>
 
 #include "emulator/device.h"
+#include "emulator/devices/simple2_r3/axis_drive.h"
 #include "emulator/devices/simple2_r3/registers.h"
-#include "motion/pulse_drive.h"
+#include "interpreter/simple2/execution.h"
 
 namespace understudy::emulator::simple2_r3 {
 
 inline constexpr int kInputCount = 11;
 inline constexpr int kOutputCount = 7;
 
-enum class Command : std::uint8_t { none, incremental, absolute };
+/// Timer1, Timer2: milliseconds, of 32 bits. Counted from when it was started, so it costs nothing.
+struct Timer {
+  std::uint32_t value = 0;  // at `since`
+  Tick since = 0;
+  bool running = false;
 
-struct AxisState {
-  motion::PulseDrive motor;
-  Command command = Command::none;  // whose trigger register reads 1
-  bool servo_on = false;
-  std::int32_t coordinate_pulses = 0;
-  std::int64_t pulses_this_tick = 0;  // as they leave the device: after DIR_Polarity
-  Tick alarm_clear_until = 0;         // the first tick at which ACLR is over
-  std::int64_t encoder_counts = 0;    // as the plant has them
-  std::int64_t encoder_preset = 0;    // what a write to ENCx added
+  std::uint32_t at(Tick now) const {
+    return running ? value + static_cast<std::uint32_t>(now - since) : value;
+  }
+  void set(std::uint32_t new_value, Tick now) {
+    value = new_value;
+    since = now;
+  }
+  void run(bool on, Tick now) {
+    set(at(now), now);
+    running = on;
+  }
 
-  bool operator==(const AxisState&) const = default;
+  bool operator==(const Timer&) const = default;
 };
 
 struct State {
   std::array<std::uint32_t, kSlotCount> image{};
   std::array<AxisState, 2> axes;
+  interpreter::simple2::Program program;  // the cells of the image, laid out to run
+  interpreter::simple2::Execution execution;
+  std::array<Timer, 2> timers;
+  bool started_up = false;           // AutoStart_MainProg was looked at
   std::uint16_t inputs = 0;          // bit n: DIN n, as looked at in this tick
   std::uint8_t written_outputs = 0;  // bit n: the last level written to DOUT n
   bool touched = false;              // registers were written since the last tick
@@ -59,7 +70,7 @@ class Simple2R3 final : public Device {
   pty::LineSettings line_settings() const override;
 
   void sample_inputs(Tick tick) override;
-  void run_interpreters(Tick) override {}
+  void run_interpreters(Tick tick) override;
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
@@ -83,17 +94,36 @@ class Simple2R3 final : public Device {
 
   /// Appendix A. Dropped while the servo is off, an alarm lasts or a limit blocks that way.
   void start_move(int axis, Command command, const MoveParameters& move);
+  /// Homing, by the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
+  void go_home(int axis);
+  /// The other modes. What is dropped (servo off, alarm, limit) leaves the mode as it was.
+  void run_velocity(int axis, std::int64_t milli_rpm);
+  void output_pwm(int axis, std::uint8_t percent);
+  void follow_encoder(int axis);
   void stop(int axis);
   void switch_servo(int axis, bool on);
   void reset_to_factory();
+  void start_program(std::uint8_t line);
+  void stop_program();
+  /// The image's cells have changed all at once.
+  void reload_program();
+  const interpreter::simple2::Dialect& dialect() const { return dialect_; }
 
  private:
   /// An input's level, if the register at `assignment_slot` gives it its special function.
   bool assigned_input(std::size_t assignment_slot, int number) const;
-  bool blocked(int axis, int direction) const;
   /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").
   bool quirk_coordinate_counts_physical_sense() const { return firmware() <= 140; }
 
+  /// Appendix A and the 100 kHz limit: the law of a position move.
+  motion::SpeedLaw law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
+                          std::uint32_t deceleration_10ms) const;
+  bool starts_by_itself() const;
+  motion::Signals signals_of(int axis) const;
+  /// Gives the motor its signals as they are now, before a command that they may forbid.
+  void refresh_signals(int axis);
+
+  interpreter::simple2::Dialect dialect_;  // from firmware and choices: no state
   State state_;
 };
 

@@ -1,5 +1,7 @@
 #include "emulator/devices/simple2_r3/effects.h"
 
+#include <algorithm>
+
 #include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/choices.h"
 #include "emulator/devices/simple2_r3/device.h"
@@ -59,8 +61,10 @@ Value read_status(const Device& device, Cell) {
     const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
     bit(0, d.alarm(axis));
     bit(2, d.ready(axis));
-    bit(4, state.motor.moving());
-    bit(10, state.servo_on);
+    bit(4, is_moving(state));
+    bit(6, state.command == Command::homing);
+    bit(8, state.homed);
+    bit(10, state.motor.servo_on);
     bit(12, d.upper_limit(axis));
     bit(14, d.lower_limit(axis));
   }
@@ -101,7 +105,28 @@ Value read_absolute_trigger(const Device& device, Cell cell) {
   return axis_of(device, cell).command == Command::absolute;
 }
 
-Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).servo_on; }
+Value read_homing_trigger(const Device& device, Cell cell) {
+  return axis_of(device, cell).command == Command::homing;
+}
+
+Value read_mode(const Device& device, Cell cell) { return static_cast<Value>(axis_of(device, cell).mode); }
+
+Value read_encoder_speed(const Device& device, Cell cell) {
+  const auto& image = self(device).state().image;
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(cell.argument)];
+  const std::uint32_t resolution = std::max(image[slots.encoder_resolution], 1U);
+  return encoder_rpm(axis_of(device, cell), device.now(), resolution, image[slots.encoder_polarity] != 0);
+}
+
+Value read_now_line(const Device& device, Cell) { return self(device).state().execution.now_line; }
+
+Value read_program_runs(const Device& device, Cell) { return self(device).state().execution.running; }
+
+Value read_timer(const Device& device, Cell cell) {
+  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(device.now());
+}
+
+Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
 
 Value read_alarm_clear(const Device& device, Cell cell) { return self(device).alarm_clear(cell.argument); }
 
@@ -167,10 +192,54 @@ void clear_alarm(Device& device, Cell cell, Value) {
   });
 }
 
+void go_home(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).go_home(axis); });
+}
+
+void run_velocity(Device& device, Cell cell, Value milli_rpm) {
+  // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
+  if (!cell.high_half && device.choice(kVelocityCommit) == 0) return;
+  self(device).run_velocity(cell.argument, milli_rpm);
+}
+
+void run_velocity_by_set(Device& device, Cell cell, Value set) {
+  auto& image = self(device).state().image;
+  const std::uint32_t milli_rpm = image[slot("Parms_mRPM{}") + static_cast<std::size_t>(set - 1)];
+  for_each_axis(cell, [&](int axis) {
+    image[kAxisSlots[static_cast<std::size_t>(axis)].velocity] = milli_rpm;
+    self(device).run_velocity(axis, static_cast<std::int32_t>(milli_rpm));
+  });
+}
+
+void output_pwm(Device& device, Cell cell, Value percent) {
+  self(device).output_pwm(cell.argument, static_cast<std::uint8_t>(percent));
+}
+
+void follow_encoder(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).follow_encoder(axis); });
+}
+
+void preset_timer(Device& device, Cell cell, Value value) {
+  self(device).state().timers[static_cast<std::size_t>(cell.argument)].set(static_cast<std::uint32_t>(value),
+                                                                           device.now());
+}
+
+void start_program(Device& device, Cell, Value line) {
+  self(device).start_program(static_cast<std::uint8_t>(line));
+}
+
+void stop_program(Device& device, Cell, Value) { self(device).stop_program(); }
+
+void write_cell(Device& device, Cell cell, Value value) {
+  self(device).state().program.set_cell(4 * cell.index + cell.argument, static_cast<std::uint8_t>(value));
+}
+
 void erase_program(Device& device, Cell, Value) {
+  self(device).stop_program();
   constexpr std::size_t kProgramCells = 256 * 4;
   auto& image = self(device).state().image;
   for (std::size_t i = 0; i < kProgramCells; ++i) image[slot("MAIN_LINE{}_CMD") + i] = 0;
+  self(device).reload_program();
 }
 
 void reset_to_factory(Device& device, Cell, Value) { self(device).reset_to_factory(); }

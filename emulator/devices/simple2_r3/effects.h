@@ -23,6 +23,12 @@ Value read_incremental_trigger(const Device& device, Cell cell);  // 1 while tha
 Value read_absolute_trigger(const Device& device, Cell cell);
 Value read_servo(const Device& device, Cell cell);
 Value read_alarm_clear(const Device& device, Cell cell);
+Value read_homing_trigger(const Device& device, Cell cell);
+Value read_mode(const Device& device, Cell cell);
+Value read_encoder_speed(const Device& device, Cell cell);
+Value read_now_line(const Device& device, Cell);
+Value read_program_runs(const Device& device, Cell);
+Value read_timer(const Device& device, Cell cell);  // argument: 0 or 1
 Value read_zero(const Device& device, Cell);  // triggers that are over at once
 
 // Effects.
@@ -37,6 +43,15 @@ void start_absolute_by_set(Device& device, Cell cell, Value set);
 void stop_motion(Device& device, Cell cell, Value);
 void switch_servo(Device& device, Cell cell, Value on);
 void clear_alarm(Device& device, Cell cell, Value);
+void go_home(Device& device, Cell cell, Value);
+void run_velocity(Device& device, Cell cell, Value milli_rpm);
+void run_velocity_by_set(Device& device, Cell cell, Value set);
+void output_pwm(Device& device, Cell cell, Value percent);
+void follow_encoder(Device& device, Cell cell, Value);
+void preset_timer(Device& device, Cell cell, Value value);
+void start_program(Device& device, Cell, Value line);
+void stop_program(Device& device, Cell, Value);
+void write_cell(Device& device, Cell cell, Value value);  // argument: 0 CMD to 3 JMP; index: the line
 void erase_program(Device& device, Cell, Value);
 void reset_to_factory(Device& device, Cell, Value);
 

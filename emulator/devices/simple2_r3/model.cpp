@@ -50,9 +50,7 @@ constexpr AxisRow axis_row(std::string_view name, const AxisSlots& slots) {
 }
 constexpr std::array<AxisRow, 2> kAxes{axis_row("A", kAxisSlots[kAxisA]), axis_row("B", kAxisSlots[kAxisB])};
 
-constexpr std::array<std::string_view, 3> kGaps{
-    "STATUS bits 6 to 9 (homing, home reached) stay 0.",
-    "Aaxis_Mode and Baxis_Mode stay 0: position mode is the only one.",
+constexpr std::array<std::string_view, 1> kGaps{
     "What the manual keeps over power-off is lost when the daemon ends.",
 };
 

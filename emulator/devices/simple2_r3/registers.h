@@ -24,19 +24,8 @@ inline constexpr Value kS32Max = INT32_MAX;
 inline constexpr Value k2To15 = 32768;
 inline constexpr Value k2To31 = 2147483648;
 
-inline constexpr std::string_view kNoHoming = "homing; the command is accepted and nothing moves";
-inline constexpr std::string_view kForHoming = "homing, which it is for; the value is kept";
-inline constexpr std::string_view kForVelocity = "velocity mode, which it is for; the value is kept";
-inline constexpr std::string_view kForSync = "encoder-synchronous mode, which it is for; the value is kept";
-inline constexpr std::string_view kForEncoderSpeed = "encoder speed, which it is for; the value is kept";
 inline constexpr std::string_view kForAnalog = "analog inputs, which it is for; the value is kept";
-inline constexpr std::string_view kNoVelocity = "velocity mode; the value is kept and nothing moves";
-inline constexpr std::string_view kNoPwm = "PWM mode; the value is kept and nothing is output";
-inline constexpr std::string_view kNoSync =
-    "encoder-synchronous mode; the command is accepted and nothing moves";
-inline constexpr std::string_view kNoProgram = "running the program; it is stored and read back only";
 inline constexpr std::string_view kNoAnalog = "analog inputs; it reads 0";
-inline constexpr std::string_view kNoEncoderSpeed = "encoder speed; it reads 0";
 inline constexpr std::string_view kNoEeprom = "the time that the EEPROM takes; it reads 0";
 inline constexpr std::string_view kNoPassword = "the program's password; the program is always unlocked";
 
@@ -66,8 +55,8 @@ inline constexpr auto kStatusRows = section("狀態相關", {
     reg(0x0000, "STATUS",         u16, R).reads(read_status),
     reg(0x0001, "HW_Code",        u16, R).from_factory(0xC001),
     reg(0x0002, "Version",        u16, R).from_factory(152).reads(read_version),
-    reg(0x0004, "Aaxis_Mode",     u16, R).range(0, 3),
-    reg(0x0005, "Baxis_Mode",     u16, R).range(0, 3),
+    reg(0x0004, "Aaxis_Mode",     u16, R).range(0, 3).reads(read_mode, kAxisA),
+    reg(0x0005, "Baxis_Mode",     u16, R).range(0, 3).reads(read_mode, kAxisB),
     reg(0x000F, "EEPROM_Writing", u16, R).range(0, 1).not_modelled(kNoEeprom),
 });
 
@@ -80,12 +69,12 @@ inline constexpr auto kAssignmentRows = section("輸入輸出功能指配相關"
     reg(0x0A05, "DIN1_Aaxis_Ready",    u16, RW).range(0, 1).kept(),
     reg(0x0A06, "DIN2_Aaxis_UP_Limit", u16, RW).range(0, 1).kept(),
     reg(0x0A07, "DIN3_Aaxis_DN_Limit", u16, RW).range(0, 1).kept(),
-    reg(0x0A08, "DIN4_Aaxis_Home",     u16, RW).range(0, 1).kept().not_modelled(kForHoming),
+    reg(0x0A08, "DIN4_Aaxis_Home",     u16, RW).range(0, 1).kept(),
     reg(0x0A09, "DIN5_Baxis_Alarm",    u16, RW).range(0, 1).kept(),
     reg(0x0A0A, "DIN6_Baxis_Ready",    u16, RW).range(0, 1).kept(),
     reg(0x0A0B, "DIN7_Baxis_UP_Limit", u16, RW).range(0, 1).kept(),
     reg(0x0A0C, "DIN8_Baxis_DN_Limit", u16, RW).range(0, 1).kept(),
-    reg(0x0A0D, "DIN9_Baxis_Home",     u16, RW).range(0, 1).kept().not_modelled(kForHoming),
+    reg(0x0A0D, "DIN9_Baxis_Home",     u16, RW).range(0, 1).kept(),
 });
 
 inline constexpr auto kIoRows = section("輸入輸出相關", {
@@ -102,10 +91,10 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
     reg(0x0E06, "Cord_B",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads(read_coordinate, kAxisB).does(preset_coordinate, kAxisB),
     reg(0x0E08, "Analog_A", u16, R).range(0, 65535).not_modelled(kNoAnalog),
     reg(0x0E09, "Analog_B", u16, R).range(0, 65535).not_modelled(kNoAnalog),
-    reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept().not_modelled(kForEncoderSpeed),
-    reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept().not_modelled(kForEncoderSpeed),
-    reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").not_modelled(kNoEncoderSpeed),
-    reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").not_modelled(kNoEncoderSpeed),
+    reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
+    reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
+    reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").reads(read_encoder_speed, kAxisA),
+    reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").reads(read_encoder_speed, kAxisB),
 });
 
 // Speeds are printed with a minimum of 1, but the factory's value is 0 and appendix A documents it.
@@ -124,17 +113,17 @@ inline constexpr auto kMotionRows = section("運動相關", {
     reg(0x100D, "ALL_STOP",        u16, W).range(0, 1).in("ON/OFF").triggers(stop_motion, kAllAxes),
     reg(0x100E, "Aaxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).triggers(stop_motion, kAxisA),
     reg(0x100F, "Baxis_STOP",      u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).triggers(stop_motion, kAxisB),
-    reg(0x1010, "ALL_GoHome",      u16, W).range(0, 1).in("ON/OFF").missing_trigger(kNoHoming),
-    reg(0x1011, "Aaxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).missing_trigger(kNoHoming),
-    reg(0x1012, "Baxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_zero).missing_trigger(kNoHoming),
+    reg(0x1010, "ALL_GoHome",      u16, W).range(0, 1).in("ON/OFF").triggers(go_home, kAllAxes),
+    reg(0x1011, "Aaxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_homing_trigger, kAxisA).triggers(go_home, kAxisA),
+    reg(0x1012, "Baxis_GoHome",    u16, RW).range(0, 1).in("ON/OFF").reads(read_homing_trigger, kAxisB).triggers(go_home, kAxisB),
     reg(0x1013, "ALL_SVON",        u16, W).range(0, 1).in("ON/OFF").does(switch_servo, kAllAxes),
     reg(0x1014, "Aaxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads(read_servo, kAxisA).does(switch_servo, kAxisA),
     reg(0x1015, "Baxis_SVON",      u16, RW).range(0, 1).in("ON/OFF").reads(read_servo, kAxisB).does(switch_servo, kAxisB),
     reg(0x1016, "ALL_ACLR",        u16, W).range(0, 1).in("ON/OFF").triggers(clear_alarm, kAllAxes),
     reg(0x1017, "Aaxis_ACLR",      u16, RW).range(0, 1).in("ON/OFF").reads(read_alarm_clear, kAxisA).triggers(clear_alarm, kAxisA),
     reg(0x1018, "Baxis_ACLR",      u16, RW).range(0, 1).in("ON/OFF").reads(read_alarm_clear, kAxisB).triggers(clear_alarm, kAxisB),
-    reg(0x1019, "Aaxis_DirectPWM", u16, RW).range(0, 100).not_modelled(kNoPwm),
-    reg(0x101A, "Baxis_DirectPWM", u16, RW).range(0, 100).not_modelled(kNoPwm),
+    reg(0x1019, "Aaxis_DirectPWM", u16, RW).range(0, 100).does(output_pwm, kAxisA),
+    reg(0x101A, "Baxis_DirectPWM", u16, RW).range(0, 100).does(output_pwm, kAxisB),
     reg(0x101B, "ALL_Move_ABS",    u16, W).range(0, 1).in("ON/OFF").triggers(start_absolute, kAllAxes),
     reg(0x101C, "Aaxis_Move_ABS",  u16, RW).range(0, 1).in("ON/OFF").reads(read_absolute_trigger, kAxisA).triggers(start_absolute, kAxisA),
     reg(0x101D, "Baxis_Move_ABS",  u16, RW).range(0, 1).in("ON/OFF").reads(read_absolute_trigger, kAxisB).triggers(start_absolute, kAxisB),
@@ -158,9 +147,9 @@ inline constexpr auto kIncrementalBySetRows = section("預存位置表相關運�
 });
 
 inline constexpr auto kVelocityBySetRows = section("預存速度表相關運動指令", {
-    reg(0x2103, "ALL_ParmsDirectmRPM",   u16, W).range(0, 16).missing_trigger(kNoVelocity),
-    reg(0x2104, "Aaxis_ParmsDirectmRPM", u16, W).range(0, 16).missing_trigger(kNoVelocity),
-    reg(0x2105, "Baxis_ParmsDirectmRPM", u16, W).range(0, 16).missing_trigger(kNoVelocity),
+    reg(0x2103, "ALL_ParmsDirectmRPM",   u16, W).range(0, 16).triggers(run_velocity_by_set, kAllAxes),
+    reg(0x2104, "Aaxis_ParmsDirectmRPM", u16, W).range(0, 16).triggers(run_velocity_by_set, kAxisA),
+    reg(0x2105, "Baxis_ParmsDirectmRPM", u16, W).range(0, 16).triggers(run_velocity_by_set, kAxisB),
 });
 
 inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動指令(絕對位置移動)", {
@@ -171,29 +160,29 @@ inline constexpr auto kAbsoluteBySetRows = section("預存位置表相關運動�
 
 // A program cell travels as 16 bits but holds 8.
 inline constexpr auto kProgramRows = section("程式控制", {
-    reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).range(0, 255).in("line").not_modelled(kNoProgram),
-    reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).range(0, 1).missing_trigger(kNoProgram),
+    reg(0x3000, "PROG_MAIN_RunTime_START",  u16, W).range(0, 255).in("line").does(start_program),
+    reg(0x3001, "PROG_MAIN_RunTime_END",    u16, W).range(0, 1).triggers(stop_program),
     reg(0x3004, "PROG_MAIN_Erase_ALL",      u16, W).range(0, 1).triggers(erase_program),
-    reg(0x3010, "PROG_MAIN_NowLine",        u16, R).range(0, 255).in("line").not_modelled(kNoProgram),
-    reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).range(0, 1).not_modelled(kNoProgram),
-    reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0),
-    reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0),
-    reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0),
-    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0),
+    reg(0x3010, "PROG_MAIN_NowLine",        u16, R).range(0, 255).in("line").reads(read_now_line),
+    reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).range(0, 1).reads(read_program_runs),
+    reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 0),
+    reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 1),
+    reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 2),
+    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 3),
     reg(0x8000, "PROG_MEM{}", s32, RW).kept().times(32, 2, 0).halves("_RegL", "_RegH"),
     reg(0x8100, "PROG_VAR{}", s32, RW).times(32, 2, 0).halves("_RegL", "_RegH"),
 });
 
 // EncSync is printed up to 2^16, which 16 bits cannot hold. 0xF02A is printed like 0xF029.
 inline constexpr auto kSystemRows = section("系統參數相關", {
-    reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept().not_modelled(kForHoming),
-    reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept().not_modelled(kForHoming),
+    reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept(),
+    reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept(),
     reg(0xF002, "Aaxis_Resoultion",    u32, RW).also("Axis_Resoultion").range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0xF004, "Baxis_Resoultion",    u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
-    reg(0xF006, "Aaxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").not_modelled(kNoVelocity),
-    reg(0xF008, "Baxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").not_modelled(kNoVelocity),
-    reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).also("Axis_Home_AccTime").range(0, 3000).in("10ms").kept().not_modelled(kForHoming),
-    reg(0xF011, "Baxis_Home_AccTime",  u16, RW).range(0, 3000).in("10ms").kept().not_modelled(kForHoming),
+    reg(0xF006, "Aaxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").does(run_velocity, kAxisA),
+    reg(0xF008, "Baxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").does(run_velocity, kAxisB),
+    reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).also("Axis_Home_AccTime").range(0, 3000).in("10ms").kept(),
+    reg(0xF011, "Baxis_Home_AccTime",  u16, RW).range(0, 3000).in("10ms").kept(),
     reg(0xF012, "Aaxis_SVON_Polarity", u16, RW).range(0, 1).from_factory(1).kept(),
     reg(0xF013, "Baxis_SVON_Polarity", u16, RW).range(0, 1).from_factory(1).kept(),
     reg(0xF014, "Aaxis_ALM_Polarity",  u16, RW).range(0, 1).kept(),
@@ -202,30 +191,30 @@ inline constexpr auto kSystemRows = section("系統參數相關", {
     reg(0xF017, "Baxis_DIR_Polarity",  u16, RW).range(0, 1).kept(),
     reg(0xF018, "Axis_ENC_Polarity",   u16, RW).also("Aaxis_ENC_Polarity").range(0, 1).kept(),
     reg(0xF019, "Baxis_ENC_Polarity",  u16, RW).range(0, 1).kept(),
-    reg(0xF01A, "Axis_GoHome_DIR",     u16, RW).also("Aaxis_GoHome_DIR").range(0, 1).kept().not_modelled(kForHoming),
-    reg(0xF01B, "Baxis_GoHome_DIR",    u16, RW).range(0, 1).kept().not_modelled(kForHoming),
-    reg(0xF01C, "Axis_VelMode_ACC",    u16, RW).also("Aaxis_VelMode_ACC").range(1, k2To15).in("2mRPM/s").from_factory(1000).kept().not_modelled(kForVelocity),
-    reg(0xF01D, "Baxis_VelMode_ACC",   u16, RW).range(1, k2To15).in("2mRPM/s").from_factory(1000).kept().not_modelled(kForVelocity),
-    reg(0xF01E, "AutoStart_MainProg",  u16, RW).range(0, 1).kept().not_modelled(kNoProgram),
-    reg(0xF020, "Axis_EncSync_NUM",    u16, RW).also("Aaxis_EncSync_NUM").range(0, 65535).from_factory(1).kept().not_modelled(kForSync),
-    reg(0xF021, "Axis_EncSync_DEN",    u16, RW).also("Aaxis_EncSync_DEN").range(1, 65535).from_factory(1).kept().not_modelled(kForSync),
-    reg(0xF022, "Baxis_EncSync_NUM",   u16, RW).range(0, 65535).from_factory(1).kept().not_modelled(kForSync),
-    reg(0xF023, "Baxis_EncSync_DEN",   u16, RW).range(1, 65535).from_factory(1).kept().not_modelled(kForSync),
-    reg(0xF024, "ALL_SyncMode",        u16, W).range(0, 1).missing_trigger(kNoSync),
-    reg(0xF025, "Aaxis_SyncMode",      u16, W).range(0, 1).missing_trigger(kNoSync),
-    reg(0xF026, "Baxis_SyncMode",      u16, W).range(0, 1).missing_trigger(kNoSync),
-    reg(0xF027, "Axis_SyncSlope",      u16, RW).also("Aaxis_SyncSlope").range(0, 255).kept().not_modelled(kForSync),
-    reg(0xF028, "Baxis_SyncSlope",     u16, RW).range(0, 255).kept().not_modelled(kForSync),
-    reg(0xF029, "Axis_SyncRPM",        u16, RW).also("Aaxis_SyncRPM").range(1, 3000).in("RPM").from_factory(3000).kept().not_modelled(kForSync),
-    reg(0xF02A, "Baxis_SyncRPM",       u16, RW).range(1, 3000).in("RPM").from_factory(3000).kept().not_modelled(kForSync),
+    reg(0xF01A, "Axis_GoHome_DIR",     u16, RW).also("Aaxis_GoHome_DIR").range(0, 1).kept(),
+    reg(0xF01B, "Baxis_GoHome_DIR",    u16, RW).range(0, 1).kept(),
+    reg(0xF01C, "Axis_VelMode_ACC",    u16, RW).also("Aaxis_VelMode_ACC").range(1, k2To15).in("2mRPM/s").from_factory(1000).kept(),
+    reg(0xF01D, "Baxis_VelMode_ACC",   u16, RW).range(1, k2To15).in("2mRPM/s").from_factory(1000).kept(),
+    reg(0xF01E, "AutoStart_MainProg",  u16, RW).range(0, 1).kept(),
+    reg(0xF020, "Axis_EncSync_NUM",    u16, RW).also("Aaxis_EncSync_NUM").range(0, 65535).from_factory(1).kept(),
+    reg(0xF021, "Axis_EncSync_DEN",    u16, RW).also("Aaxis_EncSync_DEN").range(1, 65535).from_factory(1).kept(),
+    reg(0xF022, "Baxis_EncSync_NUM",   u16, RW).range(0, 65535).from_factory(1).kept(),
+    reg(0xF023, "Baxis_EncSync_DEN",   u16, RW).range(1, 65535).from_factory(1).kept(),
+    reg(0xF024, "ALL_SyncMode",        u16, W).range(0, 1).triggers(follow_encoder, kAllAxes),
+    reg(0xF025, "Aaxis_SyncMode",      u16, W).range(0, 1).triggers(follow_encoder, kAxisA),
+    reg(0xF026, "Baxis_SyncMode",      u16, W).range(0, 1).triggers(follow_encoder, kAxisB),
+    reg(0xF027, "Axis_SyncSlope",      u16, RW).also("Aaxis_SyncSlope").range(0, 255).kept(),
+    reg(0xF028, "Baxis_SyncSlope",     u16, RW).range(0, 255).kept(),
+    reg(0xF029, "Axis_SyncRPM",        u16, RW).also("Aaxis_SyncRPM").range(1, 3000).in("RPM").from_factory(3000).kept(),
+    reg(0xF02A, "Baxis_SyncRPM",       u16, RW).range(1, 3000).in("RPM").from_factory(3000).kept(),
 });
 
 inline constexpr auto kApplicationRows = section("程式應用相關", {
     reg(0xF100, "CalcREG",        s32, RW),
     reg(0xF122, "Counter1_Value", u16, RW).range(0, 65535),
     reg(0xF123, "Counter2_Value", u16, RW).range(0, 65535),
-    reg(0xF126, "Timer1_Value",   u32, RW).range(0, 4294967295),
-    reg(0xF128, "Timer2_Value",   u32, RW).range(0, 4294967295),
+    reg(0xF126, "Timer1_Value",   u32, RW).range(0, 4294967295).reads(read_timer, 0).does(preset_timer, 0),
+    reg(0xF128, "Timer2_Value",   u32, RW).range(0, 4294967295).reads(read_timer, 1).does(preset_timer, 1),
 });
 
 inline constexpr auto kFactoryRows = section("附錄 C", {

@@ -49,6 +49,7 @@ TEST(World, IsDueAtTheNextTickForWhatCameFromOutsideAndThenAtWhatHappensByItself
   EXPECT_EQ(world.next_due(), 222ms);
   world.advance_to(300ms);
   EXPECT_EQ(get(world, "feeder.Cord_A"), 5);
+  world.advance_to(400ms);  // the encoder's speed is over 100 ms after it stood
   EXPECT_EQ(world.next_due(), std::nullopt);
 }
 

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "emulator/devices/simple2_r3/device.h"
 #include "tests/emulator/devices/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::simple2_r3 {
@@ -29,7 +30,10 @@ TEST(Choices, ThisFileHasACaseForEveryOneThatCanBeChosen) {
   const std::set<std::string_view> cases = {
       "station_0_request", "switch_0_broadcast", "factory_reset_of_volatile",
       "output_read_back",  "aclr_again",         "servo_at_power_up",
-      "limit_reaction",    "alarm_reaction"};
+      "limit_reaction",    "alarm_reaction",     "home_coordinate",
+      "velocity_unit",     "velocity_commit",    "wait_move_b_139",
+      "loop_count",        "loop_left",          "loop_nesting",
+      "unknown_command",   "after_last_line",    "delay_counts"};
   std::set<std::string_view> selectable;
   for (const ChoiceRow& row : kChoices) {
     if (options_of(row).size() > 1) selectable.insert(row.id);
@@ -147,6 +151,62 @@ TEST(Choices, AlarmReactionStopsOrNothing) {
     feeder.set("Aaxis_Move_INC", 1);
     EXPECT_EQ(feeder.moving('A'), !stops) << option;
   }
+}
+
+TEST(Choices, HomeCoordinateIsZeroOrKept) {
+  for (const auto& [option, kept] : {std::pair{"zero", false}, std::pair{"kept", true}}) {
+    ReadySimple2 feeder(with("home_coordinate", option));
+    feeder.set("Aaxis_Resoultion", 3000);
+    feeder.set("Aaxis_Home_Speed", 20);
+    feeder.set("Axis_GoHome_DIR", 1);
+    feeder.set("DIN4_Aaxis_Home", 1);
+    feeder.set("Aaxis_GoHome", 1);
+    feeder.run(100);
+    feeder.input(4, true);
+    feeder.run(500);
+    EXPECT_TRUE(feeder.bit("STATUS.8")) << option;
+    EXPECT_EQ(feeder.coordinate('A') != 0, kept) << option;
+  }
+}
+
+TEST(Choices, VelocityUnitIsLiteralOrAThousandTimesThat) {
+  for (const auto& [option, pulses] : {std::pair{"literal", 0}, std::pair{"two_rpm_per_second", 1}}) {
+    ReadySimple2 feeder(with("velocity_unit", option));
+    feeder.set("Aaxis_DirectmRPM", 1'000'000);
+    feeder.run(100);  // at 1000: 0.2 or 200 RPM a second, so 0.0005 or 0.53 turns of 3200 pulses
+    EXPECT_EQ(feeder.coordinate('A') >= 500, pulses == 1) << option;
+  }
+}
+
+TEST(Choices, VelocityCommitWaitsForTheHighWordOrNot) {
+  for (const auto& [option, mode] : {std::pair{"waits_for_the_high_word", 0}, std::pair{"takes_effect", 1}}) {
+    ReadySimple2 feeder(with("velocity_commit", option));
+    feeder.set("Aaxis_DirectmRPM_L", 5000);
+    EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << option;
+    feeder.set("Aaxis_DirectmRPM_H", 0);
+    EXPECT_EQ(feeder.get("Aaxis_Mode"), 1) << option;
+  }
+}
+
+TEST(Choices, ThoseOfTheLanguageReachTheInterpreter) {
+  // What they do there is tested with the interpreter.
+  const auto dialect = [](const std::string& choice, const std::string& option, Firmware firmware = 152) {
+    Given given = with(choice, option);
+    given.firmware = firmware;
+    OneSimple2 feeder(given);
+    return static_cast<const Simple2R3&>(feeder.device()).dialect();
+  };
+  using interpreter::simple2::Dialect;
+  EXPECT_TRUE(dialect("wait_move_b_139", "as_move_inc_b_wait", 139).quirk_wait_move_b_is_move_inc_b_wait);
+  EXPECT_FALSE(dialect("wait_move_b_139", "waits", 139).quirk_wait_move_b_is_move_inc_b_wait);
+  EXPECT_EQ(dialect("loop_count", "passes"), Dialect{});
+  EXPECT_EQ(dialect("loop_count", "further_passes").loop_count, Dialect::LoopCount::further_passes);
+  EXPECT_EQ(dialect("loop_left", "remembered").loop_left, Dialect::LoopLeft::remembered);
+  EXPECT_EQ(dialect("loop_nesting", "when_outer_starts").loop_nesting,
+            Dialect::LoopNesting::when_outer_starts);
+  EXPECT_EQ(dialect("unknown_command", "ends").unknown_command, Dialect::UnknownCommand::ends);
+  EXPECT_EQ(dialect("after_last_line", "goes_on_at_0").after_last_line, Dialect::AfterLastLine::goes_on_at_0);
+  EXPECT_EQ(dialect("delay_counts", "before_next_slot").delay_counts, Dialect::DelayCounts::before_next_slot);
 }
 
 }  // namespace

@@ -1,0 +1,138 @@
+#include "emulator/devices/simple2_r3/axis_drive.h"
+
+#include <algorithm>
+
+namespace understudy::emulator::simple2_r3 {
+
+namespace {
+
+__extension__ using Wide = __int128;
+
+constexpr std::int64_t kMaxPulseRate_pps = 100'000;  // appendix B
+
+/// The pulses of one tick of velocity mode: two steps of 0.5 ms, each of speed first.
+std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
+  // The pulse limit, as a speed.
+  const std::int64_t cap_urpm = kMaxPulseRate_pps * 60'000'000 / settings.pulses_per_revolution;
+  const std::int64_t target = std::clamp(axis.target_urpm, -cap_urpm, cap_urpm);
+  std::int64_t pulses = 0;
+  for (int half = 0; half < 2; ++half) {
+    const std::int64_t step = settings.velocity_step_urpm;
+    axis.speed_urpm = std::clamp(target, axis.speed_urpm - step, axis.speed_urpm + step);
+    // At most 6e12 by the cap, and 1.2e11 left over.
+    axis.velocity_phase += axis.speed_urpm * static_cast<std::int64_t>(settings.pulses_per_revolution);
+    pulses += axis.velocity_phase / kVelocityPhase;
+    axis.velocity_phase %= kVelocityPhase;
+  }
+  return pulses;
+}
+
+std::size_t ring_place(Tick tick) {
+  constexpr Tick kPlaces = AxisState::kSpeedWindow + 1;
+  return static_cast<std::size_t>((tick + kPlaces) % kPlaces);
+}
+
+bool runs_velocity(const AxisState& axis) {
+  return axis.mode == Mode::velocity && axis.motor.task == motion::Task::coordinated;
+}
+
+}  // namespace
+
+std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tick) {
+  motion::Axis& motor = axis.motor;
+  const std::int64_t before = motor.travel_pulses;
+  if (runs_velocity(axis)) {
+    motor.carry(velocity_pulses(axis, settings), tick, axis.signals);
+    if (!runs_velocity(axis)) axis.speed_urpm = 0;  // a limit or an alarm
+  } else {
+    if (axis.mode == Mode::sync) {
+      const std::int64_t counts = axis.encoder_counts - axis.encoder_followed;
+      motor.feed(settings.encoder_reversed ? -counts : counts);
+      axis.encoder_followed = axis.encoder_counts;
+    }
+    motor.step(tick, axis.signals);
+  }
+  if ((motor.events & motion::bit(motion::Event::homed)) != 0) axis.homed = true;
+  if (!motor.moving()) axis.command = Command::none;
+  std::int64_t& history = axis.encoder_history[ring_place(tick)];
+  if (axis.encoder_history[ring_place(tick - 1)] != axis.encoder_counts) axis.encoder_changed = tick;
+  history = axis.encoder_counts;
+  return motor.travel_pulses - before;
+}
+
+motion::Cause run_velocity(AxisState& axis, std::int64_t target_mrpm) {
+  if (target_mrpm != 0) {
+    const motion::Cause why_not = axis.motor.forbidden(target_mrpm < 0 ? -1 : +1);
+    if (why_not != motion::Cause::none) return why_not;
+  }
+  if (!runs_velocity(axis)) {
+    if (const motion::Cause why_not = axis.motor.take_part(); why_not != motion::Cause::none) return why_not;
+    axis.speed_urpm = 0;
+    axis.velocity_phase = 0;
+  }
+  axis.mode = Mode::velocity;
+  axis.pwm_percent = 0;
+  axis.command = Command::none;
+  axis.target_urpm = target_mrpm * 1000;
+  return motion::Cause::none;
+}
+
+motion::Cause follow_encoder(AxisState& axis, const motion::Follower& by) {
+  if (const motion::Cause why_not = axis.motor.follow(by); why_not != motion::Cause::none) return why_not;
+  axis.mode = Mode::sync;
+  axis.pwm_percent = 0;
+  axis.command = Command::none;
+  axis.encoder_followed = axis.encoder_counts;
+  return motion::Cause::none;
+}
+
+void stop_drive(AxisState& axis) {
+  axis.motor.stop();
+  axis.mode = Mode::position;
+  axis.command = Command::none;
+  axis.speed_urpm = axis.target_urpm = axis.velocity_phase = 0;
+  axis.pwm_percent = 0;
+}
+
+motion::Cause output_pwm(AxisState& axis, std::uint8_t percent) {
+  // Either way: no pulse comes out, so limits do not matter.
+  const motion::Cause why_not = axis.motor.forbidden(+1);
+  if (why_not == motion::Cause::servo_off || why_not == motion::Cause::alarm) return why_not;
+  stop_drive(axis);
+  axis.mode = Mode::pwm;
+  axis.pwm_percent = percent;
+  return motion::Cause::none;
+}
+
+std::int64_t encoder_rpm(const AxisState& axis, Tick now, std::uint32_t counts_per_revolution,
+                         bool reversed) {
+  const std::int64_t then = axis.encoder_history[ring_place(now - AxisState::kSpeedWindow)];
+  const Wide counts = Wide{axis.encoder_counts} - then;
+  constexpr std::int64_t kWindowsAMinute = 60'000 / AxisState::kSpeedWindow;
+  const auto rpm = static_cast<std::int64_t>(
+      std::clamp<Wide>(counts * kWindowsAMinute / counts_per_revolution, -40'000, 40'000));
+  return std::clamp<std::int64_t>(reversed ? -rpm : rpm, INT16_MIN, INT16_MAX);
+}
+
+bool is_moving(const AxisState& axis) {
+  switch (axis.mode) {
+    case Mode::position: return axis.motor.moving();
+    case Mode::velocity: return runs_velocity(axis) && (axis.speed_urpm != 0 || axis.target_urpm != 0);
+    case Mode::pwm: return axis.pwm_percent != 0;
+    case Mode::sync: return axis.motor.task == motion::Task::following && !axis.motor.follower.quiet();
+  }
+  return false;
+}
+
+Tick next_active_tick(const AxisState& axis, Tick done) {
+  const motion::Axis& motor = axis.motor;
+  if (motor.attentive || motor.events != 0 || motor.events_between != 0 || axis.pulses_this_tick != 0) {
+    return done + 1;
+  }
+  const bool stands_in_velocity = runs_velocity(axis) && !is_moving(axis);
+  if (motor.moving() && motor.task != motion::Task::hanging && !stands_in_velocity) return done + 1;
+  if (done <= axis.encoder_changed + AxisState::kSpeedWindow) return done + 1;
+  return kNever;
+}
+
+}  // namespace understudy::emulator::simple2_r3
