@@ -52,33 +52,6 @@ Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
 
 }  // namespace
 
-bool Comparator::holds(std::int64_t travel) const {
-  const std::int64_t at = counter.at(travel);
-  switch (relation) {
-    case Relation::off: break;
-    case Relation::at_least: return at >= value;
-    case Relation::below: return at < value;
-    case Relation::equal: return at == value;
-  }
-  return false;
-}
-
-std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, int direction) const {
-  if (relation == Relation::off) return std::nullopt;
-  std::optional<std::int64_t> nearest;
-  const auto consider = [&](std::optional<std::int64_t> steps) {
-    if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;
-  };
-  // The relation changes where the count arrives at or leaves `value`, and where it comes round.
-  consider(counter.steps_until(value, travel, direction));
-  if (direction > 0 && value < INT64_MAX) consider(counter.steps_until(value + 1, travel, direction));
-  if (direction < 0 && value > INT64_MIN) consider(counter.steps_until(value - 1, travel, direction));
-  if (const auto turning = direction > 0 ? counter.least() : counter.greatest()) {
-    consider(counter.steps_until(*turning, travel, direction));
-  }
-  return nearest;
-}
-
 Cause Axis::forbidden(int way) const {
   if (settings.needs_servo && !servo_on) return Cause::servo_off;
   const auto blocks = [&](Signal signal, Reaction reaction) {
@@ -376,27 +349,6 @@ void Axis::set(const AxisSettings& changed) {
   if (changed.backlash_pulses > 0) demand_positive(changed.backlash_speed_pps, "backlash", "speed");
   settings = changed;
   play_pulses = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
-  attentive = true;
-}
-
-void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
-  if (number >= comparators.size()) {
-    throw BadMotion(Refusal::out_of_range, "comparator", "number must be 0 to 3");
-  }
-  Comparator& mine = comparators[number];
-  const bool same_question = mine.relation == comparator.relation && mine.count == comparator.count;
-  const bool was_true = mine.was_true;
-  mine = comparator;
-  // A number that is written can make the relation true, which is an event; a relation that is true when it
-  // is first asked for waits for the next time it becomes so.
-  mine.was_true =
-      same_question ? was_true : mine.holds(mine.count == Count::command ? travel_pulses : encoder_pulses);
-  attentive = true;
-}
-
-void Axis::set_encoder(std::int64_t pulses) {
-  if (pulses == encoder_pulses) return;
-  encoder_pulses = pulses;
   attentive = true;
 }
 

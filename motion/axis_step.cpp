@@ -14,10 +14,6 @@ constexpr std::int64_t kNoEdge = std::int64_t{1} << 56;
 /// No drive is that fast; a state from outside may say so, and must not keep its tick for ever.
 constexpr std::int64_t kMostInATick = 1'000'000;
 
-Event comparator_event(std::size_t number) {
-  return static_cast<Event>(static_cast<unsigned>(Event::comparator_0) + number);
-}
-
 }  // namespace
 
 std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
@@ -157,40 +153,6 @@ void Axis::meet(const Surroundings& here, Instant at) {
   }
   if (settings.soft_limit_minus && travel_pulses < *settings.soft_limit_minus && drive.direction < 0) {
     react(settings.at_soft_limit, Cause::soft_limit_minus, at);
-  }
-}
-
-/// The encoder's count goes from where it was to where it is: comparators meet all that lies between.
-void Axis::follow_encoder_count(Instant at) {
-  const int way = encoder_pulses < encoder_seen ? -1 : +1;
-  // A jump that far is no motion: only its end counts.
-  constexpr std::int64_t kFarthestWalk = 100'000;
-  while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&
-         encoder_seen <= encoder_pulses + kFarthestWalk) {
-    std::int64_t steps = std::abs(encoder_pulses - encoder_seen);
-    for (const Comparator& mine : comparators) {
-      if (mine.count != Count::encoder) continue;
-      if (const auto change = mine.steps_until_change(encoder_seen, way)) steps = std::min(steps, *change);
-    }
-    encoder_seen += steps * way;
-    compare(Count::encoder, encoder_seen, at);
-  }
-  encoder_seen = encoder_pulses;
-  compare(Count::encoder, encoder_pulses, at);
-}
-
-void Axis::compare(Count count, std::int64_t value, Instant at) {
-  for (std::size_t i = 0; i < comparators.size(); ++i) {
-    Comparator& mine = comparators[i];
-    if (mine.relation == Comparator::Relation::off || mine.count != count) continue;
-    const bool holds = mine.holds(value);
-    if (holds && !mine.was_true) {
-      events_between |= bit(comparator_event(i));
-      event_at[i] = at;
-      mine.was_true = true;
-      react(mine.reaction, Cause::comparator, at);
-    }
-    mine.was_true = holds;
   }
 }
 

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cstdlib>
+
+#include "motion/axis.h"
+#include "motion/bad_motion.h"
+
+// Position compare: what an axis's counts pass on their way.
+namespace understudy::motion {
+
+namespace {
+
+Event comparator_event(std::size_t number) {
+  return static_cast<Event>(static_cast<unsigned>(Event::comparator_0) + number);
+}
+
+}  // namespace
+
+bool Comparator::holds(std::int64_t travel) const {
+  const std::int64_t at = counter.at(travel);
+  switch (relation) {
+    case Relation::off: break;
+    case Relation::at_least: return at >= value;
+    case Relation::below: return at < value;
+    case Relation::equal: return at == value;
+  }
+  return false;
+}
+
+std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, int direction) const {
+  if (relation == Relation::off) return std::nullopt;
+  std::optional<std::int64_t> nearest;
+  const auto consider = [&](std::optional<std::int64_t> steps) {
+    if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;
+  };
+  // The relation changes where the count arrives at or leaves `value`, and where it comes round.
+  consider(counter.steps_until(value, travel, direction));
+  if (direction > 0 && value < INT64_MAX) consider(counter.steps_until(value + 1, travel, direction));
+  if (direction < 0 && value > INT64_MIN) consider(counter.steps_until(value - 1, travel, direction));
+  if (const auto turning = direction > 0 ? counter.least() : counter.greatest()) {
+    consider(counter.steps_until(*turning, travel, direction));
+  }
+  return nearest;
+}
+
+void Axis::set_comparator(std::size_t number, const Comparator& comparator) {
+  if (number >= comparators.size()) {
+    throw BadMotion(Refusal::out_of_range, "comparator", "number must be 0 to 3");
+  }
+  Comparator& mine = comparators[number];
+  const bool same_question = mine.relation == comparator.relation && mine.count == comparator.count;
+  const bool was_true = mine.was_true;
+  mine = comparator;
+  // A number that is written can make the relation true, which is an event; a relation that is true when it
+  // is first asked for waits for the next time it becomes so.
+  mine.was_true =
+      same_question ? was_true : mine.holds(mine.count == Count::command ? travel_pulses : encoder_pulses);
+  attentive = true;
+}
+
+void Axis::set_encoder(std::int64_t pulses) {
+  if (pulses == encoder_pulses) return;
+  encoder_pulses = pulses;
+  attentive = true;
+}
+
+/// The encoder's count goes from where it was to where it is: comparators meet all that lies between.
+void Axis::follow_encoder_count(Instant at) {
+  const int way = encoder_pulses < encoder_seen ? -1 : +1;
+  // A jump that far is no motion: only its end counts.
+  constexpr std::int64_t kFarthestWalk = 100'000;
+  while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&
+         encoder_seen <= encoder_pulses + kFarthestWalk) {
+    std::int64_t steps = std::abs(encoder_pulses - encoder_seen);
+    for (const Comparator& mine : comparators) {
+      if (mine.count != Count::encoder) continue;
+      if (const auto change = mine.steps_until_change(encoder_seen, way)) steps = std::min(steps, *change);
+    }
+    encoder_seen += steps * way;
+    compare(Count::encoder, encoder_seen, at);
+  }
+  encoder_seen = encoder_pulses;
+  compare(Count::encoder, encoder_pulses, at);
+}
+
+void Axis::compare(Count count, std::int64_t value, Instant at) {
+  for (std::size_t i = 0; i < comparators.size(); ++i) {
+    Comparator& mine = comparators[i];
+    if (mine.relation == Comparator::Relation::off || mine.count != count) continue;
+    const bool holds = mine.holds(value);
+    if (holds && !mine.was_true) {
+      events_between |= bit(comparator_event(i));
+      event_at[i] = at;
+      mine.was_true = true;
+      react(mine.reaction, Cause::comparator, at);
+    }
+    mine.was_true = holds;
+  }
+}
+
+}  // namespace understudy::motion
