@@ -72,6 +72,10 @@ struct PollArguments {
 };
 int poll_port(const PollArguments& arguments);
 
+/// A Simple2-R3 program: from its listing to cells, and back (interpreter/simple2/listing.h).
+int assemble_program(const std::string& file);
+int disassemble_program(const std::string& file);
+
 int check_files(const std::vector<std::string>& files);
 
 }  // namespace understudy::emulator

@@ -29,6 +29,7 @@ struct CommandLine {
   ServeArguments serve;
   ControlArguments control;
   PollArguments poll;
+  std::string program;
   std::vector<std::string> files;
   std::function<int()> chosen;
 
@@ -43,6 +44,7 @@ struct CommandLine {
     add_serve();
     add_control();
     add_poll();
+    add_program_text();
     add_check();
   }
 
@@ -138,6 +140,15 @@ struct CommandLine {
     command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);
     command->add_option("--times", poll.times, "How many rounds; 0: without end")->capture_default_str();
     command->callback([this] { chosen = [this] { return poll_port(poll); }; });
+  }
+
+  void add_program_text() {
+    CLI::App* command = app.add_subcommand("asm", "Turn a Simple2-R3 listing into the cells of its lines");
+    command->add_option("FILE", program, "A listing")->required();
+    command->callback([this] { chosen = [this] { return assemble_program(program); }; });
+    command = app.add_subcommand("disasm", "Turn the cells of a Simple2-R3 program into a listing");
+    command->add_option("FILE", program, "Lines of CMD DATA1 DATA2 JMP, as asm prints them")->required();
+    command->callback([this] { chosen = [this] { return disassemble_program(program); }; });
   }
 
   void add_check() {

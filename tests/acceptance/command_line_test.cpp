@@ -51,6 +51,8 @@ const std::vector<BadUsage> kBadUsages = {
     {"BenchThatIsNoYaml", {"serve", "{}/no-yaml.yaml"}, "no-yaml.yaml:3: "},
     {"BenchWithTheSameAddressTwice", {"serve", "{}/same-address.yaml"}, "same-address.yaml:6: "},
     {"CheckWithoutFile", {"check"}, "FILE"},
+    {"AsmMissingFile", {"asm", "{}/missing.lst"}, "missing.lst: cannot be read"},
+    {"DisasmMissingFile", {"disasm", "{}/missing.txt"}, "missing.txt: cannot be read"},
     {"CheckMissingFile", {"check", "{}/missing.yaml"}, "missing.yaml"},
     {"CheckBadBench", {"check", "{}/unknown-key.yaml"}, "unknown-key.yaml:4: "},
     {"DescribeUnknownModel", {"describe", "simpel2", "registers"}, "simple2-r3"},
@@ -187,6 +189,36 @@ TEST(Describe, PrintsTheDocumentedColumnsAsCsv) {
   EXPECT_EQ(header("parameters"), "number,name,address,width,persistent");
   EXPECT_EQ(header("instructions"), "opcode,mnemonic,data1,data2");
   EXPECT_EQ(header("commands"), "command,syntax,meaning");
+}
+
+TEST(ProgramText, GoesToCellsAndBack) {
+  const PrivateFolder folder;
+  // The manual's opcodes: three pulses of DOUT_0.
+  const std::string listing = folder.write("blink.lst",
+                                           "again: Out DOUT_0 ON\n Delay_mSec 500\n Out 0 OFF\n"
+                                           " Delay_mSec 500\n Loop again 3\n END ; three times\n");
+  const Finished assembled = understudy({"asm", listing});
+  EXPECT_EQ(assembled.exit_code, 0) << assembled.errors;
+  const std::string cells = "5 0 1 1\n2 244 1 0\n5 0 0 0\n2 244 1 0\n4 1 3 0\n255 0 0 0\n";
+  EXPECT_EQ(assembled.output, cells);
+  const Finished text = understudy({"disasm", folder.write("blink.cells", cells)});
+  EXPECT_EQ(text.exit_code, 0) << text.errors;
+  EXPECT_EQ(understudy({"asm", folder.write("again.lst", text.output)}).output, cells);
+}
+
+TEST(ProgramText, TellsEveryErrorWithItsPlace) {
+  const PrivateFolder folder;
+  const Finished bad = understudy({"asm", folder.write("bad.lst", "NOP\nJumpp 1\nOut DOUT_9 ON\n")});
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_EQ(bad.output, "");
+  EXPECT_EQ(lines_of(bad.errors).size(), 2U) << bad.errors;
+  EXPECT_NE(bad.errors.find("bad.lst:2:1: mnemonic: "), std::string::npos) << bad.errors;
+  for (const char* cells : {"1 2 3\n", "1 2 3 4 5\n", "1 2 3 256\n", "1 2 3 x\n"}) {
+    const Finished refused =
+        understudy({"disasm", folder.write("bad.cells", std::string("0 0 0 0\n") + cells)});
+    EXPECT_EQ(refused.exit_code, 2) << cells;
+    EXPECT_NE(refused.errors.find("bad.cells:2: "), std::string::npos) << refused.errors;
+  }
 }
 
 TEST(Check, AcceptsAGoodBench) {
