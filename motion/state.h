@@ -13,13 +13,17 @@ namespace understudy::motion {
 
 struct Axis;
 struct Coordinated;
+struct Counter;
 struct ExternalDrive;
 struct Follower;
+struct Path;
 class PathRun;
 struct Profile;
 struct PulseDrive;
+struct SpeedLaw;
 struct Surroundings;
 struct SyncTable;
+struct UnitScale;
 
 /// T is one of the types above; others do not link.
 template <class T>

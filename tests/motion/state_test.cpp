@@ -170,5 +170,29 @@ TEST(StateRefusal, WhatATypeCannotHoldIsRefusedByName) {
   EXPECT_TRUE(refuses(Coordinated{}, save(group)));
 }
 
+TEST(State, WhatRegistersAreMadeOfIsSavedByItself) {
+  const Counter counter{.range = Counter::Range::ring, .ring_top = 9999, .offset = -5};
+  Counter counted;
+  EXPECT_EQ(restore(counted, save(counter)), save(counter).size());
+  EXPECT_EQ(counted, counter);
+  EXPECT_NE(hash(counted), hash(Counter{}));
+
+  const UnitScale scale = UnitScale::of(8, 5);
+  UnitScale scaled;
+  restore(scaled, save(scale));
+  EXPECT_EQ(scaled, scale);
+
+  SpeedLaw law{.top_speed_u_s = 100, .up = RampLaw::by_jerk(5), .down = RampLaw::by_time(2)};
+  law.slow_down_at_u = 3;
+  SpeedLaw restored;
+  restore(restored, save(law));
+  EXPECT_EQ(restored, law);
+
+  const Path path = line(Point::Zero(), Point(1, 2, 3, 4));
+  Path laid;
+  restore(laid, save(path));
+  EXPECT_EQ(laid, path);
+}
+
 }  // namespace
 }  // namespace understudy::motion
