@@ -159,7 +159,6 @@ Cause Axis::hang(int way) {
   return Cause::none;
 }
 
-/// What forbids motion either way.
 Cause Axis::forbidden_anywhere() const {
   const Cause why_not = forbidden(+1);
   return why_not == Cause::servo_off || why_not == Cause::emergency || why_not == Cause::alarm ? why_not

@@ -173,6 +173,8 @@ struct Axis {
   /// passed or too near is overshot and returned to, or with `stop_if_passed` (MCX314), when passed, ends at
   /// once.
   void change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now);
+  /// What follows or is carried ends at once: its speed is another's (motion/coordinated.h slows a path
+  /// down).
   void slow_down(Tick now, Cause why = Cause::stopped);
   /// No pulse from now on.
   void stop(Cause why = Cause::stopped);
@@ -191,6 +193,8 @@ struct Axis {
   bool moving() const { return task != Task::none || homing.active(); }
   /// Why a motion in `way` would be refused now; none if it may begin.
   Cause forbidden(int way) const;
+  /// The same for what forbids every way (servo, emergency, alarm).
+  Cause forbidden_anywhere() const;
   /// Position in the drive's coordinate, speed and acceleration along the motion, after tick `now`.
   Sample sample(Tick now) const { return drive.sample({.tick = now}); }
   /// Travel at a moment of the tick just stepped: to the pulse while the drive that ran then still runs.
@@ -249,7 +253,6 @@ struct Axis {
               bool for_homing = false);
   void go_on_by(const SpeedLaw& speed, Instant at);
   std::int64_t play_before(int way) const;
-  Cause forbidden_anywhere() const;
   void follow_encoder_count(Instant at);
   Profile planned(const SpeedLaw& speed) const;  // of the task from its beginning
   void drop();

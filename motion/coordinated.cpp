@@ -39,12 +39,11 @@ Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
   for (const std::int8_t mine : axis_of) {
     const Axis* axis = axis_at(mine, axes);
     if (axis == nullptr) continue;
-    const Cause why_not = axis->forbidden(+1);
-    if (why_not == Cause::servo_off || why_not == Cause::emergency || why_not == Cause::alarm) return why_not;
+    if (const Cause why_not = axis->forbidden_anywhere(); why_not != Cause::none) return why_not;
   }
-  for (Eigen::Index i = 0; i < kPathAxes; ++i) demand_finite(from[i], "coordinated motion", "its place");
-  run.start(now);  // first: it may throw
-  run.stand_at(from);
+  for (const UnitScale& factors : scale) (void)UnitScale::of(factors.multiplier, factors.divider);
+  run.stand_at(from);  // these two may throw
+  run.start(now);
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);
     if (axis == nullptr) continue;

@@ -32,7 +32,8 @@ struct Coordinated {
   bool operator==(const Coordinated&) const = default;
 
   /// Takes the axes along `axis_of` and begins what is queued. `from` is the place they are at, in path
-  /// units. What one axis is refused for, all are: then nothing has changed.
+  /// units. What one axis is refused for, all are: then nothing has changed. Throws BadMotion for a place
+  /// that is not finite or not where the first path begins, and for a scale that is none.
   Cause begin(const Point& from, std::span<Axis> axes, Tick now);
 
   /// One tick of the axes that take part before it, instead of their own step(); `here` and `pulses` (added

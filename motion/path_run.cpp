@@ -113,6 +113,14 @@ void PathRun::start(Tick now) {
   running_ = true;
 }
 
+void PathRun::stand_at(const Point& place) {
+  for (Eigen::Index i = 0; i < kPathAxes; ++i) demand_finite(place[i], "path run", "its place");
+  if (count_ > 0 && !meets(place, piece(0).path.begin)) {
+    throw BadMotion(Refusal::out_of_range, "path run", "the first path must begin where the axes are");
+  }
+  last_place_ = place;
+}
+
 void PathRun::pause(Tick now) {
   if (paused_) return;
   paused_ = true;

@@ -63,8 +63,9 @@ class PathRun {
   /// Begins what is queued, from rest, in the next tick. Further chains follow by themselves, and what is
   /// appended later begins by itself, until abandon().
   void start(Tick now);
-  /// Where it is while nothing has run yet: what step() gives until a path begins.
-  void stand_at(const Point& place) { last_place_ = place; }
+  /// Where it is while nothing has run yet: what step() gives until a path begins. Throws
+  /// BadMotion(not_finite), and (out_of_range) for a place that is not where the first path begins.
+  void stand_at(const Point& place);
 
   /// Slows down on the path to a standstill, and stays.
   void pause(Tick now);

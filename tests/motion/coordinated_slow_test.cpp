@@ -93,6 +93,11 @@ TEST(CoordinatedSlow, WhatIsForbiddenIsRefusedBeforeAnythingBegins) {
   EXPECT_FALSE(group.axes[0].moving());
   Group nowhere(AxisSettings{});
   EXPECT_THROW(nowhere.group.begin(Point(NAN, 0, 0, 0), nowhere.axes, 0), BadMotion);
+  EXPECT_THROW(nowhere.group.begin(Point(5, 0, 0, 0), nowhere.axes, 0), BadMotion) << "the path begins at 0";
+  nowhere.group.scale[1].divider = 0;
+  EXPECT_THROW(nowhere.group.begin(Point::Zero(), nowhere.axes, 0), BadMotion);
+  EXPECT_FALSE(nowhere.axes[0].moving());
+  EXPECT_FALSE(nowhere.group.run.running());
 }
 
 TEST(PathRunRefusal, APathThatBeginsElsewhereAndALawThatWouldCreepFromNothingAreRefused) {

@@ -8,8 +8,6 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-constexpr std::int64_t kMaxPulseRate_pps = 100'000;  // appendix B
-
 /// The pulses of one tick of velocity mode: two steps of 0.5 ms, each of speed first.
 std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
   // The pulse limit, as a speed.
@@ -96,8 +94,9 @@ void stop_drive(AxisState& axis) {
 
 motion::Cause output_pwm(AxisState& axis, std::uint8_t percent) {
   // Either way: no pulse comes out, so limits do not matter.
-  const motion::Cause why_not = axis.motor.forbidden(+1);
-  if (why_not == motion::Cause::servo_off || why_not == motion::Cause::alarm) return why_not;
+  if (const motion::Cause why_not = axis.motor.forbidden_anywhere(); why_not != motion::Cause::none) {
+    return why_not;
+  }
   stop_drive(axis);
   axis.mode = Mode::pwm;
   axis.pwm_percent = percent;

@@ -43,6 +43,8 @@ struct AxisState {
   bool operator==(const AxisState&) const = default;
 };
 
+inline constexpr std::int64_t kMaxPulseRate_pps = 100'000;  // appendix B
+
 /// A velocity of 1 uRPM at 1 pulse a revolution makes one pulse in so many steps of 0.5 ms.
 inline constexpr std::int64_t kVelocityPhase = 60'000'000LL * 2000;
 

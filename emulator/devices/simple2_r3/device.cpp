@@ -12,8 +12,7 @@ namespace understudy::emulator::simple2_r3 {
 
 namespace {
 
-constexpr double kMaxPulseRate_pps = 100'000;  // appendix B
-constexpr Tick kFirstTick = 1;                 // of power-up: AutoStart_MainProg is looked at there
+constexpr Tick kFirstTick = 1;  // of power-up: AutoStart_MainProg is looked at there
 
 // A half of a 32-bit register may have been written alone, so it can be anything: 0 would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis) {
@@ -109,7 +108,7 @@ motion::SpeedLaw Simple2R3::law_of(int axis, std::uint32_t speed_rpm, std::uint3
     return motion::RampLaw::by_time(std::max(time_10ms, 1U) / 100.0);
   };
   const double speed_pps = static_cast<double>(speed_rpm) * resolution_of(state_, axis) / 60.0;
-  return {.top_speed_u_s = std::min(speed_pps, kMaxPulseRate_pps),
+  return {.top_speed_u_s = std::min(speed_pps, static_cast<double>(kMaxPulseRate_pps)),
           .up = by_time(acceleration_10ms),
           .down = by_time(deceleration_10ms)};
 }
@@ -177,10 +176,10 @@ void Simple2R3::output_pwm(int axis, std::uint8_t percent) {
 
 void Simple2R3::follow_encoder(int axis) {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
-  if (choice(kAlarmReaction) == 0 && alarm(axis)) return;
+  refresh_signals(axis);
   const auto pps = [&](std::uint32_t rpm) {
     const std::int64_t speed = static_cast<std::int64_t>(rpm) * resolution_of(state_, axis) / 60;
-    return std::clamp<std::int64_t>(speed, 1, static_cast<std::int64_t>(kMaxPulseRate_pps));
+    return std::clamp<std::int64_t>(speed, 1, kMaxPulseRate_pps);
   };
   const std::uint32_t slope_rpm = state_.image[slots.sync_slope];
   simple2_r3::follow_encoder(state_.axes[static_cast<std::size_t>(axis)],
