@@ -1,13 +1,73 @@
 #include "emulator/device.h"
 
+#include "emulator/one_line.h"
+
 namespace understudy::emulator {
 
 Device::Device(const Model& model, DeviceSettings settings)
     : model_(model),
       settings_(std::move(settings)),
       choices_(resolve_choices(model.choices, settings_.choices)),
-      inputs_(model.terminals.size(), false),
+      inputs_(model.terminals.size(), 0),
       mentioned_(model.registers.rows().size(), false) {}
+
+void Device::switch_power(bool on) {
+  if (on == powered_) return;
+  powered_ = on;
+  if (on) {
+    power_up();
+  } else {
+    power_down();
+  }
+}
+
+NvImage Device::nv_image() const {
+  NvImage image{.model = std::string(model_.name), .firmware = version_text(firmware()), .registers = {}};
+  const std::span<const std::uint32_t> kept = kept_image();
+  std::size_t slot = 0;
+  for (const RegisterRow& row : registers().rows()) {
+    for (int i = 0; i < row.count; ++i, ++slot) {
+      if (!keeps(row) || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
+      image.registers.emplace_back(RegisterMap::name_of(row, i), value_of(kept[slot], row.type));
+    }
+  }
+  return image;
+}
+
+void Device::load_nv(const NvImage& image) {
+  if (image.model != model_.name) {
+    throw NvError("model: is the memory of a " + quoted(image.model) + "; expected one of " +
+                  std::string(model_.name));
+  }
+  std::vector<std::pair<std::size_t, std::uint32_t>> wanted;
+  for (const auto& [name, value] : image.registers) {
+    // Of any firmware: an update leaves the memory as it is.
+    const auto found = registers().find(name, model_.firmwares.back());
+    if (!found || found->bit >= 0 || found->place.part != Place::Part::whole) {
+      throw NvError("registers: " + registers().why_not(name, model_.firmwares.back()));
+    }
+    const RegisterRow& row = *found->place.row;
+    if (!keeps(row)) {
+      throw NvError("registers: " + quoted(name) + " is not kept over power-off; expected one that is");
+    }
+    const auto bits = static_cast<std::uint32_t>(value);
+    // Half a value may have been written alone, so it can be beyond the register's range, not its width.
+    if (value_of(bits, row.type) != value || (bits & row.stored_bits) != bits) {
+      throw NvError("registers: " + quoted(name) + ": " + std::to_string(value) + " does not fit; expected " +
+                    range_text(row));
+    }
+    wanted.emplace_back(static_cast<std::size_t>(found->place.slot), bits);
+  }
+  std::size_t slot = 0;
+  for (const RegisterRow& row : registers().rows()) {
+    for (int i = 0; i < row.count; ++i, ++slot) put_kept(slot, static_cast<std::uint32_t>(row.factory));
+  }
+  for (const auto& [place, bits] : wanted) put_kept(place, bits);
+}
+
+void Device::load_program(std::string_view) {
+  throw ProgramError(0, std::string(model_.name) + " takes no program from a file; expected none");
+}
 
 void Device::mention_unmodelled(const RegisterRow& row) const {
   const auto number = static_cast<std::size_t>(&row - registers().rows().data());

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/memory/nv_image.h"
 #include "emulator/model.h"
 #include "emulator/simulated_time.h"
 #include "pty/line_settings.h"
@@ -36,12 +37,36 @@ class Device {
   virtual std::span<std::uint32_t> image() = 0;
   virtual std::span<const std::uint32_t> image() const = 0;
   virtual bool low_word_first() const { return registers().policy().low_word_first; }
+  /// Called for each register that a request has written, after its effect.
+  virtual void register_written(const RegisterRow& row, std::size_t slot) = 0;
   /// Called after a write request has been stored and all its effects have run.
   virtual void registers_written() {}
 
   // --- the wire ------------------------------------------------------------------------------
   virtual Addressing addressing(std::uint8_t address) const = 0;
   virtual pty::LineSettings line_settings() const = 0;
+
+  // --- power and memory -------------------------------------------------------------------------
+  /// A device is made without power. Switching it on begins with what its memory has kept.
+  bool powered() const { return powered_; }
+  void switch_power(bool on);
+  /// Whether a register outlives the power.
+  virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
+  /// What would be there if the power went now, one value for each slot; those of registers that are not
+  /// kept mean nothing.
+  virtual std::span<const std::uint32_t> kept_image() const = 0;
+  /// Changes whenever kept_image() may have changed.
+  virtual std::uint64_t kept_revision() const = 0;
+  /// All that waits to be kept is kept at once, as if its time were over.
+  virtual void settle_memory() = 0;
+  /// The memory as a file has it, and back (without power only). Throws NvError for what it cannot hold.
+  NvImage nv_image() const;
+  void load_nv(const NvImage& image);
+
+  /// Throws ProgramError. What it brings is written as over the wire.
+  virtual void load_program(std::string_view text);
+  /// The program as text that load_program() takes; empty if the model has none.
+  virtual std::string program_text() const { return {}; }
 
   // --- time: the phases of a tick, each called for all devices before the next one -----------------
   virtual void sample_inputs(Tick tick) = 0;
@@ -55,14 +80,16 @@ class Device {
   virtual bool same_state(const Device& other) const = 0;
 
   // --- terminals, by their number in the model's table -----------------------------------------------
-  /// Levels from outside; the device looks at them in sample_inputs().
-  void set_input(int terminal, bool on) { inputs_[static_cast<std::size_t>(terminal)] = on; }
-  bool input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
+  /// Levels from outside, in the terminal's unit; the device looks at them in sample_inputs().
+  void set_input(int terminal, std::int32_t level) { inputs_[static_cast<std::size_t>(terminal)] = level; }
+  std::int32_t input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
   virtual bool output(int terminal) const = 0;
 
   // --- axes, by their number in the model's table ----------------------------------------------------
   /// Pulses that left the device in this tick, in the motor's sense (after every reversal).
   virtual std::int64_t pulses_this_tick(int axis) const = 0;
+  /// The form in which they leave, as the manual calls it; empty if there is but one.
+  virtual std::string_view pulse_format() const { return {}; }
   /// The count of the encoder on the axis, absolute, as the plant sees it.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
 
@@ -75,11 +102,20 @@ class Device {
   void mention_unmodelled(const RegisterRow& row) const;
   void set_log(std::function<void(const std::string&)> log) { log_ = std::move(log); }
 
+ protected:
+  /// The state as it is when the power comes: from kept_image() and the inputs.
+  virtual void power_up() = 0;
+  /// Nothing is driven any more, and all that is not kept is lost.
+  virtual void power_down() = 0;
+  /// A kept value from outside, without power.
+  virtual void put_kept(std::size_t slot, std::uint32_t bits) = 0;
+
  private:
   const Model& model_;
   DeviceSettings settings_;
   std::vector<std::uint8_t> choices_;
-  std::vector<bool> inputs_;
+  std::vector<std::int32_t> inputs_;
+  bool powered_ = false;
   Tick now_ = 0;
   std::function<void(const std::string&)> log_;
   mutable std::vector<bool> mentioned_;  // rows; of the log, not of the model

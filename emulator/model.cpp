@@ -5,6 +5,7 @@
 
 #include "emulator/device.h"
 #include "emulator/devices/simple2_r3/model.h"
+#include "emulator/one_line.h"
 #include "emulator/register_map/access.h"
 
 namespace understudy::emulator {
@@ -62,6 +63,18 @@ void check(const Model& model, const DeviceSettings& settings) {
   }
 }
 
+int demand_switch(const Model& model, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    if (model.terminals[i].kind != TerminalRow::Kind::dip_switch) continue;
+    if (model.terminals[i].name == name) return static_cast<int>(i);
+    names.emplace_back(model.terminals[i].name);
+  }
+  throw SettingError(
+      "dip", quoted(name) + " is no switch of " + std::string(model.name) +
+                 (names.empty() ? "; it has none" : "; the nearest is '" + nearest_word(name, names) + "'"));
+}
+
 }  // namespace
 
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
@@ -78,6 +91,14 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
     throw SettingError("choices", error.what());
   }
   device->set_log(std::move(log));
+  for (const auto& [name, on] : settings.dip) device->set_input(demand_switch(model, name), on ? 1 : 0);
+  if (settings.nv) device->load_nv(*settings.nv);
+  device->switch_power(true);
+  if (const int baud = device->line_settings().baud; given.baud != 0 && baud != given.baud) {
+    throw SettingError("dip", "the switches say " + std::to_string(baud) + " baud, the line " +
+                                  std::to_string(given.baud) + "; expected the same");
+  }
+  if (!settings.program.empty()) device->load_program(settings.program);
   for (const auto& [name, value] : settings.set) {
     const auto place = model.registers.find(name, settings.firmware);
     if (!place) {
@@ -93,6 +114,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
       }
     }
   }
+  device->settle_memory();
   return device;
 }
 

@@ -6,12 +6,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "emulator/choices.h"
+#include "emulator/memory/nv_image.h"
 #include "emulator/register_map/register_map.h"
 #include "pty/line_settings.h"
 
@@ -37,9 +39,18 @@ struct InstructionRow {
 
 /// A point where the device meets the outside, as its manual names it.
 struct TerminalRow {
-  enum class Kind : std::uint8_t { digital_in, digital_out } kind;
+  enum class Kind : std::uint8_t {
+    digital_in,   // 1: conducting
+    digital_out,  // 1: conducting
+    analog_in,    // millivolts
+    dip_switch,   // on the housing: 1 is ON
+  } kind;
   std::string_view name;
+  std::int32_t lowest = 0;  // levels that it can be given
+  std::int32_t highest = 1;
 };
+
+constexpr bool is_input(TerminalRow::Kind kind) { return kind != TerminalRow::Kind::digital_out; }
 
 /// A motor axis, and where the switches of the machine that it drives are wired to.
 struct AxisRow {
@@ -47,6 +58,10 @@ struct AxisRow {
   int upper_limit_input = -1;  // numbers of terminals
   int lower_limit_input = -1;
   int home_input = -1;
+  int alarm_input = -1;  // and of its drive
+  int ready_input = -1;
+  int servo_output = -1;
+  int alarm_clear_output = -1;
   int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
 };
 
@@ -67,7 +82,11 @@ struct DeviceSettings {
   int address = 1;                                 // its station number
   int baud = 0;                                    // 0: the factory's
   std::map<std::string, std::string> choices;      // overrides
-  std::vector<std::pair<std::string, Value>> set;  // registers written at power-up, in this order
+  std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
+  std::optional<NvImage> nv;                       // what its memory holds; the factory's without one
+  std::string program;                             // text, loaded when it is made
+  std::string program_name;                        // the file it is from, for messages
+  std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
 };
 
 struct Model {
@@ -98,8 +117,16 @@ struct SettingError : std::runtime_error {
   std::string setting;
 };
 
-/// Checks the settings against the model, makes the device and gives the registers of `set` their
-/// values. Throws SettingError. `log` gets what the device has to tell, from its settings on.
+/// A program that a device cannot take: one line, with the line of the text where it went wrong.
+struct ProgramError : std::runtime_error {
+  ProgramError(int line_of_text, const std::string& what_is_wrong)
+      : std::runtime_error(what_is_wrong), line(line_of_text) {}
+  int line = 0;  // from 1; 0: the whole
+};
+
+/// Checks the settings against the model, makes the device, gives it its memory, its power, its program and
+/// the registers of `set` their values; what of that is persistent is kept at once. Throws SettingError,
+/// NvError, ProgramError. `log` gets what the device has to tell, from its settings on.
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& settings,
                                     std::function<void(const std::string&)> log = {});
 

@@ -223,7 +223,8 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
       bytes = bytes.first(i);
       break;
     }
-    const TimedByte character = place(member.speech, bytes[i], clock_);
+    TimedByte character = place(member.speech, bytes[i], clock_);
+    character.number = index;
     if (i == 0) {
       first_start = character.start;
       first_end = character.end;
@@ -267,6 +268,22 @@ void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
     has_collided = true;
   } else {
     leaving_.insert(other, character);
+  }
+}
+
+void Line::hush(const Station& station, SimTime now) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Member& member = members_[i];
+    if (member.station != &station) continue;
+    const auto is_unsent = [&](const TimedByte& sent) { return sent.number == i && sent.start >= now; };
+    leaving_.erase(std::remove_if(leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_),
+                                  leaving_.end(), is_unsent),
+                   leaving_.end());
+    if (leaving_first_ == leaving_.size()) {
+      leaving_.clear();
+      leaving_first_ = 0;
+    }
+    member.speech = {};
   }
 }
 

@@ -55,6 +55,10 @@ class Line {
 
   /// The station must outlive the line. Stations hear, and speak, in the order of attaching.
   void attach(Station& station);
+  /// A station has lost its power: what it has not begun to send, character by character, is never sent.
+  void hush(const Station& station, SimTime now);
+  /// The wire's speed from now on; characters on their way keep theirs.
+  void set_settings(const LineSettings& settings) { options_.settings = settings; }
   /// Tells `observer` what goes over the wire, as long as the line lives; null: nobody.
   void set_observer(LineObserver* observer) { observer_ = observer; }
 
@@ -159,7 +163,7 @@ class Line {
   bool is_heard_ = true;  // the character that arrives, by a station at least
 
   // Stations to host: characters on the wire, in the order of time, from `leaving_first_` on; then bytes
-  // that wait to be taken, from `output_first_` on.
+  // that wait to be taken, from `output_first_` on. A leaving character's number is its speaker.
   std::vector<TimedByte> leaving_;
   std::size_t leaving_first_ = 0;
   std::size_t notices_ = 0;  // members whose noticed_at is set

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/faults/fault.h"
 #include "emulator/model.h"
 #include "emulator/plant/plant.h"
 #include "pty/line.h"
@@ -23,6 +24,7 @@ struct LineSetup {
 struct DeviceSetup {
   const Model* model = nullptr;
   DeviceSettings settings;
+  std::string nv_path{};  // the file of its memory; empty: it lives in memory only
 };
 
 struct MachineSetup {
@@ -39,11 +41,20 @@ struct WireSetup {
   int to_terminal = 0;
 };
 
+/// What an input is given from outside when the world begins, in the terminal's unit.
+struct InputSetup {
+  std::size_t device = 0;
+  int terminal = 0;
+  std::int32_t level = 0;
+};
+
 struct Bench {
   std::vector<LineSetup> lines;
   std::vector<DeviceSetup> devices;
   std::vector<MachineSetup> machines;
   std::vector<WireSetup> wires;
+  std::vector<InputSetup> inputs;
+  std::vector<Fault> faults;  // those there are from the beginning
 };
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.

@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "emulator/bench/machine_fields.h"
+#include "emulator/bench/names.h"
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/device.h"
+#include "emulator/text_file.h"
 
 namespace understudy::emulator {
 
 namespace {
-
-constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses; farther than any counter
 
 /// A name that other names can be joined to with a dot.
 void demand_name(const YamlFields& field, const std::string& name) {
@@ -25,16 +24,18 @@ void demand_name(const YamlFields& field, const std::string& name) {
 
 class BenchReader {
  public:
-  explicit BenchReader(std::string folder) : folder_(std::move(folder)) {}
+  BenchReader(std::string folder, const std::string& links)
+      : folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
 
   Bench read(const YamlFields& root) {
-    root.demand_map({"understudy", "lines", "devices", "plant", "wires"});
+    root.demand_map({"understudy", "lines", "devices", "plant", "wires", "inputs", "faults"});
     root.at("understudy").integer(1, 1);
     if (root.has("devices")) read_devices(root.at("devices"));
     read_lines(root.at("lines"));
     if (root.has("plant")) read_plant(root.at("plant"));
     if (root.has("wires")) read_wires(root.at("wires"));
     check_devices();
+    read_disturbances(root);
     return std::move(bench_);
   }
 
@@ -65,6 +66,14 @@ class BenchReader {
         device.settings.set.emplace_back(register_name, value.integer(INT32_MIN, UINT32_MAX));
       }
     }
+    if (fields.has("dip")) {
+      fields.at("dip").demand_map({});
+      for (const auto& [dip, level] : fields.at("dip").entries()) {
+        device.settings.dip[dip] = level.on_or_off();
+      }
+    }
+    if (fields.has("program")) read_program(fields.at("program"), device.settings);
+    if (fields.has("nv")) device.nv_path = read_nv_path(fields.at("nv"));
     if (fields.has("choices")) {
       fields.at("choices").demand_map({});
       for (const auto& [id, option] : fields.at("choices").entries())
@@ -76,10 +85,33 @@ class BenchReader {
     return bench_.devices.size() - 1;
   }
 
+  static std::string path_in(const std::string& folder, const YamlFields& field) {
+    if (field.text().empty()) field.fail("is empty; expected a path");
+    return (std::filesystem::path(folder) / field.text()).lexically_normal().string();
+  }
+
+  void read_program(const YamlFields& field, DeviceSettings& settings) const {
+    const std::string path = path_in(folder_, field);
+    const auto text = read_text_file(path);
+    if (!text) field.fail(path + " cannot be read; expected a listing");
+    settings.program = *text;
+    settings.program_name = path;
+  }
+
+  std::string read_nv_path(const YamlFields& field) const {
+    const std::string path = path_in(folder_, field);
+    for (const DeviceSetup& other : bench_.devices) {
+      if (other.nv_path == path) {
+        field.fail("device '" + other.settings.name + "' has the same file; expected another");
+      }
+    }
+    return path;
+  }
+
   void read_devices(const YamlFields& devices) {
     devices.demand_map({});
     for (const auto& [name, fields] : devices.entries()) {
-      fields.demand_map({"model", "firmware", "set", "choices"});
+      fields.demand_map({"model", "firmware", "set", "choices", "dip", "program", "nv"});
       add_device(fields, name, fields);
     }
   }
@@ -113,8 +145,7 @@ class BenchReader {
     LineSetup line{.name = name, .link = {}, .stations = {}};
     if (fields.has("link")) {
       const YamlFields link = fields.at("link");
-      if (link.text().empty()) link.fail("is empty; expected a path");
-      line.link = (std::filesystem::path(folder_) / link.text()).lexically_normal().string();
+      line.link = path_in(links_, link);
       const auto absolute = [](const std::string& path) {
         return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
       };
@@ -145,7 +176,7 @@ class BenchReader {
       station.demand_map({"device", "address"});
       device = demand_device(station.at("device"), station.at("device").text());
     } else {
-      station.demand_map({"name", "model", "address", "firmware", "set", "choices"});
+      station.demand_map({"name", "model", "address", "firmware", "set", "choices", "dip", "program", "nv"});
       device = add_device(station.at("name"), station.at("name").text(), station);
     }
     if (on_a_line_[device]) station.fail("the device is on a line already; expected it on one line");
@@ -176,14 +207,6 @@ class BenchReader {
     return {demand_device(field, name.substr(0, dot)), name.substr(dot + 1)};
   }
 
-  static PulseSpan read_span(const YamlFields& field) {
-    const auto ends = field.elements();
-    if (ends.size() != 2) field.fail("expected two positions, as in `[ -20000, 20000 ]`");
-    const PulseSpan span{ends[0].integer(-kFar, kFar), ends[1].integer(-kFar, kFar)};
-    if (span.first > span.last) field.fail("ends before it begins; expected the lower position first");
-    return span;
-  }
-
   void read_plant(const YamlFields& plant) {
     plant.demand_map({});
     for (const auto& [name, fields] : plant.entries()) {
@@ -196,46 +219,10 @@ class BenchReader {
         fields.fail("'" + axis_name + "' is no axis of " + std::string(model.name) + "; expected one of " +
                     axes);
       }
-      bench_.machines.push_back({.device = device, .axis = axis, .plant = read_machine(fields, model, axis)});
+      bench_.machines.push_back({.device = device,
+                                 .axis = axis,
+                                 .plant = read_machine(fields, model.axes[static_cast<std::size_t>(axis)])});
     }
-  }
-
-  static PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis) {
-    fields.demand_map({"travel", "home", "limits", "encoder"});
-    PlantSetup setup;
-    if (fields.has("travel")) {
-      setup.travel = read_span(fields.at("travel"));
-      if (setup.travel->first > 0 || setup.travel->last < 0) {
-        fields.at("travel").fail("does not hold position 0, where the machine starts; expected it inside");
-      }
-    }
-    if (fields.has("home")) {
-      const YamlFields home = fields.at("home");
-      home.demand_map({"at", "width"});
-      const std::int64_t at = home.at("at").integer(-kFar, kFar);
-      setup.home = PulseSpan{at, at + home.at("width").integer(1, kFar) - 1};
-    }
-    if (fields.has("limits")) {
-      const YamlFields limits = fields.at("limits");
-      limits.demand_map({"lower", "upper"});
-      if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(-kFar, kFar);
-      if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(-kFar, kFar);
-      if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
-        limits.fail("the lower limit is not below the upper one; expected it below");
-      }
-    }
-    setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
-    if (fields.has("encoder")) {
-      const YamlFields encoder = fields.at("encoder");
-      encoder.demand_map({"per_revolution", "motor_pulses_per_revolution"});
-      setup.encoder_counts_per_revolution =
-          static_cast<int>(encoder.at("per_revolution").integer(1, 10'000'000));
-      if (encoder.has("motor_pulses_per_revolution")) {
-        setup.pulses_per_revolution =
-            static_cast<int>(encoder.at("motor_pulses_per_revolution").integer(1, 10'000'000));
-      }
-    }
-    return setup;
   }
 
   std::pair<std::size_t, int> demand_terminal(const YamlFields& field, const std::string& name,
@@ -281,11 +268,36 @@ class BenchReader {
         make_device(*bench_.devices[i].model, bench_.devices[i].settings);
       } catch (const SettingError& error) {
         device_fields_[i].fail(error.what());
+      } catch (const ProgramError& error) {
+        throw BenchError(bench_.devices[i].settings.program_name + ":" + std::to_string(error.line) + ": " +
+                         error.what());
+      }
+    }
+  }
+
+  // --- what is there from the beginning -----------------------------------------------------------
+  void read_disturbances(const YamlFields& root) {
+    KnownDevices known;
+    for (const DeviceSetup& device : bench_.devices) {
+      const Firmware firmware = device.settings.firmware;
+      known.push_back(
+          {device.settings.name, device.model, firmware != 0 ? firmware : device.model->firmwares.back()});
+    }
+    if (root.has("inputs")) {
+      root.at("inputs").demand_map({});
+      for (const auto& [name, level] : root.at("inputs").entries()) {
+        bench_.inputs.push_back(read_input(level, name, known));
+      }
+    }
+    if (root.has("faults")) {
+      for (const YamlFields& fault : root.at("faults").elements()) {
+        bench_.faults.push_back(read_fault(fault, known));
       }
     }
   }
 
   std::string folder_;
+  std::string links_;
   Bench bench_;
   std::vector<YamlFields> device_fields_;  // where each device was described
   std::vector<bool> on_a_line_;
@@ -293,7 +305,8 @@ class BenchReader {
 
 }  // namespace
 
-Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder) {
+Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
+                  const std::string& links) {
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) {
@@ -304,22 +317,16 @@ Bench parse_bench(const std::string& text, const std::string& name, const std::s
     const YamlFields fields(name, root, "bench");
     if (!root.IsMap())
       throw BenchError(name + ":1: bench: the file is no map; expected `understudy: 1` and `lines:`");
-    return BenchReader(folder).read(fields);
+    return BenchReader(folder, links).read(fields);
   } catch (const YAML::Exception& error) {
     throw BenchError(name + ":" + std::to_string(error.mark.line + 1) + ": bench: is not YAML: " + error.msg);
   }
 }
 
 Bench load_bench(const std::string& path, const std::string& links) {
-  std::ifstream file(path);
-  std::error_code ignored;
-  if (!file || std::filesystem::is_directory(path, ignored)) {
-    throw BenchError(path + ":1: bench: cannot be read; expected a bench file");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_bench(text.str(), path,
-                     links.empty() ? std::filesystem::path(path).parent_path().string() : links);
+  const auto text = read_text_file(path);
+  if (!text) throw BenchError(path + ":1: bench: cannot be read; expected a bench file");
+  return parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
 }
 
 }  // namespace understudy::emulator

@@ -14,10 +14,11 @@ struct BenchError : std::runtime_error {
   explicit BenchError(const std::string& text) : std::runtime_error(one_line(text)) {}
 };
 
-/// Links are relative to `links`, or else to the file's folder. Throws BenchError.
+/// Paths are relative to the file's folder, links to `links` if that is given. Throws BenchError.
 Bench load_bench(const std::string& path, const std::string& links = "");
 
-/// The same from a text; `name` stands for the file in messages, links are relative to `folder`.
-Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder);
+/// The same from a text; `name` stands for the file in messages, paths are relative to `folder`.
+Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
+                  const std::string& links = "");
 
 }  // namespace understudy::emulator

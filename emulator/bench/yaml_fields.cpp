@@ -75,4 +75,20 @@ std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) cons
   return *value;
 }
 
+bool YamlFields::on_or_off() const {
+  const std::string word = text();
+  const bool on = word == "on" || word == "true" || word == "1";
+  if (!on && word != "off" && word != "false" && word != "0")
+    fail("'" + word + "' is neither; expected on or off");
+  return on;
+}
+
+Tick YamlFields::ticks() const {
+  const auto duration = parse_duration(text());
+  if (!duration || *duration < SimTime{0} || *duration % kTickLength != SimTime{0}) {
+    fail("'" + text() + "' is no duration of whole milliseconds; expected one such as 120ms");
+  }
+  return *duration / kTickLength;
+}
+
 }  // namespace understudy::emulator

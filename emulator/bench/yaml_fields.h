@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/simulated_time.h"
+
 namespace understudy::emulator {
 
 /// Where in which file a node stands, and how to complain about it.
@@ -36,6 +38,10 @@ class YamlFields {
 
   std::string text() const;
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
+  /// "on", "off" (and true, false, 1, 0).
+  bool on_or_off() const;
+  /// A duration of whole milliseconds, "120ms".
+  Tick ticks() const;
 
  private:
   std::string file_;

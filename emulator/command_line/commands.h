@@ -44,6 +44,7 @@ struct ServeArguments {
   bool ignore_baud = false;
   std::string speed = "real";
   std::string control;
+  std::string nv;  // the folder for memories of devices that have no file of their own
   std::string capture;
 };
 int serve(const ServeArguments& arguments);

@@ -8,6 +8,7 @@
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/simulated_time.h"
+#include "emulator/text_file.h"
 
 namespace understudy::emulator {
 
@@ -41,6 +42,41 @@ Json assignments(const ControlArguments& arguments) {
   return values;
 }
 
+/// "NAME=LEVEL" operands: a whole number, or a word or voltage that the daemon reads.
+Json levels(const ControlArguments& arguments) {
+  Json values = Json::object();
+  for (const std::string& operand : arguments.operands) {
+    const std::size_t equals = operand.find('=');
+    const std::string name = operand.substr(0, equals);
+    if (equals == std::string::npos || name.empty() || equals + 1 == operand.size())
+      throw UsageError("ctl input: '" + operand + "' is not understood; expected NAME=LEVEL");
+    if (values.contains(name)) throw UsageError("ctl input: '" + name + "' is given twice; expected it once");
+    const std::string level = operand.substr(equals + 1);
+    if (const auto number = parse_integer(level)) {
+      values[name] = *number;
+    } else {
+      values[name] = level;
+    }
+  }
+  if (values.empty()) throw UsageError("ctl input: nothing to do; expected NAME=LEVEL");
+  return values;
+}
+
+std::string listing_of(const std::string& path) {
+  const auto text = read_text_file(path);
+  if (!text) throw UsageError("ctl program: " + path + ": cannot be read; expected a listing");
+  return *text;
+}
+
+std::int64_t demand_number(const ControlArguments& arguments) {
+  const auto number = parse_integer(arguments.operands[0]);
+  if (!number) {
+    throw UsageError("ctl clear: '" + arguments.operands[0] +
+                     "' is not understood; expected the number of a fault, or all");
+  }
+  return *number;
+}
+
 Json message_for(const ControlArguments& arguments) {
   const std::string& verb = arguments.verb;
   Json message{{"do", verb}};
@@ -48,8 +84,30 @@ Json message_for(const ControlArguments& arguments) {
     if (arguments.operands.empty())
       throw UsageError("ctl get: nothing to read; expected the name of a register");
     message["names"] = arguments.operands;
-  } else if (verb == "set" || verb == "input") {
+  } else if (verb == "set") {
     message["values"] = assignments(arguments);
+  } else if (verb == "input") {
+    message["values"] = levels(arguments);
+  } else if (verb == "power") {
+    if (arguments.operands.empty() || arguments.operands.size() > 2) {
+      throw UsageError("ctl power: expected a device, and on, off or cycle");
+    }
+    if (arguments.operands.size() == 2) message["device"] = arguments.operands.front();
+    message["to"] = arguments.operands.back();
+  } else if (verb == "program") {
+    if (arguments.operands.size() > 2) throw UsageError("ctl program: expected a device and a listing");
+    if (!arguments.operands.empty()) message["device"] = arguments.operands.front();
+    if (arguments.operands.size() == 2) message["text"] = listing_of(arguments.operands.back());
+  } else if (verb == "inject") {
+    if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and where");
+    message["fault"] = arguments.operands[0];
+    message["at"] = arguments.operands[1];
+    ControlArguments amounts = arguments;
+    amounts.operands.erase(amounts.operands.begin(), amounts.operands.begin() + 2);
+    if (!amounts.operands.empty()) message.update(assignments(amounts));
+  } else if (verb == "clear") {
+    if (arguments.operands.size() != 1) throw UsageError("ctl clear: expected the number of a fault, or all");
+    if (arguments.operands[0] != "all") message["number"] = demand_number(arguments);
   } else if (verb == "advance") {
     if (arguments.operands.size() != 1 || !parse_duration(arguments.operands[0])) {
       throw UsageError("ctl advance: expected one duration with a unit, such as 250ms");
@@ -93,12 +151,17 @@ void print_status(const Json& status) {
     }
   }
   for (const Json& device : status.at("devices")) {
-    std::printf("device %s: %s, firmware %s\n", device.at("name").get<std::string>().c_str(),
-                device.at("model").get<std::string>().c_str(),
-                device.at("firmware").get<std::string>().c_str());
+    std::printf(
+        "device %s: %s, firmware %s%s%s%s\n", device.at("name").get<std::string>().c_str(),
+        device.at("model").get<std::string>().c_str(), device.at("firmware").get<std::string>().c_str(),
+        device.contains("pulse_format") ? ", pulses " : "",
+        device.value("pulse_format", std::string()).c_str(), device.at("power") == "on" ? "" : ", no power");
     for (const auto& [axis, machine] : device.at("machines").items()) {
-      std::printf("  machine %s: at %lld pulses, %lld lost\n", axis.c_str(),
+      std::printf("  machine %s: at %lld pulses, %lld lost", axis.c_str(),
                   machine.at("position_pulses").get<long long>(), machine.at("lost_pulses").get<long long>());
+      if (machine.contains("drive"))
+        std::printf(", drive %s", machine.at("drive").get<std::string>().c_str());
+      std::printf("\n");
     }
   }
 }
@@ -122,6 +185,15 @@ int control(const ControlArguments& arguments) {
     } else if (reply.contains("values")) {
       for (const auto& [name, value] : reply.at("values").items()) {
         std::printf("%s %lld\n", name.c_str(), value.get<long long>());
+      }
+    } else if (reply.contains("text")) {
+      std::printf("%s", reply.at("text").get<std::string>().c_str());
+    } else if (reply.contains("number")) {
+      std::printf("fault %lld\n", reply.at("number").get<long long>());
+    } else if (reply.contains("faults")) {
+      for (const Json& fault : reply.at("faults")) {
+        std::printf("%lld %s\n", fault.at("number").get<long long>(),
+                    fault.at("fault").get<std::string>().c_str());
       }
     } else if (reply.contains("simulated_time_ns")) {
       std::printf("simulated time %s\n",

@@ -89,6 +89,10 @@ struct CommandLine {
     command->add_option("--control", serve.control, "Path of the control socket [a private one]")
         ->check(kNotEmpty);
     command
+        ->add_option("--nv", serve.nv,
+                     "Folder for the devices' non-volatile memories [they last as long as the run]")
+        ->check(kNotEmpty);
+    command
         ->add_option(
             "--capture", serve.capture,
             "Write what goes over the lines to this file: FILE.pcapng for Wireshark, else a text log")
@@ -116,7 +120,14 @@ struct CommandLine {
     add("status", "Time, lateness, lines, stations, machines", nullptr, nullptr);
     add("get", "Read registers", "NAME", "Such as feeder.Cord_A or feeder.STATUS.4");
     add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
-    add("input", "Hold inputs on (1) or let them go (0)", "NAME=LEVEL", "Such as feeder.DIN_10=1");
+    add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
+        "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
+    add("power", "Switch a device off or on, or off and on again", "WHAT", "DEVICE, and on, off or cycle");
+    add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
+    add("inject", "Break something", "FAULT",
+        "stall AXIS, lost_steps AXIS one_in=N, slip AXIS pulses=N, alarm AXIS, or stuck INPUT level=N");
+    add("clear", "Mend it", "NUMBER", "Of the fault, or all");
+    add("list", "The faults in force", nullptr, nullptr);
     add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");
     add("pause", "Stop simulated time", nullptr, nullptr);
     add("resume", "Let it run again", nullptr, nullptr);
@@ -220,6 +231,9 @@ int main(int argc, char** argv) {
     return complain(error, kExitBadInput);
   } catch (const SettingError& error) {
     return complain(error, kExitBadInput);
+  } catch (const NvError& error) {
+    std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());  // it begins with the file's name
+    return kExitBadInput;
   } catch (const understudy::pty::PortError& error) {
     return complain(error, kExitNoResource);
   } catch (const ControlError& error) {

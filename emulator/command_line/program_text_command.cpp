@@ -1,11 +1,10 @@
 #include <charconv>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string_view>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/text_file.h"
 #include "interpreter/simple2/listing.h"
 
 // The Simple2-R3 program as text and back. Its cells are a line of four numbers for each line of the program,
@@ -19,11 +18,9 @@ using interpreter::simple2::Lines;
 
 /// Null, and one line on standard error, if it cannot be read.
 std::optional<std::string> content_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.is_open() && !in.bad()) return text;
-  std::fprintf(stderr, "%s: cannot be read; expected a file\n", file.c_str());
-  return std::nullopt;
+  auto text = read_text_file(file);
+  if (!text) std::fprintf(stderr, "%s: cannot be read; expected a file\n", file.c_str());
+  return text;
 }
 
 int refuse(const std::string& file, std::size_t line, const std::string& what) {

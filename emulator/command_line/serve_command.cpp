@@ -10,6 +10,7 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/device.h"
 #include "emulator/edge/daemon.h"
+#include "emulator/edge/nv_keeper.h"
 #include "emulator/edge/port_group.h"
 #include "emulator/edge/readiness.h"
 
@@ -90,7 +91,8 @@ std::optional<gid_t> demand_group(const std::string& name) {
 }  // namespace
 
 int serve(const ServeArguments& arguments) {
-  const Bench bench = make_bench(arguments);
+  Bench bench = make_bench(arguments);
+  read_memories(bench, arguments.nv);
   DaemonOptions options;
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;

@@ -1,36 +1,18 @@
 #include "emulator/control/messages.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "emulator/bench/names.h"
+#include "emulator/control/message_fields.h"
+#include "emulator/control/verbs.h"
 #include "emulator/edge/daemon.h"
 #include "emulator/register_map/access.h"
-#include "emulator/world/names.h"
 
 namespace understudy::emulator {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-struct MessageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-void demand_keys(const Json& message, std::initializer_list<std::string_view> known) {
-  for (const auto& [key, value] : message.items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw MessageError("'" + key + "' is no key of this message");
-    }
-  }
-}
-
-const Json& demand(const Json& message, const char* key) {
-  if (!message.contains(key)) throw MessageError("'" + std::string(key) + "' is missing");
-  return message[key];
-}
 
 /// The object under "values": names with whole numbers.
 std::vector<std::pair<std::string, std::int64_t>> named_values(const Json& message) {
@@ -47,69 +29,8 @@ std::vector<std::pair<std::string, std::int64_t>> named_values(const Json& messa
   return all;
 }
 
-double microseconds(WallTime time) { return static_cast<double>(time.count()) / 1000.0; }
-
-Json line_status(const Daemon& daemon, const Port& port) {
-  const World::OneLine& line = daemon.world().line(port.line_number());
-  const pty::LineCounters& counters = line.line.counters();
-  Json status{{"name", line.line.name()},
-              {"pty", port.terminal().path()},
-              {"link", port.terminal().link_path()},
-              {"settings", pty::to_string(line.line.options().settings)},
-              {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
-              {"host", port.host_present() ? "open" : "closed"}};
-  if (port.host_present() && port.host_settings()) status["host_baud"] = port.host_settings()->baud;
-  status["bytes_in"] = counters.bytes_in;
-  status["bytes_out"] = counters.bytes_out;
-  status["bytes_unheard"] = counters.bytes_unheard;
-  status["bytes_discarded"] = counters.bytes_discarded;
-  status["collisions"] = counters.collisions;
-  status["stations"] = Json::array();
-  for (const auto& station : line.stations) {
-    status["stations"].push_back(Json{{"device", station->device().name()},
-                                      {"address", station->device().settings().address},
-                                      {"requests", station->counters().requests},
-                                      {"replies", station->counters().replies},
-                                      {"exceptions", station->counters().exceptions},
-                                      {"bytes_dropped", station->dropped_bytes()}});
-  }
-  return status;
-}
-
-Json device_status(const World& world, std::size_t number) {
-  const Device& device = world.device(number);
-  Json status{
-      {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
-  status["machines"] = Json::object();
-  for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
-    const PlantAxis& plant = world.plant(number, static_cast<int>(axis));
-    status["machines"][std::string(device.model().axes[axis].name)] =
-        Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
-  }
-  return status;
-}
-
-Json status(Daemon& daemon, const Json& message) {
-  demand_keys(message, {"do"});
-  daemon.catch_up();
-  const World& world = daemon.world();
-  const Pacer& pacer = daemon.pacer();
-  Json status{{"simulated_time", format_duration(world.now())},
-              {"simulated_time_ns", world.now().count()},
-              {"speed", format_speed(pacer.speed())},
-              {"paused", pacer.paused()},
-              {"lateness",
-               {{"wakes", pacer.lateness().count()},
-                {"p50_us", microseconds(pacer.lateness().percentile(50))},
-                {"p99_us", microseconds(pacer.lateness().percentile(99))},
-                {"max_us", microseconds(pacer.lateness().greatest())},
-                {"slips", pacer.slips()}}},
-              {"ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_crossed()}}}};
-  status["lines"] = Json::array();
-  for (const auto& port : daemon.ports()) status["lines"].push_back(line_status(daemon, *port));
-  status["devices"] = Json::array();
-  for (std::size_t i = 0; i < world.device_count(); ++i) status["devices"].push_back(device_status(world, i));
-  return Json{{"ok", true}, {"status", status}};
+void demand_power(const Device& device) {
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
 }
 
 Json get(Daemon& daemon, const Json& message) {
@@ -120,8 +41,9 @@ Json get(Daemon& daemon, const Json& message) {
   Json values = Json::object();
   for (const Json& name : names) {
     if (!name.is_string()) throw MessageError("names: expected a list of register names");
-    const RegisterName found = find_register(daemon.world(), name.get<std::string>());
+    const RegisterName found = find_register(daemon.world().known(), name.get<std::string>());
     const Device& device = daemon.world().device(found.device);
+    demand_power(device);
     values[name.get<std::string>()] = read_value(device, found.place);
   }
   return Json{{"ok", true}, {"values", values}};
@@ -145,7 +67,7 @@ Json set(Daemon& daemon, const Json& message) {
   std::vector<PreparedWrite> writes(wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto& [name, value] = wanted[i];
-    const RegisterName place = find_register(world, name);
+    const RegisterName place = find_register(world.known(), name);
     // Two bits, or halves, of one register would be judged one without the other.
     for (const RegisterName& other : places) {
       if (other.device == place.device && other.place.place.slot == place.place.place.slot) {
@@ -153,30 +75,11 @@ Json set(Daemon& daemon, const Json& message) {
       }
     }
     places.push_back(place);
+    demand_power(world.device(place.device));
     demand_accepted(prepare_value(world.device(place.device), place.place, value, writes[i]), name, value,
                     *place.place.place.row);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) write_prepared(world.device(places[i].device), writes[i]);
-  return Json{{"ok", true}};
-}
-
-Json input(Daemon& daemon, const Json& message) {
-  daemon.catch_up();
-  const auto wanted = named_values(message);
-  std::vector<InputName> inputs;
-  for (const auto& [name, level] : wanted) {
-    inputs.push_back(find_input(daemon.world(), name));
-    for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
-      if (inputs[i].device == inputs.back().device && inputs[i].terminal == inputs.back().terminal) {
-        throw MessageError(name + ": is named twice; expected it once");
-      }
-    }
-    if (level != 0 && level != 1)
-      throw MessageError(name + ": " + std::to_string(level) + " is no level; expected 0 or 1");
-  }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    daemon.world().set_external_input(inputs[i].device, inputs[i].terminal, wanted[i].second == 1);
-  }
   return Json{{"ok", true}};
 }
 
@@ -201,6 +104,21 @@ void advance(Daemon& daemon, const Json& message, const std::function<void(const
   }
 }
 
+/// Those that are answered at once.
+struct Verb {
+  std::string_view name;
+  Json (*answer)(Daemon& daemon, const Json& message);
+};
+constexpr std::array<Verb, 9> kVerbs{{{"status", status_message},
+                                      {"get", get},
+                                      {"set", set},
+                                      {"input", input_message},
+                                      {"power", power_message},
+                                      {"program", program_message},
+                                      {"inject", inject_message},
+                                      {"clear", clear_message},
+                                      {"list", list_message}}};
+
 }  // namespace
 
 void handle_message(Daemon& daemon, const std::string& line,
@@ -211,10 +129,9 @@ void handle_message(Daemon& daemon, const std::string& line,
       throw MessageError("expected an object with a word under \"do\"");
     }
     const std::string verb = message["do"].get<std::string>();
-    if (verb == "status") return reply(status(daemon, message).dump());
-    if (verb == "get") return reply(get(daemon, message).dump());
-    if (verb == "set") return reply(set(daemon, message).dump());
-    if (verb == "input") return reply(input(daemon, message).dump());
+    for (const Verb& known : kVerbs) {
+      if (verb == known.name) return reply(known.answer(daemon, message).dump());
+    }
     if (verb == "advance") return advance(daemon, message, reply);
     if (verb == "pause" || verb == "resume") {
       demand_keys(message, {"do"});
@@ -223,8 +140,9 @@ void handle_message(Daemon& daemon, const std::string& line,
         throw MessageError("time is being advanced; expected `resume` after that");
       return reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());
     }
-    throw MessageError("'" + verb +
-                       "' is nothing to do; expected status, get, set, input, advance, pause or resume");
+    std::string names = "advance, pause, resume";
+    for (const Verb& known : kVerbs) names += ", " + std::string(known.name);
+    throw MessageError("'" + verb + "' is nothing to do; expected one of " + names);
   } catch (const Json::exception&) {
     reply(R"({"ok":false,"error":"the message is not JSON; expected one object on one line"})");
   } catch (const std::runtime_error& error) {

@@ -48,6 +48,7 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
     if (asked_for) throw;
     log_(std::string("no control socket: ") + error.what() + " (--control SOCKET gives this one its own)");
   }
+  memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
   // Last: a run that cannot start leaves the capture of the one before alone.
   if (!options.capture_path.empty()) start_capture(options.capture_path);
 }
@@ -55,6 +56,7 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
 Daemon::~Daemon() {
   control_.reset();
   ports_.clear();
+  memories_.reset();
   finish_capture();
   if (signals_ >= 0) close(signals_);
 }
@@ -177,6 +179,7 @@ void Daemon::wait() {
     const auto look = port->next_look(pacer_.standing());
     if (look && (!wake || *look < *wake)) wake = look;
   }
+  if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
   loop_.wait(wake);
 }
 
@@ -195,6 +198,7 @@ void Daemon::run() {
       port->look(now, pacer_.standing());
       port->flush();
     }
+    memories_->look(now);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "emulator/bench/bench.h"
 #include "emulator/control/server.h"
 #include "emulator/edge/event_loop.h"
+#include "emulator/edge/nv_keeper.h"
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
@@ -69,6 +70,7 @@ class Daemon {
   World world_;
   std::unique_ptr<pty::CaptureFile> capture_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
+  std::unique_ptr<NvKeeper> memories_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;

@@ -19,12 +19,20 @@ class RtuStation final : public pty::Station {
   RtuStation(Device& device, pty::RtuFraming framing) : device_(device), framer_(framing) {}
 
   pty::LineSettings settings() const override { return device_.line_settings(); }
-  void hear_start_bit(pty::SimTime at) override { framer_.start_bit(at); }
-  void hear(const pty::TimedByte& byte) override { framer_.push(byte); }
+  // Without power it hears nothing.
+  void hear_start_bit(pty::SimTime at) override {
+    if (device_.powered()) framer_.start_bit(at);
+  }
+  void hear(const pty::TimedByte& byte) override {
+    if (device_.powered()) framer_.push(byte);
+  }
   void hear_other_station() override { framer_.reset(); }
   void hear_nothing_more() override { framer_.give_up_waiting(); }
   std::optional<pty::SimTime> due() const override { return framer_.due(); }
   void run(pty::SimTime now, pty::Transmitter& out) override;
+
+  /// What it was hearing is forgotten.
+  void reset() { framer_.reset(); }
 
   const Device& device() const { return device_; }
   const StationCounters& counters() const { return counters_; }

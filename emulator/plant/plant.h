@@ -1,9 +1,12 @@
 // The machine around a controller's axis: how far it travels, where its switches are, what its encoder
-// counts. Positions are pulses of the motor, 0 where the machine stood at power-up.
+// counts, and the drive that turns its motor. Positions are pulses of the motor, 0 where the machine stood at
+// power-up.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+
+#include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
 
@@ -11,6 +14,16 @@ namespace understudy::emulator {
 struct PulseSpan {
   std::int64_t first = 0;
   std::int64_t last = 0;
+};
+
+/// A servo drive between the controller and the motor. Without one every pulse is a step.
+struct DriveSetup {
+  /// From being enabled to Ready; pulses before that are lost.
+  Tick ready_after = 0;
+  /// The level of the controller's servo output that enables it.
+  bool enabled_by = true;
+  /// Whether the alarm contact opens with an alarm (and is closed without one), or closes with it.
+  bool alarm_opens = false;
 };
 
 struct PlantSetup {
@@ -21,31 +34,83 @@ struct PlantSetup {
   /// The limit switches: on at the position and beyond.
   std::optional<std::int64_t> lower_limit;
   std::optional<std::int64_t> upper_limit;
+  /// A switch that is on lets go only so far outside the place where it came on.
+  std::int64_t home_hysteresis_pulses = 0;
+  std::int64_t limit_hysteresis_pulses = 0;
   int encoder_counts_per_revolution = 0;  // 0: no encoder
   int pulses_per_revolution = 1;
+  bool encoder_reversed = false;
+  std::optional<DriveSetup> drive;
+};
+
+/// What is wrong with a machine.
+struct MachineFaults {
+  bool stalled = false;             // the motor is blocked: every pulse is lost
+  std::int64_t loses_one_in = 0;    // every so manieth pulse is lost; 0: none
+  std::int64_t slipped_pulses = 0;  // how far it has been moved by force since the last tick
+  bool alarm = false;               // what the drive's alarm is for; it outlives it until it is cleared
+  bool operator==(const MachineFaults&) const = default;
+};
+
+/// What the controller drives.
+struct DriveInputs {
+  bool servo = false;
+  bool alarm_clear = false;
 };
 
 class PlantAxis {
  public:
-  explicit PlantAxis(PlantSetup setup = {}) : setup_(setup) {}
+  explicit PlantAxis(PlantSetup setup = {}) : setup_(setup) { move_switches(); }
 
-  void move(std::int64_t pulses);
+  /// So many steps, as far as the stops let it; the rest is lost.
+  void move(std::int64_t steps);
+  /// One tick: the pulses of the controller, and its outputs as they were at its end.
+  void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
+  MachineFaults& faults() { return state_.faults; }
+  void set_faults(const MachineFaults& faults) { state_.faults = faults; }
+  const MachineFaults& faults() const { return state_.faults; }
 
-  std::int64_t position_pulses() const { return position_pulses_; }
-  std::int64_t lost_pulses() const { return lost_pulses_; }
-  bool at_home() const;
-  bool at_lower_limit() const;
-  bool at_upper_limit() const;
+  std::int64_t position_pulses() const { return state_.position_pulses; }
+  std::int64_t lost_pulses() const { return state_.lost_pulses; }
+  bool at_home() const { return state_.at_home; }
+  bool at_lower_limit() const { return state_.at_lower_limit; }
+  bool at_upper_limit() const { return state_.at_upper_limit; }
+  bool has_drive() const { return setup_.drive.has_value(); }
+  bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
+  /// The level of the alarm contact.
+  bool alarm_contact() const { return in_alarm() != (setup_.drive && setup_.drive->alarm_opens); }
+  bool ready() const { return state_.ready; }
   bool has_encoder() const { return setup_.encoder_counts_per_revolution != 0; }
   /// Rounded towards minus infinity, so that a slow turn through 0 counts evenly.
   std::int64_t encoder_counts() const;
 
+  /// The first tick after `done` at which something changes by itself; kNever if nothing does.
+  Tick next_active_tick(Tick done) const;
+
   const PlantSetup& setup() const { return setup_; }
+  bool same_state(const PlantAxis& other) const { return state_ == other.state_; }
 
  private:
+  struct State {
+    std::int64_t position_pulses = 0;
+    std::int64_t lost_pulses = 0;     // magnitude
+    std::int64_t pulses_to_lose = 0;  // made since one was lost
+    bool at_home = false;
+    bool at_lower_limit = false;
+    bool at_upper_limit = false;
+    bool alarm_latched = false;
+    bool ready = false;
+    Tick enabled_at = kNever;
+    MachineFaults faults;
+    bool operator==(const State&) const = default;
+  };
+
+  void step_drive(Tick tick, DriveInputs inputs);
+  std::int64_t pulses_that_step(std::int64_t pulses);
+  void move_switches();
+
   PlantSetup setup_;
-  std::int64_t position_pulses_ = 0;
-  std::int64_t lost_pulses_ = 0;  // magnitude
+  State state_;
 };
 
 }  // namespace understudy::emulator

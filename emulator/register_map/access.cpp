@@ -9,17 +9,6 @@ namespace understudy::emulator {
 
 namespace {
 
-// The low bits of a value, as a signed or unsigned quantity of the row's type.
-Value typed(std::uint32_t bits, Type type) {
-  switch (type) {
-    case Type::u16: return static_cast<std::uint16_t>(bits);
-    case Type::s16: return static_cast<std::int16_t>(bits);
-    case Type::u32: return bits;
-    case Type::s32: return static_cast<std::int32_t>(bits);
-  }
-  return 0;
-}
-
 std::pair<Value, Value> limits_of(Type type) {
   switch (type) {
     case Type::u16: return {0, UINT16_MAX};
@@ -73,7 +62,7 @@ bool complete(const Change& change) {
 bool in_range(const Change& change) {
   const RegisterRow& row = *change.place.row;
   if (!row.ranged) return true;
-  const Value value = typed(change.bits, row.type);
+  const Value value = value_of(change.bits, row.type);
   return value >= row.min && value <= row.max;
 }
 
@@ -132,10 +121,12 @@ void carry_out(Device& device, Changes& changes) {
     const RegisterRow& row = *change.place.row;
     if (change.bits == 0 && !row.acts_on_zero) continue;
     if (!row.unmodelled.empty()) device.mention_unmodelled(row);
-    if (row.effect == nullptr) continue;
-    Cell cell = cell_of(change.place);
-    cell.high_half = !is_32_bit(row.type) || change.high;
-    row.effect(device, cell, typed(change.bits, row.type));
+    if (row.effect != nullptr) {
+      Cell cell = cell_of(change.place);
+      cell.high_half = !is_32_bit(row.type) || change.high;
+      row.effect(device, cell, value_of(change.bits, row.type));
+    }
+    device.register_written(row, static_cast<std::size_t>(change.place.slot));
   }
   device.registers_written();
 }
@@ -150,7 +141,8 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Pr
     const Value mask = Value{1} << named.bit;
     const Value whole = read_value(device, place);
     value = value == 1 ? whole | mask : whole & ~mask;
-    if (!half) value = typed(static_cast<std::uint32_t>(value), row.type);  // the sign bit is a bit as well
+    if (!half)
+      value = value_of(static_cast<std::uint32_t>(value), row.type);  // the sign bit is a bit as well
   }
   // What does not fit the register's words cannot even be sent.
   const auto [lowest, highest] = half ? std::pair<Value, Value>{0, UINT16_MAX} : limits_of(row.type);
@@ -206,7 +198,7 @@ Value read_value(const Device& device, const Place& place) {
   mention_if_missed(device, place);
   const std::uint32_t bits = present_bits(device, place);
   if (place.part != Place::Part::whole) return word_of(bits, place.part);
-  return typed(bits, place.row->type);
+  return value_of(bits, place.row->type);
 }
 
 Value read_value(const Device& device, const NamedPlace& place) {

@@ -22,6 +22,17 @@ using Firmware = std::uint16_t;
 constexpr bool is_32_bit(Type type) { return type == Type::u32 || type == Type::s32; }
 constexpr bool is_signed(Type type) { return type == Type::s16 || type == Type::s32; }
 
+/// The low bits of a value, as a signed or unsigned quantity of the type.
+constexpr Value value_of(std::uint32_t bits, Type type) {
+  switch (type) {
+    case Type::u16: return static_cast<std::uint16_t>(bits);
+    case Type::s16: return static_cast<std::int16_t>(bits);
+    case Type::u32: return bits;
+    case Type::s32: return static_cast<std::int32_t>(bits);
+  }
+  return 0;
+}
+
 /// Which register of a row is meant, as its functions see it.
 struct Cell {
   int argument = 0;       // what the row was declared with, an axis for example

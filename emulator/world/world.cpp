@@ -9,8 +9,12 @@ World::World(const Bench& bench, const WorldOptions& options,
     : wires_(bench.wires) {
   for (const DeviceSetup& setup : bench.devices) {
     devices_.push_back(make_device(*setup.model, setup.settings, log));
+    known_.push_back({setup.settings.name, setup.model, devices_.back()->firmware()});
     plants_.emplace_back(setup.model->axes.size());
     inputs_.emplace_back(setup.model->terminals.size());
+    for (std::size_t i = 0; i < setup.model->terminals.size(); ++i) {
+      inputs_.back()[i].external = devices_.back()->input(static_cast<int>(i));  // its switches
+    }
   }
   for (const MachineSetup& machine : bench.machines) {
     plants_[machine.device][static_cast<std::size_t>(machine.axis)] = PlantAxis(machine.plant);
@@ -33,14 +37,11 @@ World::World(const Bench& bench, const WorldOptions& options,
       line.line.attach(*line.stations.back());
     }
   }
-  step_plant();  // a machine may stand on a switch at power-up
-}
-
-int World::find_device(std::string_view name) const {
-  for (std::size_t i = 0; i < devices_.size(); ++i) {
-    if (devices_[i]->name() == name) return static_cast<int>(i);
+  for (const InputSetup& setup : bench.inputs) {
+    set_external_input(setup.device, setup.terminal, setup.level);
   }
-  return -1;
+  for (const Fault& fault : bench.faults) inject(fault);
+  step_plant();  // a machine may stand on a switch at power-up
 }
 
 const PlantAxis& World::plant(std::size_t device, int axis) const {
@@ -80,8 +81,14 @@ std::optional<SimTime> World::next_due() const {
 }
 
 Tick World::next_active_tick() const {
+  if (disturbed_) return done_ + 1;
   Tick next = kNever;
-  for (const auto& device : devices_) next = std::min(next, device->next_active_tick(done_));
+  for (const auto& device : devices_) {
+    if (device->powered()) next = std::min(next, device->next_active_tick(done_));
+  }
+  for (const auto& axes : plants_) {
+    for (const PlantAxis& plant : axes) next = std::min(next, plant.next_active_tick(done_));
+  }
   return next;
 }
 
@@ -97,34 +104,44 @@ void World::run_lines(SimTime time) {
 
 void World::run_tick() {
   const Tick tick = done_ + 1;
-  for (const auto& device : devices_) device->sample_inputs(tick);
-  for (const auto& device : devices_) device->run_interpreters(tick);
-  for (const auto& device : devices_) device->step_motion(tick);
-  step_plant();
+  disturbed_ = false;
+  const auto each = [&](auto&& phase) {
+    for (const auto& device : devices_) {
+      if (device->powered()) phase(*device);
+    }
+  };
+  each([&](Device& device) { device.sample_inputs(tick); });
+  each([&](Device& device) { device.run_interpreters(tick); });
+  each([&](Device& device) { device.step_motion(tick); });
   done_ = tick;
-  for (const auto& device : devices_) {
-    device->set_now(tick);
-    device->update_outputs(tick);
-  }
+  step_plant();
+  for (const auto& device : devices_) device->set_now(tick);
+  each([&](Device& device) { device.update_outputs(tick); });
   latch_wires();
   ++ticks_run_;
 }
 
 void World::step_plant() {
   for (std::size_t d = 0; d < devices_.size(); ++d) {
-    const auto axes = devices_[d]->model().axes;
+    Device& device = *devices_[d];
+    const auto axes = device.model().axes;
     for (std::size_t a = 0; a < axes.size(); ++a) {
       PlantAxis& plant = plants_[d][a];
-      plant.move(devices_[d]->pulses_this_tick(static_cast<int>(a)));
-      if (plant.has_encoder()) devices_[d]->set_encoder(static_cast<int>(a), plant.encoder_counts());
+      const AxisRow& axis = axes[a];
+      const auto driven = [&](int terminal) { return terminal >= 0 && device.output(terminal); };
+      plant.step(done_, device.pulses_this_tick(static_cast<int>(a)),
+                 {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)});
+      if (plant.has_encoder()) device.set_encoder(static_cast<int>(a), plant.encoder_counts());
       const auto drive = [&](int terminal, bool level) {
         if (terminal < 0) return;
         inputs_[d][static_cast<std::size_t>(terminal)].plant = level;
         apply_input(d, terminal);
       };
-      drive(axes[a].home_input, plant.at_home());
-      drive(axes[a].lower_limit_input, plant.at_lower_limit());
-      drive(axes[a].upper_limit_input, plant.at_upper_limit());
+      drive(axis.home_input, plant.at_home());
+      drive(axis.lower_limit_input, plant.at_lower_limit());
+      drive(axis.upper_limit_input, plant.at_upper_limit());
+      drive(axis.alarm_input, plant.alarm_contact());
+      drive(axis.ready_input, plant.ready());
     }
   }
 }
@@ -141,14 +158,79 @@ void World::latch_wires() {
   for (const WireSetup& wire : wires_) apply_input(wire.to_device, wire.to_terminal);
 }
 
-void World::set_external_input(std::size_t device, int terminal, bool on) {
-  inputs_[device][static_cast<std::size_t>(terminal)].external = on;
+void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
+  inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
+}
+
+std::int32_t World::external_input(std::size_t device, int terminal) const {
+  return inputs_[device][static_cast<std::size_t>(terminal)].external;
 }
 
 void World::apply_input(std::size_t device, int terminal) {
   const Input& input = inputs_[device][static_cast<std::size_t>(terminal)];
-  devices_[device]->set_input(terminal, input.external || input.wired || input.plant);
+  std::int32_t level = input.external;
+  if (input.wired || input.plant) level = 1;
+  devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
+}
+
+void World::switch_power(std::size_t device, bool on) {
+  if (devices_[device]->powered() == on) return;
+  devices_[device]->switch_power(on);
+  disturbed_ = true;
+  for (const auto& line : lines_) {
+    for (const auto& station : line->stations) {
+      if (&station->device() != devices_[device].get()) continue;
+      station->reset();
+      line->line.hush(*station, now_);
+    }
+    // A switch on its housing may have given it another speed; the wire takes that of the first station.
+    const auto speaks = std::find_if(line->stations.begin(), line->stations.end(),
+                                     [](const auto& station) { return station->device().powered(); });
+    if (speaks != line->stations.end()) line->line.set_settings((*speaks)->settings());
+  }
+}
+
+std::size_t World::inject(const Fault& fault) {
+  disturbed_ = true;
+  const std::size_t number = next_fault_++;
+  if (fault.kind == Fault::Kind::slip) {
+    plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
+  } else {
+    faults_.emplace(number, fault);
+    apply_faults(fault.device);
+  }
+  return number;
+}
+
+bool World::clear_fault(std::size_t number) {
+  const auto found = faults_.find(number);
+  if (found == faults_.end()) return false;
+  const std::size_t device = found->second.device;
+  faults_.erase(found);
+  disturbed_ = true;
+  apply_faults(device);
+  return true;
+}
+
+/// Of several of one kind at one place the last one counts.
+void World::apply_faults(std::size_t device) {
+  for (PlantAxis& plant : plants_[device]) {
+    plant.set_faults({.slipped_pulses = plant.faults().slipped_pulses});
+  }
+  for (Input& input : inputs_[device]) input.stuck.reset();
+  for (const auto& [number, fault] : faults_) {
+    if (fault.device != device) continue;
+    const auto place = static_cast<std::size_t>(fault.place);
+    switch (fault.kind) {
+      case Fault::Kind::stall: plants_[device][place].faults().stalled = true; break;
+      case Fault::Kind::lost_steps: plants_[device][place].faults().loses_one_in = fault.amount; break;
+      case Fault::Kind::alarm: plants_[device][place].faults().alarm = true; break;
+      case Fault::Kind::stuck: inputs_[device][place].stuck = fault.amount != 0; break;
+      case Fault::Kind::slip: break;
+    }
+  }
+  for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
 }
 
 }  // namespace understudy::emulator

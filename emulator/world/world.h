@@ -7,13 +7,16 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "emulator/bench/bench.h"
+#include "emulator/bench/names.h"
 #include "emulator/device.h"
+#include "emulator/faults/fault.h"
 #include "emulator/modbus/rtu_station.h"
 #include "emulator/plant/plant.h"
 #include "emulator/simulated_time.h"
@@ -60,17 +63,31 @@ class World {
   std::size_t device_count() const { return devices_.size(); }
   Device& device(std::size_t number) { return *devices_[number]; }
   const Device& device(std::size_t number) const { return *devices_[number]; }
-  /// -1 if there is none of that name.
-  int find_device(std::string_view name) const;
+  /// For finding things by name.
+  const KnownDevices& known() const { return known_; }
   const PlantAxis& plant(std::size_t device, int axis) const;
-  /// Holds an input on, or lets it go; switches and wires on the same input act as well.
-  void set_external_input(std::size_t device, int terminal, bool on);
+  /// Holds a digital input on, or lets it go; switches and wires on the same input act as well. Or sets an
+  /// analog input (millivolts) or a switch on the housing.
+  void set_external_input(std::size_t device, int terminal, std::int32_t level);
+  /// What set_external_input() has given it.
+  std::int32_t external_input(std::size_t device, int terminal) const;
+  /// Between two ticks. What a device without power was saying ends at once.
+  void switch_power(std::size_t device, bool on);
+
+  // --- faults --------------------------------------------------------------------------------
+  /// In force from the next tick on; the number is for clear_fault().
+  std::size_t inject(const Fault& fault);
+  /// False if there is none of that number.
+  bool clear_fault(std::size_t number);
+  /// Those in force, in the order of their numbers.
+  const std::map<std::size_t, Fault>& faults() const { return faults_; }
 
  private:
   struct Input {
-    bool external = false;
+    std::int32_t external = 0;
     bool wired = false;
     bool plant = false;
+    std::optional<bool> stuck{};
   };
 
   void run_tick();
@@ -80,12 +97,17 @@ class World {
   void step_plant();
   void latch_wires();
   void apply_input(std::size_t device, int terminal);
+  void apply_faults(std::size_t device);
 
+  KnownDevices known_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<std::unique_ptr<OneLine>> lines_;
   std::vector<std::vector<PlantAxis>> plants_;  // [device][axis]
   std::vector<std::vector<Input>> inputs_;      // [device][terminal]
   std::vector<WireSetup> wires_;
+  std::map<std::size_t, Fault> faults_;  // by number
+  std::size_t next_fault_ = 1;
+  bool disturbed_ = false;  // from outside, in a way that devices do not see: the next tick is run
   SimTime now_{0};
   Tick done_ = 0;  // the last tick that is over
   std::uint64_t ticks_run_ = 0;

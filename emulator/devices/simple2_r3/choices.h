@@ -23,8 +23,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "the tolerant reading: idle time after the stop bit"},
     {"reply_delay", "RS485", "when a reply begins", "after_end_time", kFollows,
      "the controller knows that a request is over only when the END time has passed"},
-    {"switches_sampled", "RS485", "when DIP switches and the rotary switch are read", "at_power_up",
-     kProposal, "not said; hosts cannot turn them"},
+    {"switches_sampled", "RS485", "when the DIP switches are read", "at_power_up|always", kProposal,
+     "not said"},
     // --- registers ---
     {"read_of_write_only", "位址列表", "what a register that can only be written reads as", "zero", kProposal,
      "operator panels read 0x1000 to 0x101D as one block, which has six such words inside"},
@@ -50,6 +50,26 @@ inline constexpr ChoiceRow kChoices[] = {
     {"aclr_output", "運動相關", "how long the ACLR output is on", "200ms", kFollows,
      "the register returns to 0 after 200 ms; the output follows it"},
     {"aclr_again", "運動相關", "a second ACLR within the 200 ms", "restarts|ignored", kProposal, "not said"},
+    {"analog_scaling", "附錄 C", "Analog_A, Analog_B from ADC and its calibration",
+     "line_through_both_points", kProposal,
+     "200 at 1 V and 2000 at 10 V, rounded towards 200; 0 if both points are one"},
+    {"adc_width", "附錄 C", "what ADC_A, ADC_B read", "12_bits_400_a_volt", kProposal,
+     "not said; the factory's calibration is 400 and 4000, so that an uncalibrated input is right"},
+    // --- memory ---
+    {"eeprom_time", "狀態相關", "how long EEPROM_Writing is 1", "5ms_a_word|1ms_a_word", kProposal,
+     "not said; one quantity after the other, and a value that is there already is not written again"},
+    {"eeprom_erasure", "程式控制", "how long Erase_ALL and Factory_Reset write", "500ms", kProposal,
+     "not said; one job in place of what waits"},
+    {"power_cut", "狀態相關", "what a power cut leaves of what is being written", "old_value", kProposal,
+     "not said; both halves of a 32-bit register are written as one"},
+    {"password_kept", "附錄 C", "whether NEW_PWD outlives the power", "yes|no", kProposal,
+     "no star is printed, but a lock that opens by power-off is useless"},
+    {"first_password", "附錄 C", "the password from the factory", "0", kProposal,
+     "PWD_Input is 0 at power-up, so the program is open until somebody sets one"},
+    {"lock_judged", "附錄 C", "when PROG_UNLOCK is judged", "at_power_up_and_input|always", kProposal,
+     "so that a new password does not shut out who sets it"},
+    {"locked_writes", "附錄 C", "writes to program memory while it is locked", "allowed|ignored", kProposal,
+     "only reading is said to be void"},
     // --- motion ---
     {"appendix_a", "附錄 A", "the top speed of a short move, printed as P/(TA+TD)/2", "consistent", kFollows,
      "2P/(TA+TD): the worked example and the line for TC take the area as (TA+TD)*R/2; the printed form "
@@ -136,6 +156,11 @@ inline constexpr std::size_t kAlarmReaction = choice_number(kChoices, "alarm_rea
 inline constexpr std::size_t kHomeCoordinate = choice_number(kChoices, "home_coordinate");
 inline constexpr std::size_t kVelocityUnit = choice_number(kChoices, "velocity_unit");
 inline constexpr std::size_t kVelocityCommit = choice_number(kChoices, "velocity_commit");
+inline constexpr std::size_t kSwitchesSampled = choice_number(kChoices, "switches_sampled");
+inline constexpr std::size_t kEepromTime = choice_number(kChoices, "eeprom_time");
+inline constexpr std::size_t kPasswordKept = choice_number(kChoices, "password_kept");
+inline constexpr std::size_t kLockJudged = choice_number(kChoices, "lock_judged");
+inline constexpr std::size_t kLockedWrites = choice_number(kChoices, "locked_writes");
 inline constexpr std::size_t kWaitMoveB139 = choice_number(kChoices, "wait_move_b_139");
 inline constexpr std::size_t kLoopCount = choice_number(kChoices, "loop_count");
 inline constexpr std::size_t kLoopLeft = choice_number(kChoices, "loop_left");

@@ -12,8 +12,6 @@ namespace understudy::emulator::simple2_r3 {
 
 namespace {
 
-constexpr Tick kFirstTick = 1;  // of power-up: AutoStart_MainProg is looked at there
-
 // A half of a 32-bit register may have been written alone, so it can be anything: 0 would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis) {
   return std::clamp<std::uint32_t>(state.image[kAxisSlots[static_cast<std::size_t>(axis)].resolution], 1,
@@ -23,21 +21,9 @@ std::uint32_t resolution_of(const State& state, int axis) {
 }  // namespace
 
 Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), given) {
-  std::size_t next = 0;
-  for (const RegisterRow& row : kRegisters) {
-    for (int i = 0; i < row.count; ++i) state_.image[next++] = static_cast<std::uint32_t>(row.factory);
-  }
-  motion::AxisSettings motor;
-  const auto reaction = [&](std::size_t row) {
-    return choice(row) == 0 ? motion::Reaction::stop_at_once : motion::Reaction::ignore;
-  };
-  motor.at_limit_plus = motor.at_limit_minus = reaction(kLimitReaction);
-  motor.at_alarm = reaction(kAlarmReaction);
-  for (AxisState& axis : state_.axes) {
-    axis.motor.set(motor);
-    axis.motor.servo_on = choice(kServoAtPowerUp) == 1;
-  }
   dialect_ = dialect_of(*this);
+  state_.eeprom = factory_memory();
+  set_input(kFirstSwitch, settings().baud == simple2_r3::model().rtu.bauds.back() ? 1 : 0);  // DIP1
 }
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
@@ -53,7 +39,7 @@ Addressing Simple2R3::addressing(std::uint8_t address) const {
 
 pty::LineSettings Simple2R3::line_settings() const {
   pty::LineSettings line = Device::model().rtu.settings;
-  line.baud = settings().baud;
+  line.baud = Device::model().rtu.bauds[dip_switch(0) ? 1 : 0];
   return line;
 }
 
@@ -202,51 +188,22 @@ void Simple2R3::start_program(std::uint8_t line) { interpreter::simple2::start(s
 
 void Simple2R3::stop_program() { interpreter::simple2::stop(state_.execution); }
 
-void Simple2R3::reload_program() {
-  constexpr std::array<std::size_t, 4> kColumns{slot("MAIN_LINE{}_CMD"), slot("MAIN_LINE{}_DATA1"),
-                                                slot("MAIN_LINE{}_DATA2"), slot("MAIN_LINE{}_JMP")};
-  for (std::size_t line = 0; line < 256; ++line) {
-    for (std::size_t column = 0; column < 4; ++column) {
-      const auto cell = static_cast<std::uint8_t>(state_.image[kColumns[column] + line]);
-      const auto number = static_cast<int>(4 * line + column);
-      if (state_.program.cell(number) != cell) state_.program.set_cell(number, cell);
-    }
-  }
-}
-
-void Simple2R3::reset_to_factory() {
-  constexpr std::size_t kFirstSurvivor = slot("ADC_10V_A");
-  constexpr std::size_t kLastSurvivor = slot("ADC_1V_B");
-  std::size_t next = 0;
-  for (const RegisterRow& row : kRegisters) {
-    const bool stays = !row.persistent && choice(kFactoryResetVolatile) == 1;
-    for (int i = 0; i < row.count; ++i, ++next) {
-      if (stays || (next >= kFirstSurvivor && next <= kLastSurvivor)) continue;
-      state_.image[next] = static_cast<std::uint32_t>(row.factory);
-    }
-  }
-  stop_program();
-  reload_program();
-  for (int axis = 0; axis < 2; ++axis) {
-    switch_servo(axis, false);
-    state_.axes[static_cast<std::size_t>(axis)].homed = false;
-  }
-  if (choice(kFactoryResetVolatile) == 1) return;
-  state_.written_outputs = 0;
-  state_.timers = {};
-  for (AxisState& axis : state_.axes) axis.alarm_clear_until = 0;
+std::uint16_t Simple2R3::adc_at(int number) const {
+  // 12 bits, and 4000 at 10 V as the factory's calibration has it.
+  return static_cast<std::uint16_t>(std::clamp(input(kFirstAnalog + number) * 2 / 5, 0, 4095));
 }
 
 void Simple2R3::sample_inputs(Tick) {
   state_.inputs = 0;
   for (int i = 0; i < kInputCount; ++i) state_.inputs |= static_cast<std::uint16_t>(input(i) << i);
+  for (int i = 0; i < kAnalogCount; ++i) state_.adc[static_cast<std::size_t>(i)] = adc_at(i);
   state_.touched = false;
 }
 
 bool Simple2R3::starts_by_itself() const { return state_.image[slot("AutoStart_MainProg")] != 0; }
 
 void Simple2R3::run_interpreters(Tick tick) {
-  if (tick == kFirstTick && starts_by_itself()) start_program(0);
+  if (tick == state_.first_tick && starts_by_itself()) start_program(0);
   if (!state_.execution.running || tick % interpreter::simple2::kSlotMs != 0) return;
   ProgramMachine machine(*this);
   interpreter::simple2::step(state_.execution, tick, state_.program, dialect_, machine);
@@ -283,17 +240,22 @@ void Simple2R3::update_outputs(Tick tick) {
   for (AxisState& axis : state_.axes) {
     if (tick >= axis.alarm_clear_until) axis.alarm_clear_until = 0;
   }
+  state_.eeprom.step(tick, state_.image);
 }
 
 Tick Simple2R3::next_active_tick(Tick done) const {
   if (state_.touched) return done + 1;
   for (int i = 0; i < kInputCount; ++i) {
-    if (input(i) != (((state_.inputs >> i) & 1) != 0)) return done + 1;
+    if (input(i) != ((state_.inputs >> i) & 1)) return done + 1;
   }
-  Tick next = kNever;
-  if (done < kFirstTick && starts_by_itself()) return kFirstTick;
-  if (state_.execution.running)
-    next = done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
+  for (int i = 0; i < kAnalogCount; ++i) {
+    if (adc_at(i) != state_.adc[static_cast<std::size_t>(i)]) return done + 1;
+  }
+  if (done < state_.first_tick && starts_by_itself()) return state_.first_tick;
+  Tick next = state_.eeprom.next_active_tick();
+  if (state_.execution.running) {
+    next = std::min(next, done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs);
+  }
   for (int number = 0; number < 2; ++number) {
     const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
     if (signals_of(number) != axis.signals.steady) return done + 1;
@@ -309,7 +271,8 @@ bool Simple2R3::same_state(const Device& other) const {
 }
 
 bool Simple2R3::output(int terminal) const {
-  return terminal >= kInputCount && output_level(terminal - kInputCount);
+  return terminal >= kFirstOutput && terminal < kFirstOutput + kOutputCount &&
+         output_level(terminal - kFirstOutput);
 }
 
 std::int64_t Simple2R3::pulses_this_tick(int axis) const {

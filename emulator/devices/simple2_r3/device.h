@@ -8,12 +8,20 @@
 #include "emulator/device.h"
 #include "emulator/devices/simple2_r3/axis_drive.h"
 #include "emulator/devices/simple2_r3/registers.h"
+#include "emulator/memory/eeprom.h"
 #include "interpreter/simple2/execution.h"
 
 namespace understudy::emulator::simple2_r3 {
 
 inline constexpr int kInputCount = 11;
 inline constexpr int kOutputCount = 7;
+inline constexpr int kAnalogCount = 2;
+inline constexpr int kSwitchCount = 2;
+// Where each kind begins among the terminals.
+inline constexpr int kFirstOutput = kInputCount;
+inline constexpr int kFirstAnalog = kFirstOutput + kOutputCount;
+inline constexpr int kFirstSwitch = kFirstAnalog + kAnalogCount;
+inline constexpr int kTerminalCount = kFirstSwitch + kSwitchCount;
 
 /// Timer1, Timer2: milliseconds, of 32 bits. Counted from when it was started, so it costs nothing.
 struct Timer {
@@ -42,10 +50,15 @@ struct State {
   interpreter::simple2::Program program;  // the cells of the image, laid out to run
   interpreter::simple2::Execution execution;
   std::array<Timer, 2> timers;
-  bool started_up = false;           // AutoStart_MainProg was looked at
-  std::uint16_t inputs = 0;          // bit n: DIN n, as looked at in this tick
-  std::uint8_t written_outputs = 0;  // bit n: the last level written to DOUT n
-  bool touched = false;              // registers were written since the last tick
+  Eeprom eeprom;
+  Tick first_tick = 1;         // after power-up: AutoStart_MainProg is looked at there
+  std::uint8_t switches = 0;   // bit n: DIP n + 1, as it was at power-up
+  bool unlocked = true;        // PROG_UNLOCK
+  std::uint16_t password = 0;  // NEW_PWD, whatever the image holds of it while it is locked
+  std::array<std::uint16_t, kAnalogCount> adc{};  // as looked at in this tick
+  std::uint16_t inputs = 0;                       // bit n: DIN n, likewise
+  std::uint8_t written_outputs = 0;               // bit n: the last level written to DOUT n
+  bool touched = false;                           // registers were written since the last tick
 
   bool operator==(const State&) const = default;
 };
@@ -64,7 +77,15 @@ class Simple2R3 final : public Device {
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
+  void register_written(const RegisterRow& row, std::size_t slot) override;
   void registers_written() override { state_.touched = true; }
+
+  bool keeps(const RegisterRow& row) const override;
+  std::span<const std::uint32_t> kept_image() const override { return state_.eeprom.kept(); }
+  std::uint64_t kept_revision() const override { return state_.eeprom.revision(); }
+  void settle_memory() override { state_.eeprom.settle(state_.image); }
+  void load_program(std::string_view listing) override;
+  std::string program_text() const override;
 
   Addressing addressing(std::uint8_t address) const override;
   pty::LineSettings line_settings() const override;
@@ -79,6 +100,7 @@ class Simple2R3 final : public Device {
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   void set_encoder(int axis, std::int64_t counts) override;
+  std::string_view pulse_format() const override { return dip_switch(1) ? "PLS/DIR" : "CW/CCW"; }
 
   // --- for effects.cpp ---------------------------------------------------------------------
   State& state() { return state_; }
@@ -103,13 +125,31 @@ class Simple2R3 final : public Device {
   void stop(int axis);
   void switch_servo(int axis, bool on);
   void reset_to_factory();
+  void erase_program();
+  /// Compares PWD_Input with the password.
+  void judge_lock();
+  /// NEW_PWD was written; void while it is locked.
+  void change_password(std::uint16_t password);
+  bool unlocked() const;
   void start_program(std::uint8_t line);
   void stop_program();
   /// The image's cells have changed all at once.
   void reload_program();
   const interpreter::simple2::Dialect& dialect() const { return dialect_; }
 
+ protected:
+  void power_up() override;
+  void power_down() override;
+  void put_kept(std::size_t slot, std::uint32_t bits) override { state_.eeprom.put(slot, bits); }
+
  private:
+  /// DIP1 is number 0.
+  bool dip_switch(int number) const;
+  std::uint8_t switch_levels() const;
+  std::uint16_t adc_at(int number) const;
+  Eeprom factory_memory() const;
+  /// A new state that has only the memory, and the encoders' counts.
+  void blank_state();
   /// An input's level, if the register at `assignment_slot` gives it its special function.
   bool assigned_input(std::size_t assignment_slot, int number) const;
   /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").

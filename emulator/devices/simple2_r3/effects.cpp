@@ -51,6 +51,13 @@ MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move)
   return move;
 }
 
+/// Of a cell of the program.
+std::size_t cell_slot(Cell cell) {
+  constexpr std::array<std::size_t, 4> kColumns{slot("MAIN_LINE{}_CMD"), slot("MAIN_LINE{}_DATA1"),
+                                                slot("MAIN_LINE{}_DATA2"), slot("MAIN_LINE{}_JMP")};
+  return kColumns[static_cast<std::size_t>(cell.argument)] + static_cast<std::size_t>(cell.index);
+}
+
 }  // namespace
 
 Value read_status(const Device& device, Cell) {
@@ -129,6 +136,34 @@ Value read_timer(const Device& device, Cell cell) {
 Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
 
 Value read_alarm_clear(const Device& device, Cell cell) { return self(device).alarm_clear(cell.argument); }
+
+Value read_adc(const Device& device, Cell cell) {
+  return self(device).state().adc[static_cast<std::size_t>(cell.argument)];
+}
+
+Value read_analog(const Device& device, Cell cell) {
+  const auto& image = self(device).state().image;
+  const auto i = static_cast<std::size_t>(cell.argument);
+  // The line through the two points of the calibration: 200 at 1 V, 2000 at 10 V.
+  const Value at_1v = image[slot("ADC_1V_A") + i];
+  const Value span = static_cast<Value>(image[slot("ADC_10V_A") + i]) - at_1v;
+  if (span == 0) return 0;
+  return std::clamp<Value>(200 + (read_adc(device, cell) - at_1v) * 1800 / span, 0, 65535);
+}
+
+Value read_eeprom_busy(const Device& device, Cell) { return self(device).state().eeprom.writing(); }
+
+Value read_cell(const Device& device, Cell cell) {
+  const Simple2R3& d = self(device);
+  return d.unlocked() ? d.state().image[cell_slot(cell)] : 0;
+}
+
+Value read_unlocked(const Device& device, Cell) { return self(device).unlocked(); }
+
+Value read_password(const Device& device, Cell) {
+  const Simple2R3& d = self(device);
+  return d.unlocked() ? d.state().password : 0;
+}
 
 Value read_zero(const Device&, Cell) { return 0; }
 
@@ -231,15 +266,24 @@ void start_program(Device& device, Cell, Value line) {
 void stop_program(Device& device, Cell, Value) { self(device).stop_program(); }
 
 void write_cell(Device& device, Cell cell, Value value) {
-  self(device).state().program.set_cell(4 * cell.index + cell.argument, static_cast<std::uint8_t>(value));
+  Simple2R3& d = self(device);
+  const int number = 4 * cell.index + cell.argument;
+  if (!d.unlocked() && d.choice(kLockedWrites) == 1) {
+    d.state().image[cell_slot(cell)] = d.state().program.cell(number);
+    return;
+  }
+  d.state().program.set_cell(number, static_cast<std::uint8_t>(value));
+}
+
+void enter_password(Device& device, Cell, Value) { self(device).judge_lock(); }
+
+void change_password(Device& device, Cell, Value password) {
+  self(device).change_password(static_cast<std::uint16_t>(password));
 }
 
 void erase_program(Device& device, Cell, Value) {
-  self(device).stop_program();
-  constexpr std::size_t kProgramCells = 256 * 4;
-  auto& image = self(device).state().image;
-  for (std::size_t i = 0; i < kProgramCells; ++i) image[slot("MAIN_LINE{}_CMD") + i] = 0;
-  self(device).reload_program();
+  if (!self(device).unlocked() && device.choice(kLockedWrites) == 1) return;
+  self(device).erase_program();
 }
 
 void reset_to_factory(Device& device, Cell, Value) { self(device).reset_to_factory(); }

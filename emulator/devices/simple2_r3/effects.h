@@ -28,7 +28,13 @@ Value read_mode(const Device& device, Cell cell);
 Value read_encoder_speed(const Device& device, Cell cell);
 Value read_now_line(const Device& device, Cell);
 Value read_program_runs(const Device& device, Cell);
-Value read_timer(const Device& device, Cell cell);  // argument: 0 or 1
+Value read_timer(const Device& device, Cell cell);   // argument: 0 or 1
+Value read_adc(const Device& device, Cell cell);     // argument: 0 or 1
+Value read_analog(const Device& device, Cell cell);  // likewise; 200 a volt
+Value read_eeprom_busy(const Device& device, Cell);
+Value read_cell(const Device& device, Cell cell);  // as write_cell
+Value read_unlocked(const Device& device, Cell);
+Value read_password(const Device& device, Cell);
 Value read_zero(const Device& device, Cell);  // triggers that are over at once
 
 // Effects.
@@ -52,6 +58,8 @@ void preset_timer(Device& device, Cell cell, Value value);
 void start_program(Device& device, Cell, Value line);
 void stop_program(Device& device, Cell, Value);
 void write_cell(Device& device, Cell cell, Value value);  // argument: 0 CMD to 3 JMP; index: the line
+void enter_password(Device& device, Cell, Value);
+void change_password(Device& device, Cell, Value password);
 void erase_program(Device& device, Cell, Value);
 void reset_to_factory(Device& device, Cell, Value);
 

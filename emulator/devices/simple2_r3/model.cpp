@@ -20,7 +20,7 @@ constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on
 constexpr std::array<std::uint8_t, 4> kFunctions{0x03, 0x04, 0x06, 0x10};
 
 using Kind = TerminalRow::Kind;
-constexpr std::array<TerminalRow, kInputCount + kOutputCount> kTerminals{{
+constexpr std::array<TerminalRow, kTerminalCount> kTerminals{{
     {Kind::digital_in, "DIN_0"},
     {Kind::digital_in, "DIN_1"},
     {Kind::digital_in, "DIN_2"},
@@ -39,6 +39,10 @@ constexpr std::array<TerminalRow, kInputCount + kOutputCount> kTerminals{{
     {Kind::digital_out, "DOUT_4"},
     {Kind::digital_out, "DOUT_5"},
     {Kind::digital_out, "DOUT_6"},
+    {Kind::analog_in, "AIN_A", 0, 12'000},
+    {Kind::analog_in, "AIN_B", 0, 12'000},
+    {Kind::dip_switch, "DIP1"},
+    {Kind::dip_switch, "DIP2"},
 }};
 
 constexpr AxisRow axis_row(std::string_view name, const AxisSlots& slots) {
@@ -46,13 +50,13 @@ constexpr AxisRow axis_row(std::string_view name, const AxisSlots& slots) {
           .upper_limit_input = slots.upper_input,
           .lower_limit_input = slots.lower_input,
           .home_input = slots.home_input,
+          .alarm_input = slots.alarm_input,
+          .ready_input = slots.ready_input,
+          .servo_output = kFirstOutput + slots.servo_output,
+          .alarm_clear_output = kFirstOutput + slots.alarm_clear_output,
           .pulses_per_revolution = static_cast<int>(factory_value(slots.resolution))};
 }
 constexpr std::array<AxisRow, 2> kAxes{axis_row("A", kAxisSlots[kAxisA]), axis_row("B", kAxisSlots[kAxisB])};
-
-constexpr std::array<std::string_view, 1> kGaps{
-    "What the manual keeps over power-off is lost when the daemon ends.",
-};
 
 std::vector<InstructionRow> instruction_rows() {
   std::vector<InstructionRow> rows;
@@ -80,7 +84,7 @@ const Model& model() {
       .choices = kChoices,
       .terminals = kTerminals,
       .axes = kAxes,
-      .gaps = kGaps,
+      .gaps = {},
       .rtu = {.bauds = kBauds,
               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
               .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds

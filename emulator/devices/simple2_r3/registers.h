@@ -24,11 +24,6 @@ inline constexpr Value kS32Max = INT32_MAX;
 inline constexpr Value k2To15 = 32768;
 inline constexpr Value k2To31 = 2147483648;
 
-inline constexpr std::string_view kForAnalog = "analog inputs, which it is for; the value is kept";
-inline constexpr std::string_view kNoAnalog = "analog inputs; it reads 0";
-inline constexpr std::string_view kNoEeprom = "the time that the EEPROM takes; it reads 0";
-inline constexpr std::string_view kNoPassword = "the program's password; the program is always unlocked";
-
 template <std::size_t N>
 consteval std::array<RegisterRow, N> section(std::string_view name, const RegisterRow (&rows)[N]) {
   std::array<RegisterRow, N> named{};
@@ -57,7 +52,7 @@ inline constexpr auto kStatusRows = section("狀態相關", {
     reg(0x0002, "Version",        u16, R).from_factory(152).reads(read_version),
     reg(0x0004, "Aaxis_Mode",     u16, R).range(0, 3).reads(read_mode, kAxisA),
     reg(0x0005, "Baxis_Mode",     u16, R).range(0, 3).reads(read_mode, kAxisB),
-    reg(0x000F, "EEPROM_Writing", u16, R).range(0, 1).not_modelled(kNoEeprom),
+    reg(0x000F, "EEPROM_Writing", u16, R).range(0, 1).reads(read_eeprom_busy),
 });
 
 inline constexpr auto kAssignmentRows = section("輸入輸出功能指配相關", {
@@ -89,8 +84,8 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
     reg(0x0E02, "ENCB",     s32, RW).range(kS32Min, kS32Max).in("Pulse").reads(read_encoder, kAxisB).does(preset_encoder, kAxisB),
     reg(0x0E04, "Cord_A",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads(read_coordinate, kAxisA).does(preset_coordinate, kAxisA),
     reg(0x0E06, "Cord_B",   s32, RW).range(kS32Min, kS32Max).in("Pulse").reads(read_coordinate, kAxisB).does(preset_coordinate, kAxisB),
-    reg(0x0E08, "Analog_A", u16, R).range(0, 65535).not_modelled(kNoAnalog),
-    reg(0x0E09, "Analog_B", u16, R).range(0, 65535).not_modelled(kNoAnalog),
+    reg(0x0E08, "Analog_A", u16, R).range(0, 65535).reads(read_analog, 0),
+    reg(0x0E09, "Analog_B", u16, R).range(0, 65535).reads(read_analog, 1),
     reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").reads(read_encoder_speed, kAxisA),
@@ -165,10 +160,10 @@ inline constexpr auto kProgramRows = section("程式控制", {
     reg(0x3004, "PROG_MAIN_Erase_ALL",      u16, W).range(0, 1).triggers(erase_program),
     reg(0x3010, "PROG_MAIN_NowLine",        u16, R).range(0, 255).in("line").reads(read_now_line),
     reg(0x3012, "PROG_MAIN_RunTime_Status", u16, R).range(0, 1).reads(read_program_runs),
-    reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 0),
-    reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 1),
-    reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 2),
-    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).does(write_cell, 3),
+    reg(0x4000, "MAIN_LINE{}_CMD",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads(read_cell, 0).does(write_cell, 0),
+    reg(0x4001, "MAIN_LINE{}_DATA1", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads(read_cell, 1).does(write_cell, 1),
+    reg(0x4002, "MAIN_LINE{}_DATA2", u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads(read_cell, 2).does(write_cell, 2),
+    reg(0x4003, "MAIN_LINE{}_JMP",   u16, RW).kept().holding_bits(0xFF).times(256, 4, 0).reads(read_cell, 3).does(write_cell, 3),
     reg(0x8000, "PROG_MEM{}", s32, RW).kept().times(32, 2, 0).halves("_RegL", "_RegH"),
     reg(0x8100, "PROG_VAR{}", s32, RW).times(32, 2, 0).halves("_RegL", "_RegH"),
 });
@@ -218,16 +213,16 @@ inline constexpr auto kApplicationRows = section("程式應用相關", {
 });
 
 inline constexpr auto kFactoryRows = section("附錄 C", {
-    reg(0xFF00, "ADC_A",         u16, R).not_modelled(kNoAnalog),
-    reg(0xFF01, "ADC_B",         u16, R).not_modelled(kNoAnalog),
-    reg(0xFF02, "ADC_10V_A",     u16, RW).from_factory(4000).kept().not_modelled(kForAnalog),
-    reg(0xFF03, "ADC_10V_B",     u16, RW).from_factory(4000).kept().not_modelled(kForAnalog),
-    reg(0xFF04, "ADC_1V_A",      u16, RW).from_factory(400).kept().not_modelled(kForAnalog),
-    reg(0xFF05, "ADC_1V_B",      u16, RW).from_factory(400).kept().not_modelled(kForAnalog),
+    reg(0xFF00, "ADC_A",         u16, R).reads(read_adc, 0),
+    reg(0xFF01, "ADC_B",         u16, R).reads(read_adc, 1),
+    reg(0xFF02, "ADC_10V_A",     u16, RW).from_factory(4000).kept(),
+    reg(0xFF03, "ADC_10V_B",     u16, RW).from_factory(4000).kept(),
+    reg(0xFF04, "ADC_1V_A",      u16, RW).from_factory(400).kept(),
+    reg(0xFF05, "ADC_1V_B",      u16, RW).from_factory(400).kept(),
     reg(0xFF06, "Factory_Reset", u16, W).range(0, 1).triggers(reset_to_factory),
-    reg(0xFF07, "PWD_Input",     u16, RW).also("PWD_INPUT").range(0, 65535).since_firmware(151).not_modelled(kNoPassword),
-    reg(0xFF08, "PROG_UNLOCK",   u16, R).range(0, 1).from_factory(1).since_firmware(151).not_modelled(kNoPassword),
-    reg(0xFF09, "NEW_PWD",       u16, RW).range(0, 65535).since_firmware(151).not_modelled(kNoPassword),
+    reg(0xFF07, "PWD_Input",     u16, RW).also("PWD_INPUT").range(0, 65535).does(enter_password).since_firmware(151),
+    reg(0xFF08, "PROG_UNLOCK",   u16, R).range(0, 1).from_factory(1).reads(read_unlocked).since_firmware(151),
+    reg(0xFF09, "NEW_PWD",       u16, RW).range(0, 65535).reads(read_password).does(change_password).since_firmware(151),
 });
 // clang-format on
 

@@ -175,17 +175,24 @@ TEST(Simple2Wire, AWriteTouchesNoOtherRegister) {
     return words;
   };
   const Words before = all_words(*make_simple2());
+  const auto busy = static_cast<std::size_t>(
+      std::find_if(facts.begin(), facts.end(),
+                   [](const RegisterFact& f) { return f.name == "EEPROM_Writing"; }) -
+      facts.begin());
   for (std::size_t i = 0; i < facts.size(); ++i) {
     const RegisterFact& fact = facts[i];
-    // Outputs and states show in more than one register; program cells are too many to do all.
+    // Outputs, states, the password and the calibration show in more than one register; program cells are too
+    // many to do all.
     const bool shared = fact.name.starts_with("DOUT") || fact.name.find("SVON") != std::string::npos ||
                         fact.name.find("ACLR") != std::string::npos ||
-                        fact.name == "PROG_MAIN_RunTime_START";
+                        fact.name == "PROG_MAIN_RunTime_START" ||
+                        fact.name.find("PWD") != std::string::npos || fact.name.starts_with("ADC_");
     if (!fact.writable || shared || (fact.name.starts_with("MAIN_LINE") && i % 37 != 0)) continue;
     const auto device = make_simple2();
     answer(*device, write_request(fact.address, fact.factory_word == 1 ? 0 : 1));
     Words after = all_words(*device);
     after[i] = before[i];
+    after[busy] = before[busy];  // the EEPROM is, where the register is persistent
     EXPECT_EQ(after, before) << fact.name;
   }
 }

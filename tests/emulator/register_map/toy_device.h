@@ -33,7 +33,11 @@ class ToyDevice final : public Device {
   std::span<std::uint32_t> image() override { return image_; }
   std::span<const std::uint32_t> image() const override { return image_; }
   bool low_word_first() const override { return is_low_word_first; }
+  void register_written(const RegisterRow&, std::size_t) override {}
   void registers_written() override { events.push_back("written"); }
+  std::span<const std::uint32_t> kept_image() const override { return image_; }
+  std::uint64_t kept_revision() const override { return 0; }
+  void settle_memory() override {}
   Addressing addressing(std::uint8_t) const override { return Addressing::obey_and_reply; }
   pty::LineSettings line_settings() const override { return {}; }
   void sample_inputs(Tick) override {}
@@ -48,6 +52,11 @@ class ToyDevice final : public Device {
 
   bool is_low_word_first = true;
   std::vector<std::string> events;  // effects in the order in which they came
+
+ protected:
+  void power_up() override {}
+  void power_down() override {}
+  void put_kept(std::size_t slot, std::uint32_t bits) override { image_[slot] = bits; }
 
  private:
   std::vector<std::uint32_t> image_;

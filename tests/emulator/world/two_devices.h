@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "emulator/bench/bench_file.h"
+#include "emulator/bench/names.h"
 #include "emulator/register_map/access.h"
-#include "emulator/world/names.h"
 #include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
 
@@ -61,17 +61,17 @@ inline Bytes read_request(int station, int address, int count) {
 }
 
 inline Value get(const World& world, std::string_view name) {
-  const RegisterName found = find_register(world, name);
+  const RegisterName found = find_register(world.known(), name);
   return read_value(world.device(found.device), found.place);
 }
 
 inline Refusal set(World& world, std::string_view name, Value value) {
-  const RegisterName found = find_register(world, name);
+  const RegisterName found = find_register(world.known(), name);
   return write_value(world.device(found.device), found.place, value);
 }
 
 inline void set_input(World& world, std::string_view name, bool on) {
-  const InputName found = find_input(world, name);
+  const InputName found = find_input(world.known(), name);
   world.set_external_input(found.device, found.terminal, on);
 }
 

@@ -33,7 +33,9 @@ TEST(Choices, ThisFileHasACaseForEveryOneThatCanBeChosen) {
       "limit_reaction",    "alarm_reaction",     "home_coordinate",
       "velocity_unit",     "velocity_commit",    "wait_move_b_139",
       "loop_count",        "loop_left",          "loop_nesting",
-      "unknown_command",   "after_last_line",    "delay_counts"};
+      "unknown_command",   "after_last_line",    "delay_counts",
+      "switches_sampled",  "eeprom_time",        "password_kept",
+      "lock_judged",       "locked_writes"};
   std::set<std::string_view> selectable;
   for (const ChoiceRow& row : kChoices) {
     if (options_of(row).size() > 1) selectable.insert(row.id);
@@ -185,6 +187,70 @@ TEST(Choices, VelocityCommitWaitsForTheHighWordOrNot) {
     EXPECT_EQ(feeder.get("Aaxis_Mode"), mode) << option;
     feeder.set("Aaxis_DirectmRPM_H", 0);
     EXPECT_EQ(feeder.get("Aaxis_Mode"), 1) << option;
+  }
+}
+
+TEST(Choices, SwitchesAreSampledAtPowerUpOrAlways) {
+  for (const auto& [option, baud] : {std::pair{"at_power_up", 19200}, std::pair{"always", 115200}}) {
+    OneSimple2 feeder(with("switches_sampled", option));
+    feeder.world().set_external_input(0, find_terminal(model(), "DIP1"), 1);
+    EXPECT_EQ(feeder.device().line_settings().baud, baud) << option;
+    feeder.world().switch_power(0, false);
+    feeder.world().switch_power(0, true);
+    EXPECT_EQ(feeder.device().line_settings().baud, 115200) << option;
+  }
+}
+
+TEST(Choices, EepromTimeIsFiveOrOneMillisecondsAWord) {
+  for (const auto& [option, ticks] : {std::pair{"5ms_a_word", 10}, std::pair{"1ms_a_word", 2}}) {
+    OneSimple2 feeder(with("eeprom_time", option));
+    feeder.set("PROG_MEM0", 1);  // two words, which begin with the next tick
+    feeder.run(ticks);
+    EXPECT_TRUE(feeder.bit("EEPROM_Writing")) << option;
+    feeder.run(1);
+    EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option;
+  }
+}
+
+TEST(Choices, PasswordIsKeptOrForgotten) {
+  for (const auto& [option, kept] : {std::pair{"yes", true}, std::pair{"no", false}}) {
+    OneSimple2 feeder(with("password_kept", option));
+    feeder.set("NEW_PWD", 1234);
+    feeder.run(10);
+    feeder.world().switch_power(0, false);
+    feeder.world().switch_power(0, true);
+    EXPECT_EQ(feeder.bit("PROG_UNLOCK"), !kept) << option;
+    feeder.set("PWD_Input", 1234);
+    EXPECT_EQ(feeder.bit("PROG_UNLOCK"), kept) << option;
+  }
+}
+
+TEST(Choices, LockIsJudgedAtPowerUpAndInputOrAlways) {
+  for (const auto& [option, unlocked] :
+       {std::pair{"at_power_up_and_input", true}, std::pair{"always", false}}) {
+    OneSimple2 feeder(with("lock_judged", option));
+    feeder.set("NEW_PWD", 1234);
+    EXPECT_EQ(feeder.bit("PROG_UNLOCK"), unlocked) << option;
+    feeder.set("PWD_Input", 1);
+    EXPECT_FALSE(feeder.bit("PROG_UNLOCK")) << option;
+  }
+}
+
+TEST(Choices, LockedWritesAreAllowedOrIgnored) {
+  for (const auto& [option, allowed] : {std::pair{"allowed", true}, std::pair{"ignored", false}}) {
+    OneSimple2 feeder(with("locked_writes", option));
+    feeder.set("MAIN_LINE3_DATA1", 5);
+    feeder.set("MAIN_LINE4_CMD", 6);
+    feeder.set("NEW_PWD", 1234);
+    feeder.set("PWD_Input", 1);
+    feeder.set("MAIN_LINE3_DATA1", 7);
+    EXPECT_EQ(feeder.get("MAIN_LINE3_DATA1"), 0) << "nothing can be read";
+    feeder.set("PWD_Input", 1234);
+    EXPECT_EQ(feeder.get("MAIN_LINE3_DATA1"), allowed ? 7 : 5) << option;
+    feeder.set("PWD_Input", 1);
+    feeder.set("PROG_MAIN_Erase_ALL", 1);
+    feeder.set("PWD_Input", 1234);
+    EXPECT_EQ(feeder.get("MAIN_LINE4_CMD"), allowed ? 0 : 6) << option;
   }
 }
 

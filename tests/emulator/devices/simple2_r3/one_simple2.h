@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/bench/names.h"
 #include "emulator/devices/simple2_r3/model.h"
 #include "emulator/register_map/access.h"
-#include "emulator/world/names.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::simple2_r3 {
@@ -38,11 +38,11 @@ class OneSimple2 {
 
   // --- registers -------------------------------------------------------------------------------
   Value get(std::string_view name) const {
-    return read_value(world_.device(0), find_register(world_, name).place);
+    return read_value(world_.device(0), find_register(world_.known(), name).place);
   }
   bool bit(std::string_view name) const { return get(name) != 0; }
   Refusal try_set(std::string_view name, Value value) {
-    return write_value(world_.device(0), find_register(world_, name).place, value);
+    return write_value(world_.device(0), find_register(world_.known(), name).place, value);
   }
   void set(std::string_view name, Value value) {
     EXPECT_EQ(try_set(name, value), Refusal::none) << name << " = " << value;

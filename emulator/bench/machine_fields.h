@@ -1,0 +1,17 @@
+// What a bench file says of a machine, its inputs and its faults.
+#pragma once
+
+#include "emulator/bench/bench.h"
+#include "emulator/bench/names.h"
+#include "emulator/bench/yaml_fields.h"
+
+namespace understudy::emulator {
+
+/// One entry of `plant`: the machine on an axis.
+PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis);
+/// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
+InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
+/// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }".
+Fault read_fault(const YamlFields& fields, const KnownDevices& devices);
+
+}  // namespace understudy::emulator

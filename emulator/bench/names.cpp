@@ -1,0 +1,87 @@
+#include "emulator/bench/names.h"
+
+#include "emulator/bench/bench.h"
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+struct Split {
+  std::size_t device = 0;
+  std::string_view rest;
+};
+
+int number_of(const KnownDevices& devices, std::string_view name) {
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (devices[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+NameError no_device(const KnownDevices& devices, std::string_view name) {
+  std::vector<std::string> names;
+  for (const KnownDevice& device : devices) names.push_back(device.name);
+  return NameError("no device is called " + quoted(name) +
+                   (names.empty() ? "" : "; the nearest is '" + nearest_word(name, names) + "'"));
+}
+
+Split split(const KnownDevices& devices, std::string_view name) {
+  const std::size_t dot = name.find('.');
+  if (dot != std::string_view::npos) {
+    const int device = number_of(devices, name.substr(0, dot));
+    if (device >= 0) return {static_cast<std::size_t>(device), name.substr(dot + 1)};
+  }
+  if (devices.size() == 1) return {0, name};
+  throw no_device(devices, name.substr(0, dot));
+}
+
+}  // namespace
+
+RegisterName find_register(const KnownDevices& devices, std::string_view name) {
+  const auto [number, rest] = split(devices, name);
+  const KnownDevice& device = devices[number];
+  if (const auto place = device.model->registers.find(rest, device.firmware)) return {number, *place};
+  throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
+}
+
+InputName find_input(const KnownDevices& devices, std::string_view name) {
+  const auto [number, rest] = split(devices, name);
+  const Model& model = *devices[number].model;
+  const int terminal = find_terminal(model, rest);
+  if (terminal >= 0 && is_input(model.terminals[static_cast<std::size_t>(terminal)].kind)) {
+    return {number, terminal};
+  }
+  std::vector<std::string> names;
+  for (const TerminalRow& row : model.terminals) {
+    if (is_input(row.kind)) names.emplace_back(row.name);
+  }
+  throw NameError("no input of " + devices[number].name + " is called " + quoted(rest) +
+                  "; the nearest is '" + nearest_word(rest, names) + "'");
+}
+
+void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level) {
+  if (level >= row.lowest && level <= row.highest) return;
+  throw NameError(std::string(name) + ": " + std::to_string(level) + " is no level; expected " +
+                  (row.highest == 1
+                       ? "0 or 1"
+                       : std::to_string(row.lowest) + " to " + std::to_string(row.highest) + " millivolts"));
+}
+
+AxisName find_axis(const KnownDevices& devices, std::string_view name) {
+  const auto [number, rest] = split(devices, name);
+  const Model& model = *devices[number].model;
+  if (const int axis = find_axis(model, rest); axis >= 0) return {number, axis};
+  std::string axes;
+  for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
+  throw NameError("no axis of " + devices[number].name + " is called " + quoted(rest) + "; expected one of " +
+                  axes);
+}
+
+std::size_t find_device(const KnownDevices& devices, std::string_view name) {
+  if (name.empty() && devices.size() == 1) return 0;
+  if (const int found = number_of(devices, name); found >= 0) return static_cast<std::size_t>(found);
+  throw no_device(devices, name);
+}
+
+}  // namespace understudy::emulator

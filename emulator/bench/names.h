@@ -1,0 +1,56 @@
+// Names of things on a bench: "feeder.Cord_A", "feeder.STATUS.4", "feeder.DIN_10", "feeder.A"; the device may
+// be left out where there is only one.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/model.h"
+#include "emulator/register_map/register_map.h"
+
+namespace understudy::emulator {
+
+/// One line: which name is not known, and the nearest that is.
+struct NameError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What names can be about; a device's number is its place here.
+struct KnownDevice {
+  std::string name;
+  const Model* model = nullptr;
+  Firmware firmware = 0;
+};
+using KnownDevices = std::vector<KnownDevice>;
+
+/// All of these throw NameError.
+struct RegisterName {
+  std::size_t device = 0;
+  NamedPlace place;
+};
+RegisterName find_register(const KnownDevices& devices, std::string_view name);
+
+struct InputName {
+  std::size_t device = 0;
+  int terminal = 0;
+  const TerminalRow& row(const KnownDevices& devices) const {
+    return devices[device].model->terminals[static_cast<std::size_t>(terminal)];
+  }
+};
+/// Inputs of every kind, switches included.
+InputName find_input(const KnownDevices& devices, std::string_view name);
+/// Throws NameError for a level that the input cannot have.
+void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level);
+
+struct AxisName {
+  std::size_t device = 0;
+  int axis = 0;
+};
+AxisName find_axis(const KnownDevices& devices, std::string_view name);
+
+/// A device by its name; an empty name will do where there is only one.
+std::size_t find_device(const KnownDevices& devices, std::string_view name);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,134 @@
+// What a user does to devices and machines from outside: inputs, power, programs, faults.
+#include <vector>
+
+#include "emulator/bench/level.h"
+#include "emulator/bench/names.h"
+#include "emulator/control/message_fields.h"
+#include "emulator/control/verbs.h"
+#include "emulator/edge/daemon.h"
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+std::int64_t demand_integer(const Json& value, const std::string& name) {
+  const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
+  if (!value.is_number_integer() || huge) throw MessageError(name + ": expected a whole number");
+  return value.get<std::int64_t>();
+}
+
+std::int32_t demand_level(const Json& value, const std::string& name, const TerminalRow& row) {
+  std::int64_t level = 0;
+  if (value.is_string()) {
+    const auto parsed = parse_level(value.get<std::string>(), row.kind);
+    if (!parsed) {
+      throw MessageError(name + ": " + emulator::quoted(value.get<std::string>()) +
+                         " is no level; expected " + std::string(level_example(row.kind)));
+    }
+    level = *parsed;
+  } else {
+    level = demand_integer(value, name);
+  }
+  demand_level(row, name, level);
+  return static_cast<std::int32_t>(level);
+}
+
+std::size_t demand_device(const Daemon& daemon, const Json& message) {
+  return find_device(daemon.world().known(),
+                     message.contains("device") ? demand_text(message, "device") : std::string());
+}
+
+}  // namespace
+
+Json input_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "values"});
+  const Json& values = demand(message, "values");
+  if (!values.is_object() || values.empty()) {
+    throw MessageError("values: expected an object of names and levels");
+  }
+  daemon.catch_up();
+  const KnownDevices& known = daemon.world().known();
+  std::vector<InputSetup> wanted;
+  for (const auto& [name, value] : values.items()) {
+    const InputName input = find_input(known, name);
+    for (const InputSetup& other : wanted) {
+      if (other.device == input.device && other.terminal == input.terminal) {
+        throw MessageError(name + ": is named twice; expected it once");
+      }
+    }
+    wanted.push_back({.device = input.device,
+                      .terminal = input.terminal,
+                      .level = demand_level(value, name, input.row(known))});
+  }
+  for (const InputSetup& input : wanted) {
+    daemon.world().set_external_input(input.device, input.terminal, input.level);
+  }
+  return Json{{"ok", true}};
+}
+
+Json power_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "device", "to"});
+  const std::string to = demand_text(message, "to");
+  if (to != "on" && to != "off" && to != "cycle") {
+    throw MessageError("to: " + emulator::quoted(to) + " is unknown; expected on, off or cycle");
+  }
+  const std::size_t device = demand_device(daemon, message);
+  daemon.catch_up();
+  if (to != "on") daemon.world().switch_power(device, false);
+  if (to != "off") daemon.world().switch_power(device, true);
+  return Json{{"ok", true}};
+}
+
+Json program_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "device", "text"});
+  const std::size_t number = demand_device(daemon, message);
+  daemon.catch_up();
+  Device& device = daemon.world().device(number);
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  if (!message.contains("text")) return Json{{"ok", true}, {"text", device.program_text()}};
+  try {
+    device.load_program(demand_text(message, "text"));
+  } catch (const ProgramError& error) {
+    throw MessageError("line " + std::to_string(error.line) + ": " + error.what());
+  }
+  return Json{{"ok", true}};
+}
+
+Json inject_message(Daemon& daemon, const Json& message) {
+  FaultText text{.kind = demand_text(message, "fault"), .place = demand_text(message, "at"), .amounts = {}};
+  for (const auto& [key, value] : message.items()) {
+    if (key == "do" || key == "fault" || key == "at") continue;
+    text.amounts.emplace_back(key, demand_integer(value, key));
+  }
+  const Fault fault = find_fault(daemon.world().known(), text);
+  daemon.catch_up();
+  return Json{{"ok", true}, {"number", daemon.world().inject(fault)}};
+}
+
+Json clear_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "number"});
+  daemon.catch_up();
+  World& world = daemon.world();
+  if (!message.contains("number")) {
+    while (!world.faults().empty()) world.clear_fault(world.faults().begin()->first);
+    return Json{{"ok", true}};
+  }
+  const std::int64_t number = demand_integer(message["number"], "number");
+  if (number < 0 || !world.clear_fault(static_cast<std::size_t>(number))) {
+    throw MessageError("number: " + std::to_string(number) + " is no fault in force; expected one of `list`");
+  }
+  return Json{{"ok", true}};
+}
+
+Json list_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do"});
+  daemon.catch_up();
+  Json faults = Json::array();
+  for (const auto& [number, fault] : daemon.world().faults()) {
+    faults.push_back(Json{{"number", number}, {"fault", to_text(daemon.world().known(), fault)}});
+  }
+  return Json{{"ok", true}, {"faults", faults}};
+}
+
+}  // namespace understudy::emulator

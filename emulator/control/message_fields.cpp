@@ -1,0 +1,26 @@
+#include "emulator/control/message_fields.h"
+
+#include <algorithm>
+
+namespace understudy::emulator {
+
+void demand_keys(const Json& message, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : message.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw MessageError("'" + key + "' is no key of this message");
+    }
+  }
+}
+
+const Json& demand(const Json& message, const char* key) {
+  if (!message.contains(key)) throw MessageError("'" + std::string(key) + "' is missing");
+  return message[key];
+}
+
+std::string demand_text(const Json& message, const char* key) {
+  const Json& text = demand(message, key);
+  if (!text.is_string()) throw MessageError(std::string(key) + ": expected a text");
+  return text.get<std::string>();
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,83 @@
+#include "emulator/control/message_fields.h"
+#include "emulator/control/verbs.h"
+#include "emulator/edge/daemon.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+double microseconds(WallTime time) { return static_cast<double>(time.count()) / 1000.0; }
+
+Json line_status(const Daemon& daemon, const Port& port) {
+  const World::OneLine& line = daemon.world().line(port.line_number());
+  const pty::LineCounters& counters = line.line.counters();
+  Json status{{"name", line.line.name()},
+              {"pty", port.terminal().path()},
+              {"link", port.terminal().link_path()},
+              {"settings", pty::to_string(line.line.options().settings)},
+              {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
+              {"host", port.host_present() ? "open" : "closed"}};
+  if (port.host_present() && port.host_settings()) status["host_baud"] = port.host_settings()->baud;
+  status["bytes_in"] = counters.bytes_in;
+  status["bytes_out"] = counters.bytes_out;
+  status["bytes_unheard"] = counters.bytes_unheard;
+  status["bytes_discarded"] = counters.bytes_discarded;
+  status["collisions"] = counters.collisions;
+  status["stations"] = Json::array();
+  for (const auto& station : line.stations) {
+    status["stations"].push_back(Json{{"device", station->device().name()},
+                                      {"address", station->device().settings().address},
+                                      {"requests", station->counters().requests},
+                                      {"replies", station->counters().replies},
+                                      {"exceptions", station->counters().exceptions},
+                                      {"bytes_dropped", station->dropped_bytes()}});
+  }
+  return status;
+}
+
+Json device_status(const World& world, std::size_t number) {
+  const Device& device = world.device(number);
+  Json status{
+      {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
+  status["power"] = device.powered() ? "on" : "off";
+  if (!device.pulse_format().empty()) status["pulse_format"] = device.pulse_format();
+  status["machines"] = Json::object();
+  for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
+    const PlantAxis& plant = world.plant(number, static_cast<int>(axis));
+    status["machines"][std::string(device.model().axes[axis].name)] =
+        Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
+    if (plant.has_drive()) {
+      status["machines"][std::string(device.model().axes[axis].name)]["drive"] = plant.in_alarm() ? "alarm"
+                                                                                 : plant.ready()  ? "ready"
+                                                                                                  : "off";
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+Json status_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do"});
+  daemon.catch_up();
+  const World& world = daemon.world();
+  const Pacer& pacer = daemon.pacer();
+  Json status{{"simulated_time", format_duration(world.now())},
+              {"simulated_time_ns", world.now().count()},
+              {"speed", format_speed(pacer.speed())},
+              {"paused", pacer.paused()},
+              {"lateness",
+               {{"wakes", pacer.lateness().count()},
+                {"p50_us", microseconds(pacer.lateness().percentile(50))},
+                {"p99_us", microseconds(pacer.lateness().percentile(99))},
+                {"max_us", microseconds(pacer.lateness().greatest())},
+                {"slips", pacer.slips()}}},
+              {"ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_crossed()}}}};
+  status["lines"] = Json::array();
+  for (const auto& port : daemon.ports()) status["lines"].push_back(line_status(daemon, *port));
+  status["devices"] = Json::array();
+  for (std::size_t i = 0; i < world.device_count(); ++i) status["devices"].push_back(device_status(world, i));
+  return Json{{"ok", true}, {"status", status}};
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,24 @@
+// The control messages that are not of registers or time, each with its reply. All throw MessageError or
+// NameError, and have changed nothing then.
+#pragma once
+
+#include "emulator/control/message_fields.h"
+
+namespace understudy::emulator {
+
+Json status_message(Daemon& daemon, const Json& message);
+
+/// {"do":"input","values":{"feeder.DIN_10":1,"feeder.AIN_A":"2.5V"}}
+Json input_message(Daemon& daemon, const Json& message);
+/// {"do":"power","device":"feeder","to":"off"}, "on" or "cycle"
+Json power_message(Daemon& daemon, const Json& message);
+/// {"do":"program","device":"feeder","text":"..."}; without a text the reply brings the one there is
+Json program_message(Daemon& daemon, const Json& message);
+/// {"do":"inject","fault":"lost_steps","at":"feeder.A","one_in":50}
+Json inject_message(Daemon& daemon, const Json& message);
+/// {"do":"clear","number":1}; without a number all of them
+Json clear_message(Daemon& daemon, const Json& message);
+/// {"do":"list"}
+Json list_message(Daemon& daemon, const Json& message);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,51 @@
+// Keeps the files of the devices' memories up to date with what their simulated memories have kept.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/bench/bench.h"
+#include "emulator/edge/pacer.h"
+#include "emulator/memory/nv_file.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+/// Gives every device without a file of its own one in `folder`, which is made if it is not there (unless it
+/// is empty: then they have none), and reads those that exist into the settings.
+/// Throws NvError "path: field: what", or std::system_error.
+void read_memories(Bench& bench, const std::string& folder);
+
+class NvKeeper {
+ public:
+  /// The world that was made from the bench. What differs from its file already is written now.
+  NvKeeper(const Bench& bench, const World& world, std::function<void(const std::string&)> log);
+  ~NvKeeper();  // writes what has changed, and waits for it
+  NvKeeper(const NvKeeper&) = delete;
+  NvKeeper& operator=(const NvKeeper&) = delete;
+
+  /// Hands what has changed to the helper thread, at most once in NvWriter::kCoalesce.
+  void look(WallTime now);
+  /// When it wants to look again, if there is something to hand over.
+  std::optional<WallTime> next_look() const;
+
+ private:
+  struct File {
+    std::size_t device = 0;
+    std::string path;
+    std::uint64_t written = 0;  // the memory's revision
+  };
+  bool is_behind(const File& file) const;
+  void write(File& file);
+
+  const World& world_;
+  std::function<void(const std::string&)> log_;
+  std::vector<File> files_;
+  std::optional<WallTime> due_;
+  WallTime handed_over_{0};
+  NvWriter writer_;
+};
+
+}  // namespace understudy::emulator

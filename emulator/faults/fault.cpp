@@ -1,0 +1,88 @@
+#include "emulator/faults/fault.h"
+
+#include <array>
+
+#include "emulator/bench/names.h"
+#include "emulator/one_line.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+struct KindRow {
+  std::string_view name;
+  Fault::Kind kind;
+  std::string_view amount;  // its name; empty: there is none
+  std::int64_t lowest = 0;
+  std::int64_t highest = 0;
+};
+
+constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses
+constexpr std::array<KindRow, 5> kKinds{{
+    {"stall", Fault::Kind::stall, ""},
+    {"lost_steps", Fault::Kind::lost_steps, "one_in", 1, kFar},
+    {"slip", Fault::Kind::slip, "pulses", -kFar, kFar},
+    {"alarm", Fault::Kind::alarm, ""},
+    {"stuck", Fault::Kind::stuck, "level", 0, 1},
+}};
+
+const KindRow& row_of(std::string_view name) {
+  std::string names;
+  for (const KindRow& row : kKinds) {
+    if (row.name == name) return row;
+    names += (names.empty() ? "" : ", ") + std::string(row.name);
+  }
+  throw NameError(quoted(name) + " is no fault; expected one of " + names);
+}
+
+}  // namespace
+
+Fault find_fault(const KnownDevices& devices, const FaultText& text) {
+  const KindRow& row = row_of(text.kind);
+  Fault fault{.kind = row.kind};
+  if (row.kind == Fault::Kind::stuck) {
+    const InputName input = find_input(devices, text.place);
+    if (input.row(devices).kind != TerminalRow::Kind::digital_in) {
+      throw NameError(quoted(text.place) + " cannot be stuck; expected a digital input");
+    }
+    fault.device = input.device;
+    fault.place = input.terminal;
+  } else {
+    const AxisName axis = find_axis(devices, text.place);
+    fault.device = axis.device;
+    fault.place = axis.axis;
+  }
+  for (const auto& [name, amount] : text.amounts) {
+    if (name != row.amount) {
+      throw NameError(text.kind + ": " + quoted(name) + " is nothing it has; expected " +
+                      (row.amount.empty() ? "no more than the axis" : std::string(row.amount)));
+    }
+    if (amount < row.lowest || amount > row.highest) {
+      throw NameError(text.kind + ": " + name + ": " + std::to_string(amount) +
+                      " is out of range; expected " + std::to_string(row.lowest) + " to " +
+                      std::to_string(row.highest));
+    }
+    fault.amount = amount;
+  }
+  if (text.amounts.size() != (row.amount.empty() ? 0 : 1)) {
+    throw NameError(text.kind + ": expected " + std::string(row.amount) + " once");
+  }
+  return fault;
+}
+
+std::string to_text(const KnownDevices& devices, const Fault& fault) {
+  const KnownDevice& device = devices[fault.device];
+  const auto place = static_cast<std::size_t>(fault.place);
+  for (const KindRow& row : kKinds) {
+    if (row.kind != fault.kind) continue;
+    const std::string_view name = fault.kind == Fault::Kind::stuck ? device.model->terminals[place].name
+                                                                   : device.model->axes[place].name;
+    std::string text = std::string(row.name) + " " + device.name + "." + std::string(name);
+    if (!row.amount.empty()) text += " " + std::string(row.amount) + "=" + std::to_string(fault.amount);
+    return text;
+  }
+  return {};
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,112 @@
+#include "emulator/memory/nv_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "emulator/text_file.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// Writes a new file and waits for the disk; 0, or the error.
+int write_whole(const std::string& path, const std::string& contents) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) return errno;
+  int error = 0;
+  for (std::size_t done = 0; done < contents.size() && error == 0;) {
+    const ssize_t written = ::write(file, contents.data() + done, contents.size() - done);
+    if (written >= 0) {
+      done += static_cast<std::size_t>(written);
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  if (error == 0 && fsync(file) != 0) error = errno;
+  if (close(file) != 0 && error == 0) error = errno;
+  return error;
+}
+
+}  // namespace
+
+std::optional<NvImage> read_nv_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return std::nullopt;
+  const auto text = read_text_file(path);
+  if (!text) throw NvError(path + ": file: cannot be read; expected an NV image");
+  try {
+    return parse_nv_image(*text);
+  } catch (const NvError& wrong) {
+    throw NvError(path + ": " + wrong.what());
+  }
+}
+
+NvWriter::NvWriter() : thread_([this] { run(); }) {}
+
+NvWriter::~NvWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_finishing_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void NvWriter::write(const std::string& path, std::string contents) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_[path] = std::move(contents);
+  }
+  changed_.notify_all();
+}
+
+void NvWriter::flush() {
+  std::unique_lock lock(mutex_);
+  is_hurried_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return waiting_.empty() && !is_busy_; });
+  is_hurried_ = false;
+}
+
+std::vector<std::string> NvWriter::take_news() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(news_, {});
+}
+
+void NvWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return !waiting_.empty() || is_finishing_; });
+    if (waiting_.empty()) return;
+    changed_.wait_for(lock, kCoalesce, [this] { return is_finishing_ || is_hurried_; });
+    const auto work = std::exchange(waiting_, {});
+    is_busy_ = true;
+    lock.unlock();
+    for (const auto& [path, contents] : work) replace(path, contents);
+    lock.lock();
+    is_busy_ = false;
+    changed_.notify_all();
+  }
+}
+
+void NvWriter::replace(const std::string& path, const std::string& contents) {
+  const std::string beside = path + ".new";
+  int error = write_whole(beside, contents);
+  if (error == 0 && std::rename(beside.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) unlink(beside.c_str());
+  bool& has_failed = has_failed_[path];
+  if ((error != 0) == has_failed) return;
+  has_failed = error != 0;
+  const std::lock_guard lock(mutex_);
+  news_.push_back(error == 0 ? path + ": is written again"
+                             : path + ": cannot be written (" + std::strerror(error) +
+                                   "); what it held before stays");
+}
+
+}  // namespace understudy::emulator

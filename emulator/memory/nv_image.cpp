@@ -1,0 +1,97 @@
+// The only file that knows the JSON of NV images.
+#include "emulator/memory/nv_image.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kKind = "nv-image";
+constexpr int kFormat = 1;
+
+const Json& demand(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw NvError(std::string(key) + ": is missing; expected an NV image");
+  return *found;
+}
+
+std::string text_of(const Json& object, const char* key) {
+  const Json& text = demand(object, key);
+  if (!text.is_string()) throw NvError(std::string(key) + ": is no text; expected an NV image");
+  return text.get<std::string>();
+}
+
+/// "line 3" for a place in the text, as the parser counts its bytes.
+std::string line_of(const std::string& text, std::size_t byte) {
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+  return "line " + std::to_string(1 + std::count(text.begin(), end, '\n'));
+}
+
+/// nlohmann keeps the last of two equal keys without a word; this one refuses them.
+Json parse_strictly(const std::string& text) {
+  std::vector<std::set<std::string>> keys;
+  const auto refuse_duplicates = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
+      throw NvError(emulator::quoted(parsed.get<std::string>()) + ": is there twice; expected it once");
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text, refuse_duplicates);
+  } catch (const Json::parse_error& error) {
+    throw NvError(line_of(text, error.byte) + ": is torn or no JSON; expected an NV image");
+  }
+}
+
+}  // namespace
+
+std::string to_json(const NvImage& image) {
+  Json registers = Json::object();
+  for (const auto& [name, value] : image.registers) registers[name] = value;
+  const Json file{{"understudy", kFormat},
+                  {"kind", kKind},
+                  {"model", image.model},
+                  {"firmware", image.firmware},
+                  {"registers", std::move(registers)}};
+  return file.dump(2) + "\n";
+}
+
+NvImage parse_nv_image(const std::string& text) {
+  const Json file = parse_strictly(text);
+  if (!file.is_object() || !file.contains("understudy")) {
+    throw NvError("understudy: is missing; expected an NV image");
+  }
+  if (!file["understudy"].is_number_integer() || file["understudy"] != kFormat) {
+    throw NvError("understudy: is of another format; expected " + std::to_string(kFormat));
+  }
+  if (text_of(file, "kind") != kKind) {
+    throw NvError("kind: is " + emulator::quoted(text_of(file, "kind")) + "; expected " + kKind);
+  }
+  for (const auto& [key, value] : file.items()) {
+    const std::set<std::string> known{"understudy", "kind", "model", "firmware", "registers"};
+    if (!known.contains(key))
+      throw NvError(emulator::quoted(key) + ": is no key of an NV image; expected none");
+  }
+  NvImage image{.model = text_of(file, "model"), .firmware = text_of(file, "firmware"), .registers = {}};
+  const Json& registers = demand(file, "registers");
+  if (!registers.is_object()) throw NvError("registers: is no object; expected names and values");
+  for (const auto& [name, value] : registers.items()) {
+    const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
+    if (!value.is_number_integer() || huge) {
+      throw NvError("registers: " + emulator::quoted(name) + ": is no whole number; expected one");
+    }
+    image.registers.emplace_back(name, value.get<std::int64_t>());
+  }
+  return image;
+}
+
+}  // namespace understudy::emulator
