@@ -193,7 +193,13 @@ HomingProgram rsm8194h_homing(const Rsm8194hHoming& how) {
 // ---- Simple2-R3
 
 HomingProgram simple2_homing(const Simple2Homing& how) {
-  if (how.speed.top_speed_u_s == 0) return hanging(how.way);
+  if (how.speed.top_speed_u_s == 0) {
+    // It would turn back at the limit as well, as slowly.
+    HomingProgram both_ways;
+    both_ways.add({.does = Does::hang, .way = sign(how.way), .if_limit = 1});
+    both_ways.add({.does = Does::hang, .way = opposite(how.way)});
+    return both_ways;
+  }
   // Rows that others go to.
   constexpr std::int8_t kLeave = 1;
   constexpr std::int8_t kOtherWay = 2;

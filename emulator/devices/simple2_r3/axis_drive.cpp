@@ -52,10 +52,12 @@ std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tic
   }
   if ((motor.events & motion::bit(motion::Event::homed)) != 0) axis.homed = true;
   if (!motor.moving()) axis.command = Command::none;
-  std::int64_t& history = axis.encoder_history[ring_place(tick)];
-  if (axis.encoder_history[ring_place(tick - 1)] != axis.encoder_counts) axis.encoder_changed = tick;
-  history = axis.encoder_counts;
   return motor.travel_pulses - before;
+}
+
+void remember_encoder(AxisState& axis, Tick tick) {
+  if (axis.encoder_history[ring_place(tick - 1)] != axis.encoder_counts) axis.encoder_changed = tick;
+  axis.encoder_history[ring_place(tick)] = axis.encoder_counts;
 }
 
 motion::Cause run_velocity(AxisState& axis, std::int64_t target_mrpm) {
@@ -108,8 +110,10 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, std::uint32_t counts_p
   const std::int64_t then = axis.encoder_history[ring_place(now - AxisState::kSpeedWindow)];
   const Wide counts = Wide{axis.encoder_counts} - then;
   constexpr std::int64_t kWindowsAMinute = 60'000 / AxisState::kSpeedWindow;
+  // To the nearest: whole counts would show a steady 100 RPM as 99 otherwise.
+  const Wide half = counts < 0 ? -Wide{counts_per_revolution / 2} : Wide{counts_per_revolution / 2};
   const auto rpm = static_cast<std::int64_t>(
-      std::clamp<Wide>(counts * kWindowsAMinute / counts_per_revolution, -40'000, 40'000));
+      std::clamp<Wide>((counts * kWindowsAMinute + half) / counts_per_revolution, -40'000, 40'000));
   return std::clamp<std::int64_t>(reversed ? -rpm : rpm, INT16_MIN, INT16_MAX);
 }
 
@@ -118,7 +122,7 @@ bool is_moving(const AxisState& axis) {
     case Mode::position: return axis.motor.moving();
     case Mode::velocity: return runs_velocity(axis) && (axis.speed_urpm != 0 || axis.target_urpm != 0);
     case Mode::pwm: return axis.pwm_percent != 0;
-    case Mode::sync: return axis.motor.task == motion::Task::following && !axis.motor.follower.quiet();
+    case Mode::sync: return axis.motor.task == motion::Task::following && axis.motor.follower.period_pulses != 0;
   }
   return false;
 }

@@ -58,6 +58,9 @@ struct DriveSettings {
 /// One tick: the pulses in the commanded sense.
 std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tick);
 
+/// The encoder's count at the end of a tick, for its speed.
+void remember_encoder(AxisState& axis, Tick tick);
+
 /// Velocity mode towards `target_mrpm`, from the present speed if it runs already.
 /// What it is refused for, nothing has changed then.
 motion::Cause run_velocity(AxisState& axis, std::int64_t target_mrpm);

@@ -238,6 +238,7 @@ void Simple2R3::step_motion(Tick tick) {
 
 void Simple2R3::update_outputs(Tick tick) {
   for (AxisState& axis : state_.axes) {
+    remember_encoder(axis, tick);
     if (tick >= axis.alarm_clear_until) axis.alarm_clear_until = 0;
   }
   state_.eeprom.step(tick, state_.image);

@@ -151,6 +151,18 @@ TEST(EncoderSpeed, IsTheCountsOfTheLast100Milliseconds) {
   EXPECT_EQ(feeder.get("ENCA_RPM"), 0);
 }
 
+TEST(EncoderSpeed, OfAMachineThatTheAxisMovesIsTheAxisSpeed) {
+  PlantSetup plant;
+  plant.encoder_counts_per_revolution = 6000;
+  plant.pulses_per_revolution = 3200;
+  ReadySimple2 feeder({.plant = {{0, plant}}});
+  feeder.set("ENCA_Resoultion", 6000);
+  feeder.set_move('A', 100'000, 100, 1, 1);
+  feeder.set("Aaxis_Move_INC", 1);
+  feeder.run(200);  // at 5333.3 pulses or 10,000 counts a second since 10 ms
+  EXPECT_EQ(feeder.get("ENCA_RPM"), 100);
+}
+
 /// Homing at one pulse a millisecond with ramps of 10 ms (5 pulses).
 struct HomingSimple2 : ReadySimple2 {
   explicit HomingSimple2(int direction, const Given& given = {}) : ReadySimple2(given) {
