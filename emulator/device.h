@@ -88,6 +88,8 @@ class Device {
   // --- axes, by their number in the model's table ----------------------------------------------------
   /// Pulses that left the device in this tick, in the motor's sense (after every reversal).
   virtual std::int64_t pulses_this_tick(int axis) const = 0;
+  /// The speed behind them, as planned: real, where the pulses of a tick are whole.
+  virtual double speed_pps(int axis) const = 0;
   /// The form in which they leave, as the manual calls it; empty if there is but one.
   virtual std::string_view pulse_format() const { return {}; }
   /// The count of the encoder on the axis, absolute, as the plant sees it.

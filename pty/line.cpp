@@ -29,6 +29,8 @@ Line::Line(std::string name, LineOptions options, std::function<void(const std::
   output_.reserve(2 * kOutputCapacity);
 }
 
+void Line::remove_observer(LineObserver& observer) { std::erase(observers_, &observer); }
+
 void Line::attach(Station& station) { members_.emplace_back().station = &station; }
 
 // --- the host's side ---------------------------------------------------------------------------
@@ -55,7 +57,7 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
 void Line::nothing_more(SimTime now) {
   if (input_count_ > 0) return;  // the rest is still on the wire
   for (const Member& member : members_) member.station->hear_nothing_more();
-  if (observer_ != nullptr) observer_->on_nothing_more();
+  for (LineObserver* observer : observers_) observer->on_nothing_more();
   run(now);
 }
 
@@ -99,8 +101,8 @@ Line::Event Line::next_event() const {
   };
   // What is offered first wins at equal times.
   if (!is_instant()) offer_input();
-  if (observer_ != nullptr) {
-    if (const auto at = observer_->due()) offer(What::observer, *at, 0);
+  for (std::size_t i = 0; i < observers_.size(); ++i) {
+    if (const auto at = observers_[i]->due()) offer(What::observer, *at, i);
   }
   for (std::size_t i = 0; i < members_.size(); ++i) {
     if (const auto at = members_[i].station->due()) offer(What::station, *at, i);
@@ -132,7 +134,7 @@ void Line::handle(const Event& event) {
   switch (event.what) {
     case What::nothing: break;
     case What::character_in: deliver_character(); break;
-    case What::observer: observer_->run(clock_); break;
+    case What::observer: observers_[event.member]->run(clock_); break;
     case What::station: run_station(event.member); break;
     case What::character_out: {
       const std::uint8_t value = leaving_[leaving_first_].value;
@@ -186,7 +188,8 @@ void Line::begin_character(SimTime at) {
   }
   is_heard_ = deaf == 0 || deaf < members_.size();
   if (!is_heard_) ++counters_.bytes_unheard;
-  if (observer_ != nullptr && !is_instant()) observer_->on_start_bit(at);
+  if (is_instant()) return;
+  for (LineObserver* observer : observers_) observer->on_start_bit(at);
 }
 
 /// A character has wholly arrived; the next one, if there is any, begins at that very moment.
@@ -197,7 +200,7 @@ void Line::deliver_character() {
   for (const Member& member : members_) {
     if (!member.is_deaf) member.station->hear(byte);
   }
-  if (observer_ != nullptr) observer_->on_character(byte, is_heard_);
+  for (LineObserver* observer : observers_) observer->on_character(byte, is_heard_);
   if (input_count_ > 0) begin_character(input_[input_first_].start);
 }
 
@@ -240,8 +243,10 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
     member.noticed_at = first_end;
     ++notices_;
   }
-  if (observer_ != nullptr && !bytes.empty()) {
-    observer_->on_speech({bytes, first_start, has_collided, is_anybody_listening});
+  if (!bytes.empty()) {
+    for (LineObserver* observer : observers_) {
+      observer->on_speech({bytes, first_start, has_collided, is_anybody_listening});
+    }
   }
   if (!has_collided) return;
   ++counters_.collisions;

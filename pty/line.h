@@ -59,8 +59,10 @@ class Line {
   void hush(const Station& station, SimTime now);
   /// The wire's speed from now on; characters on their way keep theirs.
   void set_settings(const LineSettings& settings) { options_.settings = settings; }
-  /// Tells `observer` what goes over the wire, as long as the line lives; null: nobody.
-  void set_observer(LineObserver* observer) { observer_ = observer; }
+  /// Tells `observer` what goes over the wire, until it is taken away. Several are told in the order in which
+  /// they came.
+  void add_observer(LineObserver& observer) { observers_.push_back(&observer); }
+  void remove_observer(LineObserver& observer);
 
   // --- the host's side -----------------------------------------------------------------------
   /// How many bytes receive() takes at this moment; the rest must wait in the pty (bounded buffers).
@@ -143,7 +145,7 @@ class Line {
   std::function<void(const std::string&)> warn_;
   LineCounters counters_;
   std::vector<Member> members_;
-  LineObserver* observer_ = nullptr;
+  std::vector<LineObserver*> observers_;
   SimTime clock_{0};  // of the last event
 
   bool is_host_open_ = true;

@@ -94,7 +94,7 @@ void Daemon::start_capture(const std::string& path) {
     World::OneLine& line = world_.line(ports_[i]->line_number());
     captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
         i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); }));
-    line.line.set_observer(captured_lines_.back().get());
+    line.line.add_observer(*captured_lines_.back());
   }
 }
 

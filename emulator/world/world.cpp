@@ -11,6 +11,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     devices_.push_back(make_device(*setup.model, setup.settings, log));
     known_.push_back({setup.settings.name, setup.model, devices_.back()->firmware()});
     plants_.emplace_back(setup.model->axes.size());
+    sent_pulses_.emplace_back(setup.model->axes.size(), 0);
     inputs_.emplace_back(setup.model->terminals.size());
     for (std::size_t i = 0; i < setup.model->terminals.size(); ++i) {
       inputs_.back()[i].external = devices_.back()->input(static_cast<int>(i));  // its switches
@@ -62,7 +63,8 @@ void World::advance_to(SimTime time) {
     const Tick reachable = tick_at(std::min(time, line_time));
     const Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
     if (active > done_ + 1) {
-      const Tick last_quiet = std::min(reachable, active - 1);
+      // Watchers see each of them.
+      const Tick last_quiet = watchers_.empty() ? std::min(reachable, active - 1) : done_ + 1;
       ticks_crossed_ += static_cast<std::uint64_t>(last_quiet - done_);
       done_ = last_quiet;
       for (const auto& device : devices_) device->set_now(done_);
@@ -70,8 +72,16 @@ void World::advance_to(SimTime time) {
       run_tick();
     }
     now_ = std::max(now_, time_of(done_));
+    show_tick();
   }
   now_ = std::max(now_, time);
+}
+
+void World::show_tick() {
+  if (watchers_.empty()) return;
+  // One may take itself away.
+  const std::vector<TickWatcher*> present = watchers_;
+  for (TickWatcher* watcher : present) watcher->on_tick(done_);
 }
 
 std::optional<SimTime> World::next_due() const {
@@ -129,7 +139,9 @@ void World::step_plant() {
       PlantAxis& plant = plants_[d][a];
       const AxisRow& axis = axes[a];
       const auto driven = [&](int terminal) { return terminal >= 0 && device.output(terminal); };
-      plant.step(done_, device.pulses_this_tick(static_cast<int>(a)),
+      const std::int64_t pulses = device.pulses_this_tick(static_cast<int>(a));
+      sent_pulses_[d][a] += pulses;
+      plant.step(done_, pulses,
                  {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)});
       if (plant.has_encoder()) device.set_encoder(static_cast<int>(a), plant.encoder_counts());
       const auto drive = [&](int terminal, bool level) {

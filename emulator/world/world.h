@@ -34,6 +34,13 @@ struct WorldOptions {
   bool enforce_settings = true;  // devices are deaf to a host with another speed
 };
 
+/// Sees every tick, quiet or not, when all of it is over. May act on the world as the outside does.
+class TickWatcher {
+ public:
+  virtual ~TickWatcher() = default;
+  virtual void on_tick(Tick tick) = 0;
+};
+
 class World {
  public:
   /// Throws SettingError for what the models refuse.
@@ -50,12 +57,17 @@ class World {
   /// Run every tick, quiet or not; results are the same (that is what it is for: to prove it).
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
 
+  /// Until it is taken away; several see a tick in the order in which they came.
+  void add_watcher(TickWatcher& watcher) { watchers_.push_back(&watcher); }
+  void remove_watcher(TickWatcher& watcher) { std::erase(watchers_, &watcher); }
+
   // --- lines ---------------------------------------------------------------------------------
   struct OneLine {
     pty::Line line;
     std::vector<std::unique_ptr<RtuStation>> stations;
     pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
   };
+  std::size_t line_count() const { return lines_.size(); }
   OneLine& line(std::size_t number) { return *lines_[number]; }
   const OneLine& line(std::size_t number) const { return *lines_[number]; }
 
@@ -66,6 +78,10 @@ class World {
   /// For finding things by name.
   const KnownDevices& known() const { return known_; }
   const PlantAxis& plant(std::size_t device, int axis) const;
+  /// All pulses since the world began, in the motor's sense.
+  std::int64_t sent_pulses(std::size_t device, int axis) const {
+    return sent_pulses_[device][static_cast<std::size_t>(axis)];
+  }
   /// Holds a digital input on, or lets it go; switches and wires on the same input act as well. Or sets an
   /// analog input (millivolts) or a switch on the housing.
   void set_external_input(std::size_t device, int terminal, std::int32_t level);
@@ -91,6 +107,7 @@ class World {
   };
 
   void run_tick();
+  void show_tick();
   void run_lines(SimTime time);
   Tick next_active_tick() const;
   SimTime next_line_time() const;
@@ -103,8 +120,10 @@ class World {
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<std::unique_ptr<OneLine>> lines_;
   std::vector<std::vector<PlantAxis>> plants_;  // [device][axis]
-  std::vector<std::vector<Input>> inputs_;      // [device][terminal]
+  std::vector<std::vector<std::int64_t>> sent_pulses_;
+  std::vector<std::vector<Input>> inputs_;  // [device][terminal]
   std::vector<WireSetup> wires_;
+  std::vector<TickWatcher*> watchers_;
   std::map<std::size_t, Fault> faults_;  // by number
   std::size_t next_fault_ = 1;
   bool disturbed_ = false;  // from outside, in a way that devices do not see: the next tick is run

@@ -41,7 +41,7 @@ struct CaptureRig : LineRig {
           lines.push_back(text.substr(text.find(' ') + 1, text.size() - text.find(' ') - 2));
         }) {
     line.attach(slave);
-    line.set_observer(&capture);
+    line.add_observer(capture);
     line.host_settings(HostSettings{.baud = 19200});
   }
 

@@ -117,6 +117,15 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, std::uint32_t counts_p
   return std::clamp<std::int64_t>(reversed ? -rpm : rpm, INT16_MIN, INT16_MAX);
 }
 
+double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution) {
+  const motion::Axis& motor = axis.motor;
+  if (runs_velocity(axis)) return static_cast<double>(axis.speed_urpm) * pulses_per_revolution / 60e6;
+  if (motor.task == motion::Task::following) {
+    return static_cast<double>(motor.follower.period_pulses) * 1000 / motor.follower.period_ticks;
+  }
+  return motor.drive.moving() ? motor.drive.direction * motor.sample(now).speed_u_s : 0;
+}
+
 bool is_moving(const AxisState& axis) {
   switch (axis.mode) {
     case Mode::position: return axis.motor.moving();

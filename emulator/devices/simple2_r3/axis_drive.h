@@ -76,6 +76,9 @@ void stop_drive(AxisState& axis);
 /// Counts a minute's revolutions over the last 100 ms, within 16 bits with a sign.
 std::int64_t encoder_rpm(const AxisState& axis, Tick now, std::uint32_t counts_per_revolution, bool reversed);
 
+/// In the commanded sense, at the end of tick `now`.
+double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution);
+
 /// STATUS bits 4 and 5.
 bool is_moving(const AxisState& axis);
 

@@ -280,6 +280,12 @@ std::int64_t Simple2R3::pulses_this_tick(int axis) const {
   return state_.axes[static_cast<std::size_t>(axis)].pulses_this_tick;
 }
 
+double Simple2R3::speed_pps(int axis) const {
+  const auto number = static_cast<std::size_t>(axis);
+  const double speed = simple2_r3::speed_pps(state_.axes[number], now(), resolution_of(state_, axis));
+  return state_.image[kAxisSlots[number].direction_polarity] != 0 ? -speed : speed;
+}
+
 void Simple2R3::set_encoder(int axis, std::int64_t counts) {
   state_.axes[static_cast<std::size_t>(axis)].encoder_counts = counts;
 }

@@ -99,6 +99,7 @@ class Simple2R3 final : public Device {
 
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
+  double speed_pps(int axis) const override;
   void set_encoder(int axis, std::int64_t counts) override;
   std::string_view pulse_format() const override { return dip_switch(1) ? "PLS/DIR" : "CW/CCW"; }
 

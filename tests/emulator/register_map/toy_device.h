@@ -48,6 +48,7 @@ class ToyDevice final : public Device {
   bool same_state(const Device&) const override { return false; }
   bool output(int) const override { return false; }
   std::int64_t pulses_this_tick(int) const override { return 0; }
+  double speed_pps(int) const override { return 0; }
   void set_encoder(int, std::int64_t) override {}
 
   bool is_low_word_first = true;

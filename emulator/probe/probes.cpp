@@ -1,0 +1,166 @@
+#include "emulator/probe/probes.h"
+
+#include <array>
+
+#include "emulator/bench/names.h"
+#include "emulator/one_line.h"
+#include "emulator/register_map/access.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// "feeder.A.pulses" at its first dot; nothing behind it if there is none.
+std::pair<std::string_view, std::string_view> at_dot(std::string_view name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string_view::npos) return {name, {}};
+  return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+}  // namespace
+
+NamedNumber Probes::resolve(std::string_view name) const {
+  for (std::size_t i = 0; i < probes_.size(); ++i) {
+    if (probes_[i].name == name) return {static_cast<std::int32_t>(i), probes_[i].unit};
+  }
+  Probe probe = find(name);
+  probe.name = name;
+  probes_.push_back(probe);
+  return {static_cast<std::int32_t>(probes_.size() - 1), probe.unit};
+}
+
+bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
+  static constexpr std::array<std::pair<std::string_view, What>, 10> kOfAxis{{
+      {"pulses", What::pulses},
+      {"speed", What::speed},
+      {"position", What::position},
+      {"lost", What::lost},
+      {"encoder", What::encoder},
+      {"home", What::home},
+      {"upper_limit", What::upper_limit},
+      {"lower_limit", What::lower_limit},
+      {"ready", What::ready},
+      {"alarm", What::alarm},
+  }};
+  const auto [axis_name, what_name] = at_dot(rest);
+  const Model& model = world_.device(probe.device).model();
+  const int axis = find_axis(model, axis_name);
+  if (axis < 0 || what_name.empty()) return false;
+  std::vector<std::string> known;
+  for (const auto& [word, what] : kOfAxis) {
+    known.emplace_back(word);
+    if (word != what_name) continue;
+    probe.what = what;
+    probe.place = axis;
+    return true;
+  }
+  throw NameError("axis " + std::string(axis_name) + " has no " + quoted(what_name) + "; the nearest is '" +
+                  nearest_word(what_name, known) + "'");
+}
+
+Probes::Probe Probes::find(std::string_view name) const {
+  Probe probe;
+  if (name == "time") {
+    probe.unit = Unit::nanoseconds;
+    return probe;
+  }
+  const auto [first, behind] = at_dot(name);
+  static constexpr std::array<std::pair<std::string_view, What>, 3> kOfLine{{
+      {"bytes_in", What::bytes_in},
+      {"bytes_out", What::bytes_out},
+      {"collisions", What::collisions},
+  }};
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    if (world_.line(i).line.name() != first) continue;
+    for (const auto& [word, what] : kOfLine) {
+      if (word != behind) continue;
+      probe.what = what;
+      probe.device = i;
+      return probe;
+    }
+  }
+  static constexpr std::array<std::pair<std::string_view, What>, 4> kOfDevice{{
+      {"power", What::power},
+      {"requests", What::requests},
+      {"replies", What::replies},
+      {"exceptions", What::exceptions},
+  }};
+  // Where there is one device its name may be left out.
+  const KnownDevices& known = world_.known();
+  std::string_view rest = name;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i].name != first || behind.empty()) continue;
+    probe.device = i;
+    rest = behind;
+  }
+  if (rest == name && known.size() != 1) find_device(known, first);  // throws: no such device
+  for (const auto& [word, what] : kOfDevice) {
+    if (word != rest) continue;
+    probe.what = what;
+    return probe;
+  }
+  if (find_of_axis(rest, probe)) return probe;
+  const KnownDevice& device = known[probe.device];
+  if (const auto place = device.model->registers.find(rest, device.firmware)) {
+    probe.what = What::reg;
+    probe.reg = *place;
+    return probe;
+  }
+  if (const int terminal = find_terminal(*device.model, rest); terminal >= 0) {
+    const TerminalRow::Kind kind = device.model->terminals[static_cast<std::size_t>(terminal)].kind;
+    probe.what = is_input(kind) ? What::input : What::output;
+    probe.place = terminal;
+    if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
+    return probe;
+  }
+  throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
+}
+
+std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    for (const auto& station : world_.line(i).stations) {
+      if (&station->device() == &world_.device(device)) sum += station->counters().*counter;
+    }
+  }
+  return sum;
+}
+
+Number Probes::value(std::int32_t handle) const {
+  const Probe& probe = probes_[static_cast<std::size_t>(handle)];
+  const auto count = [](std::uint64_t number) { return Number(static_cast<std::int64_t>(number)); };
+  switch (probe.what) {
+    case What::time: return world_.now().count();
+    case What::bytes_in: return count(world_.line(probe.device).line.counters().bytes_in);
+    case What::bytes_out: return count(world_.line(probe.device).line.counters().bytes_out);
+    case What::collisions: return count(world_.line(probe.device).line.counters().collisions);
+    default: break;
+  }
+  const Device& device = world_.device(probe.device);
+  switch (probe.what) {
+    case What::reg: return device.powered() ? read_value(device, probe.reg) : 0;
+    case What::input: return device.input(probe.place);
+    case What::output: return device.output(probe.place) ? 1 : 0;
+    case What::power: return device.powered() ? 1 : 0;
+    case What::pulses: return world_.sent_pulses(probe.device, probe.place);
+    case What::speed: return device.speed_pps(probe.place);
+    case What::requests: return count(count_of_stations(probe.device, &StationCounters::requests));
+    case What::replies: return count(count_of_stations(probe.device, &StationCounters::replies));
+    case What::exceptions: return count(count_of_stations(probe.device, &StationCounters::exceptions));
+    default: break;
+  }
+  const PlantAxis& plant = world_.plant(probe.device, probe.place);
+  switch (probe.what) {
+    case What::position: return plant.position_pulses();
+    case What::lost: return plant.lost_pulses();
+    case What::encoder: return plant.encoder_counts();
+    case What::home: return plant.at_home() ? 1 : 0;
+    case What::upper_limit: return plant.at_upper_limit() ? 1 : 0;
+    case What::lower_limit: return plant.at_lower_limit() ? 1 : 0;
+    case What::ready: return plant.ready() ? 1 : 0;
+    case What::alarm: return plant.in_alarm() ? 1 : 0;
+    default: return 0;
+  }
+}
+
+}  // namespace understudy::emulator

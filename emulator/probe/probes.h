@@ -1,0 +1,78 @@
+// What can be seen of a world without its lines, by name: for expressions in scenarios, fault triggers,
+// `ctl run-until`, traces. Looking changes nothing.
+//
+//   time                       simulated time, a duration
+//   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment
+//   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
+//                              of the same name comes first
+//   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
+//   feeder.A.speed             what it runs at by plan, in pulses a second, real
+//   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
+//   feeder.A.encoder           its encoder's count
+//   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive
+//   feeder.power               1 while it has power
+//   feeder.requests, .replies, .exceptions    of its stations
+//   rs485.bytes_in, .bytes_out, .collisions   of a line
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/expression/expression.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+class Probes final : public NameResolver, public ValueSource {
+ public:
+  /// The world must outlive it.
+  explicit Probes(const World& world) : world_(world) {}
+
+  /// Throws NameError. A name that was resolved before gets its handle again.
+  NamedNumber resolve(std::string_view name) const override;
+  /// A register of a device without power is 0.
+  Number value(std::int32_t handle) const override;
+
+ private:
+  enum class What : std::uint8_t {
+    time,
+    reg,
+    input,
+    output,
+    pulses,
+    speed,
+    position,
+    lost,
+    encoder,
+    home,
+    upper_limit,
+    lower_limit,
+    ready,
+    alarm,
+    power,
+    requests,
+    replies,
+    exceptions,
+    bytes_in,
+    bytes_out,
+    collisions,
+  };
+  struct Probe {
+    What what = What::time;
+    std::size_t device = 0;  // or the line
+    int place = 0;           // axis or terminal
+    NamedPlace reg{};
+    Unit unit = Unit::none;
+    std::string name;
+  };
+
+  Probe find(std::string_view name) const;
+  bool find_of_axis(std::string_view rest, Probe& probe) const;
+  std::uint64_t count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const;
+
+  const World& world_;
+  mutable std::vector<Probe> probes_;  // by handle
+};
+
+}  // namespace understudy::emulator
