@@ -44,6 +44,7 @@ void Line::receive_departed(std::span<const std::uint8_t> bytes, SimTime now) { 
 void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed) {
   bytes = bytes.first(std::min(bytes.size(), room()));
   counters_.bytes_in += bytes.size();
+  for (LineObserver* observer : observers_) observer->on_receive(bytes, is_departed);
   const bool was_idle = input_count_ == 0;
   for (const std::uint8_t value : bytes) {
     input_[(input_first_ + input_count_) % kInputCapacity] = place(arriving_, value, now);
@@ -62,14 +63,19 @@ void Line::nothing_more(SimTime now) {
 }
 
 void Line::host_opened() {
+  for (LineObserver* observer : observers_) observer->on_host_opened();
   is_host_open_ = true;
   host_settings_.reset();
   has_warned_deaf_ = has_warned_no_speed_ = has_warned_collision_ = false;
 }
 
-void Line::host_settings(std::optional<HostSettings> settings) { host_settings_ = settings; }
+void Line::host_settings(std::optional<HostSettings> settings) {
+  for (LineObserver* observer : observers_) observer->on_host_settings(settings);
+  host_settings_ = settings;
+}
 
 void Line::host_closed() {
+  for (LineObserver* observer : observers_) observer->on_host_closed();
   is_host_open_ = false;
   departed_settings_ = host_settings_;
   last_departed_ = last_received_;

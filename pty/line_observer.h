@@ -28,6 +28,13 @@ class LineObserver {
   virtual void on_character(const TimedByte& character, bool is_heard) = 0;
   /// Nothing more has come for a while although the clock stands (Station::hear_nothing_more).
   virtual void on_nothing_more() = 0;
+
+  // What the host does, when it does it. `bytes` are those that the line takes.
+  virtual void on_receive(std::span<const std::uint8_t> /*bytes*/, bool /*is_departed*/) {}
+  virtual void on_host_opened() {}
+  virtual void on_host_closed() {}
+  virtual void on_host_settings(const std::optional<HostSettings>& /*settings*/) {}
+
   /// A station has begun to talk.
   virtual void on_speech(const Speech& speech) = 0;
 

@@ -79,7 +79,7 @@ Json set(Daemon& daemon, const Json& message) {
     demand_accepted(prepare_value(world.device(place.device), place.place, value, writes[i]), name, value,
                     *place.place.place.row);
   }
-  for (std::size_t i = 0; i < writes.size(); ++i) write_prepared(world.device(places[i].device), writes[i]);
+  for (std::size_t i = 0; i < writes.size(); ++i) world.write(places[i].device, writes[i]);
   return Json{{"ok", true}};
 }
 

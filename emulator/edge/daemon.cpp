@@ -1,10 +1,13 @@
 #include "emulator/edge/daemon.h"
 
 #include <signal.h>
+#include <sys/eventfd.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <system_error>
 #include <utility>
 
 #include "emulator/control/messages.h"
@@ -35,7 +38,8 @@ WorldOptions world_options(const DaemonOptions& options) {
 
 Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log)
     : log_(std::move(log)), world_(bench, world_options(options), log_), pacer_(options.speed, wall_now()) {
-  watch_signals();
+  if (options.watch_signals) watch_signals();
+  watch_posts();
   make_ports(bench);
   const bool asked_for = !options.control_path.empty();
   try {
@@ -59,6 +63,32 @@ Daemon::~Daemon() {
   memories_.reset();
   finish_capture();
   if (signals_ >= 0) close(signals_);
+  if (posted_signal_ >= 0) close(posted_signal_);
+}
+
+void Daemon::watch_posts() {
+  posted_signal_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (posted_signal_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+  loop_.watch(posted_signal_, EventLoop::readable, [this](std::uint32_t) {
+    std::uint64_t ignored = 0;
+    [[maybe_unused]] const ssize_t got = read(posted_signal_, &ignored, sizeof ignored);
+    std::vector<std::function<void()>> acts;
+    {
+      const std::lock_guard lock(posted_mutex_);
+      acts.swap(posted_);
+    }
+    catch_up();
+    for (const auto& act : acts) act();
+  });
+}
+
+void Daemon::post(std::function<void()> act) {
+  {
+    const std::lock_guard lock(posted_mutex_);
+    posted_.push_back(std::move(act));
+  }
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t put = write(posted_signal_, &one, sizeof one);
 }
 
 const std::string& Daemon::control_path() const {

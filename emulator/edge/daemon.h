@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct DaemonOptions {
   bool strict_framing = false;
   bool enforce_settings = true;
   std::string control_path;  // empty: the default one, if it is free
+  bool watch_signals = true;
   std::string capture_path;  // empty: no capture
 };
 
@@ -36,8 +38,14 @@ class Daemon {
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
 
-  /// Runs until SIGTERM, SIGINT or SIGHUP.
+  /// Runs until SIGTERM, SIGINT or SIGHUP (if it watches signals), or stop().
   void run();
+  /// Ends run() soon. On the thread that runs it.
+  void stop() { stopping_ = true; }
+  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread.
+  void post(std::function<void()> act);
+  /// For what else is to be waited for.
+  EventLoop& loop() { return loop_; }
 
   World& world() { return world_; }
   const World& world() const { return world_; }
@@ -56,6 +64,7 @@ class Daemon {
 
  private:
   void watch_signals();
+  void watch_posts();
   void make_ports(const Bench& bench);
   void start_capture(const std::string& path);
   void finish_capture();
@@ -76,6 +85,9 @@ class Daemon {
   std::vector<std::unique_ptr<Port>> ports_;
   std::unique_ptr<ControlServer> control_;
   int signals_ = -1;
+  int posted_signal_ = -1;  // an eventfd
+  std::mutex posted_mutex_;
+  std::vector<std::function<void()>> posted_;
   bool stopping_ = false;
   std::optional<WallTime> planned_;  // for when the loop meant to wake; judged once
 

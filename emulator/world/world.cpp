@@ -171,6 +171,7 @@ void World::latch_wires() {
 }
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
+  if (listener_ != nullptr) listener_->on_input(device, terminal, level);
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
 }
@@ -186,8 +187,19 @@ void World::apply_input(std::size_t device, int terminal) {
   devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
 }
 
+Refusal World::write(std::size_t device, const PreparedWrite& write) {
+  if (listener_ != nullptr) listener_->on_write(device, write);
+  return write_prepared(*devices_[device], write);
+}
+
+void World::load_program(std::size_t device, std::string_view text) {
+  devices_[device]->load_program(text);  // throws before anything has changed
+  if (listener_ != nullptr) listener_->on_program(device, text);
+}
+
 void World::switch_power(std::size_t device, bool on) {
   if (devices_[device]->powered() == on) return;
+  if (listener_ != nullptr) listener_->on_power(device, on);
   devices_[device]->switch_power(on);
   disturbed_ = true;
   for (const auto& line : lines_) {
@@ -204,6 +216,7 @@ void World::switch_power(std::size_t device, bool on) {
 }
 
 std::size_t World::inject(const Fault& fault) {
+  if (listener_ != nullptr) listener_->on_inject(fault);
   disturbed_ = true;
   const std::size_t number = next_fault_++;
   if (fault.kind == Fault::Kind::slip) {
@@ -218,6 +231,7 @@ std::size_t World::inject(const Fault& fault) {
 bool World::clear_fault(std::size_t number) {
   const auto found = faults_.find(number);
   if (found == faults_.end()) return false;
+  if (listener_ != nullptr) listener_->on_clear_fault(number);
   const std::size_t device = found->second.device;
   faults_.erase(found);
   disturbed_ = true;

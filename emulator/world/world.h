@@ -20,6 +20,7 @@
 #include "emulator/modbus/rtu_station.h"
 #include "emulator/plant/plant.h"
 #include "emulator/simulated_time.h"
+#include "emulator/world/outside.h"
 #include "pty/line.h"
 
 namespace understudy::emulator {
@@ -61,6 +62,9 @@ class World {
   void add_watcher(TickWatcher& watcher) { watchers_.push_back(&watcher); }
   void remove_watcher(TickWatcher& watcher) { std::erase(watchers_, &watcher); }
 
+  /// One at most; null: nobody.
+  void set_listener(OutsideListener* listener) { listener_ = listener; }
+
   // --- lines ---------------------------------------------------------------------------------
   struct OneLine {
     pty::Line line;
@@ -87,6 +91,10 @@ class World {
   void set_external_input(std::size_t device, int terminal, std::int32_t level);
   /// What set_external_input() has given it.
   std::int32_t external_input(std::size_t device, int terminal) const;
+  /// Writes a register past the line.
+  Refusal write(std::size_t device, const PreparedWrite& write);
+  /// Throws ProgramError.
+  void load_program(std::size_t device, std::string_view text);
   /// Between two ticks. What a device without power was saying ends at once.
   void switch_power(std::size_t device, bool on);
 
@@ -124,6 +132,7 @@ class World {
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]
   std::vector<WireSetup> wires_;
   std::vector<TickWatcher*> watchers_;
+  OutsideListener* listener_ = nullptr;
   std::map<std::size_t, Fault> faults_;  // by number
   std::size_t next_fault_ = 1;
   bool disturbed_ = false;  // from outside, in a way that devices do not see: the next tick is run

@@ -1,0 +1,26 @@
+// What reaches a world from outside, but for what hosts do on its lines (pty/line_observer.h): for whoever writes
+// it down. Given to a world of the same bench at the same simulated times, it makes the same things happen.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "emulator/faults/fault.h"
+#include "emulator/register_map/access.h"
+
+namespace understudy::emulator {
+
+class OutsideListener {
+ public:
+  virtual ~OutsideListener() = default;
+  virtual void on_input(std::size_t device, int terminal, std::int32_t level) = 0;
+  virtual void on_power(std::size_t device, bool on) = 0;
+  virtual void on_inject(const Fault& fault) = 0;
+  virtual void on_clear_fault(std::size_t number) = 0;
+  /// A register written past the line.
+  virtual void on_write(std::size_t device, const PreparedWrite& write) = 0;
+  virtual void on_program(std::size_t device, std::string_view text) = 0;
+};
+
+}  // namespace understudy::emulator
