@@ -73,7 +73,7 @@ class BenchReader {
       }
     }
     if (fields.has("program")) read_program(fields.at("program"), device.settings);
-    if (fields.has("nv")) device.nv_path = read_nv_path(fields.at("nv"));
+    if (fields.has("nv")) read_nv(fields.at("nv"), device);
     if (fields.has("choices")) {
       fields.at("choices").demand_map({});
       for (const auto& [id, option] : fields.at("choices").entries())
@@ -90,7 +90,13 @@ class BenchReader {
     return (std::filesystem::path(folder) / field.text()).lexically_normal().string();
   }
 
+  /// The path of a listing, or the listing itself if it has several lines.
   void read_program(const YamlFields& field, DeviceSettings& settings) const {
+    if (field.text().find('\n') != std::string::npos) {
+      settings.program = field.text();
+      settings.program_name = settings.name + ".program";
+      return;
+    }
     const std::string path = path_in(folder_, field);
     const auto text = read_text_file(path);
     if (!text) field.fail(path + " cannot be read; expected a listing");
@@ -98,14 +104,24 @@ class BenchReader {
     settings.program_name = path;
   }
 
-  std::string read_nv_path(const YamlFields& field) const {
-    const std::string path = path_in(folder_, field);
+  /// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
+  /// the run.
+  void read_nv(const YamlFields& field, DeviceSetup& device) const {
+    if (field.node().IsMap()) {
+      NvImage image{.model = std::string(device.model->name), .firmware = {}, .registers = {}};
+      field.demand_map({});
+      for (const auto& [register_name, value] : field.entries()) {
+        image.registers.emplace_back(register_name, value.integer(INT32_MIN, UINT32_MAX));
+      }
+      device.settings.nv = std::move(image);
+      return;
+    }
+    device.nv_path = path_in(folder_, field);
     for (const DeviceSetup& other : bench_.devices) {
-      if (other.nv_path == path) {
+      if (other.nv_path == device.nv_path) {
         field.fail("device '" + other.settings.name + "' has the same file; expected another");
       }
     }
-    return path;
   }
 
   void read_devices(const YamlFields& devices) {
@@ -268,6 +284,8 @@ class BenchReader {
         make_device(*bench_.devices[i].model, bench_.devices[i].settings);
       } catch (const SettingError& error) {
         device_fields_[i].fail(error.what());
+      } catch (const NvError& error) {
+        device_fields_[i].fail(std::string("nv: ") + error.what());
       } catch (const ProgramError& error) {
         throw BenchError(bench_.devices[i].settings.program_name + ":" + std::to_string(error.line) + ": " +
                          error.what());

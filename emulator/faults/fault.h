@@ -37,7 +37,8 @@ struct FaultText {
 
 /// Throws NameError for what the bench does not have.
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
-/// As find_fault() takes it.
+/// As find_fault() takes it, and the same on one line.
+FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);
 
 }  // namespace understudy::emulator

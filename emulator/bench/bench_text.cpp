@@ -1,0 +1,108 @@
+#include "emulator/bench/bench_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include "emulator/faults/fault.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+KnownDevices known_devices(const Bench& bench) {
+  KnownDevices known;
+  for (const DeviceSetup& device : bench.devices) {
+    known.push_back({device.settings.name, device.model, device.settings.firmware});
+  }
+  return known;
+}
+
+Json device_text(const DeviceSetup& device) {
+  const DeviceSettings& settings = device.settings;
+  Json text{{"model", device.model->name}};
+  if (settings.firmware != 0) text["firmware"] = version_text(settings.firmware);
+  for (const auto& [name, on] : settings.dip) text["dip"][name] = on ? "on" : "off";
+  if (settings.nv) {
+    text["nv"] = Json::object();
+    for (const auto& [name, value] : settings.nv->registers) text["nv"][name] = value;
+  }
+  if (!settings.program.empty()) {
+    // With a line's end it is known for a text and not a path.
+    const bool has_lines = settings.program.find('\n') != std::string::npos;
+    text["program"] = has_lines ? settings.program : settings.program + "\n";
+  }
+  for (const auto& [id, option] : settings.choices) text["choices"][id] = option;
+  for (const auto& [name, value] : settings.set) text["set"][name] = value;
+  return text;
+}
+
+Json line_text(const Bench& bench, const LineSetup& line) {
+  Json text{{"timing", line.timing == pty::Timing::wire ? "wire" : "instant"}, {"stations", Json::array()}};
+  if (line.baud != 0) text["baud"] = line.baud;
+  for (const std::size_t device : line.stations) {
+    const DeviceSettings& settings = bench.devices[device].settings;
+    text["stations"].push_back(Json{{"device", settings.name}, {"address", settings.address}});
+  }
+  return text;
+}
+
+Json machine_text(const PlantSetup& plant) {
+  Json text = Json::object();
+  if (plant.travel) text["travel"] = {plant.travel->first, plant.travel->last};
+  if (plant.home) {
+    text["home"] = Json{{"at", plant.home->first},
+                        {"width", plant.home->last - plant.home->first + 1},
+                        {"hysteresis", plant.home_hysteresis_pulses}};
+  }
+  if (plant.lower_limit) text["limits"]["lower"] = *plant.lower_limit;
+  if (plant.upper_limit) text["limits"]["upper"] = *plant.upper_limit;
+  if (plant.limit_hysteresis_pulses != 0) text["limits"]["hysteresis"] = plant.limit_hysteresis_pulses;
+  if (plant.encoder_counts_per_revolution != 0) {
+    text["encoder"] = Json{{"per_revolution", plant.encoder_counts_per_revolution},
+                           {"motor_pulses_per_revolution", plant.pulses_per_revolution},
+                           {"reversed", plant.encoder_reversed}};
+  }
+  if (plant.drive) {
+    text["drive"] = Json{{"ready_after", std::to_string(plant.drive->ready_after) + "ms"},
+                         {"enabled_by", plant.drive->enabled_by ? "on" : "off"},
+                         {"alarm_contact", plant.drive->alarm_opens ? "opens" : "closes"}};
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Bench& bench) {
+  const KnownDevices known = known_devices(bench);
+  const auto terminal = [&](std::size_t device, int number) {
+    return known[device].name + "." +
+           std::string(known[device].model->terminals[static_cast<std::size_t>(number)].name);
+  };
+  Json text{{"understudy", 1}};
+  text["lines"] = Json::object();
+  for (const LineSetup& line : bench.lines) text["lines"][line.name] = line_text(bench, line);
+  text["devices"] = Json::object();
+  for (const DeviceSetup& device : bench.devices) text["devices"][device.settings.name] = device_text(device);
+  for (const MachineSetup& machine : bench.machines) {
+    const auto& axes = bench.devices[machine.device].model->axes;
+    const std::string_view axis = axes[static_cast<std::size_t>(machine.axis)].name;
+    text["plant"][known[machine.device].name + "." + std::string(axis)] = machine_text(machine.plant);
+  }
+  for (const WireSetup& wire : bench.wires) {
+    text["wires"].push_back(terminal(wire.from_device, wire.from_terminal) + " -> " +
+                            terminal(wire.to_device, wire.to_terminal));
+  }
+  for (const InputSetup& input : bench.inputs) {
+    text["inputs"][terminal(input.device, input.terminal)] = input.level;
+  }
+  for (const Fault& fault : bench.faults) {
+    const FaultText parts = fault_text(known, fault);
+    Json entry{{parts.kind, parts.place}};
+    for (const auto& [name, amount] : parts.amounts) entry[name] = amount;
+    text["faults"].push_back(entry);
+  }
+  return text.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,93 @@
+// A bench as text: read again it is the same.
+#include "emulator/bench/bench_text.h"
+
+#include <gtest/gtest.h>
+
+#include "emulator/bench/bench_file.h"
+
+namespace understudy::emulator {
+namespace {
+
+// Everything that a bench can say.
+const std::string kFull = R"(
+understudy: 1
+lines:
+  rs485:
+    baud: 115200
+    timing: instant
+    stations:
+      - name: feeder
+        model: simple2-r3
+        address: 3
+        firmware: "1.40"
+        dip: { DIP1: on, DIP2: on }
+        nv: { Aaxis_Resoultion: 6400, PROG_MEM3: -7 }
+        program: |
+          again: Out DOUT_4 ON   ; "quoted", and a \\ too
+                 Jump again
+        choices: { loop_count: further_passes }
+        set: { Aaxis_Speed: 200, Aaxis_Pulse: -5 }
+      - { device: turner, address: 4 }
+  other:
+    stations: [ { name: third, model: simple2-r3 } ]
+devices:
+  turner: { model: simple2-r3 }
+plant:
+  feeder.A:
+    travel: [-20000, 30000]
+    home: { at: 5, width: 7, hysteresis: 2 }
+    limits: { lower: -18000, upper: 28000, hysteresis: 3 }
+    encoder: { per_revolution: 4000, motor_pulses_per_revolution: 3200, reversed: true }
+    drive: { ready_after: 120ms, enabled_by: off, alarm_contact: opens }
+  turner.B: { limits: { upper: 10 } }
+wires: [ feeder.DOUT_4 -> turner.DIN_10, turner.DOUT_0 -> third.DIN_1 ]
+inputs: { turner.DIN_3: on, feeder.AIN_A: 2.5V, third.DIN_2: off }
+faults: [ { stall: turner.A }, { lost_steps: feeder.B, one_in: 50 }, { stuck: third.DIN_4, level: 1 } ]
+)";
+
+TEST(BenchText, ReadAgainIsTheSameBench) {
+  const Bench bench = parse_bench(kFull, "bench.yaml", "/somewhere");
+  const std::string text = to_text(bench);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  const Bench again = parse_bench(text, "text", "/elsewhere");
+  EXPECT_EQ(to_text(again), text);
+
+  const DeviceSettings& feeder = again.devices[1].settings;  // turner was declared first
+  EXPECT_EQ(feeder.name, "feeder");
+  EXPECT_EQ(feeder.firmware, 140);
+  EXPECT_EQ(feeder.address, 3);
+  EXPECT_EQ(feeder.baud, 115'200);
+  EXPECT_EQ(feeder.dip, (std::map<std::string, bool>{{"DIP1", true}, {"DIP2", true}}));
+  EXPECT_EQ(feeder.choices, (std::map<std::string, std::string>{{"loop_count", "further_passes"}}));
+  EXPECT_EQ(feeder.set,
+            (std::vector<std::pair<std::string, Value>>{{"Aaxis_Speed", 200}, {"Aaxis_Pulse", -5}}));
+  ASSERT_TRUE(feeder.nv);
+  EXPECT_EQ(feeder.nv->registers, (std::vector<std::pair<std::string, std::int64_t>>{
+                                      {"Aaxis_Resoultion", 6400}, {"PROG_MEM3", -7}}));
+  EXPECT_EQ(feeder.program.substr(0, 24), "again: Out DOUT_4 ON   ;");
+  const PlantSetup& plant = again.machines[0].plant;
+  EXPECT_EQ(plant.travel->first, -20'000);
+  EXPECT_EQ(plant.home->first, 5);
+  EXPECT_EQ(plant.home->last, 11);
+  EXPECT_EQ(plant.home_hysteresis_pulses, 2);
+  EXPECT_EQ(plant.limit_hysteresis_pulses, 3);
+  EXPECT_EQ(plant.encoder_counts_per_revolution, 4000);
+  EXPECT_TRUE(plant.encoder_reversed);
+  EXPECT_EQ(plant.drive->ready_after, 120);
+  EXPECT_FALSE(plant.drive->enabled_by);
+  EXPECT_TRUE(plant.drive->alarm_opens);
+  EXPECT_EQ(again.wires.size(), 2U);
+  EXPECT_EQ(again.inputs.size(), 3U);
+  EXPECT_EQ(again.faults, bench.faults);
+}
+
+TEST(BenchText, OfAFactoryBenchIsShort) {
+  const Bench bench =
+      parse_bench("understudy: 1\nlines: { a: { stations: [ { name: x, model: simple2-r3 } ] } }", "b", "");
+  EXPECT_EQ(to_text(bench),
+            R"({"understudy":1,"lines":{"a":{"timing":"wire","stations":[{"device":"x","address":1}]}},)"
+            R"("devices":{"x":{"model":"simple2-r3"}}})");
+}
+
+}  // namespace
+}  // namespace understudy::emulator
