@@ -10,6 +10,10 @@ namespace {
 // The kernel tells that a host closes a moment before it has; so much later it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 
+// As much as the kernel holds (20,480 bytes) and one reading more: a host that goes loses nothing. Hosts that
+// write and go faster than the wire carries lose what is beyond that.
+constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
+
 }  // namespace
 
 Port::Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
@@ -41,7 +45,7 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   if (presence.closed && !terminal_.host_present()) {
     line().host_settings(terminal_.poll_host_settings());
     line().host_closed();
-    left_behind_.insert(left_behind_.end(), bytes.begin(), bytes.end());
+    leave_behind(bytes);
     keep_what_was_left_behind();
   } else {
     receive(bytes);
@@ -59,24 +63,29 @@ void Port::keep_what_was_left_behind() {
       pass_on_what_was_left_behind();
       const auto read = std::span(bytes).first(count);
       if (left_behind_.empty() && count <= line().room()) return on_presence(read);
-      left_behind_.insert(left_behind_.end(), read.begin(), read.end());
+      leave_behind(read);
       return on_presence({});
     }
     if (count == 0) break;
-    left_behind_.insert(left_behind_.end(), bytes.begin(),
-                        bytes.begin() + static_cast<std::ptrdiff_t>(count));
+    leave_behind(std::span(bytes).first(count));
   }
   pass_on_what_was_left_behind();
 }
 
-/// It stays ahead of what the next host writes, as on a wire.
+void Port::leave_behind(std::span<const std::uint8_t> bytes) {
+  const auto taken = bytes.first(std::min(bytes.size(), kLeftBehindCapacity - left_behind_.size()));
+  left_behind_.insert(left_behind_.end(), taken.begin(), taken.end());
+}
+
+/// It stays ahead of what the next host writes, as on a wire. With instant timing the line has room again at
+/// once, and nothing would be due that could wake us for the rest.
 void Port::pass_on_what_was_left_behind() {
-  const std::size_t count = std::min(left_behind_.size(), line().room());
-  if (count == 0) return;
-  catch_up_();
-  line().receive_departed(std::span(left_behind_).first(count), world_.now());
-  left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
-  world_.advance_to(world_.now());
+  while (const std::size_t count = std::min(left_behind_.size(), line().room())) {
+    catch_up_();
+    line().receive_departed(std::span(left_behind_).first(count), world_.now());
+    left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
+    world_.advance_to(world_.now());
+  }
 }
 
 void Port::on_data(std::uint32_t ready) {

@@ -40,6 +40,7 @@ class Port {
   void on_data(std::uint32_t ready);
   void on_presence(std::span<const std::uint8_t> bytes);
   void keep_what_was_left_behind();
+  void leave_behind(std::span<const std::uint8_t> bytes);
   void pass_on_what_was_left_behind();
   void receive(std::span<const std::uint8_t> bytes);
 
@@ -48,7 +49,7 @@ class Port {
   std::size_t line_number_;
   std::function<void()> catch_up_;
   pty::PseudoTerminal terminal_;
-  std::vector<std::uint8_t> left_behind_;  // by a host that has closed; as much as the kernel holds
+  std::vector<std::uint8_t> left_behind_;  // by hosts that have closed; at most kLeftBehindCapacity
   WallTime second_look_{0};                // when a doubtful going is looked at again; 0: there is none
   WallTime last_bytes_{0};                 // when the host's last bytes came; 0: nothing is waited for
 };
