@@ -51,10 +51,16 @@ void Device::load_nv(const NvImage& image) {
       throw NvError("registers: " + quoted(name) + " is not kept over power-off; expected one that is");
     }
     const auto bits = static_cast<std::uint32_t>(value);
-    // Half a value may have been written alone, so it can be beyond the register's range, not its width.
-    if (value_of(bits, row.type) != value || (bits & row.stored_bits) != bits) {
+    // Half of a 32-bit value may have been written alone, so it can be beyond its range; nothing else can.
+    const bool in_range = !row.ranged || is_32_bit(row.type) || (value >= row.min && value <= row.max);
+    if (value_of(bits, row.type) != value || (bits & row.stored_bits) != bits || !in_range) {
       throw NvError("registers: " + quoted(name) + ": " + std::to_string(value) + " does not fit; expected " +
                     range_text(row));
+    }
+    for (const auto& [slot, other_bits] : wanted) {
+      if (slot == static_cast<std::size_t>(found->place.slot)) {
+        throw NvError("registers: " + quoted(name) + ": is there twice, by two names; expected it once");
+      }
     }
     wanted.emplace_back(static_cast<std::size_t>(found->place.slot), bits);
   }
@@ -77,6 +83,7 @@ void Device::mention_unmodelled(const RegisterRow& row) const {
 }
 
 std::string range_text(const RegisterRow& row) {
+  if (row.stored_bits < 0xFFFF) return "0 to " + std::to_string(row.stored_bits);
   if (row.ranged) return std::to_string(row.min) + " to " + std::to_string(row.max);
   switch (row.type) {
     case Type::u16: return "0 to 65535";

@@ -2,6 +2,7 @@
 // sees its pulses. Its whole state is a value; this class only says how the others reach it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,6 +15,9 @@
 #include "pty/line_settings.h"
 
 namespace understudy::emulator {
+
+class StateReader;
+class StateWriter;
 
 /// What a station does with a frame that carries some address.
 enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
@@ -79,6 +83,16 @@ class Device {
   /// Whether it equals another device of the same model, bit for bit.
   virtual bool same_state(const Device& other) const = 0;
 
+  // --- its state as bytes (emulator/state/) ---------------------------------------------------------
+  /// All that it is at this moment; what it was made from (model, firmware, settings, choices) is not in it.
+  std::vector<std::byte> save_state() const;
+  /// Makes it what save_state() of a device made alike has given, once the result is called. Throws
+  /// StateError for other bytes.
+  std::function<void()> read_state(std::span<const std::byte> bytes);
+  /// The same at once; when it throws, nothing has changed.
+  void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
+  std::uint64_t state_hash() const;
+
   // --- terminals, by their number in the model's table -----------------------------------------------
   /// Levels from outside, in the terminal's unit; the device looks at them in sample_inputs().
   void set_input(int terminal, std::int32_t level) { inputs_[static_cast<std::size_t>(terminal)] = level; }
@@ -109,10 +123,16 @@ class Device {
   virtual void power_up() = 0;
   /// Nothing is driven any more, and all that is not kept is lost.
   virtual void power_down() = 0;
+  /// The state of the model's own.
+  virtual void write_own_state(StateWriter& writer) const = 0;
+  /// Reads it, and gives what puts it in force, which throws nothing.
+  virtual std::function<void()> read_own_state(StateReader& reader) = 0;
   /// A kept value from outside, without power.
   virtual void put_kept(std::size_t slot, std::uint32_t bits) = 0;
 
  private:
+  struct CommonFields;  // device_state.cpp
+
   const Model& model_;
   DeviceSettings settings_;
   std::vector<std::uint8_t> choices_;

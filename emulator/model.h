@@ -99,6 +99,7 @@ struct Model {
   std::span<const ChoiceRow> choices;
   std::span<const TerminalRow> terminals;
   std::span<const AxisRow> axes;
+  std::span<const std::string_view> state_registers;  // those that tell best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   RtuRules rtu;
   /// Settings are checked by make_device() before it is called.

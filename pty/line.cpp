@@ -33,6 +33,15 @@ void Line::remove_observer(LineObserver& observer) { std::erase(observers_, &obs
 
 void Line::attach(Station& station) { members_.emplace_back().station = &station; }
 
+void Line::set_settings(const LineSettings& settings) {
+  if (settings == options_.settings) return;
+  options_.settings = settings;
+  // A burst counts characters of one length: what follows is another.
+  const auto end = [](Burst& burst) { burst = {burst.end, 0, burst.end}; };
+  end(arriving_);
+  for (Member& member : members_) end(member.speech);
+}
+
 // --- the host's side ---------------------------------------------------------------------------
 
 std::size_t Line::room() const { return kInputCapacity - input_count_; }

@@ -9,6 +9,7 @@
 // and slaves that answer every address would take each other's replies for requests without end.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -58,7 +59,7 @@ class Line {
   /// A station has lost its power: what it has not begun to send, character by character, is never sent.
   void hush(const Station& station, SimTime now);
   /// The wire's speed from now on; characters on their way keep theirs.
-  void set_settings(const LineSettings& settings) { options_.settings = settings; }
+  void set_settings(const LineSettings& settings);
   /// Tells `observer` what goes over the wire, until it is taken away. Several are told in the order in which
   /// they came.
   void add_observer(LineObserver& observer) { observers_.push_back(&observer); }
@@ -103,14 +104,46 @@ class Line {
   const std::string& name() const { return name_; }
   const LineOptions& options() const { return options_; }
   const LineCounters& counters() const { return counters_; }
+  bool is_host_open() const { return is_host_open_; }
 
- private:
+  // --- its state -----------------------------------------------------------------------------
   // Characters sent back to back, timed from the first one, so that rounding does not add up.
   struct Burst {
     SimTime start{0};
     std::int64_t count = 0;
     SimTime end{0};
   };
+  /// What changes as the line works. Its stations and observers have states of their own.
+  struct State {
+    struct Member {
+      bool is_deaf = false;
+      Burst speech;
+      std::optional<SimTime> noticed_at{};
+    };
+    LineSettings settings;
+    std::vector<Member> members;
+    bool is_host_open = true;
+    std::optional<HostSettings> host_settings;
+    std::optional<HostSettings> departed_settings;
+    std::uint64_t last_departed = 0;
+    std::uint64_t last_received = 0;
+    std::array<bool, 3> has_warned{};  // of a deaf station, of no speed, of a collision
+    std::vector<TimedByte> input;      // on the wire or before it, the first one next
+    Burst arriving;
+    bool is_heard = true;
+    std::vector<TimedByte> leaving;
+    // From here on what depends on whoever reads the line, or looks at it: the stations never notice.
+    std::vector<std::uint8_t> output;
+    LineCounters counters;
+    SimTime clock{0};
+  };
+  State save() const;
+  /// Throws std::invalid_argument for what this line cannot be.
+  void check(const State& state) const;
+  /// The same, and nothing has changed then.
+  void restore(const State& state);
+
+ private:
   struct Member {
     Station* station = nullptr;
     bool is_deaf = false;                 // to the character on the wire

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "pty/station.h"
 
@@ -68,6 +69,34 @@ class RtuFramer {
 
   /// Noise, wrong checksums, cut frames, and what did not fit; not what reset() forgot.
   std::uint64_t dropped_bytes() const { return dropped_; }
+
+  // --- its state -----------------------------------------------------------------------------
+  /// What it holds, in as many words as it takes; the framing is not in it.
+  struct State {
+    struct Character {
+      std::uint8_t value = 0;
+      SimTime end{0};
+      std::uint64_t number = 0;
+    };
+    struct Frame {
+      std::uint16_t first = 0;  // of the characters
+      std::uint16_t size = 0;
+    };
+    std::vector<Character> characters;
+    std::vector<Frame> ready;
+    std::uint16_t undecided = 0;  // of the characters, as the next two
+    std::uint16_t candidate = 0;
+    std::uint16_t look_again_at = 0;
+    std::uint64_t oversize = 0;
+    SimTime last_end{0};
+    bool character_under_way = false;
+    std::uint64_t dropped = 0;
+  };
+  State save() const;
+  /// Throws std::invalid_argument for what this framer cannot hold.
+  void check(const State& state) const;
+  /// The same, and nothing has changed then.
+  void restore(const State& state);
 
  private:
   // The buffer, from low to high index:  [served] [ready frames, noise between them] [undecided]

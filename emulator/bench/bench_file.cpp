@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "emulator/bench/bench_form.h"
 #include "emulator/bench/machine_fields.h"
 #include "emulator/bench/names.h"
 #include "emulator/bench/yaml_fields.h"
@@ -28,8 +29,6 @@ class BenchReader {
       : folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
 
   Bench read(const YamlFields& root) {
-    root.demand_map({"understudy", "lines", "devices", "plant", "wires", "inputs", "faults"});
-    root.at("understudy").integer(1, 1);
     if (root.has("devices")) read_devices(root.at("devices"));
     read_lines(root.at("lines"));
     if (root.has("plant")) read_plant(root.at("plant"));
@@ -61,13 +60,13 @@ class BenchReader {
         firmware.fail("'" + firmware.text() + "' is no version; expected one like \"1.52\"");
     }
     if (fields.has("set")) {
-      fields.at("set").demand_map({});
+      fields.at("set").demand_map();
       for (const auto& [register_name, value] : fields.at("set").entries()) {
-        device.settings.set.emplace_back(register_name, value.integer(INT32_MIN, UINT32_MAX));
+        device.settings.set.emplace_back(register_name, value.integer(kRegisterValueForm));
       }
     }
     if (fields.has("dip")) {
-      fields.at("dip").demand_map({});
+      fields.at("dip").demand_map();
       for (const auto& [dip, level] : fields.at("dip").entries()) {
         device.settings.dip[dip] = level.on_or_off();
       }
@@ -75,7 +74,7 @@ class BenchReader {
     if (fields.has("program")) read_program(fields.at("program"), device.settings);
     if (fields.has("nv")) read_nv(fields.at("nv"), device);
     if (fields.has("choices")) {
-      fields.at("choices").demand_map({});
+      fields.at("choices").demand_map();
       for (const auto& [id, option] : fields.at("choices").entries())
         device.settings.choices[id] = option.text();
     }
@@ -107,11 +106,11 @@ class BenchReader {
   /// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
   /// the run.
   void read_nv(const YamlFields& field, DeviceSetup& device) const {
-    if (field.node().IsMap()) {
+    if (field.is_map()) {
       NvImage image{.model = std::string(device.model->name), .firmware = {}, .registers = {}};
-      field.demand_map({});
+      field.demand_map();
       for (const auto& [register_name, value] : field.entries()) {
-        image.registers.emplace_back(register_name, value.integer(INT32_MIN, UINT32_MAX));
+        image.registers.emplace_back(register_name, value.integer(kRegisterValueForm));
       }
       device.settings.nv = std::move(image);
       return;
@@ -125,9 +124,9 @@ class BenchReader {
   }
 
   void read_devices(const YamlFields& devices) {
-    devices.demand_map({});
+    devices.demand_map();
     for (const auto& [name, fields] : devices.entries()) {
-      fields.demand_map({"model", "firmware", "set", "choices", "dip", "program", "nv"});
+      fields.demand_keys(kDeviceKeys);
       add_device(fields, name, fields);
     }
   }
@@ -150,13 +149,13 @@ class BenchReader {
 
   // --- lines ---------------------------------------------------------------------------------
   void read_lines(const YamlFields& lines) {
-    lines.demand_map({});
+    lines.demand_map();
     if (lines.entries().empty()) lines.fail("has no line; expected at least one");
     for (const auto& [name, fields] : lines.entries()) read_line(name, fields);
   }
 
   void read_line(const std::string& name, const YamlFields& fields) {
-    fields.demand_map({"link", "baud", "timing", "stations"});
+    fields.demand_keys(kLineKeys);
     demand_name(fields, name);
     LineSetup line{.name = name, .link = {}, .stations = {}};
     if (fields.has("link")) {
@@ -170,7 +169,7 @@ class BenchReader {
           link.fail("line '" + other.name + "' has the same link; expected another path");
       }
     }
-    if (fields.has("baud")) line.baud = static_cast<int>(fields.at("baud").integer(1, 4'000'000));
+    if (fields.has("baud")) line.baud = static_cast<int>(fields.at("baud").integer(kBaudForm));
     if (fields.has("timing")) {
       const YamlFields timing = fields.at("timing");
       if (timing.text() != "wire" && timing.text() != "instant") {
@@ -186,13 +185,13 @@ class BenchReader {
   }
 
   void read_station(const YamlFields& station, LineSetup& line, std::set<std::int64_t>& addresses) {
-    if (!station.node().IsMap()) station.fail("expected a map, as in `key: value`");
+    if (!station.is_map()) station.fail("expected a map, as in `key: value`");
     std::size_t device = 0;
     if (station.has("device")) {
-      station.demand_map({"device", "address"});
+      station.demand_keys(kPlacedStationKeys);
       device = demand_device(station.at("device"), station.at("device").text());
     } else {
-      station.demand_map({"name", "model", "address", "firmware", "set", "choices", "dip", "program", "nv"});
+      station.demand_keys(kStationKeys);
       device = add_device(station.at("name"), station.at("name").text(), station);
     }
     if (on_a_line_[device]) station.fail("the device is on a line already; expected it on one line");
@@ -224,7 +223,7 @@ class BenchReader {
   }
 
   void read_plant(const YamlFields& plant) {
-    plant.demand_map({});
+    plant.demand_map();
     for (const auto& [name, fields] : plant.entries()) {
       const auto [device, axis_name] = split(fields, name, "feeder.A");
       const Model& model = *bench_.devices[device].model;
@@ -287,8 +286,8 @@ class BenchReader {
       } catch (const NvError& error) {
         device_fields_[i].fail(std::string("nv: ") + error.what());
       } catch (const ProgramError& error) {
-        throw BenchError(bench_.devices[i].settings.program_name + ":" + std::to_string(error.line) + ": " +
-                         error.what());
+        throw FileError(bench_.devices[i].settings.program_name + ":" + std::to_string(error.line) + ": " +
+                        error.what());
       }
     }
   }
@@ -302,7 +301,7 @@ class BenchReader {
           {device.settings.name, device.model, firmware != 0 ? firmware : device.model->firmwares.back()});
     }
     if (root.has("inputs")) {
-      root.at("inputs").demand_map({});
+      root.at("inputs").demand_map();
       for (const auto& [name, level] : root.at("inputs").entries()) {
         bench_.inputs.push_back(read_input(level, name, known));
       }
@@ -325,25 +324,20 @@ class BenchReader {
 
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
                   const std::string& links) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw BenchError(name + ":" + std::to_string(documents[1].Mark().line + 1) +
-                       ": bench: a second document begins here; expected one");
-    }
-    const YAML::Node root = documents.empty() ? YAML::Node() : documents.front();
-    const YamlFields fields(name, root, "bench");
-    if (!root.IsMap())
-      throw BenchError(name + ":1: bench: the file is no map; expected `understudy: 1` and `lines:`");
-    return BenchReader(folder, links).read(fields);
-  } catch (const YAML::Exception& error) {
-    throw BenchError(name + ":" + std::to_string(error.mark.line + 1) + ": bench: is not YAML: " + error.msg);
-  }
+  const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
+  root.demand_keys(kBenchKeys);
+  root.at("understudy").integer(kVersionForm);
+  return BenchReader(folder, links).read(root);
+}
+
+Bench read_bench(const YamlFields& fields, const std::string& folder) {
+  fields.demand_keys(kInlineBenchKeys);
+  return BenchReader(folder, "").read(fields);
 }
 
 Bench load_bench(const std::string& path, const std::string& links) {
   const auto text = read_text_file(path);
-  if (!text) throw BenchError(path + ":1: bench: cannot be read; expected a bench file");
+  if (!text) throw FileError(path + ":1: bench: cannot be read; expected a bench file");
   return parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
 }
 

@@ -1,17 +1,17 @@
 #include "emulator/bench/machine_fields.h"
 
+#include "emulator/bench/bench_form.h"
 #include "emulator/bench/level.h"
+#include "emulator/parse_integer.h"
 
 namespace understudy::emulator {
 
 namespace {
 
-constexpr std::int64_t kFar = 1'000'000'000'000;  // pulses; farther than any counter
-
 PulseSpan read_span(const YamlFields& field) {
   const auto ends = field.elements();
   if (ends.size() != 2) field.fail("expected two positions, as in `[ -20000, 20000 ]`");
-  const PulseSpan span{ends[0].integer(-kFar, kFar), ends[1].integer(-kFar, kFar)};
+  const PulseSpan span{ends[0].integer(kPositionForm), ends[1].integer(kPositionForm)};
   if (span.first > span.last) field.fail("ends before it begins; expected the lower position first");
   return span;
 }
@@ -26,7 +26,7 @@ bool read_word(const YamlFields& field, std::string_view first, std::string_view
 }
 
 DriveSetup read_drive(const YamlFields& drive) {
-  drive.demand_map({"ready_after", "enabled_by", "alarm_contact"});
+  drive.demand_keys(kDriveKeys);
   DriveSetup setup;
   if (drive.has("ready_after")) setup.ready_after = drive.at("ready_after").ticks();
   if (drive.has("enabled_by")) setup.enabled_by = read_word(drive.at("enabled_by"), "on", "off");
@@ -37,11 +37,12 @@ DriveSetup read_drive(const YamlFields& drive) {
 }
 
 void read_encoder(const YamlFields& encoder, PlantSetup& setup) {
-  encoder.demand_map({"per_revolution", "motor_pulses_per_revolution", "reversed"});
-  setup.encoder_counts_per_revolution = static_cast<int>(encoder.at("per_revolution").integer(1, 10'000'000));
+  encoder.demand_keys(kEncoderKeys);
+  setup.encoder_counts_per_revolution =
+      static_cast<int>(encoder.at("per_revolution").integer(kPerRevolutionForm));
   if (encoder.has("motor_pulses_per_revolution")) {
     setup.pulses_per_revolution =
-        static_cast<int>(encoder.at("motor_pulses_per_revolution").integer(1, 10'000'000));
+        static_cast<int>(encoder.at("motor_pulses_per_revolution").integer(kPerRevolutionForm));
   }
   if (encoder.has("reversed")) setup.encoder_reversed = read_word(encoder.at("reversed"), "true", "false");
 }
@@ -49,7 +50,7 @@ void read_encoder(const YamlFields& encoder, PlantSetup& setup) {
 }  // namespace
 
 PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis) {
-  fields.demand_map({"travel", "home", "limits", "encoder", "drive"});
+  fields.demand_keys(kMachineKeys);
   PlantSetup setup;
   if (fields.has("travel")) {
     setup.travel = read_span(fields.at("travel"));
@@ -59,20 +60,21 @@ PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis) {
   }
   if (fields.has("home")) {
     const YamlFields home = fields.at("home");
-    home.demand_map({"at", "width", "hysteresis"});
-    const std::int64_t at = home.at("at").integer(-kFar, kFar);
-    setup.home = PulseSpan{at, at + home.at("width").integer(1, kFar) - 1};
-    if (home.has("hysteresis")) setup.home_hysteresis_pulses = home.at("hysteresis").integer(0, kFar);
+    home.demand_keys(kHomeKeys);
+    const std::int64_t at = home.at("at").integer(kPositionForm);
+    setup.home = PulseSpan{at, at + home.at("width").integer(kWidthForm) - 1};
+    if (home.has("hysteresis")) setup.home_hysteresis_pulses = home.at("hysteresis").integer(kHysteresisForm);
   }
   if (fields.has("limits")) {
     const YamlFields limits = fields.at("limits");
-    limits.demand_map({"lower", "upper", "hysteresis"});
-    if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(-kFar, kFar);
-    if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(-kFar, kFar);
+    limits.demand_keys(kLimitKeys);
+    if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(kPositionForm);
+    if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(kPositionForm);
     if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
       limits.fail("the lower limit is not below the upper one; expected it below");
     }
-    if (limits.has("hysteresis")) setup.limit_hysteresis_pulses = limits.at("hysteresis").integer(0, kFar);
+    if (limits.has("hysteresis"))
+      setup.limit_hysteresis_pulses = limits.at("hysteresis").integer(kHysteresisForm);
   }
   setup.pulses_per_revolution = axis.pulses_per_revolution;
   if (fields.has("encoder")) read_encoder(fields.at("encoder"), setup);
@@ -85,7 +87,8 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
     const InputName input = find_input(devices, name);
     const TerminalRow& row = input.row(devices);
     const auto level = parse_level(field.text(), row.kind);
-    if (!level) field.fail("'" + field.text() + "' is no level; expected " + std::string(level_example(row.kind)));
+    if (!level)
+      field.fail("'" + field.text() + "' is no level; expected " + std::string(level_example(row.kind)));
     demand_level(row, name, *level);
     return {.device = input.device, .terminal = input.terminal, .level = static_cast<std::int32_t>(*level)};
   } catch (const NameError& error) {
@@ -93,17 +96,28 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
   }
 }
 
-Fault read_fault(const YamlFields& fields, const KnownDevices& devices) {
-  fields.demand_map({});
-  FaultText text;
+Fault read_fault(const YamlFields& fields, const KnownDevices& devices, std::string_view other_key) {
+  fields.demand_map();
+  FaultText text{};
+  bool is_first = true;
   for (const auto& [key, value] : fields.entries()) {
-    if (text.kind.empty()) {
+    if (!other_key.empty() && key == other_key) continue;
+    if (is_first) {
+      is_first = false;
       text.kind = key;
       text.place = value.text();
-    } else {
-      text.amounts.emplace_back(key, value.integer(INT64_MIN, INT64_MAX));
+      continue;
     }
+    const bool is_level = key == "level";
+    const auto amount =
+        is_level ? parse_level(value.text(), TerminalRow::Kind::digital_in) : parse_integer(value.text());
+    if (!amount) {
+      value.fail("'" + value.text() + "' is not possible; expected " +
+                 (is_level ? "on or off" : "a whole number"));
+    }
+    text.amounts.emplace_back(key, *amount);
   }
+  if (is_first) fields.fail("is empty; expected a fault, as in `{ stall: feeder.A }`");
   try {
     return find_fault(devices, text);
   } catch (const NameError& error) {

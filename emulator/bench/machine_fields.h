@@ -11,7 +11,8 @@ namespace understudy::emulator {
 PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis);
 /// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
 InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
-/// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }".
-Fault read_fault(const YamlFields& fields, const KnownDevices& devices);
+/// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` may be there as well, for
+/// others.
+Fault read_fault(const YamlFields& fields, const KnownDevices& devices, std::string_view other_key = {});
 
 }  // namespace understudy::emulator

@@ -1,68 +1,161 @@
 #include "emulator/bench/yaml_fields.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
-#include "emulator/bench/bench_file.h"
 #include "emulator/parse_integer.h"
 #include "emulator/register_map/register_map.h"
 
 namespace understudy::emulator {
 
-void YamlFields::fail(const std::string& what) const {
-  throw BenchError(file_ + ":" + std::to_string(node_.Mark().line + 1) + ": " + field_ + ": " + what);
+namespace {
+
+std::string line_of(const YAML::Mark& mark) { return std::to_string(std::max(mark.line, 0) + 1); }
+
+/// Whether the line, which could not be read, has a `${...}` that YAML takes for a map.
+bool has_bare_parameter(const std::string& text, int line) {
+  std::size_t begin = 0;
+  for (; line > 0 && begin != std::string::npos; --line) {
+    begin = text.find('\n', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return false;
+  return std::string_view(text).substr(begin, text.find('\n', begin) - begin).find("${") != std::string::npos;
 }
 
-void YamlFields::demand_map(std::initializer_list<std::string_view> known) const {
-  if (!node_.IsMap()) fail("expected a map, as in `key: value`");
-  std::vector<std::string> names(known.begin(), known.end());
+}  // namespace
+
+YamlFields YamlFields::parse(const std::string& text, const std::string& file, const std::string& what,
+                             const std::string& expected) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw FileError(file + ":" + line_of(documents[1].Mark()) + ": " + what +
+                      ": a second document begins here; expected one");
+    }
+    if (documents.empty() || !documents.front().IsMap()) {
+      throw FileError(file + ":1: " + what + ": the file is no map; expected " + expected);
+    }
+    YamlFields root(file, documents.front(), what);
+    root.is_root_ = true;
+    return root;
+  } catch (const YAML::Exception& error) {
+    const bool is_bare = has_bare_parameter(text, error.mark.line);
+    throw FileError(file + ":" + line_of(error.mark) + ": " + what + ": is not YAML: " + error.msg +
+                    (is_bare ? "; expected quotes around a ${...} between braces or brackets" : ""));
+  }
+}
+
+YamlFields::YamlFields(std::string file, const YAML::Node& node, std::string field)
+    : file_(std::move(file)), node_(std::make_shared<const YAML::Node>(node)), field_(std::move(field)) {}
+
+YamlFields::YamlFields(const YamlFields& parent, const YAML::Node& node, const std::string& field)
+    : YamlFields(parent.file_, node, field) {
+  rule_ = parent.rule_;
+}
+
+int YamlFields::line() const { return node_->Mark().line + 1; }
+
+std::string YamlFields::folder() const { return std::filesystem::path(file_).parent_path().string(); }
+
+void YamlFields::fail(const std::string& what) const {
+  throw FileError(file_ + ":" + std::to_string(line()) + ": " + field_ + ": " + what);
+}
+
+YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
+  YamlFields same = *this;
+  same.rule_ = rule;
+  return same;
+}
+
+bool YamlFields::is_map() const { return node_->IsMap(); }
+bool YamlFields::is_list() const { return node_->IsSequence(); }
+bool YamlFields::is_scalar() const { return node_->IsScalar(); }
+
+std::string YamlFields::read_scalar(const YAML::Node& node) const {
+  const std::string& written = node.Scalar();
+  if (rule_ == nullptr) return written;
+  try {
+    return rule_->apply(written);
+  } catch (const FileError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    YamlFields(*this, node, field_).fail(error.what());
+  }
+}
+
+void YamlFields::demand_map() const {
   std::set<std::string> seen;
   for (const auto& [key, value] : entries()) {
     if (!seen.insert(key).second) value.fail("is given twice; expected it once");
-    if (names.empty() || std::find(names.begin(), names.end(), key) != names.end()) continue;
+  }
+}
+
+void YamlFields::demand_keys(std::span<const KeyRow> known) const {
+  demand_map();
+  for (const auto& [key, value] : entries()) {
+    const auto is_it = [&key = key](const KeyRow& row) { return row.key == key; };
+    if (std::any_of(known.begin(), known.end(), is_it)) continue;
+    std::vector<std::string> names;
     std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    for (const KeyRow& row : known) {
+      names.emplace_back(row.key);
+      list += (list.empty() ? "" : ", ") + names.back();
+    }
     value.fail("is no key here; expected one of " + list + " (the nearest is '" + nearest_word(key, names) +
                "')");
   }
 }
 
-bool YamlFields::has(std::string_view key) const {
-  const YAML::Node& node = node_;
-  return node.IsMap() && static_cast<bool>(node[std::string(key)]);
+std::optional<YamlFields> YamlFields::find(std::string_view key) const {
+  if (!is_map()) return std::nullopt;
+  for (const auto& entry : *node_) {
+    if (entry.first.IsScalar() && read_scalar(entry.first) == key) {
+      return YamlFields(*this, entry.second, field_of(std::string(key)));
+    }
+  }
+  return std::nullopt;
 }
 
 YamlFields YamlFields::at(std::string_view key) const {
-  const YAML::Node& node = node_;
-  if (!node.IsMap()) fail("expected a map, as in `key: value`");
-  const YAML::Node value = node[std::string(key)];
+  if (!is_map()) fail("expected a map, as in `key: value`");
+  auto value = find(key);
   if (!value) fail("'" + std::string(key) + "' is missing; expected it here");
-  return {file_, value, field_ == "bench" ? std::string(key) : field_ + "." + std::string(key)};
+  return *std::move(value);
 }
 
 std::vector<std::pair<std::string, YamlFields>> YamlFields::entries() const {
   std::vector<std::pair<std::string, YamlFields>> all;
-  if (!node_.IsMap()) fail("expected a map, as in `key: value`");
-  for (const auto& entry : node_) {
+  if (!is_map()) fail("expected a map, as in `key: value`");
+  for (const auto& entry : *node_) {
     if (!entry.first.IsScalar()) fail("a key is not a word; expected `key: value`");
-    const std::string key = entry.first.Scalar();
-    all.emplace_back(key, YamlFields(file_, entry.second, field_ == "bench" ? key : field_ + "." + key));
+    const std::string key = read_scalar(entry.first);
+    all.emplace_back(key, YamlFields(*this, entry.second, field_of(key)));
   }
   return all;
 }
 
 std::vector<YamlFields> YamlFields::elements() const {
-  if (!node_.IsSequence()) fail("expected a list, as in `[ a, b ]`");
+  if (!is_list()) fail("expected a list, as in `[ a, b ]`");
   std::vector<YamlFields> all;
-  for (std::size_t i = 0; i < node_.size(); ++i) {
-    all.emplace_back(file_, node_[i], field_ + "[" + std::to_string(i) + "]");
+  for (std::size_t i = 0; i < node_->size(); ++i) {
+    all.push_back(YamlFields(*this, (*node_)[i], field_ + "[" + std::to_string(i) + "]"));
   }
   return all;
 }
 
 std::string YamlFields::text() const {
-  if (!node_.IsScalar()) fail("expected a word or a number");
-  return node_.Scalar();
+  if (!is_scalar()) fail("expected a word or a number");
+  return read_scalar(*node_);
+}
+
+std::string YamlFields::path() const {
+  const std::string written = text();
+  if (written.empty()) fail("is empty; expected a path");
+  return (std::filesystem::path(folder()) / written).lexically_normal().string();
 }
 
 std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) const {
@@ -83,10 +176,18 @@ bool YamlFields::on_or_off() const {
   return on;
 }
 
+SimTime YamlFields::duration() const {
+  const std::string written = text();
+  const auto duration = parse_duration(written);
+  if (!duration) fail("'" + written + "' is no duration; expected one such as 250ms");
+  return *duration;
+}
+
 Tick YamlFields::ticks() const {
-  const auto duration = parse_duration(text());
-  if (!duration || *duration < SimTime{0} || *duration % kTickLength != SimTime{0}) {
-    fail("'" + text() + "' is no duration of whole milliseconds; expected one such as 120ms");
+  const std::string written = text();
+  const auto duration = parse_duration(written);
+  if (!duration || *duration % kTickLength != SimTime{0}) {
+    fail("'" + written + "' is no duration of whole milliseconds; expected one such as 120ms");
   }
   return *duration / kTickLength;
 }

@@ -1,35 +1,63 @@
-// Reading YAML with errors that name file, line and field. Only bench_file.cpp and its like include this:
-// yaml-cpp is slow to compile.
+// Reading YAML with errors that name file, line and field. yaml-cpp itself is behind it: that is slow to
+// compile.
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
 #include <cstdint>
-#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "emulator/file_error.h"
+#include "emulator/forms/form.h"
 #include "emulator/simulated_time.h"
+
+namespace YAML {
+class Node;
+}
 
 namespace understudy::emulator {
 
-/// Where in which file a node stands, and how to complain about it.
+/// What is done to every scalar, keys included, before it is read.
+class ScalarRule {
+ public:
+  virtual ~ScalarRule() = default;
+  /// Throws a std::runtime_error of one line for a text it cannot take.
+  virtual std::string apply(const std::string& written) const = 0;
+};
+
+/// Where in which file a node stands, and how to complain about it. All that can fail throws FileError
+/// "file:line: field: what".
 class YamlFields {
  public:
-  YamlFields(std::string file, const YAML::Node& node, std::string field)
-      : file_(std::move(file)), node_(node), field_(std::move(field)) {}
+  /// The one document of a text; a map. Messages call it `what`; an empty file is told what is `expected`.
+  static YamlFields parse(const std::string& text, const std::string& file, const std::string& what,
+                          const std::string& expected);
 
-  const YAML::Node& node() const { return node_; }
+  const std::string& file() const { return file_; }
   const std::string& field() const { return field_; }
-
-  /// Throws BenchError "file:line: field: what".
+  int line() const;
+  /// The folder that paths in it are relative to.
+  std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Demands a map without duplicate keys, and whose keys are all `known` (any, if that is empty).
-  void demand_map(std::initializer_list<std::string_view> known) const;
-  bool has(std::string_view key) const;
-  /// The value of a key; fails if it is missing.
+  /// The same, but read by another rule, which must outlive it and what is taken from it. Null: as written.
+  YamlFields with_rule(const ScalarRule* rule) const;
+
+  bool is_map() const;
+  bool is_list() const;
+  bool is_scalar() const;
+
+  /// Demands a map without duplicate keys.
+  void demand_map() const;
+  /// And whose keys are all `known`.
+  void demand_keys(std::span<const KeyRow> known) const;
+  /// The value of a key, or nothing; of at(), a failure.
+  std::optional<YamlFields> find(std::string_view key) const;
+  bool has(std::string_view key) const { return find(key).has_value(); }
   YamlFields at(std::string_view key) const;
   /// All keys with their values, in the order written.
   std::vector<std::pair<std::string, YamlFields>> entries() const;
@@ -37,16 +65,28 @@ class YamlFields {
   std::vector<YamlFields> elements() const;
 
   std::string text() const;
+  /// A path in folder(), as it is opened.
+  std::string path() const;
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
+  std::int64_t integer(const Form& form) const { return integer(form.lowest, form.highest); }
   /// "on", "off" (and true, false, 1, 0).
   bool on_or_off() const;
-  /// A duration of whole milliseconds, "120ms".
+  /// "120ms".
+  SimTime duration() const;
+  /// A duration of whole milliseconds.
   Tick ticks() const;
 
  private:
+  YamlFields(const YamlFields& parent, const YAML::Node& node, const std::string& field);
+  YamlFields(std::string file, const YAML::Node& node, std::string field);
+  std::string read_scalar(const YAML::Node& node) const;
+  std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
+
   std::string file_;
-  YAML::Node node_;
+  std::shared_ptr<const YAML::Node> node_;
   std::string field_;
+  bool is_root_ = false;  // what is in it is called by its key alone
+  const ScalarRule* rule_ = nullptr;
 };
 
 }  // namespace understudy::emulator

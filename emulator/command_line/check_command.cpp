@@ -3,19 +3,56 @@
 #include "emulator/bench/bench_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/edge/nv_keeper.h"
+#include "emulator/scenario/scenario_file.h"
 
 namespace understudy::emulator {
+
+namespace {
+
+/// "1 line", "2 lines"
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::size_t count_steps(const Steps& steps) {
+  std::size_t count = steps.size();
+  for (const Step& step : steps) {
+    const auto* const fork = std::get_if<ForkStep>(&step.what);
+    if (fork == nullptr) continue;
+    for (const ForkStep::Branch& branch : fork->branches) count += count_steps(branch.steps);
+  }
+  return count;
+}
+
+/// What the file is, if nothing is wrong with it.
+std::string checked(const std::string& file) {
+  switch (kind_of_file(file)) {
+    case FileKind::bench: {
+      Bench bench = load_bench(file);
+      read_memories(bench, "");
+      return "a bench with " + counted(bench.lines.size(), "line") + " and " +
+             counted(bench.devices.size(), "device");
+    }
+    case FileKind::scenario: {
+      const auto scenarios = load_scenarios(file);
+      std::size_t steps = 0;
+      for (const Scenario& scenario : scenarios) steps += count_steps(scenario.steps);
+      return (scenarios.size() == 1 ? "a scenario" : std::to_string(scenarios.size()) + " scenarios") +
+             " with " + counted(steps, "step");
+    }
+    case FileKind::steps: return "steps to include; they are checked with the scenarios that do";
+  }
+  return "";
+}
+
+}  // namespace
 
 int check_files(const std::vector<std::string>& files) {
   int code = kExitWell;
   for (const std::string& file : files) {
     try {
-      Bench bench = load_bench(file);
-      read_memories(bench, "");
-      std::printf("%s: a bench with %zu line%s and %zu device%s\n", file.c_str(), bench.lines.size(),
-                  bench.lines.size() == 1 ? "" : "s", bench.devices.size(),
-                  bench.devices.size() == 1 ? "" : "s");
-    } catch (const BenchError& error) {
+      std::printf("%s: %s\n", file.c_str(), checked(file).c_str());
+    } catch (const FileError& error) {
       std::fprintf(stderr, "%s\n", error.what());
       code = kExitBadInput;
     } catch (const NvError& error) {

@@ -1,6 +1,7 @@
 // The commands of `understudy`, free of any parsing of flags. Each returns the exit code.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,8 +47,42 @@ struct ServeArguments {
   std::string control;
   std::string nv;  // the folder for memories of devices that have no file of their own
   std::string capture;
+  std::string record;
+  std::string version;  // of this program
 };
 int serve(const ServeArguments& arguments);
+
+struct ExecArguments {
+  ServeArguments serve;
+  std::vector<std::string> command;      // and its arguments: what stands behind --
+  std::vector<std::string> stray_words;  // in front of it
+  std::string with;                      // the file of a scenario that is played beside it
+  bool tty_shim = false;
+  std::string timeout;  // a duration
+};
+/// The command's exit code, where it has one.
+int execute(const ExecArguments& arguments);
+/// The path of the library that `exec --tty-shim` preloads.
+int print_tty_shim();
+
+struct RunArguments {
+  std::vector<std::string> scenarios;  // files
+  bool real_time = false;
+  std::string junit;
+  std::optional<int> jobs;  // none: one for each core
+  std::string shard;        // "1/4"
+  std::optional<std::uint64_t> seed;
+  std::string filter;  // a pattern for names
+};
+int run_scenarios(const RunArguments& arguments);
+
+struct ReplayArguments {
+  std::string recording;
+  std::string until;  // a duration; then `control`
+  std::string control;
+  std::string version;  // of this program
+};
+int replay_recording(const ReplayArguments& arguments);
 
 struct ControlArguments {
   std::string socket;
@@ -77,6 +112,9 @@ int poll_port(const PollArguments& arguments);
 int assemble_program(const std::string& file);
 int disassemble_program(const std::string& file);
 
+/// Benches, scenarios, and files of steps that scenarios include.
 int check_files(const std::vector<std::string>& files);
+/// The JSON Schema of "bench" or "scenario" files.
+int print_schema(const std::string& what);
 
 }  // namespace understudy::emulator

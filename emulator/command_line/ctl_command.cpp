@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "emulator/command_line/commands.h"
@@ -108,6 +109,11 @@ Json message_for(const ControlArguments& arguments) {
   } else if (verb == "clear") {
     if (arguments.operands.size() != 1) throw UsageError("ctl clear: expected the number of a fault, or all");
     if (arguments.operands[0] != "all") message["number"] = demand_number(arguments);
+  } else if (verb == "snapshot" || verb == "restore") {
+    if (arguments.operands.size() != 1 || arguments.operands[0].empty()) {
+      throw UsageError("ctl " + verb + ": expected one file");
+    }
+    message["file"] = std::filesystem::absolute(arguments.operands[0]).string();
   } else if (verb == "advance") {
     if (arguments.operands.size() != 1 || !parse_duration(arguments.operands[0])) {
       throw UsageError("ctl advance: expected one duration with a unit, such as 250ms");

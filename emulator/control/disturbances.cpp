@@ -18,20 +18,26 @@ std::int64_t demand_integer(const Json& value, const std::string& name) {
   return value.get<std::int64_t>();
 }
 
-std::int32_t demand_level(const Json& value, const std::string& name, const TerminalRow& row) {
-  std::int64_t level = 0;
-  if (value.is_string()) {
-    const auto parsed = parse_level(value.get<std::string>(), row.kind);
-    if (!parsed) {
-      throw MessageError(name + ": " + emulator::quoted(value.get<std::string>()) +
-                         " is no level; expected " + std::string(level_example(row.kind)));
-    }
-    level = *parsed;
-  } else {
-    level = demand_integer(value, name);
+/// A whole number, or a level as text.
+std::int64_t level_of(const Json& value, const std::string& name, TerminalRow::Kind kind) {
+  if (!value.is_string()) return demand_integer(value, name);
+  const auto level = parse_level(value.get<std::string>(), kind);
+  if (!level) {
+    throw MessageError(name + ": " + emulator::quoted(value.get<std::string>()) + " is no level; expected " +
+                       std::string(level_example(kind)));
   }
+  return *level;
+}
+
+std::int32_t demand_level(const Json& value, const std::string& name, const TerminalRow& row) {
+  const std::int64_t level = level_of(value, name, row.kind);
   demand_level(row, name, level);
   return static_cast<std::int32_t>(level);
+}
+
+/// Of a fault.
+std::int64_t demand_amount(const Json& value, const std::string& name) {
+  return name == "level" ? level_of(value, name, TerminalRow::Kind::digital_in) : demand_integer(value, name);
 }
 
 std::size_t demand_device(const Daemon& daemon, const Json& message) {
@@ -88,9 +94,9 @@ Json program_message(Daemon& daemon, const Json& message) {
   if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
   if (!message.contains("text")) return Json{{"ok", true}, {"text", device.program_text()}};
   try {
-    device.load_program(demand_text(message, "text"));
+    daemon.world().load_program(number, demand_text(message, "text"));
   } catch (const ProgramError& error) {
-    throw MessageError("line " + std::to_string(error.line) + ": " + error.what());
+    throw MessageError((error.line != 0 ? "line " + std::to_string(error.line) + ": " : "") + error.what());
   }
   return Json{{"ok", true}};
 }
@@ -99,7 +105,7 @@ Json inject_message(Daemon& daemon, const Json& message) {
   FaultText text{.kind = demand_text(message, "fault"), .place = demand_text(message, "at"), .amounts = {}};
   for (const auto& [key, value] : message.items()) {
     if (key == "do" || key == "fault" || key == "at") continue;
-    text.amounts.emplace_back(key, demand_integer(value, key));
+    text.amounts.emplace_back(key, demand_amount(value, key));
   }
   const Fault fault = find_fault(daemon.world().known(), text);
   daemon.catch_up();

@@ -109,15 +109,17 @@ struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message);
 };
-constexpr std::array<Verb, 9> kVerbs{{{"status", status_message},
-                                      {"get", get},
-                                      {"set", set},
-                                      {"input", input_message},
-                                      {"power", power_message},
-                                      {"program", program_message},
-                                      {"inject", inject_message},
-                                      {"clear", clear_message},
-                                      {"list", list_message}}};
+constexpr std::array<Verb, 11> kVerbs{{{"status", status_message},
+                                       {"get", get},
+                                       {"set", set},
+                                       {"input", input_message},
+                                       {"power", power_message},
+                                       {"program", program_message},
+                                       {"inject", inject_message},
+                                       {"clear", clear_message},
+                                       {"list", list_message},
+                                       {"snapshot", snapshot_message},
+                                       {"restore", restore_message}}};
 
 }  // namespace
 

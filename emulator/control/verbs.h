@@ -21,4 +21,9 @@ Json clear_message(Daemon& daemon, const Json& message);
 /// {"do":"list"}
 Json list_message(Daemon& daemon, const Json& message);
 
+/// {"do":"snapshot","file":"/tmp/homed.json"}: an absolute path
+Json snapshot_message(Daemon& daemon, const Json& message);
+/// {"do":"restore","file":"/tmp/homed.json"}
+Json restore_message(Daemon& daemon, const Json& message);
+
 }  // namespace understudy::emulator

@@ -10,7 +10,9 @@
 #include <system_error>
 #include <utility>
 
+#include "emulator/bench/bench_text.h"
 #include "emulator/control/messages.h"
+#include "emulator/world/snapshot_file.h"
 
 namespace understudy::emulator {
 
@@ -37,13 +39,37 @@ WorldOptions world_options(const DaemonOptions& options) {
 }  // namespace
 
 Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log)
-    : log_(std::move(log)), world_(bench, world_options(options), log_), pacer_(options.speed, wall_now()) {
+    : log_(std::move(log)), world_(bench, world_options(options), log_),
+      bench_hash_(emulator::bench_hash(bench)),
+      pacer_(options.speed, wall_now()) {
   if (options.watch_signals) watch_signals();
   watch_posts();
   make_ports(bench);
-  const bool asked_for = !options.control_path.empty();
+  if (options.has_control) open_control(options.control_path);
+  memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
+  // Last: a run that cannot start leaves the capture of the one before alone.
+  if (!options.capture_path.empty()) start_capture(options.capture_path);
+  if (!options.record_path.empty()) start_recording(bench, options);
+  if (!options.trace_path.empty()) start_trace(options);
+}
+
+Daemon::~Daemon() {
+  control_.reset();
+  ports_.clear();
+  memories_.reset();
+  trace_.reset();
+  trace_file_.reset();
+  recorder_.reset();
+  recording_file_.reset();
+  finish_capture();
+  if (signals_ >= 0) close(signals_);
+  if (posted_signal_ >= 0) close(posted_signal_);
+}
+
+void Daemon::open_control(const std::string& asked_path) {
+  const bool asked_for = !asked_path.empty();
   try {
-    const std::string path = asked_for ? options.control_path : default_control_path();
+    const std::string path = asked_for ? asked_path : default_control_path();
     control_ = std::make_unique<ControlServer>(
         loop_, path, [this](const std::string& line, const ControlServer::Reply& reply) {
           handle_message(*this, line, reply);
@@ -52,18 +78,6 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
     if (asked_for) throw;
     log_(std::string("no control socket: ") + error.what() + " (--control SOCKET gives this one its own)");
   }
-  memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
-  // Last: a run that cannot start leaves the capture of the one before alone.
-  if (!options.capture_path.empty()) start_capture(options.capture_path);
-}
-
-Daemon::~Daemon() {
-  control_.reset();
-  ports_.clear();
-  memories_.reset();
-  finish_capture();
-  if (signals_ >= 0) close(signals_);
-  if (posted_signal_ >= 0) close(posted_signal_);
 }
 
 void Daemon::watch_posts() {
@@ -78,7 +92,9 @@ void Daemon::watch_posts() {
       acts.swap(posted_);
     }
     catch_up();
+    const SimTime before = world_.now();
     for (const auto& act : acts) act();
+    if (world_.now() != before) pacer_.moved_to(world_.now(), wall_now());
   });
 }
 
@@ -126,6 +142,25 @@ void Daemon::start_capture(const std::string& path) {
         i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); }));
     line.line.add_observer(*captured_lines_.back());
   }
+}
+
+void Daemon::start_recording(const Bench& bench, const DaemonOptions& options) {
+  recording_file_ = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  const RecordingHeader header{.version = options.version,
+                               .bench = to_text(bench),
+                               .options = world_options(options),
+                               .seed = 0,
+                               .snapshot = {}};
+  recorder_ = std::make_unique<Recorder>(world_, header,
+                                         [this](std::string_view line) { recording_file_->take(line); });
+}
+
+void Daemon::start_trace(const DaemonOptions& options) {
+  std::vector<TraceSignal> signals = trace_signals(world_, options.trace_also);
+  trace_file_ = std::make_unique<GrowingFile>(options.trace_path, "the trace", log_);
+  const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
+  trace_ = std::make_unique<Trace>(world_, std::move(signals),
+                                   options.trace_path.ends_with(".vcd") ? vcd_format(take) : csv_format(take));
 }
 
 void Daemon::finish_capture() {
@@ -194,6 +229,21 @@ void Daemon::work_on_advance() {
   const std::function<void()> done = std::move(advance_done_);
   advance_done_ = nullptr;
   done();
+}
+
+std::string_view Daemon::why_no_restore() const {
+  if (advance_done_) return "time is being advanced; expected `restore` after that";
+  if (recorder_) return "a recording is being made, which has one course; expected none";
+  if (trace_) return "a trace is being made, which has one course; expected none";
+  return {};
+}
+
+void Daemon::restore(const WorldState& state) {
+  emulator::restore(world_, state);
+  planned_.reset();
+  pacer_.moved_to(world_.now(), wall_now());
+  for (const auto& port : ports_) port->world_restored();
+  memories_->world_restored();
 }
 
 std::optional<WallTime> Daemon::next_wake() const {

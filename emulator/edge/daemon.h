@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/bench/bench.h"
@@ -15,6 +16,10 @@
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
+#include "emulator/recording/recorder.h"
+#include "emulator/trace/trace.h"
+#include "emulator/growing_file.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "pty/capture_file.h"
 #include "pty/capture_frames.h"
@@ -25,9 +30,14 @@ struct DaemonOptions {
   Speed speed;
   bool strict_framing = false;
   bool enforce_settings = true;
+  bool has_control = true;   // a control socket
   std::string control_path;  // empty: the default one, if it is free
   bool watch_signals = true;
   std::string capture_path;  // empty: no capture
+  std::string record_path;   // empty: no recording
+  std::string trace_path;    // .csv or .vcd; empty: no trace
+  std::vector<std::string> trace_also;
+  std::string version;       // of the program, for the recording
 };
 
 class Daemon {
@@ -42,7 +52,8 @@ class Daemon {
   void run();
   /// Ends run() soon. On the thread that runs it.
   void stop() { stopping_ = true; }
-  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread.
+  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread. It may
+  /// put the world into another state; simulated time goes on from there.
   void post(std::function<void()> act);
   /// For what else is to be waited for.
   EventLoop& loop() { return loop_; }
@@ -62,12 +73,23 @@ class Daemon {
   /// Brings the world to the present moment.
   void catch_up();
 
+  /// Of the bench that the world is of, for snapshots.
+  std::uint64_t bench_hash() const { return bench_hash_; }
+  /// Why the world cannot be put into another state now; empty if it can.
+  std::string_view why_no_restore() const;
+  /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that are
+  /// there now. Throws StateError, and nothing has changed then.
+  void restore(const WorldState& state);
+
  private:
   void watch_signals();
   void watch_posts();
+  void open_control(const std::string& asked_path);
   void make_ports(const Bench& bench);
   void start_capture(const std::string& path);
   void finish_capture();
+  void start_trace(const DaemonOptions& options);
+  void start_recording(const Bench& bench, const DaemonOptions& options);
   void judge_stall();
   void work_towards(SimTime target);
   void work_on_advance();
@@ -77,9 +99,14 @@ class Daemon {
   EventLoop loop_;
   std::function<void(const std::string&)> log_;
   World world_;
+  std::uint64_t bench_hash_;
   std::unique_ptr<pty::CaptureFile> capture_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
   std::unique_ptr<NvKeeper> memories_;
+  std::unique_ptr<GrowingFile> recording_file_;
+  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<GrowingFile> trace_file_;
+  std::unique_ptr<Trace> trace_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;

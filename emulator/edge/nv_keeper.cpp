@@ -2,8 +2,30 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace understudy::emulator {
+
+namespace {
+
+/// However its path is spelled.
+std::filesystem::path file_of(const DeviceSetup& device) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(device.nv_path));
+}
+
+void demand_own_files(const Bench& bench) {
+  std::map<std::filesystem::path, std::string> owners;
+  for (const DeviceSetup& device : bench.devices) {
+    if (device.nv_path.empty()) continue;
+    const auto [owner, is_free] = owners.emplace(file_of(device), device.settings.name);
+    if (!is_free) {
+      throw NvError(device.nv_path + ": nv: is the memory of '" + owner->second + "' and of '" +
+                    device.settings.name + "'; expected a file for each");
+    }
+  }
+}
+
+}  // namespace
 
 void read_memories(Bench& bench, const std::string& folder) {
   if (!folder.empty()) std::filesystem::create_directories(folder);
@@ -11,8 +33,12 @@ void read_memories(Bench& bench, const std::string& folder) {
     if (device.nv_path.empty() && !folder.empty()) {
       device.nv_path = folder + "/" + device.settings.name + ".json";
     }
+  }
+  demand_own_files(bench);
+  for (DeviceSetup& device : bench.devices) {
     if (device.nv_path.empty()) continue;
-    device.settings.nv = read_nv_file(device.nv_path);
+    // Until there is a file, the bench may say what the memory holds.
+    if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
     try {
       make_device(*device.model, device.settings);
     } catch (const NvError& error) {
@@ -29,7 +55,8 @@ NvKeeper::NvKeeper(const Bench& bench, const World& world, std::function<void(co
     files_.push_back({.device = i, .path = device.nv_path});
     files_.back().written = world.device(i).kept_revision();
     const NvImage image = world.device(i).nv_image();
-    if (!device.settings.nv || device.settings.nv->registers != image.registers) write(files_.back());
+    const bool is_there = device.settings.nv && std::filesystem::exists(device.nv_path);
+    if (!is_there || device.settings.nv->registers != image.registers) write(files_.back());
   }
 }
 
@@ -50,8 +77,13 @@ void NvKeeper::write(File& file) {
   writer_.write(file.path, to_json(world_.device(file.device).nv_image()));
 }
 
+void NvKeeper::world_restored() {
+  for (File& file : files_) file.written.reset();
+}
+
 void NvKeeper::look(WallTime now) {
   if (files_.empty()) return;
+  looked_ = now;
   for (const std::string& news : writer_.take_news()) log_(news);
   const bool anything =
       std::any_of(files_.begin(), files_.end(), [&](const File& f) { return is_behind(f); });
@@ -68,6 +100,10 @@ void NvKeeper::look(WallTime now) {
   due_.reset();
 }
 
-std::optional<WallTime> NvKeeper::next_look() const { return due_; }
+std::optional<WallTime> NvKeeper::next_look() const {
+  // Also for news from the disk, which nothing else wakes anybody for.
+  if (!due_ && !writer_.is_idle()) return looked_ + NvWriter::kCoalesce;
+  return due_;
+}
 
 }  // namespace understudy::emulator

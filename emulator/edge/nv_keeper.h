@@ -28,14 +28,16 @@ class NvKeeper {
 
   /// Hands what has changed to the helper thread, at most once in NvWriter::kCoalesce.
   void look(WallTime now);
-  /// When it wants to look again, if there is something to hand over.
+  /// When it wants to look again, if there is something to hand over or to hear of.
   std::optional<WallTime> next_look() const;
+  /// The world has another state: whatever their revisions, the files are not of its memories.
+  void world_restored();
 
  private:
   struct File {
     std::size_t device = 0;
     std::string path;
-    std::uint64_t written = 0;  // the memory's revision
+    std::optional<std::uint64_t> written{};  // the memory's revision, if the file is of this memory
   };
   bool is_behind(const File& file) const;
   void write(File& file);
@@ -45,6 +47,7 @@ class NvKeeper {
   std::vector<File> files_;
   std::optional<WallTime> due_;
   WallTime handed_over_{0};
+  WallTime looked_{0};
   NvWriter writer_;
 };
 

@@ -133,6 +133,19 @@ void Port::look(WallTime now, bool clock_stands) {
   }
 }
 
+void Port::world_restored() {
+  if (line().is_host_open() != terminal_.host_present()) {
+    if (terminal_.host_present()) {
+      line().host_opened();
+    } else {
+      line().host_closed();
+    }
+  }
+  line().host_settings(terminal_.poll_host_settings());
+  last_bytes_ = wall_now();  // of a frame that is half heard
+  flush();
+}
+
 void Port::flush() {
   if (!left_behind_.empty()) pass_on_what_was_left_behind();
   while (!line().output().empty()) {

@@ -28,6 +28,8 @@ class Port {
   /// incomplete while the clock stands.
   std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
+  /// The world has another state: its line gets the host that is there now, and what it was saying is said.
+  void world_restored();
 
   const pty::PseudoTerminal& terminal() const { return terminal_; }
   std::size_t line_number() const { return line_number_; }

@@ -19,9 +19,9 @@ class Eeprom {
   /// A register was written after tick `now`; `bits` is what it holds. A value that is kept already is not
   /// written again, one that waits keeps its place.
   void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now);
-  /// Everything at once, as an erasure does it: in place of all that waits.
-  void rewrite(Tick takes, Tick now);
-  /// At the end of `tick`: keeps what is done, with the values that the image has then.
+  /// Everything at once, as it is in the image now and in place of all that waits, as an erasure does it.
+  void rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now);
+  /// At the end of `tick`: keeps what is done, single registers with the values that the image has then.
   void step(Tick tick, std::span<const std::uint32_t> image);
   /// Keeps everything at once.
   void settle(std::span<const std::uint32_t> image);
@@ -39,11 +39,25 @@ class Eeprom {
 
   bool operator==(const Eeprom&) const = default;
 
+  // --- its state as bytes (emulator/state/state_bytes.h) ---------------------------------------
+  enum class Slot : std::uint8_t { not_kept, rests, waits };
+  static void fields(auto& self, auto visit) {
+    auto& [kept, slots, jobs, rewriting, done_at, revision] = self;
+    visit(kept, slots, jobs, rewriting, done_at, revision);
+  }
+  /// Throws StateError unless it can be a later state of `earlier`: of the same registers, with jobs that can
+  /// be done.
+  void check_restored(const Eeprom& earlier) const;
+
  private:
   struct Job {
     std::uint32_t slot = 0;
     Tick takes = 0;
     bool operator==(const Job&) const = default;
+    static void fields(auto& self, auto visit) {
+      auto& [at, time] = self;
+      visit(at, time);
+    }
   };
   static constexpr std::uint32_t kEverything = UINT32_MAX;
 
@@ -52,11 +66,10 @@ class Eeprom {
   void keep(std::size_t slot, std::uint32_t bits);
   void keep_all(std::span<const std::uint32_t> image);
 
-  enum class Slot : std::uint8_t { not_kept, rests, waits };
-
   std::vector<std::uint32_t> kept_;  // by slot
   std::vector<Slot> slots_;
-  std::vector<Job> jobs_;  // the first is being done
+  std::vector<Job> jobs_;                 // the first is being done
+  std::vector<std::uint32_t> rewriting_;  // by slot, while everything is; else empty
   Tick done_at_ = kNever;
   std::uint64_t revision_ = 0;
 };

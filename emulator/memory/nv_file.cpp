@@ -1,10 +1,5 @@
 #include "emulator/memory/nv_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -12,28 +7,6 @@
 #include "emulator/text_file.h"
 
 namespace understudy::emulator {
-
-namespace {
-
-/// Writes a new file and waits for the disk; 0, or the error.
-int write_whole(const std::string& path, const std::string& contents) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return errno;
-  int error = 0;
-  for (std::size_t done = 0; done < contents.size() && error == 0;) {
-    const ssize_t written = ::write(file, contents.data() + done, contents.size() - done);
-    if (written >= 0) {
-      done += static_cast<std::size_t>(written);
-    } else if (errno != EINTR) {
-      error = errno;
-    }
-  }
-  if (error == 0 && fsync(file) != 0) error = errno;
-  if (close(file) != 0 && error == 0) error = errno;
-  return error;
-}
-
-}  // namespace
 
 std::optional<NvImage> read_nv_file(const std::string& path) {
   std::error_code error;
@@ -74,6 +47,11 @@ void NvWriter::flush() {
   is_hurried_ = false;
 }
 
+bool NvWriter::is_idle() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.empty() && !is_busy_ && news_.empty();
+}
+
 std::vector<std::string> NvWriter::take_news() {
   const std::lock_guard lock(mutex_);
   return std::exchange(news_, {});
@@ -96,10 +74,7 @@ void NvWriter::run() {
 }
 
 void NvWriter::replace(const std::string& path, const std::string& contents) {
-  const std::string beside = path + ".new";
-  int error = write_whole(beside, contents);
-  if (error == 0 && std::rename(beside.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) unlink(beside.c_str());
+  const int error = replace_text_file(path, contents);
   bool& has_failed = has_failed_[path];
   if ((error != 0) == has_failed) return;
   has_failed = error != 0;

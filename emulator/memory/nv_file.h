@@ -33,6 +33,8 @@ class NvWriter {
   void write(const std::string& path, std::string contents);
   /// Waits until everything taken is on the disk, or was refused by it.
   void flush();
+  /// Nothing waits, nothing is being written, and there is no news.
+  bool is_idle() const;
   /// What there is to tell since the last call: a line when a file cannot be written, and when it can again.
   std::vector<std::string> take_news();
 
@@ -40,7 +42,7 @@ class NvWriter {
   void run();
   void replace(const std::string& path, const std::string& contents);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, std::string> waiting_;  // by path
   std::vector<std::string> news_;

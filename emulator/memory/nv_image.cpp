@@ -11,7 +11,8 @@ namespace understudy::emulator {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;  // looks keys up one by one: for writing only
 
 constexpr const char* kKind = "nv-image";
 constexpr int kFormat = 1;
@@ -34,39 +35,54 @@ std::string line_of(const std::string& text, std::size_t byte) {
   return "line " + std::to_string(1 + std::count(text.begin(), end, '\n'));
 }
 
+struct Parsed {
+  Json file;
+  std::vector<std::string> registers;  // their names as they follow each other, which `file` forgets
+};
+
 /// nlohmann keeps the last of two equal keys without a word; this one refuses them.
-Json parse_strictly(const std::string& text) {
+Parsed parse_strictly(const std::string& text) {
   std::vector<std::set<std::string>> keys;
-  const auto refuse_duplicates = [&](int, Json::parse_event_t event, Json& parsed) {
+  std::string outermost;
+  Parsed parsed;
+  const auto take = [&](int depth, Json::parse_event_t event, Json& json) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second) {
-      throw NvError(emulator::quoted(parsed.get<std::string>()) + ": is there twice; expected it once");
+    if (event != Json::parse_event_t::key) return true;
+    const auto& key = json.get_ref<const std::string&>();
+    if (!keys.back().insert(key).second) {
+      throw NvError(emulator::quoted(key) + ": is there twice; expected it once");
     }
+    if (depth == 1) outermost = key;
+    if (depth == 2 && outermost == "registers") parsed.registers.push_back(key);
     return true;
   };
   try {
-    return Json::parse(text, refuse_duplicates);
+    parsed.file = Json::parse(text, take);
+    return parsed;
   } catch (const Json::parse_error& error) {
     throw NvError(line_of(text, error.byte) + ": is torn or no JSON; expected an NV image");
+  } catch (const Json::exception&) {  // a number that no type holds
+    throw NvError("registers: a number is beyond all bounds; expected whole numbers");
   }
 }
 
 }  // namespace
 
 std::string to_json(const NvImage& image) {
-  Json registers = Json::object();
-  for (const auto& [name, value] : image.registers) registers[name] = value;
-  const Json file{{"understudy", kFormat},
-                  {"kind", kKind},
-                  {"model", image.model},
-                  {"firmware", image.firmware},
-                  {"registers", std::move(registers)}};
+  OrderedJson::object_t registers;
+  for (const auto& [name, value] : image.registers) registers.push_back({name, value});
+  const OrderedJson file{{"understudy", kFormat},
+                         {"kind", kKind},
+                         {"model", image.model},
+                         {"firmware", image.firmware},
+                         {"registers", std::move(registers)}};
   return file.dump(2) + "\n";
 }
 
 NvImage parse_nv_image(const std::string& text) {
-  const Json file = parse_strictly(text);
+  const Parsed parsed = parse_strictly(text);
+  const Json& file = parsed.file;
   if (!file.is_object() || !file.contains("understudy")) {
     throw NvError("understudy: is missing; expected an NV image");
   }
@@ -84,7 +100,8 @@ NvImage parse_nv_image(const std::string& text) {
   NvImage image{.model = text_of(file, "model"), .firmware = text_of(file, "firmware"), .registers = {}};
   const Json& registers = demand(file, "registers");
   if (!registers.is_object()) throw NvError("registers: is no object; expected names and values");
-  for (const auto& [name, value] : registers.items()) {
+  for (const std::string& name : parsed.registers) {
+    const Json& value = registers[name];
     const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
     if (!value.is_number_integer() || huge) {
       throw NvError("registers: " + emulator::quoted(name) + ": is no whole number; expected one");

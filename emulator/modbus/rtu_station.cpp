@@ -13,6 +13,16 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
   }
 }
 
+RtuStation::State RtuStation::save() const {
+  const auto& [device, framer, counters] = *this;
+  return {.framer = framer.save(), .counters = counters};
+}
+
+void RtuStation::restore(const State& state) {
+  framer_.restore(state.framer);
+  counters_ = state.counters;
+}
+
 void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::Transmitter& out) {
   const std::uint8_t address = frame.bytes[0];
   const Addressing addressing = device_.addressing(address);

@@ -38,6 +38,17 @@ class RtuStation final : public pty::Station {
   const StationCounters& counters() const { return counters_; }
   std::uint64_t dropped_bytes() const { return framer_.dropped_bytes(); }
 
+  /// What it hears and has counted; the device's state is its own.
+  struct State {
+    pty::RtuFramer::State framer;
+    StationCounters counters;
+  };
+  State save() const;
+  /// Throws std::invalid_argument for what this station cannot be.
+  void check(const State& state) const { framer_.check(state.framer); }
+  /// The same, and nothing has changed then.
+  void restore(const State& state);
+
  private:
   void serve_frame(const pty::RtuFrame& frame, pty::Transmitter& out);
 

@@ -3,19 +3,34 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "emulator/state/state_error.h"
+
 namespace understudy::emulator {
 
+namespace {
+
+/// Farther than the pulses of a century reach: where a machine without stops ends.
+constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
+
+}  // namespace
+
 void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
+  if (state_.faults.slipped_pulses != 0) {
+    shift(state_.faults.slipped_pulses);
+    state_.faults.slipped_pulses = 0;
+  }
   // What moves in this tick is decided by the drive as it was at its beginning.
   const std::int64_t steps = pulses_that_step(pulses);
   state_.lost_pulses += std::abs(pulses - steps);
-  const std::int64_t slipped = state_.faults.slipped_pulses;
-  state_.faults.slipped_pulses = 0;
-  if (steps != 0 || slipped != 0) move(steps + slipped);
+  if (steps != 0) move(steps);
   step_drive(tick, inputs);
 }
 
 std::int64_t PlantAxis::pulses_that_step(std::int64_t pulses) {
+  if (state_.loses_one_in != state_.faults.loses_one_in) {
+    state_.loses_one_in = state_.faults.loses_one_in;
+    state_.pulses_to_lose = 0;
+  }
   if (pulses == 0) return 0;
   if (state_.faults.stalled || in_alarm()) return 0;
   if (setup_.drive && !state_.ready) return 0;
@@ -47,12 +62,14 @@ Tick PlantAxis::next_active_tick(Tick done) const {
   return kNever;
 }
 
-void PlantAxis::move(std::int64_t steps) {
-  const std::int64_t wanted = state_.position_pulses + steps;
-  state_.position_pulses =
-      setup_.travel ? std::clamp(wanted, setup_.travel->first, setup_.travel->last) : wanted;
-  state_.lost_pulses += std::abs(wanted - state_.position_pulses);
+void PlantAxis::move(std::int64_t steps) { state_.lost_pulses += std::abs(steps - shift(steps)); }
+
+std::int64_t PlantAxis::shift(std::int64_t steps) {
+  const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
+  const std::int64_t before = state_.position_pulses;
+  state_.position_pulses = std::clamp(before + steps, stops.first, stops.last);
   move_switches();
+  return state_.position_pulses - before;
 }
 
 void PlantAxis::move_switches() {
@@ -71,12 +88,34 @@ void PlantAxis::move_switches() {
   }
 }
 
+void PlantAxis::check(const State& state) {
+  demand_within(state.position_pulses, -kFarthest_pulses, kFarthest_pulses);
+  for (const std::int64_t pulses :
+       {state.lost_pulses, state.pulses_to_lose, state.loses_one_in, state.faults.loses_one_in}) {
+    demand_state(pulses >= 0, "a machine cannot lose less than nothing");
+    demand_reach(pulses);
+  }
+  demand_reach(state.faults.slipped_pulses);
+  if (state.enabled_at != kNever) demand_reach(state.enabled_at);
+}
+
+void PlantAxis::restore(const State& state) {
+  check(state);
+  state_ = state;
+}
+
 std::int64_t PlantAxis::encoder_counts() const {
-  const std::int64_t scaled = state_.position_pulses * setup_.encoder_counts_per_revolution;
-  const std::int64_t divisor = setup_.pulses_per_revolution;
-  const std::int64_t quotient = scaled / divisor;
-  const std::int64_t counts = scaled % divisor < 0 ? quotient - 1 : quotient;
-  return setup_.encoder_reversed ? -counts : counts;
+  // Whole revolutions and the rest of one, so that nothing overflows but the count itself.
+  const std::int64_t at = state_.position_pulses;
+  const std::int64_t per_revolution = setup_.pulses_per_revolution;
+  const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);
+  const std::int64_t rest = at - revolutions * per_revolution;
+  const auto counts_per_revolution = static_cast<std::uint64_t>(setup_.encoder_counts_per_revolution);
+  std::uint64_t counts = static_cast<std::uint64_t>(revolutions) * counts_per_revolution;
+  counts +=
+      static_cast<std::uint64_t>(rest) * counts_per_revolution / static_cast<std::uint64_t>(per_revolution);
+  if (setup_.encoder_reversed) counts = 0 - counts;
+  return static_cast<std::int64_t>(counts << 2) >> 2;  // its low 62 bits, with their sign
 }
 
 }  // namespace understudy::emulator

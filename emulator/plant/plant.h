@@ -47,7 +47,7 @@ struct PlantSetup {
 struct MachineFaults {
   bool stalled = false;             // the motor is blocked: every pulse is lost
   std::int64_t loses_one_in = 0;    // every so manieth pulse is lost; 0: none
-  std::int64_t slipped_pulses = 0;  // how far it has been moved by force since the last tick
+  std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
   bool alarm = false;               // what the drive's alarm is for; it outlives it until it is cleared
   bool operator==(const MachineFaults&) const = default;
 };
@@ -71,6 +71,7 @@ class PlantAxis {
   const MachineFaults& faults() const { return state_.faults; }
 
   std::int64_t position_pulses() const { return state_.position_pulses; }
+  /// Pulses of the controller that moved nothing, in either direction.
   std::int64_t lost_pulses() const { return state_.lost_pulses; }
   bool at_home() const { return state_.at_home; }
   bool at_lower_limit() const { return state_.at_lower_limit; }
@@ -81,7 +82,8 @@ class PlantAxis {
   bool alarm_contact() const { return in_alarm() != (setup_.drive && setup_.drive->alarm_opens); }
   bool ready() const { return state_.ready; }
   bool has_encoder() const { return setup_.encoder_counts_per_revolution != 0; }
-  /// Rounded towards minus infinity, so that a slow turn through 0 counts evenly.
+  /// Rounded towards minus infinity, so that a slow turn through 0 counts evenly; a reversed encoder counts
+  /// the same edges the other way. Wraps at 62 bits, so that the difference of two fits.
   std::int64_t encoder_counts() const;
 
   /// The first tick after `done` at which something changes by itself; kNever if nothing does.
@@ -90,11 +92,12 @@ class PlantAxis {
   const PlantSetup& setup() const { return setup_; }
   bool same_state(const PlantAxis& other) const { return state_ == other.state_; }
 
- private:
+  // --- its state: all of it but the setup ------------------------------------------------------
   struct State {
     std::int64_t position_pulses = 0;
     std::int64_t lost_pulses = 0;     // magnitude
     std::int64_t pulses_to_lose = 0;  // made since one was lost
+    std::int64_t loses_one_in = 0;    // what they were counted for
     bool at_home = false;
     bool at_lower_limit = false;
     bool at_upper_limit = false;
@@ -104,7 +107,15 @@ class PlantAxis {
     MachineFaults faults;
     bool operator==(const State&) const = default;
   };
+  const State& save() const { return state_; }
+  /// Throws StateError for what no machine can be.
+  static void check(const State& state);
+  /// The same, and nothing has changed then.
+  void restore(const State& state);
 
+ private:
+  /// How much of it there was room for.
+  std::int64_t shift(std::int64_t steps);
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);
   void move_switches();

@@ -30,9 +30,11 @@ NamedNumber Probes::resolve(std::string_view name) const {
 }
 
 bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
-  static constexpr std::array<std::pair<std::string_view, What>, 10> kOfAxis{{
+  static constexpr std::array<std::pair<std::string_view, What>, 12> kOfAxis{{
       {"pulses", What::pulses},
       {"speed", What::speed},
+      {"greatest_speed", What::greatest_speed},
+      {"greatest_acceleration", What::greatest_acceleration},
       {"position", What::position},
       {"lost", What::lost},
       {"encoder", What::encoder},
@@ -126,6 +128,12 @@ std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t Statio
   return sum;
 }
 
+double Probes::peak_value(const Probe& probe) const {
+  if (peaks_ == nullptr) throw NameError(probe.name + " is kept in scenarios only");
+  const Peaks::Peak& peak = peaks_->peak(probe.device, probe.place);
+  return probe.what == What::greatest_speed ? peak.greatest_pps : peak.greatest_pps2;
+}
+
 Number Probes::value(std::int32_t handle) const {
   const Probe& probe = probes_[static_cast<std::size_t>(handle)];
   const auto count = [](std::uint64_t number) { return Number(static_cast<std::int64_t>(number)); };
@@ -144,6 +152,8 @@ Number Probes::value(std::int32_t handle) const {
     case What::power: return device.powered() ? 1 : 0;
     case What::pulses: return world_.sent_pulses(probe.device, probe.place);
     case What::speed: return device.speed_pps(probe.place);
+    case What::greatest_speed:
+    case What::greatest_acceleration: return peak_value(probe);
     case What::requests: return count(count_of_stations(probe.device, &StationCounters::requests));
     case What::replies: return count(count_of_stations(probe.device, &StationCounters::replies));
     case What::exceptions: return count(count_of_stations(probe.device, &StationCounters::exceptions));

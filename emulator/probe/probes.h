@@ -7,6 +7,8 @@
 //                              of the same name comes first
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
 //   feeder.A.speed             what it runs at by plan, in pulses a second, real
+//   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
+//                              scenarios, since their begin or the last `reset: peaks`
 //   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
 //   feeder.A.encoder           its encoder's count
 //   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive
@@ -20,18 +22,19 @@
 #include <vector>
 
 #include "emulator/expression/expression.h"
+#include "emulator/probe/peaks.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// The world must outlive it.
-  explicit Probes(const World& world) : world_(world) {}
+  /// Both must outlive it. Without peaks their names are known, but have no value.
+  explicit Probes(const World& world, const Peaks* peaks = nullptr) : world_(world), peaks_(peaks) {}
 
   /// Throws NameError. A name that was resolved before gets its handle again.
   NamedNumber resolve(std::string_view name) const override;
-  /// A register of a device without power is 0.
+  /// A register of a device without power is 0. NameError for what nobody keeps here.
   Number value(std::int32_t handle) const override;
 
  private:
@@ -42,6 +45,8 @@ class Probes final : public NameResolver, public ValueSource {
     output,
     pulses,
     speed,
+    greatest_speed,
+    greatest_acceleration,
     position,
     lost,
     encoder,
@@ -70,8 +75,10 @@ class Probes final : public NameResolver, public ValueSource {
   Probe find(std::string_view name) const;
   bool find_of_axis(std::string_view rest, Probe& probe) const;
   std::uint64_t count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const;
+  double peak_value(const Probe& probe) const;
 
   const World& world_;
+  const Peaks* peaks_;
   mutable std::vector<Probe> probes_;  // by handle
 };
 

@@ -171,6 +171,7 @@ void World::latch_wires() {
 }
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
+  begin_act();
   if (listener_ != nullptr) listener_->on_input(device, terminal, level);
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
@@ -187,18 +188,26 @@ void World::apply_input(std::size_t device, int terminal) {
   devices_[device]->set_input(terminal, input.stuck ? *input.stuck : level);
 }
 
+/// What was due at this moment comes first: so it is when a recording of it is played.
+void World::begin_act() {
+  if (now_ > SimTime{0}) run_lines(now_);
+}
+
 Refusal World::write(std::size_t device, const PreparedWrite& write) {
+  begin_act();
   if (listener_ != nullptr) listener_->on_write(device, write);
   return write_prepared(*devices_[device], write);
 }
 
 void World::load_program(std::size_t device, std::string_view text) {
+  begin_act();
   devices_[device]->load_program(text);  // throws before anything has changed
   if (listener_ != nullptr) listener_->on_program(device, text);
 }
 
 void World::switch_power(std::size_t device, bool on) {
   if (devices_[device]->powered() == on) return;
+  begin_act();
   if (listener_ != nullptr) listener_->on_power(device, on);
   devices_[device]->switch_power(on);
   disturbed_ = true;
@@ -216,6 +225,7 @@ void World::switch_power(std::size_t device, bool on) {
 }
 
 std::size_t World::inject(const Fault& fault) {
+  begin_act();
   if (listener_ != nullptr) listener_->on_inject(fault);
   disturbed_ = true;
   const std::size_t number = next_fault_++;
@@ -231,6 +241,7 @@ std::size_t World::inject(const Fault& fault) {
 bool World::clear_fault(std::size_t number) {
   const auto found = faults_.find(number);
   if (found == faults_.end()) return false;
+  begin_act();
   if (listener_ != nullptr) listener_->on_clear_fault(number);
   const std::size_t device = found->second.device;
   faults_.erase(found);

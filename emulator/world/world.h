@@ -107,6 +107,9 @@ class World {
   const std::map<std::size_t, Fault>& faults() const { return faults_; }
 
  private:
+  friend struct WorldFields;  // state_fields.h: what of all this is state
+  friend struct EdgeFields;
+
   struct Input {
     std::int32_t external = 0;
     bool wired = false;
@@ -114,6 +117,7 @@ class World {
     std::optional<bool> stuck{};
   };
 
+  void begin_act();
   void run_tick();
   void show_tick();
   void run_lines(SimTime time);

@@ -12,9 +12,8 @@ struct Dialect {
   /// Up to 1.39 Wait_Move_B did what Move_INC_B_Wait does, its flag taken for a parameter (remark at 0x34).
   /// The same text says that it waits; false believes that.
   bool quirk_wait_move_b_is_move_inc_b_wait = false;
-  /// Up to 1.41 Jump_Timer1_GE does not work (firmware note "1.41 以前", and 0x1A). How is not said: it never
-  /// jumps.
-  bool quirk_jump_timer1_never_jumps = false;
+  /// Up to 1.41 Jump_Timer1_GE does not work (firmware note "1.41 以前", and 0x1A).
+  bool quirk_jump_timer1_does_not_work = false;
 
   // --- what the manual leaves open, ours first -------------------------------------------------
   /// A Loop of n: n passes in all, or n further ones (0x04).
@@ -36,6 +35,38 @@ struct Dialect {
     to_next_line,
     before_next_slot
   } delay_counts = DelayCounts::to_next_line;
+  /// Once the test of a waiting line succeeds: its slot is over, or the line after it runs in the same slot.
+  enum class WaitSlot : std::uint8_t {
+    slot_of_its_own,
+    next_line_runs_in_it
+  } wait_slot = WaitSlot::slot_of_its_own;
+  /// How Jump_Timer1_GE fails where it does not work.
+  enum class Timer1Defect : std::uint8_t {
+    never_jumps,
+    always_jumps
+  } timer1_defect = Timer1Defect::never_jumps;
+  /// An input, output, STATUS bit, counter or timer that does not exist: OFF, 0 and no effect, or the program
+  /// ends.
+  enum class UndefinedOperand : std::uint8_t {
+    harmless,
+    ends
+  } undefined_operand = UndefinedOperand::harmless;
+  /// A parameter number without a meaning: the machine's business (it reads 0), or the program ends.
+  enum class UndefinedParameter : std::uint8_t {
+    reads_zero,
+    ends
+  } undefined_parameter = UndefinedParameter::reads_zero;
+  /// A value beyond what a register, a delay or a command takes.
+  enum class ValueOutOfRange : std::uint8_t {
+    clamped,
+    low_16_bits
+  } value_out_of_range = ValueOutOfRange::clamped;
+  /// A result beyond 32 bits with a sign.
+  enum class Overflow : std::uint8_t { wraps, saturates } overflow = Overflow::wraps;
+  /// Which way a quotient that is not whole is rounded; the remainder is what is left then.
+  enum class Division : std::uint8_t { towards_zero, downwards } division = Division::towards_zero;
+  /// A counter counted or set beyond 0 to 65535.
+  enum class CounterOverflow : std::uint8_t { wraps, saturates } counter_overflow = CounterOverflow::wraps;
 
   bool operator==(const Dialect&) const = default;
 };
@@ -45,8 +76,15 @@ constexpr Dialect dialect_of_firmware(int hundredths) {
   Dialect dialect;
   dialect.wait_move_jumps = hundredths >= 140;
   dialect.quirk_wait_move_b_is_move_inc_b_wait = hundredths <= 139;
-  dialect.quirk_jump_timer1_never_jumps = hundredths <= 141;
+  dialect.quirk_jump_timer1_does_not_work = hundredths <= 141;
   return dialect;
+}
+
+/// `value` as something that holds `lowest` to `highest` of at most 16 bits takes it.
+constexpr std::int32_t fitted(const Dialect& dialect, std::int32_t value, std::int32_t lowest,
+                              std::int32_t highest) {
+  if (dialect.value_out_of_range == Dialect::ValueOutOfRange::low_16_bits) value &= 0xFFFF;
+  return value < lowest ? lowest : value > highest ? highest : value;
 }
 
 }  // namespace understudy::interpreter::simple2

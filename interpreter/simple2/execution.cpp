@@ -1,8 +1,11 @@
 #include "interpreter/simple2/execution.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/simple2/actions/table.h"
+#include "interpreter/simple2/instructions.h"
+#include "interpreter/simple2/parameter_names.h"
 
 namespace understudy::interpreter::simple2 {
 namespace {
@@ -24,6 +27,20 @@ void go_on_at(Execution& execution, int line, const Dialect& dialect) {
   if (loop.counts && !is_inside && dialect.loop_left == Dialect::LoopLeft::forgotten) execution.loop = {};
 }
 
+/// Whether the program ends because the line names something that does not exist.
+bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
+  const bool by_operand = dialect.undefined_operand == Dialect::UndefinedOperand::ends;
+  const bool by_parameter = dialect.undefined_parameter == Dialect::UndefinedParameter::ends;
+  if (!by_operand && !by_parameter) return false;
+  const Instruction* instruction = find_instruction(line.command);
+  const auto is_wrong = [&](Operand operand, std::uint8_t value) {
+    if (operand == Operand::parameter) return by_parameter && !parameter_name(value);
+    return by_operand && !is_defined(operand, value);
+  };
+  return instruction != nullptr &&
+         (is_wrong(instruction->data1, line.data1) || is_wrong(instruction->data2, line.data2));
+}
+
 void execute_line(Execution& execution, std::int64_t now_ms, const Program& program, const Dialect& dialect,
                   Machine& machine) {
   const int number = execution.next_line;
@@ -38,6 +55,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
     }
     return go_on_at(execution, number + 1, dialect);
   }
+  if (ends_for_an_operand(line, dialect)) return finish(execution, Ending::undefined_operand);
   Step step{.line = line,
             .line_number = number,
             .now_ms = now_ms,
@@ -49,7 +67,9 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
     case Then::next_line: return go_on_at(execution, number + 1, dialect);
     case Then::line_after_next: return go_on_at(execution, number + 2, dialect);
     case Then::flag: return go_on_at(execution, step.flag_line(), dialect);
-    case Then::same_line: return go_on_at(execution, number, dialect);
+    case Then::same_line:
+      execution.waits = dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it;
+      return go_on_at(execution, number, dialect);
     case Then::end: return finish(execution, Ending::end_instruction);
     case Then::end_for_nested_loop: return finish(execution, Ending::nested_loop);
   }
@@ -60,7 +80,9 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
 bool would_wait_on(const Execution& execution, const Program& program, const Dialect& dialect,
                    const Machine& machine) {
   if (execution.next_line != execution.now_line) return false;
+  if (dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it && !execution.waits) return false;
   const Line& line = program.line(execution.now_line);
+  if (ends_for_an_operand(line, dialect)) return false;
   const auto stays = [&](Then then) { return then == Then::same_line; };
   switch (line.command) {
     case opcode_of("Wait_IO"): return !wait_io_is_over(line, machine);
@@ -87,6 +109,7 @@ void stop(Execution& execution) {
 void step(Execution& execution, std::int64_t now_ms, const Program& program, const Dialect& dialect,
           Machine& machine) {
   if (!execution.running) return;
+  const bool next_line_runs_at_once = dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it;
   switch (execution.phase) {
     case Phase::line: break;
     case Phase::delay:
@@ -99,9 +122,15 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
       execution.phase = Phase::line;
       execution.waits_for_a = false;
       execution.waits_for_b = false;
+      if (next_line_runs_at_once) break;
       return;  // the slot in which the move is found over still belongs to its line
   }
+  const bool has_waited = std::exchange(execution.waits, false);
   execute_line(execution, now_ms, program, dialect, machine);
+  // Only a line that has waited gives its slot on, so at most two run in one.
+  if (has_waited && execution.running && !execution.waits && execution.phase == Phase::line) {
+    execute_line(execution, now_ms, program, dialect, machine);
+  }
 }
 
 std::int64_t next_active_slot_ms(const Execution& execution, std::int64_t done_ms, const Program& program,

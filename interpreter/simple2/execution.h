@@ -22,6 +22,7 @@ enum class Ending : std::uint8_t {
   past_last_line,
   nested_loop,  // rule 2 of Loop
   unknown_command,
+  undefined_operand,
   stopped,  // from outside
 };
 
@@ -51,6 +52,7 @@ struct Execution {
   std::int64_t delay_until_ms = 0;
   bool waits_for_a = false;
   bool waits_for_b = false;
+  bool waits = false;  // the line at work was tested and holds the program; kept where a choice asks for it
   LoopState loop = {};
 
   bool operator==(const Execution&) const = default;
@@ -61,7 +63,8 @@ void start(Execution& execution, std::uint8_t line);
 /// Forcibly stops a running program. What it has started goes on.
 void stop(Execution& execution);
 
-/// One slot, at an even `now_ms` that is later than the one before. Executes one line at most.
+/// One slot, at an even `now_ms` that is later than the one before. Executes one line at most (two where a
+/// choice lets the line behind a wait run in its slot).
 void step(Execution& execution, std::int64_t now_ms, const Program& program, const Dialect& dialect,
           Machine& machine);
 

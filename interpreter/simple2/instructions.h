@@ -169,6 +169,22 @@ consteval std::uint8_t opcode_of(std::string_view mnemonic) {
   throw "the manual has no such instruction";
 }
 
+inline constexpr int kInputCount = 11;
+inline constexpr int kOutputCount = 7;
+inline constexpr int kStatusBitCount = 16;
+
+/// Whether there is such an input, output, STATUS bit, counter or timer. Other operands can be anything.
+constexpr bool is_defined(Operand operand, std::uint8_t value) {
+  switch (operand) {
+    case Operand::input: return value < kInputCount;
+    case Operand::output: return value < kOutputCount;
+    case Operand::status_bit: return value < kStatusBitCount;
+    case Operand::counter:
+    case Operand::timer: return value == 1 || value == 2;
+    default: return true;
+  }
+}
+
 /// What an operand is, for people: "DIN number (0-10)".
 std::string_view describe(Operand operand);
 

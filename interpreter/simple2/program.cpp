@@ -1,5 +1,9 @@
 #include "interpreter/simple2/program.h"
 
+#include <algorithm>
+
+#include "interpreter/simple2/instructions.h"
+
 namespace understudy::interpreter::simple2 {
 namespace {
 
@@ -10,13 +14,24 @@ constexpr std::array<std::uint8_t Line::*, kCellsPerLine> kCells{&Line::command,
 constexpr std::size_t line_of(int cell) { return static_cast<std::size_t>(cell / kCellsPerLine); }
 constexpr auto member_of(int cell) { return kCells[static_cast<std::size_t>(cell % kCellsPerLine)]; }
 
+constexpr std::uint8_t kEnd = opcode_of("END");
+constexpr bool is_flag(std::uint8_t cell) { return cell >= 1 && cell <= kFlagCount; }
+
 }  // namespace
 
 std::uint8_t Program::cell(int number) const { return lines_[line_of(number)].*member_of(number); }
 
 void Program::set_cell(int number, std::uint8_t value) {
-  lines_[line_of(number)].*member_of(number) = value;
-  if (member_of(number) == &Line::flag) find_flags();
+  const auto member = member_of(number);
+  Line& changed = lines_[line_of(number)];
+  const std::uint8_t flag_before = changed.flag;
+  changed.*member = value;
+  if (rules_.found == FlagRules::Found::when_told) return;
+  if (member == &Line::command && rules_.after_end == FlagRules::AfterEnd::do_not_count) {
+    find_flags();  // an END may have come or gone
+  } else if (member == &Line::flag) {
+    flag_written(static_cast<int>(line_of(number)), flag_before);
+  }
 }
 
 std::optional<std::uint8_t> Program::line_with_flag(std::uint8_t flag) const {
@@ -28,8 +43,32 @@ void Program::find_flags() {
   line_of_flag_ = no_flags();
   for (int number = 0; number < kLineCount; ++number) {
     const std::uint8_t flag = line(number).flag;
-    if (flag >= 1 && flag <= kFlagCount) line_of_flag_[flag] = static_cast<std::int16_t>(number);
+    if (is_flag(flag)) line_of_flag_[flag] = static_cast<std::int16_t>(number);
+    if (rules_.after_end == FlagRules::AfterEnd::do_not_count && line(number).command == kEnd) return;
   }
+}
+
+void Program::flag_written(int number, std::uint8_t flag_before) {
+  if (rules_.several == FlagRules::Several::last_line) return find_flags();
+  // The order of writes is known of this line alone: of the others the last line counts.
+  if (is_flag(flag_before) && line_of_flag_[flag_before] == number) find_flag(flag_before);
+  const std::uint8_t flag = line(number).flag;
+  if (is_flag(flag) && !is_behind_end(number)) line_of_flag_[flag] = static_cast<std::int16_t>(number);
+}
+
+void Program::find_flag(std::uint8_t flag) {
+  line_of_flag_[flag] = kNoLine;
+  for (int number = 0; number < kLineCount; ++number) {
+    if (line(number).flag == flag && !is_behind_end(number)) {
+      line_of_flag_[flag] = static_cast<std::int16_t>(number);
+    }
+  }
+}
+
+bool Program::is_behind_end(int number) const {
+  if (rules_.after_end == FlagRules::AfterEnd::count) return false;
+  return std::any_of(lines_.begin(), lines_.begin() + number,
+                     [](const Line& before) { return before.command == kEnd; });
 }
 
 }  // namespace understudy::interpreter::simple2

@@ -22,10 +22,30 @@ struct Line {
 
 using Lines = std::array<Line, kLineCount>;
 
+/// Which line a flag stands for, where the manual leaves it open; the first of each is ours.
+struct FlagRules {
+  /// Of several lines with one flag the last one set counts: the last of them, or the one written last.
+  enum class Several : std::uint8_t { last_line, last_written } several = Several::last_line;
+  /// Whether a line behind the first END can carry a flag.
+  enum class AfterEnd : std::uint8_t { count, do_not_count } after_end = AfterEnd::count;
+  /// When the lines are looked through: with every write, or by find_flags() alone.
+  enum class Found : std::uint8_t { at_every_write, when_told } found = Found::at_every_write;
+
+  bool operator==(const FlagRules&) const = default;
+};
+
+/// By flag: the line that it stands for, -1 for none.
+using FlagLines = std::array<std::int16_t, kFlagCount + 1>;
+
 class Program {
  public:
   Program() = default;
-  explicit Program(const Lines& lines) : lines_(lines) { find_flags(); }
+  explicit Program(const Lines& lines, const FlagRules& rules = {}) : lines_(lines), rules_(rules) {
+    find_flags();
+  }
+  /// As it was: by some rules the lines alone do not tell which of them a flag stands for.
+  Program(const Lines& lines, const FlagRules& rules, const FlagLines& flag_lines)
+      : lines_(lines), rules_(rules), line_of_flag_(flag_lines) {}
 
   const Lines& lines() const { return lines_; }
   const Line& line(int number) const { return lines_[static_cast<std::size_t>(number)]; }
@@ -34,24 +54,30 @@ class Program {
   std::uint8_t cell(int number) const;
   void set_cell(int number, std::uint8_t value);
 
-  /// Of several lines with the same flag it is the last. Nothing for a flag that no line has, or that is not
-  /// one.
+  /// Nothing for a flag that no line has, or that is not one.
   std::optional<std::uint8_t> line_with_flag(std::uint8_t flag) const;
+  /// Looks through the lines as they are now, whatever the rules say of when.
+  void find_flags();
+  const FlagRules& flag_rules() const { return rules_; }
+  const FlagLines& flag_lines() const { return line_of_flag_; }
 
   bool operator==(const Program&) const = default;
 
  private:
-  void find_flags();
+  void find_flag(std::uint8_t flag);
+  void flag_written(int number, std::uint8_t flag_before);
+  bool is_behind_end(int number) const;
 
   static constexpr std::int16_t kNoLine = -1;
-  static constexpr std::array<std::int16_t, kFlagCount + 1> no_flags() {
-    std::array<std::int16_t, kFlagCount + 1> lines{};
+  static constexpr FlagLines no_flags() {
+    FlagLines lines{};
     lines.fill(kNoLine);
     return lines;
   }
 
   Lines lines_{};
-  std::array<std::int16_t, kFlagCount + 1> line_of_flag_ = no_flags();  // follows from the lines
+  FlagRules rules_;
+  FlagLines line_of_flag_ = no_flags();
 };
 
 }  // namespace understudy::interpreter::simple2

@@ -111,7 +111,7 @@ TEST(MakeDevice, RefusesRegistersThatCannotBeGivenAValue) {
       {"Aaxis_Resoultion", 0, "set: 0 is out of range for Aaxis_Resoultion; expected 1 to 2147483648"},
       {"Aaxis_Pulse", 2147483648,
        "set: 2147483648 is out of range for Aaxis_Pulse; expected -2147483648 to 2147483647"},
-      {"MAIN_LINE0_CMD", 65536, "set: 65536 is out of range for MAIN_LINE0_CMD; expected 0 to 65535"},
+      {"MAIN_LINE0_CMD", 65536, "set: 65536 is out of range for MAIN_LINE0_CMD; expected 0 to 255"},
       {"ADC_1V_A", -1, "set: -1 is out of range for ADC_1V_A; expected 0 to 65535"},
       {"CalcREG", 4294967295,
        "set: 4294967295 is out of range for CalcREG; expected -2147483648 to 2147483647"},

@@ -1,6 +1,8 @@
 #include "emulator/devices/simple2_r3/axis_drive.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace understudy::emulator::simple2_r3 {
 
@@ -8,7 +10,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-/// The pulses of one tick of velocity mode: two steps of 0.5 ms, each of speed first.
+/// The pulses of one tick of velocity mode: two steps of 0.5 ms.
 std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
   // The pulse limit, as a speed.
   const std::int64_t cap_urpm = kMaxPulseRate_pps * 60'000'000 / settings.pulses_per_revolution;
@@ -16,9 +18,11 @@ std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
   std::int64_t pulses = 0;
   for (int half = 0; half < 2; ++half) {
     const std::int64_t step = settings.velocity_step_urpm;
+    const std::int64_t speed_before = axis.speed_urpm;
     axis.speed_urpm = std::clamp(target, axis.speed_urpm - step, axis.speed_urpm + step);
+    const std::int64_t speed = settings.pulses_by_speed_before ? speed_before : axis.speed_urpm;
     // At most 6e12 by the cap, and 1.2e11 left over.
-    axis.velocity_phase += axis.speed_urpm * static_cast<std::int64_t>(settings.pulses_per_revolution);
+    axis.velocity_phase += speed * static_cast<std::int64_t>(settings.pulses_per_revolution);
     pulses += axis.velocity_phase / kVelocityPhase;
     axis.velocity_phase %= kVelocityPhase;
   }
@@ -94,26 +98,62 @@ void stop_drive(AxisState& axis) {
   axis.pwm_percent = 0;
 }
 
-motion::Cause output_pwm(AxisState& axis, std::uint8_t percent) {
+motion::Cause output_pwm(AxisState& axis, std::uint8_t percent, bool needs_servo) {
   // Either way: no pulse comes out, so limits do not matter.
-  if (const motion::Cause why_not = axis.motor.forbidden_anywhere(); why_not != motion::Cause::none) {
-    return why_not;
-  }
+  const bool pulses_need_servo = std::exchange(axis.motor.settings.needs_servo, needs_servo);
+  const motion::Cause why_not = axis.motor.forbidden_anywhere();
+  axis.motor.settings.needs_servo = pulses_need_servo;
+  if (why_not != motion::Cause::none) return why_not;
   stop_drive(axis);
   axis.mode = Mode::pwm;
   axis.pwm_percent = percent;
   return motion::Cause::none;
 }
 
-std::int64_t encoder_rpm(const AxisState& axis, Tick now, std::uint32_t counts_per_revolution,
+void keep_target(AxisState& axis, std::int64_t pulses, Tick now) {
+  motion::Axis& motor = axis.motor;
+  // Distances count from where the move began, in its direction.
+  motor.change_distance(motor.target_pulses - pulses * motor.drive.direction, false, now);
+}
+
+motion::Follower follower_by(SyncSettings settings) {
+  const auto is_too_large = [&] { return std::max(settings.numerator, settings.denominator) > INT32_MAX; };
+  if (is_too_large()) {
+    const std::int64_t common = std::gcd(settings.numerator, settings.denominator);
+    settings.numerator /= common;
+    settings.denominator /= common;
+  }
+  // Still so: nobody's encoder has that many counts, and the ratio may be a little off.
+  while (is_too_large()) {
+    settings.numerator /= 2;
+    settings.denominator = std::max<std::int64_t>(settings.denominator / 2, 1);
+  }
+  return {.numerator = settings.numerator,
+          .denominator = settings.denominator,
+          .period_ticks = kSyncPeriod,
+          .top_speed_pps = settings.top_speed_pps,
+          .slope_pps = settings.slope_pps,
+          .catches_up = settings.catches_up};
+}
+
+motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how) {
+  if (how.speed.top_speed_u_s == 0) return motion::simple2_homing(how);
+  const auto way = static_cast<std::int8_t>(how.way < 0 ? -1 : +1);
+  motion::HomingProgram program{.speeds = {how.speed}};
+  program.add({.way = way, .marks = true, .next = 2, .if_limit = 1});  // 2 is below the last: found
+  program.add({.way = static_cast<std::int8_t>(-way), .marks = true});
+  return program;
+}
+
+std::int64_t encoder_rpm(const AxisState& axis, Tick now, Tick window, std::uint32_t counts_per_revolution,
                          bool reversed) {
-  const std::int64_t then = axis.encoder_history[ring_place(now - AxisState::kSpeedWindow)];
+  const std::int64_t then = axis.encoder_history[ring_place(now - window)];
   const Wide counts = Wide{axis.encoder_counts} - then;
-  constexpr std::int64_t kWindowsAMinute = 60'000 / AxisState::kSpeedWindow;
+  const std::int64_t windows_a_minute = 60'000 / window;
   // To the nearest: whole counts would show a steady 100 RPM as 99 otherwise.
   const Wide half = counts < 0 ? -Wide{counts_per_revolution / 2} : Wide{counts_per_revolution / 2};
   const auto rpm = static_cast<std::int64_t>(
-      std::clamp<Wide>((counts * kWindowsAMinute + half) / counts_per_revolution, -40'000, 40'000));
+      std::clamp<Wide>((counts * windows_a_minute + half) / counts_per_revolution, -40'000, 40'000));
   return std::clamp<std::int64_t>(reversed ? -rpm : rpm, INT16_MIN, INT16_MAX);
 }
 
@@ -131,7 +171,8 @@ bool is_moving(const AxisState& axis) {
     case Mode::position: return axis.motor.moving();
     case Mode::velocity: return runs_velocity(axis) && (axis.speed_urpm != 0 || axis.target_urpm != 0);
     case Mode::pwm: return axis.pwm_percent != 0;
-    case Mode::sync: return axis.motor.task == motion::Task::following && axis.motor.follower.period_pulses != 0;
+    case Mode::sync:
+      return axis.motor.task == motion::Task::following && axis.motor.follower.period_pulses != 0;
   }
   return false;
 }

@@ -7,6 +7,7 @@
 
 #include "emulator/simulated_time.h"
 #include "motion/axis.h"
+#include "motion/homing_tables.h"
 
 namespace understudy::emulator::simple2_r3 {
 
@@ -22,6 +23,8 @@ struct AxisState {
   Mode mode = Mode::position;
   Command command = Command::none;
   bool homed = false;
+  bool has_own_speed = false;  // the move that runs was started with Speed, AccTime and DecTime of the axis
+  bool alarm_latched = false;  // where a choice has the alarm outlast its input
   std::int32_t coordinate_pulses = 0;
   std::int64_t pulses_this_tick = 0;  // as they leave the device: after DIR_Polarity
   Tick alarm_clear_until = 0;         // the first tick at which ACLR is over
@@ -44,6 +47,7 @@ struct AxisState {
 };
 
 inline constexpr std::int64_t kMaxPulseRate_pps = 100'000;  // appendix B
+inline constexpr int kSyncPeriod = 5;                       // ticks: 200 Hz (appendix B)
 
 /// A velocity of 1 uRPM at 1 pulse a revolution makes one pulse in so many steps of 0.5 ms.
 inline constexpr std::int64_t kVelocityPhase = 60'000'000LL * 2000;
@@ -53,6 +57,7 @@ struct DriveSettings {
   std::uint32_t pulses_per_revolution = 1;
   std::uint32_t velocity_step_urpm = 1;  // the change of speed in 0.5 ms
   bool encoder_reversed = false;
+  bool pulses_by_speed_before = false;  // in velocity mode a step's pulses come before its change of speed
 };
 
 /// One tick: the pulses in the commanded sense.
@@ -68,13 +73,31 @@ motion::Cause run_velocity(AxisState& axis, std::int64_t target_mrpm);
 motion::Cause follow_encoder(AxisState& axis, const motion::Follower& by);
 
 /// PWM mode at once, 0 to 100 percent. What it is refused for, nothing has changed then.
-motion::Cause output_pwm(AxisState& axis, std::uint8_t percent);
+motion::Cause output_pwm(AxisState& axis, std::uint8_t percent, bool needs_servo);
 
 /// Nothing is output any more; the mode is position mode.
 void stop_drive(AxisState& axis);
 
-/// Counts a minute's revolutions over the last 100 ms, within 16 bits with a sign.
-std::int64_t encoder_rpm(const AxisState& axis, Tick now, std::uint32_t counts_per_revolution, bool reversed);
+/// Homing that looks for the switch only once, in either direction, slows down there, and stays.
+motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
+
+/// The move that runs goes on to where the coordinate will be what it would have been, although that is
+/// `pulses` more from now on.
+void keep_target(AxisState& axis, std::int64_t pulses, Tick now);
+
+/// How pulses follow an encoder.
+struct SyncSettings {
+  std::int64_t numerator = 1;  // pulses = counts * numerator / denominator
+  std::int64_t denominator = 1;
+  std::int64_t top_speed_pps = 0;
+  std::int64_t slope_pps = 0;  // for each 5 ms; 0: without bound
+  bool catches_up = false;
+};
+motion::Follower follower_by(SyncSettings settings);
+
+/// Counts a minute's revolutions over the last ticks, kSpeedWindow at most, within 16 bits with a sign.
+std::int64_t encoder_rpm(const AxisState& axis, Tick now, Tick window, std::uint32_t counts_per_revolution,
+                         bool reversed);
 
 /// In the commanded sense, at the end of tick `now`.
 double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution);

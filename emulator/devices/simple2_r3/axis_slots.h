@@ -8,6 +8,10 @@
 
 namespace understudy::emulator::simple2_r3 {
 
+/// The registers that give pins their functions follow each other, DOUT 0 to 3 first.
+inline constexpr std::size_t kFirstAssignment = slot("DOUT0_Aaxis_SVON");
+inline constexpr int kAssignmentCount = 14;
+
 struct AxisSlots {
   std::size_t pulse, speed, acc_time, dec_time;
   std::size_t resolution, direction_polarity, servo_polarity, alarm_polarity, encoder_polarity;

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "emulator/device.h"
 #include "emulator/devices/simple2_r3/axis_drive.h"
+#include "emulator/devices/simple2_r3/options.h"
 #include "emulator/devices/simple2_r3/registers.h"
 #include "emulator/memory/eeprom.h"
 #include "interpreter/simple2/execution.h"
@@ -23,7 +25,8 @@ inline constexpr int kFirstAnalog = kFirstOutput + kOutputCount;
 inline constexpr int kFirstSwitch = kFirstAnalog + kAnalogCount;
 inline constexpr int kTerminalCount = kFirstSwitch + kSwitchCount;
 
-/// Timer1, Timer2: milliseconds, of 32 bits. Counted from when it was started, so it costs nothing.
+/// Timer1, Timer2: 32 bits, in units of its own time (Simple2R3::timer_time). Counted from when it was
+/// started, so it costs nothing.
 struct Timer {
   std::uint32_t value = 0;  // at `since`
   Tick since = 0;
@@ -44,6 +47,15 @@ struct Timer {
   bool operator==(const Timer&) const = default;
 };
 
+/// How a program's moves run, where they do not share the axis's registers.
+struct ProgramSpeed {
+  std::uint32_t speed_rpm = 0;
+  std::uint32_t acceleration_10ms = 0;
+  std::uint32_t deceleration_10ms = 0;
+
+  bool operator==(const ProgramSpeed&) const = default;
+};
+
 struct State {
   std::array<std::uint32_t, kSlotCount> image{};
   std::array<AxisState, 2> axes;
@@ -58,10 +70,16 @@ struct State {
   std::array<std::uint16_t, kAnalogCount> adc{};  // as looked at in this tick
   std::uint16_t inputs = 0;                       // bit n: DIN n, likewise
   std::uint8_t written_outputs = 0;               // bit n: the last level written to DOUT n
-  bool touched = false;                           // registers were written since the last tick
+  std::uint16_t assignments = 0;                  // bit n: the register 0x0A00 + n, as it was at power-up
+  std::array<ProgramSpeed, 2> program_speeds{};
+  bool touched = false;  // registers were written since the last tick
 
   bool operator==(const State&) const = default;
 };
+
+/// Pulses a revolution. A half of a 32-bit register may have been written alone, so it can hold anything: 0
+/// would divide by zero.
+std::uint32_t resolution_of(const State& state, int axis);
 
 /// Everything that a position move needs, latched when it starts (appendix A).
 struct MoveParameters {
@@ -69,6 +87,7 @@ struct MoveParameters {
   std::uint32_t speed_rpm = 0;
   std::uint32_t acceleration_10ms = 0;
   std::uint32_t deceleration_10ms = 0;
+  bool of_the_axis = false;  // the speed and times are those of its registers at 0x1002, 0x1008
 };
 
 class Simple2R3 final : public Device {
@@ -78,7 +97,10 @@ class Simple2R3 final : public Device {
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
   void register_written(const RegisterRow& row, std::size_t slot) override;
-  void registers_written() override { state_.touched = true; }
+  void registers_written() override {
+    state_.touched = true;
+    was_saving_.reset();
+  }
 
   bool keeps(const RegisterRow& row) const override;
   std::span<const std::uint32_t> kept_image() const override { return state_.eeprom.kept(); }
@@ -106,7 +128,10 @@ class Simple2R3 final : public Device {
   // --- for effects.cpp ---------------------------------------------------------------------
   State& state() { return state_; }
   const State& state() const { return state_; }
+  bool chose(const Option& option) const { return choice(option.choice) == option.number; }
 
+  /// Whether the register at `assignment_slot` (0x0A00 to 0x0A0D) gives its pin a function.
+  bool assigned(std::size_t assignment_slot) const;
   bool alarm(int axis) const;
   bool ready(int axis) const;
   bool upper_limit(int axis) const;
@@ -114,6 +139,8 @@ class Simple2R3 final : public Device {
   bool alarm_clear(int axis) const;
   /// The level really on DOUT `number`, special functions included.
   bool output_level(int number) const;
+  /// For each bit that is set in `which`, DOUT n is written the level of bit n.
+  void write_outputs(std::uint8_t which, std::uint8_t levels);
 
   /// Appendix A. Dropped while the servo is off, an alarm lasts or a limit blocks that way.
   void start_move(int axis, Command command, const MoveParameters& move);
@@ -125,6 +152,13 @@ class Simple2R3 final : public Device {
   void follow_encoder(int axis);
   void stop(int axis);
   void switch_servo(int axis, bool on);
+  /// Speed, AccTime or DecTime of the axis were written.
+  void speed_changed(int axis);
+  void preset_coordinate(int axis, std::int32_t pulses);
+  void clear_alarm(int axis);
+  /// A command that is not a write to DirectmRPM or DirectPWM, as these show it.
+  void show_velocity(int axis, std::int32_t milli_rpm);
+  void show_pwm(int axis, std::uint8_t percent);
   void reset_to_factory();
   void erase_program();
   /// Compares PWD_Input with the password.
@@ -134,6 +168,8 @@ class Simple2R3 final : public Device {
   bool unlocked() const;
   void start_program(std::uint8_t line);
   void stop_program();
+  /// The clock of the timers, in their unit.
+  Tick timer_time() const { return now() / timer_unit_; }
   /// The image's cells have changed all at once.
   void reload_program();
   const interpreter::simple2::Dialect& dialect() const { return dialect_; }
@@ -142,6 +178,8 @@ class Simple2R3 final : public Device {
   void power_up() override;
   void power_down() override;
   void put_kept(std::size_t slot, std::uint32_t bits) override { state_.eeprom.put(slot, bits); }
+  void write_own_state(StateWriter& writer) const override;
+  std::function<void()> read_own_state(StateReader& reader) override;
 
  private:
   /// DIP1 is number 0.
@@ -151,6 +189,7 @@ class Simple2R3 final : public Device {
   Eeprom factory_memory() const;
   /// A new state that has only the memory, and the encoders' counts.
   void blank_state();
+  std::uint32_t factory_bits(const RegisterRow& row) const;
   /// An input's level, if the register at `assignment_slot` gives it its special function.
   bool assigned_input(std::size_t assignment_slot, int number) const;
   /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").
@@ -159,12 +198,34 @@ class Simple2R3 final : public Device {
   /// Appendix A and the 100 kHz limit: the law of a position move.
   motion::SpeedLaw law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                           std::uint32_t deceleration_10ms) const;
+  bool is_too_fast(int axis, std::int64_t milli_rpm) const;
+  /// Where commands need Ready, and it is not there.
+  bool lacks_ready(int axis) const;
+  /// A position move or homing is in progress.
+  bool is_positioning(int axis) const;
+  /// The tick that a motion commanded now counts as the last one before it.
+  Tick tick_before_motion() const { return chose(kMoveBeginsOneTickIn) ? now() - 1 : now(); }
   bool starts_by_itself() const;
+  void run_program(Tick tick);
+  void program_has_ended();
   motion::Signals signals_of(int axis) const;
   /// Gives the motor its signals as they are now, before a command that they may forbid.
   void refresh_signals(int axis);
 
-  interpreter::simple2::Dialect dialect_;  // from firmware and choices: no state
+  // From firmware and choices, for what is asked for often: no state.
+  interpreter::simple2::Dialect dialect_;
+  Tick timer_unit_ = 1;
+  bool assigned_at_power_up_ = false;
+  bool adc_10_bits_ = false;
+  bool motion_first_ = false;
+  bool limits_physical_ = false;
+  bool alarm_latches_ = false;
+  bool alarm_takes_servo_ = false;
+  bool coordinate_saturates_ = false;
+  std::uint32_t velocity_unit_urpm_ = 1;  // of VelMode_ACC, in each 0.5 ms
+  bool velocity_pulses_first_ = false;
+
+  std::optional<bool> was_saving_;  // within one request: whether the EEPROM was writing when it came
   State state_;
 };
 

@@ -3,14 +3,11 @@
 #include <algorithm>
 
 #include "emulator/devices/simple2_r3/axis_slots.h"
-#include "emulator/devices/simple2_r3/choices.h"
 #include "emulator/devices/simple2_r3/device.h"
 
 namespace understudy::emulator::simple2_r3 {
 
 namespace {
-
-constexpr Tick kAlarmClearTicks = 200;  // 0x1017, 0x1018
 
 Simple2R3& self(Device& device) { return static_cast<Simple2R3&>(device); }
 const Simple2R3& self(const Device& device) { return static_cast<const Simple2R3&>(device); }
@@ -33,7 +30,31 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
   return {.distance_pulses = static_cast<std::int32_t>(image[slots.pulse]),
           .speed_rpm = image[slots.speed],
           .acceleration_10ms = image[slots.acc_time],
-          .deceleration_10ms = image[slots.dec_time]};
+          .deceleration_10ms = image[slots.dec_time],
+          .of_the_axis = true};
+}
+
+/// Only a choice has a set appear in the axis's registers.
+void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
+  if (!device.chose(kSetMoveCopied)) return;
+  auto& image = device.state().image;
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  image[slots.pulse] = static_cast<std::uint32_t>(set.distance_pulses);
+  image[slots.speed] = set.speed_rpm;
+  image[slots.acc_time] = set.acceleration_10ms;
+  image[slots.dec_time] = set.deceleration_10ms;
+}
+
+/// An axis's bit of STATUS: what the input means by its function, or, where it has none and a choice wants it
+/// so, the pin's level.
+bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slot, int input) {
+  if (device.assigned(assignment_slot) || !device.chose(kStatusShowsPin)) return by_function;
+  return ((device.state().inputs >> input) & 1) != 0;
+}
+
+/// A trigger that goes on, as it reads.
+Value while_in_progress(const Device& device, Cell cell, Command command) {
+  return axis_of(device, cell).command == command && !self(device).chose(kTriggersReadZero);
 }
 
 MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
@@ -65,23 +86,30 @@ Value read_status(const Device& device, Cell) {
   Value status = 0;
   for (int axis = 0; axis < 2; ++axis) {
     const AxisState& state = d.state().axes[static_cast<std::size_t>(axis)];
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+    const bool shows_moving = state.mode == Mode::position || !d.chose(kMovingInPositionOnly);
     const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
-    bit(0, d.alarm(axis));
-    bit(2, d.ready(axis));
-    bit(4, is_moving(state));
+    bit(0, shown(d, d.alarm(axis), slots.alarm_assigned, slots.alarm_input));
+    bit(2, shown(d, d.ready(axis), slots.ready_assigned, slots.ready_input));
+    bit(4, shows_moving && is_moving(state));
     bit(6, state.command == Command::homing);
     bit(8, state.homed);
     bit(10, state.motor.servo_on);
-    bit(12, d.upper_limit(axis));
-    bit(14, d.lower_limit(axis));
+    bit(12, shown(d, d.upper_limit(axis), slots.upper_assigned, slots.upper_input));
+    bit(14, shown(d, d.lower_limit(axis), slots.lower_assigned, slots.lower_input));
   }
   return status;
 }
 
-Value read_version(const Device& device, Cell) { return device.firmware(); }
+Value read_version(const Device& device, Cell) {
+  const Value version = device.firmware();
+  if (!self(device).chose(kVersionBcd)) return version;
+  return version / 100 << 8 | version / 10 % 10 << 4 | version % 10;
+}
 
 Value read_output(const Device& device, Cell cell) {
-  if (device.choice(kOutputReadBack) == 1) return (self(device).state().written_outputs >> cell.index) & 1;
+  if (self(device).chose(kOutputReadsWritten))
+    return (self(device).state().written_outputs >> cell.index) & 1;
   return self(device).output_level(cell.index);
 }
 
@@ -105,15 +133,15 @@ Value read_encoder(const Device& device, Cell cell) {
 Value read_coordinate(const Device& device, Cell cell) { return axis_of(device, cell).coordinate_pulses; }
 
 Value read_incremental_trigger(const Device& device, Cell cell) {
-  return axis_of(device, cell).command == Command::incremental;
+  return while_in_progress(device, cell, Command::incremental);
 }
 
 Value read_absolute_trigger(const Device& device, Cell cell) {
-  return axis_of(device, cell).command == Command::absolute;
+  return while_in_progress(device, cell, Command::absolute);
 }
 
 Value read_homing_trigger(const Device& device, Cell cell) {
-  return axis_of(device, cell).command == Command::homing;
+  return while_in_progress(device, cell, Command::homing);
 }
 
 Value read_mode(const Device& device, Cell cell) { return static_cast<Value>(axis_of(device, cell).mode); }
@@ -122,15 +150,20 @@ Value read_encoder_speed(const Device& device, Cell cell) {
   const auto& image = self(device).state().image;
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(cell.argument)];
   const std::uint32_t resolution = std::max(image[slots.encoder_resolution], 1U);
-  return encoder_rpm(axis_of(device, cell), device.now(), resolution, image[slots.encoder_polarity] != 0);
+  const Tick window = self(device).chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow;
+  return encoder_rpm(axis_of(device, cell), device.now(), window, resolution,
+                     image[slots.encoder_polarity] != 0);
 }
 
-Value read_now_line(const Device& device, Cell) { return self(device).state().execution.now_line; }
+Value read_now_line(const Device& device, Cell) {
+  const auto& execution = self(device).state().execution;
+  return execution.running || !self(device).chose(kLineZeroAfterEnd) ? execution.now_line : 0;
+}
 
 Value read_program_runs(const Device& device, Cell) { return self(device).state().execution.running; }
 
 Value read_timer(const Device& device, Cell cell) {
-  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(device.now());
+  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(self(device).timer_time());
 }
 
 Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
@@ -144,9 +177,13 @@ Value read_adc(const Device& device, Cell cell) {
 Value read_analog(const Device& device, Cell cell) {
   const auto& image = self(device).state().image;
   const auto i = static_cast<std::size_t>(cell.argument);
+  const Value at_10v = image[slot("ADC_10V_A") + i];
+  if (self(device).chose(kAnalogThroughZero)) {
+    return at_10v == 0 ? 0 : std::clamp<Value>(read_adc(device, cell) * 2000 / at_10v, 0, 65535);
+  }
   // The line through the two points of the calibration: 200 at 1 V, 2000 at 10 V.
   const Value at_1v = image[slot("ADC_1V_A") + i];
-  const Value span = static_cast<Value>(image[slot("ADC_10V_A") + i]) - at_1v;
+  const Value span = at_10v - at_1v;
   if (span == 0) return 0;
   return std::clamp<Value>(200 + (read_adc(device, cell) - at_1v) * 1800 / span, 0, 65535);
 }
@@ -162,19 +199,17 @@ Value read_unlocked(const Device& device, Cell) { return self(device).unlocked()
 
 Value read_password(const Device& device, Cell) {
   const Simple2R3& d = self(device);
-  return d.unlocked() ? d.state().password : 0;
+  return d.unlocked() && !d.chose(kPasswordReadsZero) ? d.state().password : 0;
 }
 
 Value read_zero(const Device&, Cell) { return 0; }
 
 void write_output(Device& device, Cell cell, Value level) {
-  std::uint8_t& outputs = self(device).state().written_outputs;
-  const auto bit = static_cast<std::uint8_t>(1U << cell.index);
-  outputs = static_cast<std::uint8_t>(level != 0 ? outputs | bit : outputs & ~bit);
+  self(device).write_outputs(static_cast<std::uint8_t>(1U << cell.index), level != 0 ? 0x7F : 0);
 }
 
 void write_all_outputs(Device& device, Cell, Value levels) {
-  self(device).state().written_outputs = static_cast<std::uint8_t>(levels);
+  self(device).write_outputs(0x7F, static_cast<std::uint8_t>(levels));
 }
 
 void preset_encoder(Device& device, Cell cell, Value counts) {
@@ -183,9 +218,10 @@ void preset_encoder(Device& device, Cell cell, Value counts) {
 }
 
 void preset_coordinate(Device& device, Cell cell, Value pulses) {
-  self(device).state().axes[static_cast<std::size_t>(cell.argument)].coordinate_pulses =
-      static_cast<std::int32_t>(pulses);
+  self(device).preset_coordinate(cell.argument, static_cast<std::int32_t>(pulses));
 }
+
+void change_speed(Device& device, Cell cell, Value) { self(device).speed_changed(cell.argument); }
 
 void start_incremental(Device& device, Cell cell, Value) {
   Simple2R3& d = self(device);
@@ -201,13 +237,19 @@ void start_absolute(Device& device, Cell cell, Value) {
 
 void start_incremental_by_set(Device& device, Cell cell, Value set) {
   Simple2R3& d = self(device);
-  for_each_axis(cell, [&](int axis) { d.start_move(axis, Command::incremental, parameters_of_set(d, set)); });
+  const MoveParameters move = parameters_of_set(d, set);
+  for_each_axis(cell, [&](int axis) {
+    show_set(d, axis, move);
+    d.start_move(axis, Command::incremental, move);
+  });
 }
 
 void start_absolute_by_set(Device& device, Cell cell, Value set) {
   Simple2R3& d = self(device);
+  const MoveParameters move = parameters_of_set(d, set);
   for_each_axis(cell, [&](int axis) {
-    d.start_move(axis, Command::absolute, from_here(d, axis, parameters_of_set(d, set)));
+    show_set(d, axis, move);
+    d.start_move(axis, Command::absolute, from_here(d, axis, move));
   });
 }
 
@@ -220,11 +262,7 @@ void switch_servo(Device& device, Cell cell, Value on) {
 }
 
 void clear_alarm(Device& device, Cell cell, Value) {
-  Simple2R3& d = self(device);
-  for_each_axis(cell, [&](int axis) {
-    if (d.alarm_clear(axis) && d.choice(kAclrAgain) == 1) return;
-    d.state().axes[static_cast<std::size_t>(axis)].alarm_clear_until = d.now() + 1 + kAlarmClearTicks;
-  });
+  for_each_axis(cell, [&](int axis) { self(device).clear_alarm(axis); });
 }
 
 void go_home(Device& device, Cell cell, Value) {
@@ -233,15 +271,15 @@ void go_home(Device& device, Cell cell, Value) {
 
 void run_velocity(Device& device, Cell cell, Value milli_rpm) {
   // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
-  if (!cell.high_half && device.choice(kVelocityCommit) == 0) return;
+  if (!cell.high_half && !self(device).chose(kVelocityByLowWord)) return;
   self(device).run_velocity(cell.argument, milli_rpm);
 }
 
 void run_velocity_by_set(Device& device, Cell cell, Value set) {
-  auto& image = self(device).state().image;
+  const auto& image = self(device).state().image;
   const std::uint32_t milli_rpm = image[slot("Parms_mRPM{}") + static_cast<std::size_t>(set - 1)];
   for_each_axis(cell, [&](int axis) {
-    image[kAxisSlots[static_cast<std::size_t>(axis)].velocity] = milli_rpm;
+    self(device).show_velocity(axis, static_cast<std::int32_t>(milli_rpm));
     self(device).run_velocity(axis, static_cast<std::int32_t>(milli_rpm));
   });
 }
@@ -256,10 +294,11 @@ void follow_encoder(Device& device, Cell cell, Value) {
 
 void preset_timer(Device& device, Cell cell, Value value) {
   self(device).state().timers[static_cast<std::size_t>(cell.argument)].set(static_cast<std::uint32_t>(value),
-                                                                           device.now());
+                                                                           self(device).timer_time());
 }
 
 void start_program(Device& device, Cell, Value line) {
+  if (!self(device).unlocked() && self(device).chose(kLockedStartIgnored)) return;
   self(device).start_program(static_cast<std::uint8_t>(line));
 }
 
@@ -268,7 +307,7 @@ void stop_program(Device& device, Cell, Value) { self(device).stop_program(); }
 void write_cell(Device& device, Cell cell, Value value) {
   Simple2R3& d = self(device);
   const int number = 4 * cell.index + cell.argument;
-  if (!d.unlocked() && d.choice(kLockedWrites) == 1) {
+  if (!d.unlocked() && d.chose(kLockedWritesIgnored)) {
     d.state().image[cell_slot(cell)] = d.state().program.cell(number);
     return;
   }
@@ -282,7 +321,7 @@ void change_password(Device& device, Cell, Value password) {
 }
 
 void erase_program(Device& device, Cell, Value) {
-  if (!self(device).unlocked() && device.choice(kLockedWrites) == 1) return;
+  if (!self(device).unlocked() && self(device).chose(kLockedWritesIgnored)) return;
   self(device).erase_program();
 }
 

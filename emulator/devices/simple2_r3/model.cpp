@@ -58,6 +58,15 @@ constexpr AxisRow axis_row(std::string_view name, const AxisSlots& slots) {
 }
 constexpr std::array<AxisRow, 2> kAxes{axis_row("A", kAxisSlots[kAxisA]), axis_row("B", kAxisSlots[kAxisB])};
 
+constexpr std::array<std::string_view, 8> kStateRegisters{"STATUS",
+                                                          "Aaxis_Mode",
+                                                          "Baxis_Mode",
+                                                          "Cord_A",
+                                                          "Cord_B",
+                                                          "PROG_MAIN_RunTime_Status",
+                                                          "PROG_MAIN_NowLine",
+                                                          "EEPROM_Writing"};
+
 std::vector<InstructionRow> instruction_rows() {
   std::vector<InstructionRow> rows;
   for (const auto& instruction : interpreter::simple2::kInstructions) {
@@ -84,6 +93,7 @@ const Model& model() {
       .choices = kChoices,
       .terminals = kTerminals,
       .axes = kAxes,
+      .state_registers = kStateRegisters,
       .gaps = {},
       .rtu = {.bauds = kBauds,
               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},

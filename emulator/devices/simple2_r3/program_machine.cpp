@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "emulator/devices/simple2_r3/axis_slots.h"
-#include "emulator/devices/simple2_r3/choices.h"
 #include "emulator/devices/simple2_r3/model.h"
 #include "emulator/register_map/access.h"
 
@@ -35,12 +34,27 @@ const std::vector<NamedPlace>& parameter_places() {
   return places;
 }
 
-MoveParameters parameters_for(const State& state, std::size_t axis, std::int64_t distance_pulses) {
+MoveParameters parameters_for(const Simple2R3& device, std::size_t axis, std::int64_t distance_pulses) {
+  if (device.chose(kProgramSpeedOfItsOwn)) {
+    const ProgramSpeed& own = device.state().program_speeds[axis];
+    return {.distance_pulses = distance_pulses,
+            .speed_rpm = own.speed_rpm,
+            .acceleration_10ms = own.acceleration_10ms,
+            .deceleration_10ms = own.deceleration_10ms};
+  }
+  const auto& image = device.state().image;
   const AxisSlots& slots = kAxisSlots[axis];
   return {.distance_pulses = distance_pulses,
-          .speed_rpm = state.image[slots.speed],
-          .acceleration_10ms = state.image[slots.acc_time],
-          .deceleration_10ms = state.image[slots.dec_time]};
+          .speed_rpm = image[slots.speed],
+          .acceleration_10ms = image[slots.acc_time],
+          .deceleration_10ms = image[slots.dec_time],
+          .of_the_axis = true};
+}
+
+/// Only a choice has a program's move appear in the axis's register.
+void show_pulse(Simple2R3& device, std::size_t axis, std::int32_t pulses) {
+  if (!device.chose(kProgramPulseShown)) return;
+  device.state().image[kAxisSlots[axis].pulse] = static_cast<std::uint32_t>(pulses);
 }
 
 }  // namespace
@@ -50,8 +64,7 @@ bool ProgramMachine::input(int din) const { return ((device_.state().inputs >> d
 bool ProgramMachine::status_bit(int bit) const { return ((read_status(device_, {}) >> bit) & 1) != 0; }
 
 void ProgramMachine::set_outputs(std::uint8_t which, std::uint8_t levels) {
-  std::uint8_t& outputs = device_.state().written_outputs;
-  outputs = static_cast<std::uint8_t>((outputs & ~which) | (levels & which));
+  device_.write_outputs(which, levels);
 }
 
 std::int32_t ProgramMachine::parameter(int number) const {
@@ -68,6 +81,9 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
   Value wanted = value;
   if (row.type == Type::u32 && row.min == 0) {
     wanted = static_cast<std::uint32_t>(value);
+  } else if (row.ranged && row.type == Type::u16) {
+    wanted = interpreter::simple2::fitted(device_.dialect(), value, static_cast<std::int32_t>(row.min),
+                                          static_cast<std::int32_t>(row.max));
   } else if (row.ranged) {
     wanted = std::clamp<Value>(value, row.min, row.max);
   }
@@ -75,20 +91,20 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
 }
 
 void ProgramMachine::run_timer(int timer, bool run) {
-  device_.state().timers[static_cast<std::size_t>(timer - 1)].run(run, device_.now());
+  device_.state().timers[static_cast<std::size_t>(timer - 1)].run(run, device_.timer_time());
 }
 
 void ProgramMachine::move_incremental(Axis axis, std::int32_t pulses) {
   const std::size_t number = number_of(axis);
-  device_.start_move(static_cast<int>(number), Command::incremental,
-                     parameters_for(device_.state(), number, pulses));
+  show_pulse(device_, number, pulses);
+  device_.start_move(static_cast<int>(number), Command::incremental, parameters_for(device_, number, pulses));
 }
 
 void ProgramMachine::move_absolute(Axis axis, std::int32_t pulses) {
   const std::size_t number = number_of(axis);
   const std::int64_t distance = std::int64_t{pulses} - device_.state().axes[number].coordinate_pulses;
-  device_.start_move(static_cast<int>(number), Command::absolute,
-                     parameters_for(device_.state(), number, distance));
+  show_pulse(device_, number, pulses);
+  device_.start_move(static_cast<int>(number), Command::absolute, parameters_for(device_, number, distance));
 }
 
 void ProgramMachine::go_home(Axis axis) { device_.go_home(static_cast<int>(number_of(axis))); }
@@ -98,13 +114,28 @@ bool ProgramMachine::moving(Axis axis) const {
 }
 
 void ProgramMachine::set_speed(Axis axis, std::int32_t rpm) {
-  device_.state().image[kAxisSlots[number_of(axis)].speed] = static_cast<std::uint32_t>(rpm);
+  const std::size_t number = number_of(axis);
+  const auto speed_rpm = static_cast<std::uint32_t>(rpm);
+  if (device_.chose(kProgramSpeedOfItsOwn)) {
+    device_.state().program_speeds[number].speed_rpm = speed_rpm;
+    return;
+  }
+  device_.state().image[kAxisSlots[number].speed] = speed_rpm;
+  device_.speed_changed(static_cast<int>(number));
 }
 
 void ProgramMachine::set_ramps(Axis axis, std::int32_t acceleration_10ms, std::int32_t deceleration_10ms) {
-  const AxisSlots& slots = kAxisSlots[number_of(axis)];
-  device_.state().image[slots.acc_time] = static_cast<std::uint32_t>(acceleration_10ms);
-  device_.state().image[slots.dec_time] = static_cast<std::uint32_t>(deceleration_10ms);
+  const std::size_t number = number_of(axis);
+  const auto up_10ms = static_cast<std::uint32_t>(acceleration_10ms);
+  const auto down_10ms = static_cast<std::uint32_t>(deceleration_10ms);
+  if (device_.chose(kProgramSpeedOfItsOwn)) {
+    device_.state().program_speeds[number].acceleration_10ms = up_10ms;
+    device_.state().program_speeds[number].deceleration_10ms = down_10ms;
+    return;
+  }
+  device_.state().image[kAxisSlots[number].acc_time] = up_10ms;
+  device_.state().image[kAxisSlots[number].dec_time] = down_10ms;
+  device_.speed_changed(static_cast<int>(number));
 }
 
 void ProgramMachine::stop(Axis axis) { device_.stop(static_cast<int>(number_of(axis))); }
@@ -114,12 +145,12 @@ void ProgramMachine::switch_servo(Axis axis, bool on) {
 }
 
 void ProgramMachine::run_velocity(Axis axis, std::int32_t milli_rpm) {
-  device_.state().image[kAxisSlots[number_of(axis)].velocity] = static_cast<std::uint32_t>(milli_rpm);
+  device_.show_velocity(static_cast<int>(number_of(axis)), milli_rpm);
   device_.run_velocity(static_cast<int>(number_of(axis)), milli_rpm);
 }
 
 void ProgramMachine::output_pwm(Axis axis, std::int32_t percent) {
-  device_.state().image[kAxisSlots[number_of(axis)].pwm] = static_cast<std::uint32_t>(percent);
+  device_.show_pwm(static_cast<int>(number_of(axis)), static_cast<std::uint8_t>(percent));
   device_.output_pwm(static_cast<int>(number_of(axis)), static_cast<std::uint8_t>(percent));
 }
 
@@ -127,13 +158,24 @@ void ProgramMachine::follow_encoder(Axis axis) { device_.follow_encoder(static_c
 
 Dialect dialect_of(const Simple2R3& device) {
   Dialect dialect = interpreter::simple2::dialect_of_firmware(device.firmware());
-  if (device.choice(kWaitMoveB139) == 1) dialect.quirk_wait_move_b_is_move_inc_b_wait = false;
-  dialect.loop_count = static_cast<Dialect::LoopCount>(device.choice(kLoopCount));
-  dialect.loop_left = static_cast<Dialect::LoopLeft>(device.choice(kLoopLeft));
-  dialect.loop_nesting = static_cast<Dialect::LoopNesting>(device.choice(kLoopNesting));
-  dialect.unknown_command = static_cast<Dialect::UnknownCommand>(device.choice(kUnknownCommand));
-  dialect.after_last_line = static_cast<Dialect::AfterLastLine>(device.choice(kAfterLastLine));
-  dialect.delay_counts = static_cast<Dialect::DelayCounts>(device.choice(kDelayCounts));
+  const auto take = [&](const Option& option, auto& field, auto value) {
+    if (device.chose(option)) field = value;
+  };
+  take(kWaitMoveBWaits, dialect.quirk_wait_move_b_is_move_inc_b_wait, false);
+  take(kLoopFurtherPasses, dialect.loop_count, Dialect::LoopCount::further_passes);
+  take(kLoopRemembered, dialect.loop_left, Dialect::LoopLeft::remembered);
+  take(kLoopNestingAtStart, dialect.loop_nesting, Dialect::LoopNesting::when_outer_starts);
+  take(kUnknownCommandEnds, dialect.unknown_command, Dialect::UnknownCommand::ends);
+  take(kUndefinedOperandEnds, dialect.undefined_operand, Dialect::UndefinedOperand::ends);
+  take(kUndefinedParameterEnds, dialect.undefined_parameter, Dialect::UndefinedParameter::ends);
+  take(kLow16Bits, dialect.value_out_of_range, Dialect::ValueOutOfRange::low_16_bits);
+  take(kGoesOnAt0, dialect.after_last_line, Dialect::AfterLastLine::goes_on_at_0);
+  take(kDelayBeforeNextSlot, dialect.delay_counts, Dialect::DelayCounts::before_next_slot);
+  take(kWaitSharesItsSlot, dialect.wait_slot, Dialect::WaitSlot::next_line_runs_in_it);
+  take(kTimer1AlwaysJumps, dialect.timer1_defect, Dialect::Timer1Defect::always_jumps);
+  take(kArithmeticSaturates, dialect.overflow, Dialect::Overflow::saturates);
+  take(kDivisionDownwards, dialect.division, Dialect::Division::downwards);
+  take(kCountersSaturate, dialect.counter_overflow, Dialect::CounterOverflow::saturates);
   return dialect;
 }
 

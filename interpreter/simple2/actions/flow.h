@@ -1,8 +1,6 @@
 // Instructions that decide which line comes next: jumps, loops, delays, waits for an input.
 #pragma once
 
-#include <algorithm>
-
 #include "interpreter/simple2/actions/step.h"
 
 namespace understudy::interpreter::simple2 {
@@ -13,15 +11,12 @@ inline Then jump(Step&) { return Then::flag; }
 
 // --- inputs and STATUS ---------------------------------------------------------------------------
 
-inline constexpr int kInputCount = 11;
-inline constexpr int kStatusBitCount = 16;
-
 /// An input that does not exist is OFF, a bit that does not exist 0.
 inline bool input(const Machine& machine, std::uint8_t din) {
-  return din < kInputCount && machine.input(din);
+  return is_defined(Operand::input, din) && machine.input(din);
 }
 inline bool status_bit(const Machine& machine, std::uint8_t bit) {
-  return bit < kStatusBitCount && machine.status_bit(bit);
+  return is_defined(Operand::status_bit, bit) && machine.status_bit(bit);
 }
 
 inline bool wait_io_is_over(const Line& line, const Machine& machine) {
@@ -54,7 +49,9 @@ inline Then delay(Step& step, std::int64_t amount_ms) {
 inline std::int32_t amount(const Line& line) { return line.data1 | line.data2 << 8; }
 
 inline Then delay_direct(Step& step) { return delay(step, amount(step.line)); }
-inline Then delay_parameter(Step& step) { return delay(step, std::clamp(step.first_parameter(), 0, 65535)); }
+inline Then delay_parameter(Step& step) {
+  return delay(step, fitted(step.dialect, step.first_parameter(), 0, 65535));
+}
 
 // --- Loop ----------------------------------------------------------------------------------------
 

@@ -15,60 +15,60 @@ constexpr bool has(Axes axes, Axis axis) {
 
 // --- orders to one axis --------------------------------------------------------------------------
 
-inline void home(Machine& machine, Axis axis) { machine.go_home(axis); }
-inline void servo_on(Machine& machine, Axis axis) { machine.switch_servo(axis, true); }
-inline void servo_off(Machine& machine, Axis axis) { machine.switch_servo(axis, false); }
-inline void stop_axis(Machine& machine, Axis axis) { machine.stop(axis); }
-inline void follow(Machine& machine, Axis axis) { machine.follow_encoder(axis); }
+inline void home(Step& step, Axis axis) { step.machine.go_home(axis); }
+inline void servo_on(Step& step, Axis axis) { step.machine.switch_servo(axis, true); }
+inline void servo_off(Step& step, Axis axis) { step.machine.switch_servo(axis, false); }
+inline void stop_axis(Step& step, Axis axis) { step.machine.stop(axis); }
+inline void follow(Step& step, Axis axis) { step.machine.follow_encoder(axis); }
 
-inline void move_by(Machine& machine, Axis axis, std::int32_t pulses) {
-  machine.move_incremental(axis, pulses);
+inline void move_by(Step& step, Axis axis, std::int32_t pulses) {
+  step.machine.move_incremental(axis, pulses);
 }
-inline void move_to(Machine& machine, Axis axis, std::int32_t pulses) { machine.move_absolute(axis, pulses); }
-inline void speed(Machine& machine, Axis axis, std::int32_t rpm) {
-  machine.set_speed(axis, std::clamp(rpm, 0, 32768));
+inline void move_to(Step& step, Axis axis, std::int32_t pulses) { step.machine.move_absolute(axis, pulses); }
+inline void speed(Step& step, Axis axis, std::int32_t rpm) {
+  step.machine.set_speed(axis, fitted(step.dialect, rpm, 0, 32768));
 }
-inline void coordinate(Machine& machine, Axis axis, std::int32_t pulses) {
-  machine.set_parameter(axis == Axis::a ? kCordA : kCordB, pulses);
+inline void coordinate(Step& step, Axis axis, std::int32_t pulses) {
+  step.machine.set_parameter(axis == Axis::a ? kCordA : kCordB, pulses);
 }
-inline void coordinate_zero(Machine& machine, Axis axis) { coordinate(machine, axis, 0); }
-inline void pwm(Machine& machine, Axis axis, std::int32_t percent) {
-  machine.output_pwm(axis, std::clamp(percent, 0, 100));
+inline void coordinate_zero(Step& step, Axis axis) { coordinate(step, axis, 0); }
+inline void pwm(Step& step, Axis axis, std::int32_t percent) {
+  step.machine.output_pwm(axis, fitted(step.dialect, percent, 0, 100));
 }
-inline void velocity_mrpm(Machine& machine, Axis axis, std::int32_t milli_rpm) {
-  machine.run_velocity(axis, milli_rpm);
+inline void velocity_mrpm(Step& step, Axis axis, std::int32_t milli_rpm) {
+  step.machine.run_velocity(axis, milli_rpm);
 }
-inline void velocity_rpm(Machine& machine, Axis axis, std::int32_t rpm) {
+inline void velocity_rpm(Step& step, Axis axis, std::int32_t rpm) {
   const std::int64_t milli_rpm = std::int64_t{rpm} * 1000;
-  machine.run_velocity(axis,
-                       static_cast<std::int32_t>(std::clamp<std::int64_t>(milli_rpm, INT32_MIN, INT32_MAX)));
+  step.machine.run_velocity(
+      axis, static_cast<std::int32_t>(std::clamp<std::int64_t>(milli_rpm, INT32_MIN, INT32_MAX)));
 }
 
 // --- lines that give them ------------------------------------------------------------------------
 
-template <Axes axes, void (*order)(Machine&, Axis)>
+template <Axes axes, void (*order)(Step&, Axis)>
 Then to_axes(Step& step) {
-  if (has(axes, Axis::a)) order(step.machine, Axis::a);
-  if (has(axes, Axis::b)) order(step.machine, Axis::b);
+  if (has(axes, Axis::a)) order(step, Axis::a);
+  if (has(axes, Axis::b)) order(step, Axis::b);
   return Then::next_line;
 }
 
 /// One axis takes the parameter in DATA1; with both, A takes DATA1 and B DATA2. Both are read before either
 /// acts.
-template <Axes axes, void (*order)(Machine&, Axis, std::int32_t)>
+template <Axes axes, void (*order)(Step&, Axis, std::int32_t)>
 Then to_axes(Step& step) {
   const std::int32_t first = step.first_parameter();
   const std::int32_t last = axes == Axes::all ? step.second_parameter() : first;
-  if (has(axes, Axis::a)) order(step.machine, Axis::a, first);
-  if (has(axes, Axis::b)) order(step.machine, Axis::b, last);
+  if (has(axes, Axis::a)) order(step, Axis::a, first);
+  if (has(axes, Axis::b)) order(step, Axis::b, last);
   return Then::next_line;
 }
 
 /// DATA1 is the acceleration, DATA2 the deceleration; with both axes, they share them.
 template <Axes axes>
 Then ramps(Step& step) {
-  const std::int32_t up_10ms = std::clamp(step.first_parameter(), 0, 3000);
-  const std::int32_t down_10ms = std::clamp(step.second_parameter(), 0, 3000);
+  const std::int32_t up_10ms = fitted(step.dialect, step.first_parameter(), 0, 3000);
+  const std::int32_t down_10ms = fitted(step.dialect, step.second_parameter(), 0, 3000);
   if (has(axes, Axis::a)) step.machine.set_ramps(Axis::a, up_10ms, down_10ms);
   if (has(axes, Axis::b)) step.machine.set_ramps(Axis::b, up_10ms, down_10ms);
   return Then::next_line;
@@ -76,13 +76,13 @@ Then ramps(Step& step) {
 
 template <Axis axis>
 Then pwm_direct(Step& step) {
-  pwm(step.machine, axis, step.line.data1);
+  pwm(step, axis, step.line.data1);
   return Then::next_line;
 }
 
 template <Axis axis>
 Then velocity_rpm_direct(Step& step) {
-  velocity_rpm(step.machine, axis, static_cast<std::int16_t>(amount(step.line)));
+  velocity_rpm(step, axis, static_cast<std::int16_t>(amount(step.line)));
   return Then::next_line;
 }
 

@@ -1,6 +1,8 @@
-// Instructions that calculate and compare. 32-bit two's complement that wraps; a quotient goes towards zero,
-// a remainder has the dividend's sign, and a division by zero gives 0.
+// Instructions that calculate and compare, in 32 bits with a sign. What a result beyond them becomes, and how
+// a quotient is rounded, is the dialect's; a division by zero gives 0.
 #pragma once
+
+#include <algorithm>
 
 #include "interpreter/simple2/actions/step.h"
 
@@ -9,20 +11,33 @@ namespace understudy::interpreter::simple2 {
 using Number = std::int32_t;
 
 /// 64 bits hold every result of two 32-bit numbers, INT32_MIN / -1 included.
-constexpr Number wrapped(std::int64_t value) {
-  return static_cast<Number>(static_cast<std::uint64_t>(value));
+using Result = std::int64_t;
+
+/// What 32 bits keep of a result.
+constexpr Number kept(const Dialect& dialect, Result result) {
+  if (dialect.overflow == Dialect::Overflow::saturates) {
+    return static_cast<Number>(std::clamp<Result>(result, INT32_MIN, INT32_MAX));
+  }
+  return static_cast<Number>(static_cast<std::uint64_t>(result));
 }
 
-constexpr Number sum(Number a, Number b) { return wrapped(std::int64_t{a} + b); }
-constexpr Number difference(Number a, Number b) { return wrapped(std::int64_t{a} - b); }
-constexpr Number product(Number a, Number b) { return wrapped(std::int64_t{a} * b); }
-constexpr Number quotient(Number a, Number b) { return b == 0 ? 0 : wrapped(std::int64_t{a} / b); }
-constexpr Number remainder(Number a, Number b) { return b == 0 ? 0 : wrapped(std::int64_t{a} % b); }
+constexpr Result sum(const Dialect&, Number a, Number b) { return Result{a} + b; }
+constexpr Result difference(const Dialect&, Number a, Number b) { return Result{a} - b; }
+constexpr Result product(const Dialect&, Number a, Number b) { return Result{a} * b; }
+constexpr Result quotient(const Dialect& dialect, Number a, Number b) {
+  if (b == 0) return 0;
+  const bool has_fraction_below_zero = Result{a} % b != 0 && (a < 0) != (b < 0);
+  const bool down = has_fraction_below_zero && dialect.division == Dialect::Division::downwards;
+  return Result{a} / b - (down ? 1 : 0);
+}
+constexpr Result remainder(const Dialect& dialect, Number a, Number b) {
+  return b == 0 ? 0 : a - quotient(dialect, a, b) * b;
+}
 
-constexpr Number same(Number a) { return a; }
-constexpr Number one_more(Number a) { return sum(a, 1); }
-constexpr Number one_less(Number a) { return difference(a, 1); }
-constexpr Number negative(Number a) { return difference(0, a); }
+constexpr Result same(Number a) { return a; }
+constexpr Result one_more(Number a) { return Result{a} + 1; }
+constexpr Result one_less(Number a) { return Result{a} - 1; }
+constexpr Result negative(Number a) { return -Result{a}; }
 
 constexpr bool equal(Number a, Number b) { return a == b; }
 constexpr bool greater(Number a, Number b) { return a > b; }
@@ -33,23 +48,24 @@ using SecondOperand = Number (*)(const Step&);
 inline Number from_parameter(const Step& step) { return step.second_parameter(); }
 inline Number from_line(const Step& step) { return static_cast<std::int8_t>(step.line.data2); }
 
-template <Number (*operation)(Number, Number), SecondOperand second>
+template <Result (*operation)(const Dialect&, Number, Number), SecondOperand second>
 Then into_calc_register(Step& step) {
-  step.machine.set_parameter(kCalcRegister, operation(step.first_parameter(), second(step)));
+  const Result result = operation(step.dialect, step.first_parameter(), second(step));
+  step.machine.set_parameter(kCalcRegister, kept(step.dialect, result));
   return Then::next_line;
 }
 
 /// DATA1 becomes something made of itself.
-template <Number (*operation)(Number)>
+template <Result (*operation)(Number)>
 Then change(Step& step) {
-  step.machine.set_parameter(step.line.data1, operation(step.first_parameter()));
+  step.machine.set_parameter(step.line.data1, kept(step.dialect, operation(step.first_parameter())));
   return Then::next_line;
 }
 
 /// DATA2 becomes something made of DATA1.
-template <Number (*operation)(Number)>
+template <Result (*operation)(Number)>
 Then change_second(Step& step) {
-  step.machine.set_parameter(step.line.data2, operation(step.first_parameter()));
+  step.machine.set_parameter(step.line.data2, kept(step.dialect, operation(step.first_parameter())));
   return Then::next_line;
 }
 

@@ -1,19 +1,20 @@
 // Instructions for outputs, counters and timers.
 #pragma once
 
+#include <algorithm>
+
 #include "interpreter/simple2/actions/step.h"
 
 namespace understudy::interpreter::simple2 {
 
 // --- outputs -------------------------------------------------------------------------------------
 
-inline constexpr int kOutputCount = 7;
 inline constexpr std::uint8_t kAllOutputs = (1U << kOutputCount) - 1;
 
 constexpr std::uint8_t levels(std::uint8_t logic) { return logic != 0 ? kAllOutputs : 0; }
 
 inline Then out(Step& step) {
-  if (step.line.data1 >= kOutputCount) return Then::next_line;
+  if (!is_defined(Operand::output, step.line.data1)) return Then::next_line;
   step.machine.set_outputs(static_cast<std::uint8_t>(1U << step.line.data1), levels(step.line.data2));
   return Then::next_line;
 }
@@ -35,15 +36,13 @@ inline Then out_array_select(Step& step) {
 
 // --- counters ------------------------------------------------------------------------------------
 
-constexpr bool exists(std::uint8_t counter_or_timer) {
-  return counter_or_timer == 1 || counter_or_timer == 2;
-}
 constexpr int counter_parameter(int counter) { return kCounter1 + counter - 1; }
 
 inline Then set_counter(Step& step, std::int32_t value) {
-  if (exists(step.line.data1)) {
-    step.machine.set_parameter(counter_parameter(step.line.data1), static_cast<std::uint16_t>(value));
-  }
+  if (!is_defined(Operand::counter, step.line.data1)) return Then::next_line;
+  const bool saturates = step.dialect.counter_overflow == Dialect::CounterOverflow::saturates;
+  step.machine.set_parameter(counter_parameter(step.line.data1),
+                             saturates ? std::clamp(value, 0, 65535) : value & 0xFFFF);
   return Then::next_line;
 }
 
@@ -52,7 +51,7 @@ inline Then counter_value(Step& step) { return set_counter(step, step.second_par
 
 template <int change>
 Then counter_count(Step& step) {
-  if (!exists(step.line.data1)) return Then::next_line;
+  if (!is_defined(Operand::counter, step.line.data1)) return Then::next_line;
   const auto value = static_cast<std::uint16_t>(step.machine.parameter(counter_parameter(step.line.data1)));
   return set_counter(step, value + change);
 }
@@ -83,12 +82,13 @@ constexpr int timer_parameter(int timer) { return kTimer1 + timer - 1; }
 
 template <bool run>
 Then timer_run(Step& step) {
-  if (exists(step.line.data1)) step.machine.run_timer(step.line.data1, run);
+  if (is_defined(Operand::timer, step.line.data1)) step.machine.run_timer(step.line.data1, run);
   return Then::next_line;
 }
 
 inline Then set_timer(Step& step, std::int32_t value) {
-  if (exists(step.line.data1)) step.machine.set_parameter(timer_parameter(step.line.data1), value);
+  if (is_defined(Operand::timer, step.line.data1))
+    step.machine.set_parameter(timer_parameter(step.line.data1), value);
   return Then::next_line;
 }
 
@@ -98,7 +98,9 @@ inline Then timer_value(Step& step) { return set_timer(step, step.second_paramet
 /// Timers have 32 bits without a sign, and so has what they are compared with.
 template <int timer>
 Then jump_timer_reached(Step& step) {
-  if (timer == 1 && step.dialect.quirk_jump_timer1_never_jumps) return Then::next_line;
+  if (timer == 1 && step.dialect.quirk_jump_timer1_does_not_work) {
+    return jump_if(step.dialect.timer1_defect == Dialect::Timer1Defect::always_jumps);
+  }
   return jump_if(static_cast<std::uint32_t>(step.machine.parameter(timer_parameter(timer))) >=
                  static_cast<std::uint32_t>(step.second_parameter()));
 }

@@ -77,7 +77,8 @@ TEST(BenchErrors, TheFormatsVersion) {
 TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
   expect_complaints({
       {"understudy: 1\nline: {}\n",
-       "2: line: is no key here; expected one of understudy, lines, devices, plant, wires, inputs, faults (the nearest is "
+       "2: line: is no key here; expected one of understudy, lines, devices, plant, wires, inputs, faults "
+       "(the nearest is "
        "'lines')"},
       {"understudy: 1\nlines: {}\nlines: {}\n", "3: lines: is given twice; expected it once"},
       {"understudy: 1\nunderstudy: 1\n", "2: understudy: is given twice; expected it once"},
@@ -91,10 +92,12 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {with("set: { Aaxis_Speed: 1, Aaxis_Speed: 2 }"),
        "5: lines.a.stations[0].set.Aaxis_Speed: is given twice; expected it once"},
       {and_then("devices:\n  x2: { model: simple2-r3, address: 2 }\n"),
-       "7: devices.x2.address: is no key here; expected one of model, firmware, set, choices, dip, program, nv (the nearest is "
+       "7: devices.x2.address: is no key here; expected one of model, firmware, set, choices, dip, program, "
+       "nv (the nearest is "
        "'model')"},
       {and_then("plant:\n  x.A: { travels: [0, 1] }\n"),
-       "7: plant.x.A.travels: is no key here; expected one of travel, home, limits, encoder, drive (the nearest is "
+       "7: plant.x.A.travels: is no key here; expected one of travel, home, limits, encoder, drive (the "
+       "nearest is "
        "'travel')"},
       {and_then("plant:\n  x.A: {}\n  x.A: {}\n"), "8: plant.x.A: is given twice; expected it once"},
   });

@@ -26,7 +26,8 @@ struct TestFolder {
 };
 
 struct DaemonRig {
-  explicit DaemonRig(Speed speed = {.kind = Speed::Kind::manual})
+  /// `more` stands at the end of the bench.
+  explicit DaemonRig(Speed speed = {.kind = Speed::Kind::manual}, const std::string& more = "")
       : bench(parse_bench("understudy: 1\n"
                           "lines:\n"
                           "  rs485:\n"
@@ -34,7 +35,8 @@ struct DaemonRig {
                           "    stations:\n"
                           "      - { name: feeder, model: simple2-r3 }\n"
                           "      - { name: turner, model: simple2-r3, address: 2, firmware: 1.40 }\n"
-                          "wires: [ feeder.DOUT_4 -> turner.DIN_10 ]\n",
+                          "wires: [ feeder.DOUT_4 -> turner.DIN_10 ]\n" +
+                              more,
                           "bench.yaml", folder.path)),
         daemon(bench, options(speed), [this](const std::string& line) { log.push_back(line); }) {}
 

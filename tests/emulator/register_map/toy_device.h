@@ -58,6 +58,10 @@ class ToyDevice final : public Device {
   void power_up() override {}
   void power_down() override {}
   void put_kept(std::size_t slot, std::uint32_t bits) override { image_[slot] = bits; }
+  void write_own_state(StateWriter&) const override {}
+  std::function<void()> read_own_state(StateReader&) override {
+    return [] {};
+  }
 
  private:
   std::vector<std::uint32_t> image_;
@@ -85,6 +89,7 @@ struct Toy {
               .choices = {},
               .terminals = {},
               .axes = {},
+              .state_registers = {},
               .gaps = {},
               .rtu = {.bauds = kToyBauds, .settings = {}, .functions = kToyFunctions},
               .make = nullptr},

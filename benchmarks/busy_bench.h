@@ -1,0 +1,30 @@
+// Worlds of busy Simple2-R3: what their axes do, while a program executes a line every 2 ms.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+
+#include "emulator/world/world.h"
+
+namespace understudy::benchmarks {
+
+/// What both axes of every device do, until the world ends.
+enum class Activity {
+  positions,  // long position moves to and fro, begun anew by the program
+  velocity,   // velocity mode, up and down a ramp
+  sync,       // following encoders; those must be turned: see turn_encoders()
+  homing,     // away from a home switch, and home again
+  waiting,    // standing, the program waits for an input
+  idle,       // standing, without a program
+};
+std::string_view name_of(Activity activity);
+
+/// Fifteen stations a line, at 19200 baud. Every device has machines with limit switches, a home switch and
+/// an encoder on both axes, except where the encoders are turned by hand. Throws CannotRun.
+std::unique_ptr<emulator::World> make_busy_world(std::size_t devices, Activity activity);
+
+/// Turns the encoders of Activity::sync to where they are at `tick`.
+void turn_encoders(emulator::World& world, emulator::Tick tick);
+
+}  // namespace understudy::benchmarks

@@ -1,0 +1,123 @@
+// A thousand busy Simple2-R3 in one process: the work of a tick, and how late a 1 kHz loop wakes up that does
+// it, beside a loop that does nothing. Both wait as the daemon does; they take turns, a second each.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "benchmarks/busy_bench.h"
+#include "benchmarks/figures.h"
+#include "benchmarks/process.h"
+#include "benchmarks/processor_clock.h"
+#include "emulator/edge/event_loop.h"
+
+namespace understudy::benchmarks {
+
+namespace {
+
+using emulator::EventLoop;
+using emulator::kTickLength;
+using emulator::Tick;
+using emulator::time_of;
+using emulator::wall_now;
+using emulator::World;
+
+constexpr std::size_t kDevices = 1000;
+constexpr int kDefaultSeconds = 20;
+constexpr int kTicksASlice = 1000;
+constexpr Tick kWarmUp = 3000;
+constexpr double kWorkBarUs = 300;
+constexpr double kLatenessBar = 1.5;
+
+double microseconds(Nanoseconds time) { return static_cast<double>(time.count()) / 1000; }
+
+struct Slice {
+  std::vector<double> lateness_us;  // from the moment that was due to the moment of waking
+  std::vector<double> work_us;
+};
+
+/// Wakes at every millisecond of a second, sharp, and does `work` there.
+template <typename Work>
+Slice run_slice(EventLoop& loop, Work work) {
+  Slice slice;
+  slice.lateness_us.reserve(kTicksASlice);
+  slice.work_us.reserve(kTicksASlice);
+  Nanoseconds due = wall_now() + 2 * kTickLength;
+  for (int i = 0; i < kTicksASlice; ++i, due += kTickLength) {
+    while (wall_now() < due) loop.wait(due);
+    slice.lateness_us.push_back(microseconds(wall_now() - due));
+    const Nanoseconds before = processor_time_here();
+    work();
+    slice.work_us.push_back(microseconds(processor_time_here() - before));
+  }
+  return slice;
+}
+
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+void print_row(const char* what, const std::vector<double>& samples) {
+  std::printf("%-28s %10.1f %10.1f %10.1f %10.1f\n", what, percentile(samples, 0.5),
+              percentile(samples, 0.99), percentile(samples, 0.999), percentile(samples, 1.0));
+}
+
+void run(int seconds) {
+  const std::unique_ptr<World> world = make_busy_world(kDevices, Activity::positions);
+  EventLoop loop;
+  Tick tick = kWarmUp;
+  world->advance_to(time_of(tick));
+  const auto run_tick = [&] {
+    world->advance_to(time_of(++tick));
+    if (world->next_due() != time_of(tick + 1)) throw CannotRun("a crowd that is not busy");
+  };
+
+  std::vector<double> unpaced_us;
+  for (int i = 0; i < 5 * kTicksASlice; ++i) {
+    const Nanoseconds before = processor_time_here();
+    run_tick();
+    unpaced_us.push_back(microseconds(processor_time_here() - before));
+  }
+  Slice bare;
+  Slice ours;
+  std::vector<double> ratios;  // of each pair of seconds
+  for (int second = 0; second < seconds; ++second) {
+    const Slice nothing = run_slice(loop, [] {});
+    const Slice crowd = run_slice(loop, run_tick);
+    ratios.push_back(percentile(crowd.lateness_us, 0.999) / percentile(nothing.lateness_us, 0.999));
+    append(bare.lateness_us, nothing.lateness_us);
+    append(ours.lateness_us, crowd.lateness_us);
+    append(ours.work_us, crowd.work_us);
+  }
+  std::array<double, 1> load{};
+  getloadavg(load.data(), 1);
+  std::printf("%zu busy devices in one world, %d seconds of each loop; load average %.1f\n", kDevices,
+              seconds, load[0]);
+  std::printf("%-28s %10s %10s %10s %10s\n", "microseconds", "p50", "p99", "p99.9", "max");
+  print_row("a tick's work, at a stretch", unpaced_us);
+  print_row("a tick's work, at 1 kHz", ours.work_us);
+  print_row("lateness of a bare loop", bare.lateness_us);
+  print_row("lateness with the devices", ours.lateness_us);
+  std::printf("p99.9 of lateness against the bare loop's, second by second, median: %.3f\n", median(ratios));
+  print_verdict("a tick's work at 1 kHz, p99", percentile(ours.work_us, 0.99), kWorkBarUs, " us");
+  print_verdict("p99.9 of lateness against the bare loop's",
+                percentile(ours.lateness_us, 0.999) / percentile(bare.lateness_us, 0.999), kLatenessBar);
+}
+
+}  // namespace
+
+}  // namespace understudy::benchmarks
+
+/// crowd [SECONDS]
+int main(int count, char** arguments) {
+  using namespace understudy::benchmarks;
+  try {
+    const int seconds = count > 1 ? std::atoi(arguments[1]) : kDefaultSeconds;
+    if (seconds < 1) throw CannotRun("SECONDS: expected a positive number");
+    run(seconds);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "crowd: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,220 @@
+// `understudy exec`: a bench, and a command that talks to it.
+#include <signal.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/log.h"
+#include "emulator/command_line/serving.h"
+#include "emulator/edge/child.h"
+#include "emulator/edge/parent_signals.h"
+#include "emulator/edge/port_group.h"
+#include "emulator/edge/private_folder.h"
+#include "emulator/edge/tty_shim.h"
+#include "emulator/one_line.h"
+#include "emulator/scenario/companion.h"
+#include "emulator/scenario/result_text.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+// As timeout(1) and shells have them.
+constexpr int kExitTimedOut = 124;
+constexpr int kExitNotStarted = 127;
+
+/// Calls once, so long after it was made.
+class Alarm {
+ public:
+  Alarm(EventLoop& loop, WallTime after, std::function<void()> call)
+      : loop_(loop), timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
+    if (timer_ < 0) throw std::system_error(errno, std::generic_category(), "timerfd_create");
+    itimerspec setting{};
+    setting.it_value.tv_sec = after.count() / 1'000'000'000;
+    setting.it_value.tv_nsec = after.count() % 1'000'000'000;
+    timerfd_settime(timer_, 0, &setting, nullptr);
+    loop_.watch(timer_, EventLoop::readable, [this, call = std::move(call)](std::uint32_t) {
+      std::uint64_t ignored = 0;
+      if (read(timer_, &ignored, sizeof ignored) > 0) call();
+    });
+  }
+  ~Alarm() {
+    loop_.unwatch(timer_);
+    close(timer_);
+  }
+  Alarm(const Alarm&) = delete;
+  Alarm& operator=(const Alarm&) = delete;
+
+ private:
+  EventLoop& loop_;
+  int timer_;
+};
+
+std::string variable_of(const std::string& line) {
+  std::string name = "UNDERSTUDY_PORT_" + line;
+  for (char& c : name) {
+    const auto letter = static_cast<unsigned char>(c);
+    c = std::isalnum(letter) != 0 ? static_cast<char>(std::toupper(letter)) : '_';
+  }
+  return name;
+}
+
+void demand_variables(const Bench& bench) {
+  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
+      throw UsageError("exec: the lines '" + bench.lines[j].name + "' and '" + bench.lines[i].name +
+                       "' would both be " + variable_of(bench.lines[i].name) +
+                       "; expected names that differ more");
+    }
+  }
+}
+
+/// What nobody gave a place is in a folder that nobody else has.
+void use_private_places(Serving& serving, const ExecArguments& arguments, PrivateFolder& folder) {
+  if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
+    for (LineSetup& line : serving.bench.lines) line.link = folder.path() + "/" + line.name + ".port";
+  }
+  if (serving.options.control_path.empty()) serving.options.control_path = folder.path() + "/control";
+  if (serving.options.record_path.empty()) serving.options.record_path = folder.path() + "/recording";
+}
+
+ChildCommand command_for(const ExecArguments& arguments, const Daemon& daemon) {
+  ChildCommand command{.words = arguments.command, .environment = {}};
+  auto& environment = command.environment;
+  for (const auto& port : daemon.ports()) {
+    const std::string& path = port->terminal().link_path();
+    if (port == daemon.ports().front()) environment.emplace_back("UNDERSTUDY_PORT", path);
+    environment.emplace_back(variable_of(daemon.world().line(port->line_number()).line.name()), path);
+  }
+  environment.emplace_back("UNDERSTUDY_CONTROL", daemon.control_path());
+  if (arguments.tty_shim) environment.emplace_back("LD_PRELOAD", preload_with_tty_shim());
+  return command;
+}
+
+std::optional<WallTime> timeout_of(const ExecArguments& arguments) {
+  if (arguments.timeout.empty()) return std::nullopt;
+  const auto timeout = parse_duration(arguments.timeout);
+  if (!timeout || *timeout <= SimTime{0}) {
+    throw UsageError("--timeout: '" + arguments.timeout + "' is no time to wait; expected one such as 30s");
+  }
+  return *timeout;
+}
+
+/// The exit code that the scenario asks for.
+int tell_of(const Companion& companion, const Scenario& scenario) {
+  if (companion.was_given_up()) {
+    std::fprintf(stderr, "understudy: exec: %s: was not played to its end\n",
+                 one_line(scenario.file).c_str());
+    return kExitFailed;
+  }
+  int code = kExitWell;
+  for (const ScenarioResult& result : companion.results()) {
+    std::fprintf(stderr, "%s\n", verdict_line(result).c_str());
+    for (const std::string& line : failure_lines(result)) std::fprintf(stderr, "      %s\n", line.c_str());
+    if (result.verdict == ScenarioResult::Verdict::failed) code = kExitFailed;
+  }
+  return code;
+}
+
+/// While both the command and the scenario beside it are on.
+int play(const ExecArguments& arguments, const Serving& serving, const std::optional<Scenario>& scenario,
+         ParentSignals& signals) {
+  const auto timeout = timeout_of(arguments);
+  Daemon daemon(serving.bench, serving.options, log_line);
+  for (const auto& port : daemon.ports()) {
+    if (serving.group) share_port(port->terminal().path(), *serving.group);
+  }
+  std::optional<Child> child;
+  std::optional<Companion> companion;
+  bool child_is_over = false;
+  bool companion_is_over = !scenario;
+  bool timed_out = false;
+  const auto give_up_companion = [&] {
+    if (companion) companion->give_up();
+  };
+  const auto stop_if_over = [&] {
+    if (child_is_over && companion_is_over) daemon.stop();
+  };
+  child.emplace(daemon.loop(), signals, command_for(arguments, daemon), [&] {
+    child_is_over = true;
+    // Nobody is left who would let time go on.
+    if (child->was_ended() || daemon.pacer().standing()) give_up_companion();
+    stop_if_over();
+  });
+  signals.watch(daemon.loop(), [&](int signal_number) {
+    if (signal_number == SIGCHLD) return child->look_after_children();
+    child->end_with(signal_number);
+    if (child_is_over) give_up_companion();
+  });
+  std::optional<Alarm> alarm;
+  if (timeout) {
+    alarm.emplace(daemon.loop(), *timeout, [&] {
+      timed_out = true;
+      child->end_with(SIGTERM);
+      if (child_is_over) give_up_companion();
+    });
+  }
+  if (scenario) {
+    companion.emplace(*scenario, daemon, [&] {
+      companion_is_over = true;
+      stop_if_over();
+    });
+  }
+  daemon.run();
+  signals.unwatch(daemon.loop());
+  const int scenario_code = companion ? tell_of(*companion, *scenario) : kExitWell;
+  if (timed_out) {
+    std::fprintf(stderr, "understudy: exec: %s: ended, as it took longer than %s\n",
+                 one_line(arguments.command[0]).c_str(), arguments.timeout.c_str());
+    return kExitTimedOut;
+  }
+  return child->exit_code() != 0 ? child->exit_code() : scenario_code;
+}
+
+}  // namespace
+
+int execute(const ExecArguments& arguments) {
+  if (!arguments.stray_words.empty() || arguments.command.empty()) {
+    throw UsageError("exec: expected -- and a command behind it, such as `exec bench.yaml -- ./my_host`");
+  }
+  timeout_of(arguments);
+  Serving serving = make_serving(arguments.serve, "exec");
+  demand_variables(serving.bench);
+  std::optional<Scenario> scenario;
+  if (!arguments.with.empty()) scenario = load_companion(arguments.with, serving.bench);
+  PrivateFolder folder;
+  use_private_places(serving, arguments, folder);
+  serving.options.watch_signals = false;
+  ParentSignals signals;
+  int code = kExitNotStarted;
+  try {
+    code = play(arguments, serving, scenario, signals);
+  } catch (const ChildError& error) {
+    std::fprintf(stderr, "understudy: exec: %s\n", one_line(error.what()).c_str());
+  }
+  if (!arguments.serve.record.empty()) return code;
+  if (code == kExitWell || code == kExitNotStarted) {
+    std::error_code ignored;
+    std::filesystem::remove(serving.options.record_path, ignored);
+  } else {
+    std::fprintf(stderr, "understudy: exec: to run this again: understudy replay %s\n",
+                 serving.options.record_path.c_str());
+  }
+  return code;
+}
+
+int print_tty_shim() {
+  std::printf("%s\n", tty_shim_path().c_str());
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

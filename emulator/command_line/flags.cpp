@@ -1,0 +1,300 @@
+// The only file that includes CLI11: it is slow to compile.
+#include "emulator/command_line/flags.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/model.h"
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// `--link "$UNSET"` is a slip, not a wish for the default.
+const CLI::Validator kNotEmpty(
+    [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
+    "");
+
+struct CommandLine {
+  CLI::App app{"Firmware-faithful emulator of industrial motion controllers.", "understudy"};
+  DescribeArguments describe;
+  ServeArguments serve;
+  ExecArguments exec;
+  RunArguments run;
+  ReplayArguments replay;
+  ControlArguments control;
+  PollArguments poll;
+  std::string program;
+  std::string schema;
+  std::vector<std::string> files;
+  std::function<int()> chosen;
+
+  CommandLine() {
+    app.require_subcommand(1);
+    app.set_version_flag("--version", UNDERSTUDY_VERSION);
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return "understudy: " + one_line(error.what()) + " (--help tells what is expected)\n";
+    });
+    add_models();
+    add_describe();
+    add_serve();
+    add_exec();
+    add_run();
+    add_replay();
+    add_control();
+    add_poll();
+    add_program_text();
+    add_check();
+    add_schema();
+    add_tty_shim();
+  }
+
+ private:
+  void add_models() {
+    app.add_subcommand("models", "List the models")->callback([this] { chosen = list_models; });
+  }
+
+  void add_describe() {
+    CLI::App* command = app.add_subcommand("describe", "Print a model's tables");
+    command->add_option("MODEL", describe.model, "A name from `understudy models`")->required();
+    command->add_option("WHAT", describe.what, "registers, parameters, instructions, commands or choices")
+        ->required();
+    command->add_option("--format", describe.format, "table, csv, json or markdown")->capture_default_str();
+    command->callback([this] { chosen = [this] { return describe_model(describe); }; });
+  }
+
+  /// Those of everything that serves a bench.
+  static void add_serving_flags(CLI::App& command, ServeArguments& serving) {
+    serving.version = UNDERSTUDY_VERSION;
+    command.add_option("BENCH", serving.bench, "A bench file; or else --model");
+    command.add_option("--model", serving.model, "One device of this model on one line")->check(kNotEmpty);
+    command.add_option("--station", serving.station, "Its station number (with --model) [1]");
+    command.add_option("--firmware", serving.firmware, "Its firmware version (with --model) [newest]")
+        ->check(kNotEmpty);
+    command.add_option("--baud", serving.baud, "Its line speed (with --model) [the factory's]");
+    command.add_option("--link", serving.link, "Path of the link to its port (with --model) [a private one]")
+        ->check(kNotEmpty);
+    command.add_option("--links", serving.links, "Folder for links that are relative, or that nobody named")
+        ->check(kNotEmpty);
+    command.add_option("--group", serving.group, "Group that may open the ports, such as dialout [none]")
+        ->check(kNotEmpty);
+    command
+        .add_option("--timing", serving.timing,
+                    "wire: bytes take their time; instant: none [wire, or the bench's]")
+        ->check(kNotEmpty);
+    command.add_flag("--strict-framing", serving.strict_framing,
+                     "Only silence ends a frame, as on a real line");
+    command.add_flag("--ignore-baud", serving.ignore_baud,
+                     "Hear hosts that set another speed or other stop bits");
+    command.add_option("--speed", serving.speed, "real, free, manual, or a factor such as 10x")
+        ->capture_default_str();
+    command.add_option("--control", serving.control, "Path of the control socket [a private one]")
+        ->check(kNotEmpty);
+    command
+        .add_option("--nv", serving.nv,
+                    "Folder for the devices' non-volatile memories [they last as long as the run]")
+        ->check(kNotEmpty);
+    command
+        .add_option("--capture", serving.capture,
+                    "Write what goes over the lines to this file: FILE.pcapng for Wireshark, else a text log")
+        ->check(kNotEmpty);
+    command
+        .add_option("--record", serving.record,
+                    "Write everything that comes from outside to this file, for `understudy replay`")
+        ->check(kNotEmpty);
+  }
+
+  void add_serve() {
+    CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
+    add_serving_flags(*command, serve);
+    command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
+  }
+
+  void add_exec() {
+    CLI::App* command =
+        app.add_subcommand("exec", "Run a command with a bench to talk to: exec BENCH -- COMMAND");
+    add_serving_flags(*command, exec.serve);
+    command->add_option("COMMAND", exec.stray_words, "A program and its arguments, after --");
+    command->add_option("--with", exec.with, "A scenario to play beside the command [none]")
+        ->check(kNotEmpty);
+    command->add_flag("--tty-shim", exec.tty_shim,
+                      "Preload what lets hosts that insist on parity use a pseudo-terminal");
+    command
+        ->add_option("--timeout", exec.timeout,
+                     "End the command after this time, by the clock on the wall [never]")
+        ->check(kNotEmpty);
+    command->callback([this] { chosen = [this] { return execute(exec); }; });
+  }
+
+  void add_tty_shim() {
+    CLI::App* command =
+        app.add_subcommand("tty-shim", "Print the path of the library that --tty-shim preloads");
+    command->callback([this] { chosen = print_tty_shim; });
+  }
+
+  void add_replay() {
+    CLI::App* command = app.add_subcommand("replay", "Run a recording again and compare every byte");
+    command->add_option("RECORDING", replay.recording, "A file that `serve --record` or `run` has written")
+        ->required();
+    command->add_option("--until", replay.until, "Stop at this simulated time and serve from there [the end]")
+        ->check(kNotEmpty);
+    command
+        ->add_option("--control", replay.control, "Path of the control socket, with --until [a private one]")
+        ->check(kNotEmpty);
+    command->callback([this] {
+      replay.version = UNDERSTUDY_VERSION;
+      chosen = [this] { return replay_recording(replay); };
+    });
+  }
+
+  void add_run() {
+    CLI::App* command = app.add_subcommand("run", "Play scenarios, in simulated time");
+    command->add_option("SCENARIO", run.scenarios, "Scenario files")->required();
+    command->add_flag("--real-time", run.real_time,
+                      "By the clock on the wall, over real ports, with libmodbus as the host");
+    command->add_option("--junit", run.junit, "Write the results to this file, as JUnit XML")
+        ->check(kNotEmpty);
+    command->add_option("--jobs", run.jobs,
+                        "How many are played at a time [one for each core, 8 at least in real time]");
+    command->add_option("--shard", run.shard, "I/N: of all scenarios the I-th, and each N-th after it")
+        ->check(kNotEmpty);
+    command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds");
+    command->add_option("--filter", run.filter, "Those whose names fit this pattern, such as '*move*'")
+        ->check(kNotEmpty);
+    command->callback([this] { chosen = [this] { return run_scenarios(run); }; });
+  }
+
+  void add_control() {
+    CLI::App* command = app.add_subcommand("ctl", "Look into a running `serve`, and act on it");
+    command
+        ->add_option("--control", control.socket,
+                     "Path of its control socket [UNDERSTUDY_CONTROL, or the private one]")
+        ->check(kNotEmpty);
+    command->add_flag("--json", control.json, "Print the reply as it came: one JSON object");
+    command->require_subcommand(1);
+    const auto add = [&](const char* verb, const char* help, const char* operand, const char* operand_help) {
+      CLI::App* sub = command->add_subcommand(verb, help);
+      if (operand != nullptr) sub->add_option(operand, control.operands, operand_help);
+      sub->fallthrough();
+      sub->callback([this, verb] {
+        control.verb = verb;
+        chosen = [this] { return understudy::emulator::control(control); };
+      });
+    };
+    add("status", "Time, lateness, lines, stations, machines", nullptr, nullptr);
+    add("get", "Read registers", "NAME", "Such as feeder.Cord_A or feeder.STATUS.4");
+    add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
+    add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
+        "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
+    add("power", "Switch a device off or on, or off and on again", "WHAT", "DEVICE, and on, off or cycle");
+    add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
+    add("inject", "Break something", "FAULT",
+        "stall AXIS, lost_steps AXIS one_in=N, slip AXIS pulses=N, alarm AXIS, or stuck INPUT level=N");
+    add("clear", "Mend it", "NUMBER", "Of the fault, or all");
+    add("list", "The faults in force", nullptr, nullptr);
+    add("snapshot", "Write the state of everything to a file", "FILE", "Is replaced if it is there");
+    add("restore", "Make everything what it was", "FILE", "Of the same bench, by the same version");
+    add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");
+    add("pause", "Stop simulated time", nullptr, nullptr);
+    add("resume", "Let it run again", nullptr, nullptr);
+  }
+
+  void add_poll() {
+    CLI::App* command = app.add_subcommand("poll", "A small Modbus master, for looking around");
+    command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
+    command->add_option("ITEM", poll.items,
+                        "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
+    command->add_option("--station", poll.station, "Whom to ask")->capture_default_str();
+    command->add_option("--model", poll.model, "Whose names to use")->check(kNotEmpty);
+    command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
+    command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
+    command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
+    command->add_option("--function", poll.function, "Function code to read with: 3 or 4")
+        ->capture_default_str();
+    command->add_option("--type", poll.type, "u16, s16, u32 or s32 of addresses without a model's name")
+        ->capture_default_str();
+    command->add_option("--timeout", poll.timeout, "How long to wait for a reply")->capture_default_str();
+    command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);
+    command->add_option("--times", poll.times, "How many rounds; 0: without end")->capture_default_str();
+    command->callback([this] { chosen = [this] { return poll_port(poll); }; });
+  }
+
+  void add_program_text() {
+    CLI::App* command = app.add_subcommand("asm", "Turn a Simple2-R3 listing into the cells of its lines");
+    command->add_option("FILE", program, "A listing")->required();
+    command->callback([this] { chosen = [this] { return assemble_program(program); }; });
+    command = app.add_subcommand("disasm", "Turn the cells of a Simple2-R3 program into a listing");
+    command->add_option("FILE", program, "Lines of CMD DATA1 DATA2 JMP, as asm prints them")->required();
+    command->callback([this] { chosen = [this] { return disassemble_program(program); }; });
+  }
+
+  void add_check() {
+    CLI::App* command = app.add_subcommand("check", "Validate benches and scenarios without running them");
+    command->add_option("FILE", files, "Bench and scenario files")->required();
+    command->callback([this] { chosen = [this] { return check_files(files); }; });
+  }
+
+  void add_schema() {
+    CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
+    command->add_option("WHAT", schema, "bench or scenario")->required();
+    command->callback([this] { chosen = [this] { return print_schema(schema); }; });
+  }
+};
+
+/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or
+/// flag it was, and what is like it; empty if that is not the trouble.
+std::string unknown_command(const CLI::App& app, int argc, char** argv, int first) {
+  for (int i = first; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.starts_with("-")) {
+      const CLI::Option* const flag = app.get_option_no_throw(word.substr(0, word.find('=')));
+      if (flag == nullptr) return "'" + word + "' is no flag here";
+      if (flag->get_items_expected_max() > 0 && word.find('=') == std::string::npos) ++i;  // its value
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) {
+      names.push_back(command->get_name());
+      if (word != command->get_name()) continue;
+      return command->get_subcommands(nullptr).empty() ? "" : unknown_command(*command, argc, argv, i + 1);
+    }
+    return "'" + word + "' is no command; the nearest is '" + nearest_word(word, names) + "'";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::function<int()> parse_command_line(int argc, char** argv) {
+  const auto line = std::make_shared<CommandLine>();
+  // The words of `exec`'s command are its own, whatever they look like.
+  char** const end = argv + argc;
+  char** own_end = end;
+  if (argc > 1 && std::string_view(argv[1]) == "exec") {
+    own_end = std::find_if(argv, end, [](const char* word) { return std::string_view(word) == "--"; });
+    if (own_end != end) line->exec.command.assign(own_end + 1, end);
+  }
+  argc = static_cast<int>(own_end - argv);
+  int code = kExitBadInput;
+  try {
+    line->app.parse(argc, argv);
+    return [line] { return line->chosen(); };
+  } catch (const CLI::RequiredError& error) {
+    const std::string unknown = unknown_command(line->app, argc, argv, 1);
+    if (!unknown.empty()) {
+      std::fprintf(stderr, "understudy: %s (--help lists them)\n", one_line(unknown).c_str());
+    } else {
+      line->app.exit(error);
+    }
+  } catch (const CLI::ParseError& error) {
+    if (line->app.exit(error) == 0) code = kExitWell;
+  }
+  return [code] { return code; };
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <system_error>
+#include <thread>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/file_error.h"
+#include "emulator/scenario/junit.h"
+#include "emulator/scenario/real_stage.h"
+#include "emulator/scenario/result_text.h"
+#include "emulator/scenario/scenario_file.h"
+#include "emulator/scenario/suite.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// All scenarios of all files; each file's first error is told. Nothing if there is one.
+std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
+  std::vector<Scenario> scenarios;
+  bool is_well = true;
+  for (const std::string& file : arguments.scenarios) {
+    try {
+      for (Scenario& scenario : load_scenarios(file)) {
+        if (arguments.seed) scenario.seed = *arguments.seed;
+        scenarios.push_back(std::move(scenario));
+      }
+    } catch (const FileError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      is_well = false;
+    }
+  }
+  if (!is_well) return std::nullopt;
+  return scenarios;
+}
+
+std::vector<Scenario> choose_some(std::vector<Scenario> scenarios, const RunArguments& arguments) {
+  Shard shard;
+  if (!arguments.shard.empty()) {
+    const auto parsed = parse_shard(arguments.shard);
+    if (!parsed) {
+      throw UsageError("--shard: '" + arguments.shard + "' is no part; expected I/N such as 1/4, I up to N");
+    }
+    shard = *parsed;
+  }
+  if (!arguments.filter.empty() && choose(scenarios, arguments.filter, {}).empty()) {
+    throw UsageError("--filter: '" + arguments.filter +
+                     "' fits no scenario's name; expected a pattern such as '*move*'");
+  }
+  return choose(std::move(scenarios), arguments.filter, shard);
+}
+
+// In real time a scenario mostly waits.
+constexpr int kRealTimeJobs = 8;
+
+int jobs_of(const RunArguments& arguments) {
+  if (!arguments.jobs) {
+    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return arguments.real_time ? std::max(cores, kRealTimeJobs) : cores;
+  }
+  if (*arguments.jobs < 1) {
+    throw UsageError("--jobs: " + std::to_string(*arguments.jobs) + " is too few; expected 1 or more");
+  }
+  return *arguments.jobs;
+}
+
+/// Opened before anything is played, so that a wrong path is told at once.
+class JunitFile {
+ public:
+  explicit JunitFile(const std::string& path) : path_(path) {
+    if (path_.empty()) return;
+    file_.open(path_, std::ios::binary | std::ios::trunc);
+    demand_good();
+  }
+  void write(std::span<const ScenarioResult> results) {
+    if (path_.empty()) return;
+    file_ << junit_text(results) << std::flush;
+    demand_good();
+  }
+
+ private:
+  void demand_good() const {
+    if (file_.good()) return;
+    throw std::system_error(errno, std::generic_category(), "--junit: " + path_ + " cannot be written");
+  }
+  std::string path_;
+  std::ofstream file_;
+};
+
+void print(const std::vector<ScenarioResult>& results) {
+  for (const ScenarioResult& result : results) {
+    std::printf("%s\n", verdict_line(result).c_str());
+    for (const std::string& line : failure_lines(result)) std::printf("      %s\n", line.c_str());
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int run_scenarios(const RunArguments& arguments) {
+  const int jobs = jobs_of(arguments);
+  auto loaded = load_all(arguments);
+  if (!loaded) return kExitBadInput;
+  const std::vector<Scenario> scenarios = choose_some(std::move(*loaded), arguments);
+  JunitFile junit(arguments.junit);
+  std::vector<ScenarioResult> all;
+  PlayOptions options;
+  if (arguments.real_time) options.make_stage = make_real_stage;
+  play_all(scenarios, options, jobs, [&](const std::vector<ScenarioResult>& results) {
+    print(results);
+    all.insert(all.end(), results.begin(), results.end());
+  });
+  std::printf("%s\n", summary_line(all).c_str());
+  junit.write(all);
+  const bool has_failed = std::any_of(all.begin(), all.end(), [](const ScenarioResult& result) {
+    return result.verdict == ScenarioResult::Verdict::failed;
+  });
+  return has_failed ? kExitFailed : kExitWell;
+}
+
+}  // namespace understudy::emulator

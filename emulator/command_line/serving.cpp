@@ -1,0 +1,115 @@
+#include "emulator/command_line/serving.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/command_line/model_option.h"
+#include "emulator/device.h"
+#include "emulator/edge/nv_keeper.h"
+#include "emulator/edge/port_group.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+pty::Timing demand_timing(const std::string& timing) {
+  if (timing == "wire") return pty::Timing::wire;
+  if (timing == "instant") return pty::Timing::instant;
+  throw UsageError("--timing: '" + timing + "' is unknown; expected wire or instant");
+}
+
+/// One line with one device, from flags.
+Bench bench_of_one(const ServeArguments& arguments) {
+  Bench bench;
+  DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
+  device.settings.name = "device";
+  device.settings.address = arguments.station.value_or(1);
+  if (arguments.baud == 0)
+    throw UsageError("--baud: 0 is no speed; expected one of the model's, such as 19200 or 115200");
+  device.settings.baud = arguments.baud.value_or(0);
+  if (!arguments.firmware.empty()) {
+    device.settings.firmware = parse_firmware(arguments.firmware);
+    if (device.settings.firmware == 0) {
+      throw UsageError("--firmware: '" + arguments.firmware + "' is no version; expected one like 1.52");
+    }
+  }
+  bench.devices.push_back(device);
+  std::string link = arguments.link;
+  if (!link.empty()) link = (std::filesystem::path(arguments.links) / link).string();
+  bench.lines.push_back({.name = "line", .link = link, .baud = device.settings.baud, .stations = {0}});
+  return bench;
+}
+
+Bench make_bench(const ServeArguments& arguments, const std::string& command) {
+  if (arguments.bench.empty() == arguments.model.empty()) {
+    throw UsageError(command + ": expected either a bench file or --model MODEL");
+  }
+  const bool flags_of_one =
+      arguments.station || arguments.baud || !arguments.firmware.empty() || !arguments.link.empty();
+  if (!arguments.bench.empty() && flags_of_one) {
+    throw UsageError(
+        command +
+        ": --station, --firmware, --baud and --link belong to --model; a bench file says them itself");
+  }
+  Bench bench =
+      arguments.bench.empty() ? bench_of_one(arguments) : load_bench(arguments.bench, arguments.links);
+  for (LineSetup& line : bench.lines) {
+    if (!arguments.links.empty() && line.link.empty())
+      line.link = arguments.links + "/" + line.name + ".port";
+  }
+  if (!arguments.timing.empty()) {
+    for (LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
+  }
+  return bench;
+}
+
+/// A file to write: never the bench.
+std::string demand_path(const ServeArguments& arguments, const char* flag, const std::string& path) {
+  std::error_code no_such_file;
+  if (!arguments.bench.empty() && std::filesystem::equivalent(path, arguments.bench, no_such_file)) {
+    throw UsageError(std::string(flag) + ": " + path + ": is the bench itself; expected a path of its own");
+  }
+  return path;
+}
+
+std::string demand_capture(const ServeArguments& arguments) {
+  const std::string& path = arguments.capture;
+  if (path.ends_with(".pcap")) {
+    throw UsageError("--capture: " + path +
+                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+  }
+  return demand_path(arguments, "--capture", path);
+}
+
+std::optional<gid_t> demand_group(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const auto group = find_group(name);
+  if (!group) throw UsageError("--group: '" + name + "' is unknown; expected a group such as dialout");
+  return group;
+}
+
+}  // namespace
+
+Serving make_serving(const ServeArguments& arguments, const std::string& command) {
+  Serving serving;
+  serving.bench = make_bench(arguments, command);
+  read_memories(serving.bench, arguments.nv);
+  DaemonOptions& options = serving.options;
+  options.strict_framing = arguments.strict_framing;
+  options.enforce_settings = !arguments.ignore_baud;
+  options.control_path = arguments.control;
+  options.capture_path = demand_capture(arguments);
+  options.record_path = demand_path(arguments, "--record", arguments.record);
+  options.version = arguments.version;
+  const auto speed = parse_speed(arguments.speed);
+  if (!speed) {
+    throw UsageError("--speed: '" + arguments.speed +
+                     "' is unknown; expected real, free, manual or a factor such as 10x");
+  }
+  options.speed = *speed;
+  serving.group = demand_group(arguments.group);
+  return serving;
+}
+
+}  // namespace understudy::emulator

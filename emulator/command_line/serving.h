@@ -1,0 +1,25 @@
+// What the flags that all serving commands share come to.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+
+#include "emulator/bench/bench.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/edge/daemon.h"
+
+namespace understudy::emulator {
+
+struct Serving {
+  Bench bench;
+  DaemonOptions options;
+  std::optional<gid_t> group;  // that may open the ports as well
+};
+
+/// Reads the bench and the memories it begins with. `command` is for messages. Throws what is wrong with
+/// them.
+Serving make_serving(const ServeArguments& arguments, const std::string& command);
+
+}  // namespace understudy::emulator

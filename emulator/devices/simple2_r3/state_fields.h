@@ -1,0 +1,62 @@
+// What the state of a Simple2-R3 consists of, for state.cpp: all fields, in order, and what a restored one must
+// be so that its ticks can neither leave a table nor run away.
+#pragma once
+
+#include "emulator/devices/simple2_r3/device.h"
+#include "emulator/state/state_bytes.h"
+
+namespace understudy::emulator::simple2_r3 {
+
+struct StateFields {
+  // clang-format off
+  static void of(Like<Timer> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
+  static void of(Like<interpreter::simple2::LoopState> auto& v, auto visit) {
+    auto& [a, b, c, d] = v; visit(a, b, c, d);
+  }
+  static void of(Like<interpreter::simple2::Execution> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
+  }
+  static void of(Like<interpreter::simple2::FlagRules> auto& v, auto visit) {
+    auto& [a, b, c] = v; visit(a, b, c);
+  }
+  static void of(Like<AxisState> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+  }
+  static void of(Like<ProgramSpeed> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
+  static void of(Like<State> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+  }
+  // clang-format on
+
+  static constexpr Mode last(Mode) { return Mode::sync; }
+  static constexpr Command last(Command) { return Command::homing; }
+  static constexpr Eeprom::Slot last(Eeprom::Slot) { return Eeprom::Slot::waits; }
+  static constexpr interpreter::simple2::Ending last(interpreter::simple2::Ending) {
+    return interpreter::simple2::Ending::stopped;
+  }
+  static constexpr interpreter::simple2::Phase last(interpreter::simple2::Phase) {
+    return interpreter::simple2::Phase::move;
+  }
+  using FlagRules = interpreter::simple2::FlagRules;
+  static constexpr FlagRules::Several last(FlagRules::Several) { return FlagRules::Several::last_written; }
+  static constexpr FlagRules::AfterEnd last(FlagRules::AfterEnd) { return FlagRules::AfterEnd::do_not_count; }
+  static constexpr FlagRules::Found last(FlagRules::Found) { return FlagRules::Found::when_told; }
+
+  // Of other rooms.
+  static void write(const motion::Axis& motor, StateWriter& writer);
+  static void read(motion::Axis& motor, StateReader& reader);
+  static void write(const motion::Surroundings& signals, StateWriter& writer);
+  static void read(motion::Surroundings& signals, StateReader& reader);
+  static void write(const interpreter::simple2::Program& program, StateWriter& writer);
+  static void read(interpreter::simple2::Program& program, StateReader& reader);
+
+  static void check(const Timer& timer) { demand_reach(timer.since); }
+  static void check(const interpreter::simple2::Execution& execution);
+  static void check(const AxisState& axis);
+  static void check(const State& state);
+  static void check(const auto&) {}  // of the memory see Eeprom::check_restored()
+};
+
+}  // namespace understudy::emulator::simple2_r3

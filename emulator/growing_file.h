@@ -1,0 +1,46 @@
+// A file that grows while a world runs, written by a helper thread: a recording, a trace.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "pty/background_writer.h"
+#include "pty/descriptor.h"
+
+namespace understudy::emulator {
+
+/// The file cannot be had. One line: what is wrong, what was expected.
+struct GrowingFileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class GrowingFile {
+ public:
+  /// `what` it is, for messages: "the recording". A regular file that is there is overwritten. Throws
+  /// GrowingFileError.
+  GrowingFile(const std::string& path, std::string what, std::function<void(const std::string&)> log);
+  ~GrowingFile();  // finishes
+
+  /// Whole lines. Once one could not be taken (the disk is full, or too slow) the recording ends there, with
+  /// a word to the log: one with a gap would be worth nothing.
+  void take(std::string_view line);
+  /// Waits until all is written.
+  void finish();
+  const std::string& path() const { return path_; }
+
+ private:
+  int write(std::string_view piece);  // on the helper thread
+  void give_up(const std::string& why);
+
+  std::string path_;
+  std::string what_;
+  std::function<void(const std::string&)> log_;
+  pty::Descriptor file_;
+  bool has_given_up_ = false;
+  std::unique_ptr<pty::BackgroundWriter> writer_;  // last: its thread uses the others
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,52 @@
+// A scenario that is played on a bench beside the program that is the host on its lines: what it gives from
+// outside, and what it demands of the world meanwhile.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "emulator/bench/bench.h"
+#include "emulator/edge/daemon.h"
+#include "emulator/scenario/real_stage.h"
+#include "emulator/scenario/result.h"
+#include "emulator/scenario/scenario.h"
+
+namespace understudy::emulator {
+
+/// The one scenario of a file, for that bench. Throws FileError, also where a step is the host's (it uses a
+/// line) or not for a world that somebody else is in (it goes back in time).
+Scenario load_companion(const std::string& path, const Bench& bench);
+
+class Companion {
+ public:
+  /// Begins once the daemon runs, which it must do until `over` was called, on the daemon's thread. The
+  /// scenario must outlive it.
+  Companion(const Scenario& scenario, Daemon& daemon, std::function<void()> over);
+  ~Companion() { thread_.join(); }
+  Companion(const Companion&) = delete;
+  Companion& operator=(const Companion&) = delete;
+
+  /// Ends it soon.
+  void give_up() { given_up_ = true; }
+
+  // --- after it is over
+  bool was_given_up() const { return was_given_up_; }
+  /// Throws what playing has thrown.
+  const std::vector<ScenarioResult>& results() const;
+
+ private:
+  void play_on(const Scenario& scenario, Daemon& daemon);
+
+  std::atomic<bool> given_up_ = false;
+  bool was_given_up_ = false;
+  std::vector<ScenarioResult> results_;
+  std::exception_ptr error_;
+  std::thread thread_;
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,157 @@
+// The only file of the room that includes libmodbus.
+#include "emulator/scenario/libmodbus_host.h"
+
+#include <errno.h>
+#include <modbus/modbus-rtu.h>
+#include <modbus/modbus.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+#include "pty/pseudo_terminal.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+// Between two bytes of a reply; a busy machine may hold bytes up that follow each other on the line.
+constexpr WallTime kLongestPause = std::chrono::milliseconds(200);
+
+char letter_of(pty::Parity parity) {
+  switch (parity) {
+    case pty::Parity::odd: return 'O';
+    case pty::Parity::even: return 'E';
+    case pty::Parity::none: break;
+  }
+  return 'N';
+}
+
+template <typename Set>
+void set_time(Set set, modbus_t* context, WallTime time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time);
+  const auto rest = std::chrono::duration_cast<std::chrono::microseconds>(time - seconds);
+  set(context, static_cast<std::uint32_t>(seconds.count()), static_cast<std::uint32_t>(rest.count()));
+}
+
+}  // namespace
+
+void LibmodbusHost::Close::operator()(_modbus* context) const {
+  modbus_close(context);
+  modbus_free(context);
+}
+
+LibmodbusHost::LibmodbusHost(const std::string& port, const pty::LineSettings& settings, WallTime timeout,
+                             WallTime silence)
+    : port_(port),
+      context_(modbus_new_rtu(port.c_str(), settings.baud, letter_of(settings.parity), settings.data_bits,
+                              settings.stop_bits)),
+      silence_(silence) {
+  if (!context_ || modbus_connect(context_.get()) != 0) {
+    throw pty::PortError(port + ": " + modbus_strerror(errno) + "; expected a serial port at " +
+                         pty::to_string(settings));
+  }
+  // libmodbus counts from when it has handed the request over, which the line takes its time for.
+  set_time(modbus_set_response_timeout, context_.get(), timeout + settings.duration_of(256));
+  set_time(modbus_set_byte_timeout, context_.get(), kLongestPause);
+}
+
+LibmodbusHost::~LibmodbusHost() = default;
+
+void LibmodbusHost::keep_silence() const {
+  const WallTime rest = quiet_since_ + silence_ - wall_now();
+  if (rest > WallTime{0}) std::this_thread::sleep_for(rest);
+}
+
+void LibmodbusHost::begin_request(int station) {
+  modbus_set_slave(context_.get(), station);
+  keep_silence();
+  tcflush(modbus_get_socket(context_.get()), TCIFLUSH);  // what came late belongs to no request
+  quiet_since_ = wall_now();
+}
+
+HostReply LibmodbusHost::judge(int result) {
+  HostReply reply;
+  reply.kind = HostReply::Kind::good;
+  if (result < 0) {
+    const int error = errno;
+    if (error == ETIMEDOUT) {
+      reply.kind = HostReply::Kind::silence;
+      return reply;
+    }
+    if (error > MODBUS_ENOBASE && error < EMBBADCRC) {
+      reply.kind = HostReply::Kind::exception;
+      reply.exception = error - MODBUS_ENOBASE;
+    } else if (error >= EMBBADCRC) {
+      reply.kind = HostReply::Kind::garbled;
+    } else {
+      throw pty::PortError(port_ + ": " + modbus_strerror(error) + "; expected a port that stays");
+    }
+  }
+  quiet_since_ = wall_now();
+  return reply;
+}
+
+HostReply LibmodbusHost::read_registers(int station, std::uint16_t first, int count) {
+  begin_request(station);
+  std::vector<std::uint16_t> words(static_cast<std::size_t>(count));
+  HostReply reply = judge(modbus_read_registers(context_.get(), first, count, words.data()));
+  if (reply.kind == HostReply::Kind::good) reply.words = std::move(words);
+  return reply;
+}
+
+HostReply LibmodbusHost::write_registers(int station, std::uint16_t first,
+                                         std::span<const std::uint16_t> words) {
+  begin_request(station);
+  return judge(words.size() == 1 ? modbus_write_register(context_.get(), first, words[0])
+                                 : modbus_write_registers(context_.get(), first,
+                                                          static_cast<int>(words.size()), words.data()));
+}
+
+/// What is there, or comes before `until`; 0 if nothing does.
+std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, WallTime until) const {
+  pollfd port{.fd = modbus_get_socket(context_.get()), .events = POLLIN, .revents = 0};
+  const WallTime rest = std::max(until - wall_now(), WallTime{0});
+  const timespec patience{.tv_sec = rest.count() / 1'000'000'000, .tv_nsec = rest.count() % 1'000'000'000};
+  if (ppoll(&port, 1, &patience, nullptr) <= 0) return 0;
+  std::array<std::uint8_t, 512> part;
+  const ssize_t size = read(port.fd, part.data(), part.size());
+  if (size < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
+  if (size <= 0) throw pty::PortError(port_ + ": has hung up; expected a port that stays");
+  bytes.insert(bytes.end(), part.begin(), part.begin() + size);
+  return static_cast<std::size_t>(size);
+}
+
+std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
+                                                  WallTime sending, WallTime within) {
+  keep_silence();
+  const int port = modbus_get_socket(context_.get());
+  tcflush(port, TCIFLUSH);
+  const WallTime start = wall_now();
+  while (!bytes.empty()) {
+    const ssize_t size = write(port, bytes.data(), bytes.size());
+    if (size > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(size));
+      continue;
+    }
+    if (size < 0 && errno != EAGAIN && errno != EINTR)
+      throw pty::PortError(port_ + ": " + modbus_strerror(errno) + "; expected a port that stays");
+    pollfd writable{.fd = port, .events = POLLOUT, .revents = 0};
+    ::poll(&writable, 1, 100);
+  }
+  const WallTime deadline = std::max(start + sending, wall_now()) + within;
+  quiet_since_ = start + sending;
+  std::vector<std::uint8_t> reply;
+  while (reply.size() < wanted && wall_now() < deadline) read_some(reply, deadline);
+  // A byte that follows at once is part of it, wanted or not.
+  if (!reply.empty() && wall_now() < deadline) {
+    read_some(reply, std::min(deadline, wall_now() + std::chrono::milliseconds(3)));
+  }
+  if (!reply.empty()) quiet_since_ = wall_now();
+  return reply;
+}
+
+}  // namespace understudy::emulator

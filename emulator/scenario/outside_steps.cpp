@@ -1,0 +1,141 @@
+// Steps that do what people and machines do to devices: inputs, faults, power, programs, memories.
+#include <algorithm>
+#include <filesystem>
+
+#include "emulator/bench/machine_fields.h"
+#include "emulator/memory/nv_file.h"
+#include "emulator/scenario/step_forms.h"
+#include "emulator/scenario/step_readers.h"
+#include "emulator/scenario/steps_reader.h"
+#include "emulator/text_file.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+std::vector<std::pair<std::string, YamlFields>> demand_entries(const YamlFields& value,
+                                                               const std::string& example) {
+  value.demand_map();
+  auto entries = value.entries();
+  if (entries.empty()) value.fail("is empty; expected something such as `{ " + example + " }`");
+  return entries;
+}
+
+}  // namespace
+
+void read_inputs(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  InputStep inputs;
+  std::string text = "input";
+  for (const auto& [name, field] : demand_entries(value, "feeder.DIN_10: on")) {
+    const InputSetup input = read_input(field, name, reader.trial().known());
+    for (const InputSetup& other : inputs.inputs) {
+      if (other.device == input.device && other.terminal == input.terminal) {
+        field.fail("is the same input as another; expected it once");
+      }
+    }
+    text += (inputs.inputs.empty() ? " " : ", ") + name + "=" + field.text();
+    inputs.inputs.push_back(input);
+  }
+  reader.add(step, text, std::move(inputs));
+}
+
+void read_inject(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  InjectStep inject;
+  inject.fault = read_fault(value, reader.trial().known(), "name");
+  const std::string fault = to_text(reader.trial().known(), inject.fault);
+  inject.name = fault;
+  auto& in_force = reader.story().faults;
+  if (value.has("name")) {
+    inject.name = value.at("name").text();
+    if (inject.name.empty() || inject.name == "all") {
+      value.at("name").fail(emulator::quoted(inject.name) + " is no name of a fault; expected another");
+    }
+    if (std::find(in_force.begin(), in_force.end(), inject.name) != in_force.end()) {
+      value.at("name").fail(emulator::quoted(inject.name) +
+                            " is in force already; expected another name, or a `clear` before");
+    }
+  }
+  in_force.push_back(inject.name);
+  const std::string text = "inject " + fault + (inject.name == fault ? "" : " as " + inject.name);
+  reader.add(step, text, std::move(inject));
+}
+
+void read_clear(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  const std::string name = value.text();
+  auto& in_force = reader.story().faults;
+  if (name == "all") {
+    in_force.clear();
+    reader.add(step, "clear all", ClearStep{});
+    return;
+  }
+  if (std::find(in_force.begin(), in_force.end(), name) == in_force.end()) {
+    value.fail("no fault in force here is called " + emulator::quoted(name) +
+               nearest_of(name, in_force, "there is none"));
+  }
+  std::erase(in_force, name);
+  reader.add(step, "clear " + name, ClearStep{name});
+}
+
+void read_power(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  PowerStep power;
+  std::string text = "power";
+  for (const auto& [name, field] : demand_entries(value, "feeder: off")) {
+    const std::size_t device = reader.trial().device(field, name);
+    const std::string word = field.text();
+    const auto it = std::find(kPowerWords.begin(), kPowerWords.end(), word);
+    if (it == kPowerWords.end())
+      field.fail(emulator::quoted(word) + " is unknown; expected on, off or cycle");
+    text += (power.devices.empty() ? " " : ", ") + name + " " + word;
+    power.devices.emplace_back(device, word == "on"    ? PowerStep::To::on
+                                       : word == "off" ? PowerStep::To::off
+                                                       : PowerStep::To::cycle);
+  }
+  reader.add(step, text, std::move(power));
+}
+
+void read_program(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  for (const auto& [name, field] : demand_entries(value, "feeder: indexing.lst")) {
+    ProgramStep program;
+    program.device = reader.trial().device(field, name);
+    // The path of a listing, or the listing itself if it has several lines.
+    const bool is_inline = field.text().find('\n') != std::string::npos;
+    program.file = is_inline ? field.file() : field.path();
+    const auto text = is_inline ? field.text() : read_text_file(program.file);
+    if (!text) field.fail(program.file + " cannot be read; expected a listing");
+    program.text = *text;
+    reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
+    reader.add(step, "program " + name + (is_inline ? "" : " " + field.text()), std::move(program));
+  }
+}
+
+void read_memory(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  for (const auto& [name, field] : demand_entries(value, "feeder: after.json")) {
+    MemoryStep memory{
+        .what = MemoryStep::What::expect, .device = reader.trial().device(field, name), .file = field.path()};
+    if (!reader.story().saved.contains(memory.file)) {
+      try {
+        const auto image = read_nv_file(memory.file);
+        if (!image) field.fail(memory.file + " cannot be read; expected an NV image");
+        reader.trial().demand_memory(field, memory.device, *image);
+      } catch (const NvError& error) {
+        field.fail(error.what());
+      }
+    }
+    reader.add(step, "memory " + name + " " + field.text(), std::move(memory));
+  }
+}
+
+void read_save(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  for (const auto& [name, field] : demand_entries(value, "feeder: after.json")) {
+    MemoryStep memory{
+        .what = MemoryStep::What::save, .device = reader.trial().device(field, name), .file = field.path()};
+    const std::string folder = std::filesystem::path(memory.file).parent_path().string();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+      field.fail(folder + " is no folder; expected one to write in");
+    }
+    reader.story().saved.insert(memory.file);
+    reader.add(step, "save " + name + " " + field.text(), std::move(memory));
+  }
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,159 @@
+#include "emulator/scenario/performance.h"
+
+#include <algorithm>
+
+#include "emulator/memory/nv_image.h"
+#include "emulator/scenario/state_text.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+constexpr std::size_t kFramesTold = 10;
+
+/// Whether any expression asks for what is to be looked at in every tick from the beginning.
+bool names_peaks(const Steps& steps);
+
+struct NamesPeaks {
+  static bool in(const std::string& expression) { return expression.find("greatest_") != std::string::npos; }
+  bool operator()(const WriteStep& step) const {
+    return std::any_of(step.entries.begin(), step.entries.end(),
+                       [](const WriteStep::Entry& entry) { return in(entry.value); });
+  }
+  bool operator()(const WaitStep& step) const { return in(step.until); }
+  bool operator()(const AssertStep& step) const {
+    return std::any_of(step.expressions.begin(), step.expressions.end(), in);
+  }
+  bool operator()(const SpanStep& step) const { return in(step.expression); }
+  bool operator()(const ForkStep& step) const {
+    return std::any_of(step.branches.begin(), step.branches.end(),
+                       [](const ForkStep::Branch& branch) { return names_peaks(branch.steps); });
+  }
+  bool operator()(const auto&) const { return false; }
+};
+
+bool names_peaks(const Steps& steps) {
+  return std::any_of(steps.begin(), steps.end(),
+                     [](const Step& step) { return std::visit(NamesPeaks{}, step.what); });
+}
+
+}  // namespace
+
+Performance::Eyes::Eyes(World& of, bool with_hash)
+    : world(of),
+      peaks(of),
+      probes(of, &peaks),
+      spans(of, probes, state_text),
+      frames(of),
+      hash(with_hash ? std::make_unique<OutcomeHash>(of) : nullptr) {}
+
+Performance::Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash)
+    : scenario_(scenario), stage_(std::move(stage)), places_(scenario.bench.devices.size()) {
+  for (std::size_t i = 0; i < scenario.bench.lines.size(); ++i) {
+    for (const std::size_t device : scenario.bench.lines[i].stations) {
+      places_[device] = {i, scenario.bench.devices[device].settings.address};
+    }
+  }
+  keeps_peaks_ = names_peaks(scenario.steps);
+  stage_->with_world([&](World& world) {
+    eyes_ = std::make_unique<Eyes>(world, with_hash);
+    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before those who ask for them
+  });
+}
+
+Performance::~Performance() {
+  stage_->with_world([&](World& world) {
+    world.remove_watcher(eyes_->peaks);
+    world.remove_watcher(eyes_->spans);
+    if (eyes_->history) world.remove_watcher(*eyes_->history);
+    eyes_.reset();
+  });
+}
+
+std::optional<Failure> Performance::play(const Step& step, const Step* next) {
+  step_ = &step;
+  try {
+    const bool may_write =
+        std::holds_alternative<WriteStep>(step.what) || std::holds_alternative<SendStep>(step.what);
+    const WaitStep* const wait = next == nullptr ? nullptr : std::get_if<WaitStep>(&next->what);
+    if (may_write && wait != nullptr && !wait->poll) begin_history(wait->until);
+    std::visit([this](const auto& what) { perform(what); }, step.what);
+    if (!may_write) end_history();
+    throw_if_broken();
+    return std::nullopt;
+  } catch (const StepError& error) {
+    return explain_failure(error);
+  } catch (const ExpressionError& error) {
+    return explain_failure(StepError(error.what()));
+  } catch (const NameError& error) {
+    return explain_failure(StepError(error.what()));
+  } catch (const ProgramError& error) {
+    return explain_failure(StepError(error.what()));
+  } catch (const NvError& error) {
+    return explain_failure(StepError(error.what()));
+  }
+}
+
+void Performance::throw_if_broken() {
+  bool is_broken = false;
+  stage_->with_world([&](World&) { is_broken = eyes_->spans.violation().has_value(); });
+  if (is_broken) throw StepError("");  // explain_failure() knows more
+}
+
+Failure Performance::explain_failure(const StepError& error) {
+  Failure failure{
+      .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
+  stage_->with_world([&](World& world) {
+    failure.frames = eyes_->frames.last(kFramesTold);
+    // A broken span comes first: it was there before whatever else is wrong.
+    if (const auto& violation = eyes_->spans.violation()) {
+      failure.at = violation->at;
+      failure.what = violation->what + " did not hold at " + format_duration(violation->at);
+      failure.expected = violation->what;
+      failure.came = violation->explained;
+      failure.details.clear();
+      failure.state = violation->state;
+    } else {
+      failure.at = world.now();
+      failure.state = state_text(world);
+    }
+  });
+  return failure;
+}
+
+Performance::Checkpoint Performance::save() {
+  Checkpoint checkpoint;
+  checkpoint.faults = faults_;
+  checkpoint.last_write = last_write();
+  stage_->with_world([&](World& world) {
+    checkpoint.world = emulator::save(world);
+    checkpoint.spans = eyes_->spans.save();
+    checkpoint.peaks = eyes_->peaks.save();
+    if (eyes_->hash) checkpoint.hash = eyes_->hash->value();
+  });
+  return checkpoint;
+}
+
+void Performance::restore(const Checkpoint& checkpoint) {
+  faults_ = checkpoint.faults;
+  last_write_ = checkpoint.last_write;
+  stage_->with_world([&](World& world) {
+    emulator::restore(world, checkpoint.world);
+    world.remove_watcher(eyes_->spans);
+    if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
+    eyes_->spans.restore(checkpoint.spans);
+    eyes_->peaks.restore(checkpoint.peaks);
+    eyes_->frames.begin_anew();
+    if (eyes_->hash) eyes_->hash->restore(checkpoint.hash);
+  });
+}
+
+std::uint64_t Performance::outcome_hash() {
+  std::uint64_t hash = 0;
+  stage_->with_world([&](World&) {
+    if (eyes_->hash) hash = eyes_->hash->value();
+  });
+  return hash;
+}
+
+}  // namespace understudy::emulator

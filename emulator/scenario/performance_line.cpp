@@ -1,0 +1,162 @@
+// Steps over the line: write, expect, send.
+#include <cmath>
+
+#include "emulator/scenario/frame_text.h"
+#include "emulator/scenario/performance.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
+
+Value demand_whole(const std::string& name, Number number) {
+  if (number.is_whole()) return number.whole();
+  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  const double real = number.real();
+  if (std::abs(real) > kLargest || std::floor(real) != real) {
+    throw StepError(name + ": " + number_text(number) + " is no whole number; expected one");
+  }
+  return static_cast<Value>(real);
+}
+
+std::string to_text(const HostReply& reply) {
+  switch (reply.kind) {
+    case HostReply::Kind::good: return "done";
+    case HostReply::Kind::exception: return "exception " + exception_text(reply.exception);
+    case HostReply::Kind::silence: return "no reply";
+    case HostReply::Kind::garbled: return "no reply to it, but " + hex_text(reply.bytes);
+  }
+  return {};
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+std::string names_of(const std::vector<Target>& targets, const Request& request) {
+  std::vector<std::string> names;
+  for (const std::size_t entry : request.entries) names.push_back(targets[entry].name);
+  return joined(names);
+}
+
+std::string bytes_text(std::span<const std::uint8_t> bytes) {
+  return bytes.empty() ? "nothing" : hex_text(bytes);
+}
+
+}  // namespace
+
+void Performance::demand(const HostReply& reply, std::optional<int> exception, const std::string& request) {
+  const bool is_good = exception ? reply.kind == HostReply::Kind::exception && reply.exception == *exception
+                                 : reply.kind == HostReply::Kind::good;
+  if (is_good) return;
+  const std::string expected = exception ? "exception " + exception_text(*exception) : "it done";
+  throw StepError(request + ": " + to_text(reply) + "; expected " + expected, request + ": " + expected,
+                  request + ": " + to_text(reply));
+}
+
+std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
+                                             std::vector<bool>& low_word_first) {
+  std::vector<Words> words;
+  stage_->with_world([&](World& world) {
+    for (const Target& target : targets) {
+      if (target.place && target.place->place.row->table != Table::holding) {
+        throw StepError(target.name + ": is no holding register; expected one");
+      }
+      low_word_first.push_back(world.device(target.device).low_word_first());
+      words.push_back(words_of(target, low_word_first.back()));
+    }
+  });
+  return words;
+}
+
+std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::vector<Target>& targets,
+                                                                    std::optional<int> exception) {
+  std::vector<bool> low_word_first;
+  const std::vector<Words> words = words_of_all(targets, low_word_first);
+  std::vector<std::vector<std::uint16_t>> read(targets.size());
+  for (const Request& request : read_requests(words)) {
+    const Place& place = places_[request.words.device];
+    const HostReply reply =
+        stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
+    demand(reply, exception, "read " + names_of(targets, request));
+    if (exception) continue;
+    for (const std::size_t entry : request.entries) {
+      const auto first = reply.words.begin() + (words[entry].first - request.words.first);
+      read[entry].assign(first, first + words[entry].count);
+    }
+  }
+  return read;
+}
+
+void Performance::perform(const WriteStep& step) {
+  std::vector<Target> targets;
+  std::vector<Value> values;
+  for (const WriteStep::Entry& entry : step.entries) targets.push_back(entry.target);
+  stage_->with_world([&](World&) {
+    for (const WriteStep::Entry& entry : step.entries) {
+      const Number value = evaluate(parse_expression(entry.value, eyes_->probes), eyes_->probes);
+      values.push_back(demand_whole(entry.target.name, value));
+    }
+  });
+  std::vector<bool> low_word_first;
+  const std::vector<Words> words = words_of_all(targets, low_word_first);
+  for (const Request& request : write_requests(words, [&](std::size_t i) { return is_bit(targets[i]); })) {
+    const Place& place = places_[request.words.device];
+    const std::string what = "write " + names_of(targets, request);
+    std::vector<std::uint16_t> brought;
+    for (const std::size_t entry : request.entries) {
+      std::vector<std::uint16_t> present;
+      if (is_bit(targets[entry])) {
+        const HostReply reply =
+            stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
+        demand(reply, std::nullopt, "read " + targets[entry].name + " to write it");
+        present = reply.words;
+      }
+      const auto part = words_with(targets[entry], values[entry], low_word_first[entry], present);
+      brought.insert(brought.end(), part.begin(), part.end());
+    }
+    demand(stage_->write_registers(place.line, place.station, request.words.first, brought), step.exception,
+           what);
+  }
+}
+
+void Performance::perform(const ExpectStep& step) {
+  std::vector<Target> targets;
+  for (const ExpectStep::Entry& entry : step.entries) targets.push_back(entry.target);
+  std::vector<bool> low_word_first;
+  words_of_all(targets, low_word_first);
+  const auto words = read_over_line(targets, step.exception);
+  if (step.exception) return;
+  std::vector<std::string> expected;
+  std::vector<std::string> came;
+  std::vector<std::string> details;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Value value = value_in(targets[i], words[i], low_word_first[i]);
+    const Tolerance& wanted = step.entries[i].value;
+    if (wanted.holds(Number(value))) continue;
+    expected.push_back(targets[i].name + " = " + wanted.text);
+    came.push_back(targets[i].name + " = " + std::to_string(value));
+    details.push_back(targets[i].name + " is " + std::to_string(value) + "; expected " + wanted.text);
+  }
+  if (details.empty()) return;
+  throw StepError(details.front(), joined(expected), joined(came), {details.begin() + 1, details.end()});
+}
+
+void Performance::perform(const SendStep& step) {
+  const bool wants_bytes = step.reply && !step.reply->empty();
+  const std::size_t wanted = wants_bytes ? step.reply->size() : SIZE_MAX;
+  const std::vector<std::uint8_t> reply = stage_->exchange(step.line, step.bytes, wanted, step.within);
+  if (!step.reply || reply == *step.reply) return;
+  std::vector<std::string> details;
+  stage_->with_world([&](World& world) {
+    details.push_back("that is: " + reply_text(world, step.line, step.bytes, reply));
+  });
+  if (reply.empty()) details.clear();
+  throw StepError("the reply is " + bytes_text(reply) + "; expected " + bytes_text(*step.reply),
+                  bytes_text(*step.reply), bytes_text(reply), std::move(details));
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,180 @@
+// Steps that let time pass, or look at the truth.
+#include <algorithm>
+
+#include "emulator/bench/names.h"
+#include "emulator/scenario/performance.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// The registers that a condition names, as a host has read them.
+class PolledRegisters final : public NameResolver, public ValueSource {
+ public:
+  explicit PolledRegisters(const KnownDevices& known) : known_(known) {}
+
+  NamedNumber resolve(std::string_view name) const override {
+    const RegisterName found = find_register(known_, name);
+    targets_.push_back({.device = found.device, .name = std::string(name), .place = found.place});
+    return {static_cast<std::int32_t>(targets_.size() - 1), Unit::none};
+  }
+  Number value(std::int32_t handle) const override { return values[static_cast<std::size_t>(handle)]; }
+
+  const std::vector<Target>& targets() const { return targets_; }
+  std::vector<Value> values;
+
+ private:
+  KnownDevices known_;
+  mutable std::vector<Target> targets_;
+};
+
+std::string place_of(const Step& step) { return step.file + ":" + std::to_string(step.line); }
+
+}  // namespace
+
+void Performance::pass_time(SimTime until) {
+  bool has_spans = false;
+  stage_->with_world([&](World&) { has_spans = !eyes_->spans.is_empty(); });
+  if (has_spans) {
+    stage_->run_until([this](World&) { return eyes_->spans.violation().has_value(); }, until);
+    throw_if_broken();
+  } else if (until > stage_->now()) {
+    stage_->advance(until - stage_->now());
+  }
+}
+
+void Performance::perform(const AdvanceStep& step) { pass_time(stage_->now() + step.by); }
+
+// --- waiting -----------------------------------------------------------------------------------
+
+/// By the tick that it acts from.
+Tick Performance::last_write() {
+  const Tick tick = stage_->tick_of_last_write();
+  return tick != 0 ? tick : last_write_;
+}
+
+/// What comes true while the reply to a write is still on the line has come true after that write.
+void Performance::begin_history(const std::string& condition) {
+  end_history();
+  stage_->with_world([&](World& world) {
+    eyes_->history =
+        std::make_unique<ConditionHistory>(parse_expression(condition, eyes_->probes), eyes_->probes);
+    world.add_watcher(*eyes_->history);
+  });
+}
+
+void Performance::end_history() {
+  stage_->with_world([&](World& world) {
+    if (eyes_->history) world.remove_watcher(*eyes_->history);
+    eyes_->history.reset();
+  });
+}
+
+void Performance::perform(const WaitStep& step) {
+  const Tick begin = last_write();
+  const Tick came_true = step.poll ? poll_for(step) : wait_for(step);
+  if (!step.takes) return;
+  const SimTime took = time_of(came_true - begin);
+  if (step.takes->holds(Number(took.count()))) return;
+  throw StepError("took " + format_duration(took) + "; expected " + step.takes->text,
+                  "'" + on_one_line(step.until) + "' after " + step.takes->text,
+                  "it came true after " + format_duration(took));
+}
+
+Tick Performance::wait_for(const WaitStep& step) {
+  const Tick earliest = last_write();
+  std::optional<Tick> came_true;
+  Expression condition;
+  stage_->with_world([&](World&) {
+    condition = parse_expression(step.until, eyes_->probes);
+    if (eyes_->history) came_true = eyes_->history->first_from(earliest);
+  });
+  if (came_true) return *came_true;
+  std::optional<std::string> no_result;
+  const auto is_over = [&](World&) {
+    try {
+      return eyes_->spans.violation() || is_true(condition, eyes_->probes);
+    } catch (const std::runtime_error& error) {
+      no_result = error.what();
+      return true;
+    }
+  };
+  const bool is_there = stage_->run_until(is_over, stage_->now() + step.within);
+  throw_if_broken();
+  if (no_result) throw StepError(*no_result);
+  if (is_there) return std::max(tick_at(stage_->now()), earliest);
+  std::string explained;
+  stage_->with_world([&](World&) { explained = explain(condition, eyes_->probes); });
+  const std::string text = to_text(condition);
+  throw StepError("'" + text + "' did not come true within " + format_duration(step.within),
+                  text + " within " + format_duration(step.within), explained);
+}
+
+Tick Performance::poll_for(const WaitStep& step) {
+  KnownDevices known;
+  stage_->with_world([&](World& world) { known = world.known(); });
+  PolledRegisters registers(known);
+  const Expression condition = parse_expression(step.until, registers);
+  const SimTime begin = stage_->now();
+  for (SimTime round = begin;; round = std::max(round + *step.poll, stage_->now())) {
+    if (round >= begin + step.within) break;
+    pass_time(round);
+    registers.values.clear();
+    std::vector<bool> low_word_first;
+    words_of_all(registers.targets(), low_word_first);
+    const auto words = read_over_line(registers.targets(), std::nullopt);
+    throw_if_broken();
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      registers.values.push_back(value_in(registers.targets()[i], words[i], low_word_first[i]));
+    }
+    if (is_true(condition, registers)) return std::max(tick_at(stage_->now()), last_write());
+  }
+  const std::string text = to_text(condition);
+  throw StepError("'" + text + "' did not come true within " + format_duration(step.within) +
+                      ", polled every " + format_duration(*step.poll),
+                  text + " within " + format_duration(step.within), explain(condition, registers));
+}
+
+// --- truths ------------------------------------------------------------------------------------
+
+void Performance::perform(const AssertStep& step) {
+  std::vector<std::string> untrue;
+  std::vector<std::string> explained;
+  stage_->with_world([&](World&) {
+    for (const std::string& text : step.expressions) {
+      const Expression expression = parse_expression(text, eyes_->probes);
+      if (is_true(expression, eyes_->probes)) continue;
+      untrue.push_back(to_text(expression));
+      explained.push_back(explain(expression, eyes_->probes));
+    }
+  });
+  if (untrue.empty()) return;
+  throw StepError("'" + untrue.front() + "' is not so", untrue.front(), explained.front(),
+                  {explained.begin() + 1, explained.end()});
+}
+
+void Performance::perform(const SpanStep& step) {
+  stage_->with_world([&](World& world) {
+    Expression condition = parse_expression(step.expression, eyes_->probes);
+    if (eyes_->spans.is_empty()) world.add_watcher(eyes_->spans);
+    eyes_->spans.open({.name = step.name.empty() ? to_text(condition) : step.name,
+                       .condition = std::move(condition),
+                       .is_never = step.never,
+                       .place = place_of(*step_)});
+  });
+}
+
+void Performance::perform(const EndSpanStep& step) {
+  bool was_open = false;
+  stage_->with_world([&](World& world) {
+    was_open = eyes_->spans.close(step.name);
+    if (eyes_->spans.is_empty()) world.remove_watcher(eyes_->spans);
+  });
+  if (!was_open) throw StepError("no span called '" + step.name + "' is open; expected one");
+}
+
+void Performance::perform(const ResetPeaksStep&) {
+  stage_->with_world([&](World&) { eyes_->peaks.reset(); });
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,229 @@
+#include "emulator/scenario/scenario_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/edge/nv_keeper.h"
+#include "emulator/scenario/scenario_form.h"
+#include "emulator/scenario/steps_reader.h"
+#include "emulator/text_file.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// A row of `cases`: names and values, in the order written.
+struct Case {
+  std::vector<std::pair<std::string, std::string>> values;
+  std::optional<YamlFields> where{};  // nothing without `cases`
+};
+
+/// "(speed=200, takes=3050ms)"
+std::string to_text(const Case& row) {
+  std::string text;
+  for (const auto& [name, value] : row.values) text += (text.empty() ? "(" : ", ") + name + "=" + value;
+  return text.empty() ? text : text + ")";
+}
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const YamlFields& root, std::string path) : root_(root), path_(std::move(path)) {}
+
+  std::vector<Scenario> read() {
+    root_.demand_keys(kScenarioKeys);
+    root_.at("understudy").integer(kVersionForm);
+    std::vector<Scenario> scenarios;
+    std::set<std::string> names;
+    for (const Case& row : read_cases()) {
+      try {
+        scenarios.push_back(read_case(row));
+      } catch (const FileError& error) {
+        // What is wrong may be so in one case only.
+        throw FileError(error.what() + (row.values.empty() ? "" : "  " + to_text(row)));
+      }
+      if (!names.insert(scenarios.back().name).second) {
+        row.where->fail("makes a second scenario called " + emulator::quoted(scenarios.back().name) +
+                        "; expected other values than before");
+      }
+    }
+    return scenarios;
+  }
+
+ private:
+  std::vector<Case> read_cases() const {
+    if (!root_.has("cases")) return {Case{}};
+    const Parameters none;
+    std::vector<Case> cases;
+    std::vector<std::string> known;
+    if (root_.has("parameters")) {
+      for (const auto& [name, value] : root_.at("parameters").entries()) known.push_back(name);
+    }
+    const auto rows = root_.at("cases").with_rule(&none).elements();
+    if (rows.empty()) root_.at("cases").fail("is empty; expected at least one row");
+    for (const YamlFields& row : rows) {
+      row.demand_map();
+      cases.push_back({.values = {}, .where = row.with_rule(nullptr)});
+      for (const auto& [name, value] : row.entries()) {
+        // The first row may bring names of its own; every other row has the same ones.
+        const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
+        if (!is_known && cases.size() > 1) {
+          value.fail("is no parameter, nor in the first case" + nearest_of(name, known, "there is none"));
+        }
+        if (!is_known) known.push_back(name);
+        cases.back().values.emplace_back(name, value.text());
+      }
+      if (cases.back().values.empty())
+        row.fail("is empty; expected a parameter's value, as in `{ speed: 100 }`");
+    }
+    return cases;
+  }
+
+  /// The case's values, and the defaults of all others; a default may use what is defined before it.
+  void define_all(const Case& row, Parameters& parameters) const {
+    const auto define = [&](const YamlFields& field, const std::string& name, const std::string& value) {
+      try {
+        parameters.define(name, value);
+      } catch (const NameError& error) {
+        field.fail(error.what());
+      }
+    };
+    for (const auto& [name, value] : row.values) define(row.where->at(name), name, value);
+    if (!root_.has("parameters")) return;
+    const YamlFields defaults = root_.at("parameters").with_rule(&parameters);
+    defaults.demand_map();
+    const auto is_given = [&](const std::string& name) {
+      return std::any_of(row.values.begin(), row.values.end(),
+                         [&](const auto& value) { return value.first == name; });
+    };
+    for (const auto& [name, value] : defaults.entries()) {
+      if (!is_given(name)) define(value, name, value.text());
+    }
+  }
+
+  /// Where one was meant and another is written, both are left over.
+  void demand_all_used(const Case& row, const Parameters& parameters) const {
+    const auto demand_used = [&](const std::string& name, const YamlFields& field) {
+      if (!parameters.was_used(name)) {
+        field.fail(emulator::quoted(name) + " is used nowhere; expected ${" + name +
+                   "} somewhere in the scenario");
+      }
+    };
+    for (const auto& [name, value] : row.values) demand_used(name, row.where->at(name));
+    if (!root_.has("parameters")) return;
+    for (const auto& [name, value] : root_.at("parameters").entries()) demand_used(name, value);
+  }
+
+  Bench read_its_bench(const YamlFields& root) const {
+    const YamlFields field = root.at("bench");
+    Bench bench = field.is_map() ? read_bench(field, field.folder()) : load_bench(field.path());
+    if (root.has("nv")) {
+      const YamlFields nv = root.at("nv");
+      nv.demand_map();
+      for (const auto& [name, image] : nv.entries()) {
+        DeviceSetup& device = demand_device(bench, image, name);
+        device.nv_path = image.path();
+        if (!std::filesystem::exists(device.nv_path)) {
+          image.fail(device.nv_path + " cannot be read; expected an NV image");
+        }
+      }
+    }
+    if (root.has("firmware")) read_firmwares(root.at("firmware"), bench);
+    return bench;
+  }
+
+  static DeviceSetup& demand_device(Bench& bench, const YamlFields& field, const std::string& name) {
+    std::vector<std::string> names;
+    for (DeviceSetup& device : bench.devices) {
+      if (device.settings.name == name) return device;
+      names.push_back(device.settings.name);
+    }
+    field.fail("no device is called " + emulator::quoted(name) + nearest_of(name, names, "there is none"));
+  }
+
+  static void read_firmwares(const YamlFields& fields, Bench& bench) {
+    const auto read = [](const YamlFields& field) {
+      const Firmware firmware = parse_firmware(field.text());
+      if (firmware == 0) field.fail("'" + field.text() + "' is no version; expected one like \"1.52\"");
+      return firmware;
+    };
+    if (!fields.is_map()) {
+      for (DeviceSetup& device : bench.devices) device.settings.firmware = read(fields);
+      return;
+    }
+    fields.demand_map();
+    for (const auto& [name, field] : fields.entries()) {
+      demand_device(bench, field, name).settings.firmware = read(field);
+    }
+  }
+
+  Scenario read_case(const Case& row) {
+    Parameters parameters;
+    define_all(row, parameters);
+    const YamlFields root = root_.with_rule(&parameters);
+    Scenario scenario;
+    scenario.file = path_;
+    scenario.name = std::filesystem::path(path_).stem().string();
+    bool is_named_by_case = false;
+    if (root.has("name")) {
+      scenario.name = on_one_line(root.at("name").text());
+      is_named_by_case = scenario.name != root_.at("name").text();
+    }
+    if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
+    scenario.bench = read_its_bench(root);
+    if (root.has("gap")) scenario.gap = root.at("gap").duration();
+    if (root.has("seed")) scenario.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
+    const Trial trial = make_trial(root, scenario.bench);
+    StepsReader steps(trial, file_, path_);
+    scenario.steps = steps.read(root.at("steps"), parameters);
+    demand_all_used(row, parameters);
+    return scenario;
+  }
+
+  /// The bench by itself has been checked, but a memory may not suit it, and another firmware may know less.
+  static Trial make_trial(const YamlFields& root, Bench& bench) {
+    const YamlFields field = root.has("firmware") ? root.at("firmware") : root.at("bench");
+    try {
+      read_memories(bench, "");
+      // What is played leaves the files as they are; `save` writes them.
+      for (DeviceSetup& device : bench.devices) device.nv_path.clear();
+      return Trial(bench);
+    } catch (const SettingError& error) {
+      field.fail(error.what());
+    } catch (const NvError& error) {
+      throw FileError(error.what());
+    } catch (const ProgramError& error) {
+      field.fail("program: line " + std::to_string(error.line) + ": " + error.what());
+    }
+  }
+
+  YamlFields root_;
+  std::string path_;
+  FileReading file_;
+};
+
+}  // namespace
+
+std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path) {
+  const YamlFields root = YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
+  return ScenarioReader(root, path).read();
+}
+
+std::vector<Scenario> load_scenarios(const std::string& path) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ":1: scenario: cannot be read; expected a scenario file");
+  return parse_scenarios(*text, path);
+}
+
+FileKind kind_of_file(const std::string& path) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ":1: file: cannot be read; expected a bench or a scenario");
+  const YamlFields root =
+      YamlFields::parse(*text, path, "file", "a bench (`lines:`) or a scenario (`bench:` and `steps:`)");
+  if (!root.has("steps"))
+    return root.has("bench") && !root.has("lines") ? FileKind::scenario : FileKind::bench;
+  return root.has("bench") || root.has("name") ? FileKind::scenario : FileKind::steps;
+}
+
+}  // namespace understudy::emulator

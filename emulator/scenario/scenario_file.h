@@ -1,0 +1,26 @@
+// Scenario files (YAML, docs/scenarios.md) into scenarios: one of each row of `cases`, one without.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/file_error.h"
+#include "emulator/scenario/scenario.h"
+
+namespace understudy::emulator {
+
+/// What the path of a scenario is relative to is its own folder. Nothing of it has run when it returns, but
+/// all of it is checked. Throws FileError.
+std::vector<Scenario> load_scenarios(const std::string& path);
+/// The same from a text; `path` stands for the file in messages and paths.
+std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path);
+
+/// What a file is meant to be, by its keys. Throws FileError if it cannot be read.
+enum class FileKind : std::uint8_t {
+  bench,
+  scenario,
+  steps,  // for other scenarios to include
+};
+FileKind kind_of_file(const std::string& path);
+
+}  // namespace understudy::emulator

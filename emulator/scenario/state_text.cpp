@@ -1,0 +1,96 @@
+#include "emulator/scenario/state_text.h"
+
+#include <array>
+#include <cstdio>
+
+#include "emulator/expression/number.h"
+#include "emulator/register_map/access.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// Registers that tell how a device stands, as far as its model has them: "{}" is an axis.
+constexpr std::array<std::string_view, 5> kTelling{"STATUS", "{}axis_Mode", "Cord_{}", "EEPROM_Writing",
+                                                   "PROG_MAIN_RunTime_Status"};
+
+std::string registers_text(const Device& device) {
+  std::string text;
+  const auto add = [&](const std::string& name) {
+    const auto place = device.registers().find(name, device.firmware());
+    if (!place) return;
+    const Value value = read_value(device, *place);
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(value);
+    if (name != "STATUS") return;
+    std::array<char, 16> hexadecimal{};
+    std::snprintf(hexadecimal.data(), hexadecimal.size(), " (0x%04X)",
+                  static_cast<unsigned>(value) & 0xFFFFU);
+    text += hexadecimal.data();
+  };
+  for (const std::string_view telling : kTelling) {
+    const std::size_t axis_at = telling.find("{}");
+    if (axis_at == std::string_view::npos) {
+      add(std::string(telling));
+      continue;
+    }
+    for (const AxisRow& axis : device.model().axes) {
+      add(std::string(telling.substr(0, axis_at)) + std::string(axis.name) +
+          std::string(telling.substr(axis_at + 2)));
+    }
+  }
+  return text;
+}
+
+std::string terminals_text(const Device& device) {
+  std::string text;
+  const auto terminals = device.model().terminals;
+  for (std::size_t i = 0; i < terminals.size(); ++i) {
+    const bool is_output = !is_input(terminals[i].kind);
+    const auto number = static_cast<int>(i);
+    const std::int32_t level = is_output ? (device.output(number) ? 1 : 0) : device.input(number);
+    if (level == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(terminals[i].name);
+    text += terminals[i].kind == TerminalRow::Kind::analog_in
+                ? " " + number_text(Number(level), Unit::millivolts)
+                : " on";
+  }
+  return text;
+}
+
+std::string axis_text(const World& world, std::size_t number, std::size_t axis) {
+  const auto a = static_cast<int>(axis);
+  const PlantAxis& plant = world.plant(number, a);
+  std::string text = "pulses " + std::to_string(world.sent_pulses(number, a)) + ", speed " +
+                     number_text(Number(world.device(number).speed_pps(a))) + ", position " +
+                     std::to_string(plant.position_pulses());
+  if (plant.lost_pulses() != 0) text += ", lost " + std::to_string(plant.lost_pulses());
+  if (plant.at_home()) text += ", at home";
+  if (plant.at_upper_limit()) text += ", at the upper limit";
+  if (plant.at_lower_limit()) text += ", at the lower limit";
+  if (plant.in_alarm()) text += ", in alarm";
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> state_text(const World& world) {
+  std::vector<std::string> texts;
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    const Device& device = world.device(d);
+    if (!device.powered()) {
+      texts.push_back(device.name() + ": without power");
+    } else if (const std::string registers = registers_text(device); !registers.empty()) {
+      texts.push_back(device.name() + ": " + registers);
+    }
+    for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
+      texts.push_back(device.name() + "." + std::string(device.model().axes[a].name) + ": " +
+                      axis_text(world, d, a));
+    }
+    if (const std::string terminals = terminals_text(device); !terminals.empty()) {
+      texts.push_back(device.name() + ": " + terminals);
+    }
+  }
+  return texts;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+/// How the devices and their machines stand at this moment, a line each: status, modes, coordinates; pulses,
+/// speed and position of each axis; the terminals that are on.
+std::vector<std::string> state_text(const World& world);
+
+}  // namespace understudy::emulator

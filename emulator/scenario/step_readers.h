@@ -1,0 +1,41 @@
+// The readers of single kinds of steps, for the table of step_rows.cpp.
+#pragma once
+
+namespace understudy::emulator {
+
+class StepsReader;
+class YamlFields;
+
+// line_steps.cpp
+void read_write(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_expect(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_send(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+
+// truth_steps.cpp
+void read_wait(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_advance(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_assert(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_always(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_never(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_end(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_reset(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_say(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+
+// outside_steps.cpp
+void read_inputs(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_inject(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_clear(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_power(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_program(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_memory(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_save(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+
+// course_steps.cpp
+void read_snapshot(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_restore(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_fork(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_repeat(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_for(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_include(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,29 @@
+// The kinds of steps, a row each: how a file spells it, what it is for, what its value looks like and who
+// reads it. A new kind is a row here, a struct in scenario.h, and what the runner does for it.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "emulator/bench/bench_form.h"
+#include "emulator/forms/form.h"
+
+namespace understudy::emulator {
+
+class StepsReader;
+class YamlFields;
+
+struct StepRow {
+  KeyRow key;
+  /// Adds the step that `value` describes. It stands in the map `step`, with keys of `beside` at most.
+  void (*read)(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+  std::span<const KeyRow> beside{};
+};
+
+/// In the order of the documentation.
+std::span<const StepRow> step_rows();
+
+inline constexpr std::array kIncludedKeys{kVersionKey,
+                                          KeyRow{"steps", "The steps to include.", &kSteps, true}};
+
+}  // namespace understudy::emulator

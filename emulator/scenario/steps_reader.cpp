@@ -1,0 +1,117 @@
+#include "emulator/scenario/steps_reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "emulator/scenario/step_rows.h"
+#include "emulator/text_file.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+const StepRow* find_row(std::string_view key) {
+  for (const StepRow& row : step_rows()) {
+    if (row.key.key == key) return &row;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void fail_without_row(const YamlFields& step) {
+  const auto entries = step.entries();
+  if (entries.empty()) step.fail("is empty; expected a step, as in `- advance: 250ms`");
+  std::vector<std::string> names;
+  for (const StepRow& row : step_rows()) names.emplace_back(row.key.key);
+  const std::string& key = entries.front().first;
+  entries.front().second.fail("is no step; the nearest is '" + nearest_word(key, names) + "'");
+}
+
+/// However it is spelled.
+std::string canonical(const std::string& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
+}
+
+}  // namespace
+
+StepsReader::StepsReader(const Trial& trial, FileReading& file, std::string path)
+    : trial_(trial), file_(file), paths_{canonical(path)} {
+  for (const Fault& fault : trial.bench().faults) story_.faults.push_back(to_text(trial.known(), fault));
+}
+
+Steps StepsReader::read(const YamlFields& list, const Parameters& parameters) {
+  Steps steps;
+  into_ = &steps;
+  read_here(list, parameters);
+  return steps;
+}
+
+void StepsReader::count(const YamlFields& where) {
+  if (++file_.steps > FileReading::kMostSteps) {
+    where.fail("is one step too many; expected at most " + std::to_string(FileReading::kMostSteps) +
+               " with all loops and cases");
+  }
+}
+
+void StepsReader::read_here(const YamlFields& list, const Parameters& parameters) {
+  if (++depth_ > FileReading::kDeepest) {
+    list.fail("is too deep; expected at most " + std::to_string(FileReading::kDeepest) +
+              " loops, forks and includes in each other");
+  }
+  const Parameters* const outer = std::exchange(parameters_, &parameters);
+  const auto steps = list.with_rule(&parameters).elements();
+  if (steps.empty()) list.fail("is empty; expected at least one step");
+  for (const YamlFields& step : steps) read_step(step);
+  parameters_ = outer;
+  --depth_;
+}
+
+Steps StepsReader::read_branch(const YamlFields& list) {
+  Steps steps;
+  Steps* const outer = std::exchange(into_, &steps);
+  const Story before = story_;
+  read_here(list, *parameters_);
+  story_ = before;
+  into_ = outer;
+  return steps;
+}
+
+void StepsReader::read_included(const YamlFields& field) {
+  const std::string path = canonical(field.path());
+  if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) {
+    field.fail(field.path() + " includes itself; expected another file");
+  }
+  auto it = file_.included.find(path);
+  if (it == file_.included.end()) {
+    const auto text = read_text_file(path);
+    if (!text) field.fail(field.path() + " cannot be read; expected a file of steps");
+    const YamlFields root = YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
+    root.demand_keys(kIncludedKeys);
+    root.at("understudy").integer(kVersionForm);
+    it = file_.included.emplace(path, root.at("steps")).first;
+  }
+  paths_.push_back(path);
+  read_here(it->second, *parameters_);
+  paths_.pop_back();
+}
+
+void StepsReader::read_step(const YamlFields& step) {
+  if (!step.is_map()) step.fail("expected a step, as in `- advance: 250ms`");
+  step.demand_map();
+  const auto entries = step.entries();
+  const auto is_kind = [](const auto& entry) { return find_row(entry.first) != nullptr; };
+  const auto entry = std::find_if(entries.begin(), entries.end(), is_kind);
+  if (entry == entries.end()) fail_without_row(step);
+  const StepRow& row = *find_row(entry->first);
+  std::vector<KeyRow> known{row.key};
+  known.insert(known.end(), row.beside.begin(), row.beside.end());
+  for (const auto& other : entries) {
+    if (other.first != entry->first && is_kind(other)) {
+      other.second.fail("is a second step in one; expected `- ` before it");
+    }
+  }
+  step.demand_keys(known);
+  row.read(*this, step, entry->second);
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,61 @@
+// Steps as a scenario file has them into the list that is played: loops, tables and includes are unrolled,
+// and everything is checked on the way.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "emulator/bench/yaml_fields.h"
+#include "emulator/scenario/parameters.h"
+#include "emulator/scenario/scenario.h"
+#include "emulator/scenario/story.h"
+#include "emulator/scenario/trial.h"
+
+namespace understudy::emulator {
+
+/// What the cases of a file share.
+struct FileReading {
+  static constexpr int kMostSteps = 100'000;  // of all cases
+  static constexpr int kDeepest = 32;         // loops, forks and includes in each other
+  int steps = 0;
+  std::map<std::string, YamlFields> included;  // by path; each is read once
+};
+
+class StepsReader {
+ public:
+  StepsReader(const Trial& trial, FileReading& file, std::string path);
+
+  Steps read(const YamlFields& list, const Parameters& parameters);
+
+  // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
+  const Trial& trial() const { return trial_; }
+  const Parameters& parameters() const { return *parameters_; }
+  Story& story() { return story_; }
+  /// One step more; `text` says what it does.
+  template <typename What>
+  void add(const YamlFields& where, const std::string& text, What what) {
+    count(where);
+    into_->push_back(
+        {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
+  }
+  /// The steps of a list, in this place, with other parameters.
+  void read_here(const YamlFields& list, const Parameters& parameters);
+  /// The steps of a list, from the story so far, which goes on as if they had not been.
+  Steps read_branch(const YamlFields& list);
+  void read_included(const YamlFields& path);
+
+ private:
+  void read_step(const YamlFields& step);
+  void count(const YamlFields& where);
+
+  const Trial& trial_;
+  FileReading& file_;
+  const Parameters* parameters_ = nullptr;
+  Story story_;
+  Steps* into_ = nullptr;
+  std::vector<std::string> paths_;  // of the files that include each other here
+  int depth_ = 0;
+};
+
+}  // namespace understudy::emulator

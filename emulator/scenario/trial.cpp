@@ -1,0 +1,196 @@
+#include "emulator/scenario/trial.h"
+
+#include "emulator/expression/parser.h"
+#include "emulator/parse_integer.h"
+#include "emulator/scenario/parameters.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+struct Limits {
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+};
+
+/// What can be sent to the target, and what can come back from it.
+Limits limits_of(const Target& target) {
+  if (!target.place) return {0, UINT16_MAX};
+  if (target.place->bit >= 0) return {0, 1};
+  if (target.place->place.part != Place::Part::whole) return {0, UINT16_MAX};
+  switch (target.place->place.row->type) {
+    case Type::u16: return {0, UINT16_MAX};
+    case Type::s16: return {INT16_MIN, INT16_MAX};
+    case Type::u32: return {0, UINT32_MAX};
+    case Type::s32: return {INT32_MIN, INT32_MAX};
+  }
+  return {};
+}
+
+std::string to_text(const Limits& limits) {
+  return std::to_string(limits.low) + " to " + std::to_string(limits.high);
+}
+
+/// `feeder["Logic Position X"].4` without its quotes; anything else as it is.
+std::string plain_name(const YamlFields& field, const std::string& written) {
+  if (written.find('[') == std::string::npos) return written;
+  try {
+    Lexer lexer(written);
+    const Token word = lexer.next();
+    if (word.kind == Token::Kind::name && lexer.next().kind == Token::Kind::end) return word.name;
+  } catch (const ExpressionError& error) {
+    field.fail(error.what());
+  }
+  field.fail(quoted(written) + " is no name; expected one such as feeder[\"Logic Position X\"]");
+}
+
+}  // namespace
+
+Trial::Trial(const Bench& bench) : bench_(bench), world_(bench, WorldOptions{}, {}), probes_(world_) {}
+
+std::size_t Trial::device(const YamlFields& field, const std::string& name) const {
+  try {
+    return find_device(known(), plain_name(field, name));
+  } catch (const NameError& error) {
+    field.fail(error.what());
+  }
+}
+
+std::size_t Trial::line(const YamlFields& field, const std::string& name) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
+    if (bench_.lines[i].name == name) return i;
+    names.push_back(bench_.lines[i].name);
+  }
+  field.fail("no line is called " + quoted(name) + nearest_of(name, names, "there is none"));
+}
+
+Target Trial::target(const YamlFields& field, const std::string& written) const {
+  Target target;
+  target.name = written;
+  const std::string name = plain_name(field, written);
+  try {
+    const std::size_t dot = name.find('.');
+    std::string rest = name;
+    for (std::size_t i = 0; i < known().size() && dot != std::string::npos; ++i) {
+      if (name.compare(0, dot, known()[i].name) != 0) continue;
+      target.device = i;
+      rest = name.substr(dot + 1);
+    }
+    if (rest.empty() || rest.front() < '0' || rest.front() > '9') {
+      const RegisterName found = find_register(known(), name);
+      target.device = found.device;
+      target.place = found.place;
+      return target;
+    }
+    if (rest == name) find_device(known(), known().size() == 1 ? "" : name.substr(0, dot));
+    const auto address = parse_integer(rest);
+    if (!address || *address > UINT16_MAX) {
+      field.fail(quoted(rest) + " is no number of a register; expected 0 to 0xFFFF");
+    }
+    target.address = static_cast<std::uint16_t>(*address);
+    return target;
+  } catch (const NameError& error) {
+    field.fail(error.what());
+  }
+}
+
+Expression Trial::expression(const YamlFields& field) const {
+  const std::string text = field.text();
+  try {
+    ExpressionParser parser(text, probes_);
+    const Term term = parser.expression();
+    parser.expect_end();
+    if (term.unit != Unit::none) {
+      field.fail("is " + kind_of(term.unit) + "; expected a number, or a condition");
+    }
+    Expression expression = parser.take();
+    if (expression.names.empty()) evaluate(expression, probes_);  // it has no result, or has one for ever
+    return expression;
+  } catch (const ExpressionError& error) {
+    field.fail(error.what());
+  }
+}
+
+std::string Trial::condition(const YamlFields& field) const { return expression(field).text; }
+
+std::string Trial::changing_condition(const YamlFields& field) const {
+  const Expression condition = expression(field);
+  if (condition.names.empty()) {
+    field.fail(quoted(to_text(condition)) + " never changes; expected a condition that names something");
+  }
+  return condition.text;
+}
+
+void Trial::demand_registers_only(const YamlFields& field) const {
+  for (const Expression::Name& name : expression(field).names) {
+    try {
+      find_register(known(), plain_name(field, name.spelling));
+    } catch (const NameError&) {
+      field.fail(quoted(name.spelling) + " cannot be polled; expected registers only");
+    }
+  }
+}
+
+std::string Trial::value_to_write(const YamlFields& field, const Target& target, bool is_refused) const {
+  const Expression value = expression(field);
+  const RegisterRow* const row = target.place ? target.place->place.row : nullptr;
+  if (row != nullptr && row->access == Access::read && !is_refused) {
+    field.fail(target.name +
+               " cannot be written; it is read-only (expected `exception:` where that is meant)");
+  }
+  if (!value.names.empty()) return value.text;
+  const Number number = evaluate(value, probes_);
+  const auto out_of = [&](const std::string& range) {
+    field.fail(number_text(number) + " is out of range for " + target.name + "; expected " + range);
+  };
+  if (!number.is_whole()) field.fail(number_text(number) + " is no whole number; expected one");
+  const Limits limits = limits_of(target);
+  if (number.whole() < limits.low || number.whole() > limits.high) out_of(to_text(limits));
+  const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
+                         target.place->place.part == Place::Part::whole && !is_refused;
+  if (is_judged && (number.whole() < row->min || number.whole() > row->max)) out_of(range_text(*row));
+  return value.text;
+}
+
+Tolerance Trial::value_to_expect(const YamlFields& field, const Target& target) const {
+  try {
+    Tolerance value = parse_tolerance(field.text());
+    const Limits limits = limits_of(target);
+    if ((value.low && *value.low > Number(limits.high)) || (value.high && *value.high < Number(limits.low))) {
+      field.fail(target.name + " is never " + value.text + "; expected something in " + to_text(limits));
+    }
+    return value;
+  } catch (const ExpressionError& error) {
+    field.fail(error.what());
+  }
+}
+
+void Trial::demand_program(const YamlFields& field, std::size_t device, const std::string& text,
+                           const std::string& name) const {
+  DeviceSettings settings = bench_.devices[device].settings;
+  settings.program = text;
+  try {
+    make_device(*bench_.devices[device].model, settings);
+  } catch (const ProgramError& error) {
+    if (name.empty()) field.fail("line " + std::to_string(error.line) + ": " + error.what());
+    throw FileError(name + ":" + std::to_string(error.line) + ": " + error.what());
+  } catch (const SettingError& error) {
+    field.fail(error.what());
+  }
+}
+
+void Trial::demand_memory(const YamlFields& field, std::size_t device, const NvImage& image) const {
+  DeviceSettings settings = bench_.devices[device].settings;
+  settings.nv = image;
+  settings.program.clear();
+  try {
+    make_device(*bench_.devices[device].model, settings);
+  } catch (const NvError& error) {
+    field.fail(error.what());
+  } catch (const SettingError& error) {
+    field.fail(error.what());
+  }
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,48 @@
+// A world of the bench in which nothing happens: a scenario's names, conditions and values are checked in it
+// before any of them is used.
+#pragma once
+
+#include <string>
+
+#include "emulator/bench/yaml_fields.h"
+#include "emulator/probe/probes.h"
+#include "emulator/scenario/scenario.h"
+
+namespace understudy::emulator {
+
+class Trial {
+ public:
+  /// Throws SettingError, NvError or ProgramError for what the models refuse.
+  explicit Trial(const Bench& bench);
+
+  const Bench& bench() const { return bench_; }
+  const KnownDevices& known() const { return world_.known(); }
+
+  // All of these take what a field says, or complain of it.
+  std::size_t device(const YamlFields& field, const std::string& name) const;
+  std::size_t line(const YamlFields& field, const std::string& name) const;
+  /// A register or a number, as a key or in an expression.
+  Target target(const YamlFields& field, const std::string& written) const;
+  /// An expression that is true or false.
+  std::string condition(const YamlFields& field) const;
+  /// One that can change: it names something.
+  std::string changing_condition(const YamlFields& field) const;
+  /// One that a host could evaluate by reading registers.
+  void demand_registers_only(const YamlFields& field) const;
+  /// What is written to a register; where that `is_refused` it may be out of the register's range.
+  std::string value_to_write(const YamlFields& field, const Target& target, bool is_refused) const;
+  Tolerance value_to_expect(const YamlFields& field, const Target& target) const;
+  /// Text for a register map's device: a program, or an image of its memory.
+  void demand_program(const YamlFields& field, std::size_t device, const std::string& text,
+                      const std::string& name) const;
+  void demand_memory(const YamlFields& field, std::size_t device, const NvImage& image) const;
+
+ private:
+  Expression expression(const YamlFields& field) const;
+
+  const Bench& bench_;
+  World world_;
+  Probes probes_;
+};
+
+}  // namespace understudy::emulator

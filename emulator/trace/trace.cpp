@@ -1,0 +1,76 @@
+#include "emulator/trace/trace.h"
+
+#include <array>
+
+namespace understudy::emulator {
+
+namespace {
+
+using Kind = TraceSignal::Kind;
+
+void add_axis(const std::string& axis, std::vector<TraceSignal>& signals) {
+  for (const auto& [word, kind] :
+       {std::pair{"pulses", Kind::whole}, std::pair{"speed", Kind::real}, std::pair{"position", Kind::whole},
+        std::pair{"home", Kind::bit}, std::pair{"lower_limit", Kind::bit},
+        std::pair{"upper_limit", Kind::bit}}) {
+    signals.push_back({.name = axis + "." + word, .kind = kind});
+  }
+}
+
+}  // namespace
+
+std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also) {
+  std::vector<TraceSignal> signals;
+  for (const KnownDevice& device : world.known()) {
+    for (const AxisRow& axis : device.model->axes)
+      add_axis(device.name + "." + std::string(axis.name), signals);
+    for (const TerminalRow& row : device.model->terminals) {
+      if (row.kind == TerminalRow::Kind::dip_switch) continue;
+      const bool is_bit = row.kind != TerminalRow::Kind::analog_in;
+      signals.push_back(
+          {.name = device.name + "." + std::string(row.name), .kind = is_bit ? Kind::bit : Kind::whole});
+    }
+    for (const std::string_view name : device.model->state_registers) {
+      signals.push_back({.name = device.name + "." + std::string(name), .kind = Kind::whole});
+    }
+    signals.push_back({.name = device.name + ".power", .kind = Kind::bit});
+  }
+  const Probes probes(world);
+  for (const std::string& name : also) {
+    const NamedNumber number = probes.resolve(name);
+    signals.push_back(
+        {.name = name, .kind = probes.value(number.handle).is_whole() ? Kind::whole : Kind::real});
+  }
+  return signals;
+}
+
+Trace::Trace(World& world, std::vector<TraceSignal> signals, std::unique_ptr<TraceFormat> format)
+    : world_(world),
+      probes_(world),
+      values_(signals.size()),
+      is_new_(signals.size()),
+      format_(std::move(format)) {
+  for (const TraceSignal& signal : signals) handles_.push_back(probes_.resolve(signal.name).handle);
+  format_->begin(signals);
+  look(world_.now());
+  world_.add_watcher(*this);
+}
+
+Trace::~Trace() { world_.remove_watcher(*this); }
+
+void Trace::on_tick(Tick tick) { look(time_of(tick)); }
+
+void Trace::look(SimTime at) {
+  bool anything = false;
+  for (std::size_t i = 0; i < handles_.size(); ++i) {
+    const Number value = probes_.value(handles_[i]);
+    is_new_[i] = !has_begun_ || value != values_[i];
+    if (!is_new_[i]) continue;
+    values_[i] = value;
+    anything = true;
+  }
+  if (anything) format_->row(at, values_, is_new_);
+  has_begun_ = true;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,229 @@
+#include "emulator/world/snapshot.h"
+
+#include <functional>
+#include <tuple>
+#include <utility>
+
+#include "emulator/world/state_fields.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Machines = std::vector<std::vector<PlantAxis::State>>;
+using LineStates = std::vector<pty::Line::State>;
+using StationStates = std::vector<std::vector<RtuStation::State>>;
+
+/// The world's own fields, as values.
+auto values_of(const World& world) {
+  return WorldFields::of(world, [](const auto&... field) { return std::tuple(field...); });
+}
+using WorldValues = decltype(values_of(std::declval<const World&>()));
+
+enum : std::size_t { kSentPulses, kInputs, kFaults, kNextFault, kDisturbed, kNow, kDone };
+
+// --- saving ----------------------------------------------------------------------------------------
+
+WorldState::Part world_part(const World& world) {
+  StateWriter writer(1024);
+  WorldFields::of(world, [&](const auto&... field) { (writer.write<WorldFields>(field), ...); });
+  for (const auto& axes : WorldFields::plants(world)) {
+    for (const PlantAxis& plant : axes) writer.write<WorldFields>(plant.save());
+  }
+  return {"world", writer.take()};
+}
+
+WorldState::Part line_part(const World::OneLine& line) {
+  StateWriter writer(1024);
+  writer.write<WorldFields>(line.line.save());
+  for (const auto& station : line.stations) writer.write<WorldFields>(station->save());
+  return {"line " + line.line.name(), writer.take()};
+}
+
+WorldState::Part edge_part(const World& world) {
+  StateWriter writer(256);
+  EdgeFields::of(world, [&](const auto&... field) { (writer.write<EdgeFields>(field), ...); });
+  for (std::size_t i = 0; i < world.line_count(); ++i) writer.write<EdgeFields>(world.line(i).line.save());
+  return {"edge", writer.take()};
+}
+
+// --- reading, which changes nothing ----------------------------------------------------------------
+
+void check_inputs(const World& world, const WorldValues& values) {
+  const auto& inputs = std::get<kInputs>(values);
+  demand_state(inputs.size() == world.device_count(), "it has other devices");
+  for (std::size_t d = 0; d < inputs.size(); ++d) {
+    const auto terminals = world.device(d).model().terminals;
+    demand_state(inputs[d].size() == terminals.size(), "it has other terminals");
+    for (std::size_t i = 0; i < terminals.size(); ++i) {
+      demand_within(inputs[d][i].external, terminals[i].lowest, terminals[i].highest);
+    }
+  }
+}
+
+void check_pulses(const World& world, const WorldValues& values) {
+  const auto& sent_pulses = std::get<kSentPulses>(values);
+  demand_state(sent_pulses.size() == world.device_count(), "it has other devices");
+  for (std::size_t d = 0; d < sent_pulses.size(); ++d) {
+    demand_state(sent_pulses[d].size() == world.device(d).model().axes.size(), "it has other axes");
+    for (const std::int64_t pulses : sent_pulses[d]) demand_reach(pulses);
+  }
+}
+
+void check_faults(const World& world, const WorldValues& values) {
+  for (const auto& [number, fault] : std::get<kFaults>(values)) {
+    demand_state(number < std::get<kNextFault>(values), "a fault has a number of the future");
+    demand_state(fault.device < world.device_count(), "a fault is of no device");
+    const Model& model = world.device(fault.device).model();
+    const bool is_of_input = fault.kind == Fault::Kind::stuck;
+    const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
+    demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
+    demand_state(fault.kind != Fault::Kind::slip, "a slip lasts");
+    demand_state(fault.amount >= 0, "a fault has no such amount");
+    demand_reach(fault.amount);
+  }
+}
+
+WorldValues read_values(const World& world, StateReader& reader) {
+  WorldValues values = values_of(world);
+  std::apply([&](auto&... field) { (reader.read<WorldFields>(field), ...); }, values);
+  check_inputs(world, values);
+  check_pulses(world, values);
+  check_faults(world, values);
+  const SimTime now = std::get<kNow>(values);
+  demand_state(now >= SimTime{0} && now <= kHorizon, "its time is beyond the end of time");
+  demand_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
+  return values;
+}
+
+Machines read_machines(const World& world, StateReader& reader) {
+  Machines machines;
+  for (const auto& axes : WorldFields::plants(world)) {
+    auto& states = machines.emplace_back(axes.size());
+    for (PlantAxis::State& state : states) {
+      reader.read<WorldFields>(state);
+      PlantAxis::check(state);
+    }
+  }
+  return machines;
+}
+
+/// What the edge part holds besides lines.
+auto read_ticks(const World& world, StateReader& reader) {
+  auto ticks = EdgeFields::of(world, [](const auto&... field) { return std::tuple(field...); });
+  std::apply([&](auto&... field) { (reader.read<EdgeFields>(field), ...); }, ticks);
+  return ticks;
+}
+
+/// The parts one after another, by the names that such a world's have.
+class Parts {
+ public:
+  explicit Parts(const WorldState& state) : state_(state) {}
+
+  /// What is wrong with a part carries its name.
+  template <class Read>
+  auto read(const std::string& name, Read read) {
+    if (next_ == state_.parts.size() || state_.parts[next_].name != name) {
+      throw StateError(name + ": is missing where it was expected");
+    }
+    try {
+      return read(std::span(state_.parts[next_++].bytes));
+    } catch (const std::runtime_error& error) {
+      throw StateError(name + ": " + error.what());
+    } catch (const std::invalid_argument& error) {
+      throw StateError(name + ": " + error.what());
+    }
+  }
+  void demand_end() const {
+    if (next_ != state_.parts.size()) throw StateError(state_.parts[next_].name + ": is not of this world");
+  }
+
+ private:
+  const WorldState& state_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+WorldState save(const World& world) {
+  WorldState state{.time = world.now(), .parts = {}};
+  state.parts.reserve(2 + world.device_count() + world.line_count());
+  state.parts.push_back(world_part(world));
+  for (std::size_t i = 0; i < world.device_count(); ++i) {
+    state.parts.push_back({"device " + world.device(i).name(), world.device(i).save_state()});
+  }
+  for (std::size_t i = 0; i < world.line_count(); ++i) state.parts.push_back(line_part(world.line(i)));
+  state.parts.push_back(edge_part(world));
+  return state;
+}
+
+void restore(World& world, const WorldState& state) {
+  Parts parts(state);
+  auto [values, machines] = parts.read("world", [&](std::span<const std::byte> bytes) {
+    StateReader reader(bytes);
+    WorldValues of_world = read_values(world, reader);
+    Machines of_machines = read_machines(world, reader);
+    reader.demand_end();
+    return std::pair(std::move(of_world), std::move(of_machines));
+  });
+  std::vector<std::function<void()>> put_devices;
+  for (std::size_t i = 0; i < world.device_count(); ++i) {
+    put_devices.push_back(
+        parts.read("device " + world.device(i).name(),
+                   [&](std::span<const std::byte> bytes) { return world.device(i).read_state(bytes); }));
+  }
+  LineStates lines(world.line_count());
+  StationStates stations(world.line_count());
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    const World::OneLine& line = world.line(i);
+    parts.read("line " + line.line.name(), [&](std::span<const std::byte> bytes) {
+      StateReader reader(bytes);
+      reader.read<WorldFields>(lines[i]);
+      stations[i].resize(line.stations.size());
+      for (std::size_t j = 0; j < stations[i].size(); ++j) {
+        reader.read<WorldFields>(stations[i][j]);
+        line.stations[j]->check(stations[i][j]);
+      }
+      reader.demand_end();
+    });
+  }
+  auto ticks = parts.read("edge", [&](std::span<const std::byte> bytes) {
+    StateReader reader(bytes);
+    auto of_world = read_ticks(world, reader);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      reader.read<EdgeFields>(lines[i]);
+      world.line(i).line.check(lines[i]);
+    }
+    reader.demand_end();
+    return of_world;
+  });
+  parts.demand_end();
+
+  // Nothing from here on throws.
+  WorldFields::of(world, [&](auto&... field) { std::tie(field...) = std::move(values); });
+  EdgeFields::of(world, [&](auto&... field) { std::tie(field...) = ticks; });
+  for (std::size_t d = 0; d < machines.size(); ++d) {
+    for (std::size_t a = 0; a < machines[d].size(); ++a) {
+      WorldFields::plants(world)[d][a].restore(machines[d][a]);
+    }
+  }
+  for (std::size_t i = 0; i < put_devices.size(); ++i) {
+    put_devices[i]();
+    world.device(i).set_now(tick_at(world.now()));
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    World::OneLine& line = world.line(i);
+    line.line.restore(lines[i]);
+    for (std::size_t j = 0; j < stations[i].size(); ++j) line.stations[j]->restore(stations[i][j]);
+  }
+}
+
+std::uint64_t hash(const World& world) {
+  std::uint64_t sum = hash_of({});
+  for (const WorldState::Part& part : save(world).parts) {
+    if (part.name != "edge") sum = hash_of(part.bytes, sum);
+  }
+  return sum;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,41 @@
+// The state of a running world as a value: saved and restored in memory, hashed. Also into another world, if
+// it is of the same bench. For a file see snapshot_file.h.
+//
+// A world that is restored goes on as it did after it was saved: the same things from outside at the same
+// times make the same states and the same bytes on its lines. Not to be called from within
+// World::advance_to(), that is by those who watch it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "emulator/simulated_time.h"
+#include "emulator/state/state_error.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+struct WorldState {
+  struct Part {
+    std::string name;  // "world", "device feeder", "line rs485", "edge"
+    std::vector<std::byte> bytes;
+    bool operator==(const Part&) const = default;
+  };
+  SimTime time{0};  // simulated
+  std::vector<Part> parts;
+  bool operator==(const WorldState&) const = default;
+};
+
+WorldState save(const World& world);
+
+/// Throws StateError "part: what is wrong" for what is no state of such a world; nothing has changed then.
+/// Watchers, observers and the listener stay as they are.
+void restore(World& world, const WorldState& state);
+
+/// Of all that the model does things by, and of nothing else: not of bytes that a host has not taken yet, of
+/// whether quiet ticks were crossed in bulk, or of what is counted of that.
+std::uint64_t hash(const World& world);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,137 @@
+// The only file that knows the JSON of snapshots.
+#include "emulator/world/snapshot_file.h"
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "emulator/bench/bench_text.h"
+#include "emulator/one_line.h"
+#include "emulator/state/base64.h"
+#include "emulator/state/state_bytes.h"
+#include "emulator/version.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kKind = "snapshot";
+constexpr int kFormat = 1;
+
+std::string hex(std::uint64_t number) {
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(number));
+  return digits.data();
+}
+
+std::uint64_t hash_of_text(std::string_view text, std::uint64_t onto) {
+  return hash_of(std::as_bytes(std::span(text)), onto);
+}
+
+/// Of every part with its name: tells a text that was changed.
+std::uint64_t checksum(const WorldState& state) {
+  std::uint64_t sum = hash_of_text(std::to_string(state.time.count()), hash_of({}));
+  for (const WorldState::Part& part : state.parts) sum = hash_of(part.bytes, hash_of_text(part.name, sum));
+  return sum;
+}
+
+const Json& demand(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw SnapshotError(std::string(key) + ": is missing; expected a snapshot");
+  return *found;
+}
+
+std::string text_of(const Json& object, const char* key) {
+  const Json& text = demand(object, key);
+  if (!text.is_string()) throw SnapshotError(std::string(key) + ": is no text; expected a snapshot");
+  return text.get<std::string>();
+}
+
+/// nlohmann keeps the last of two equal keys without a word; this refuses them, and keys that are unknown.
+Json parse_json(const std::string& text) {
+  const std::set<std::string> known{"understudy",        "kind",     "version", "bench",
+                                    "simulated_time_ns", "checksum", "state"};
+  std::vector<std::set<std::string>> keys;
+  const auto refuse_strangers = [&](int depth, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event != Json::parse_event_t::key) return true;
+    const auto& key = parsed.get_ref<const std::string&>();
+    if (!keys.back().insert(key).second) {
+      throw SnapshotError(emulator::quoted(key) + ": is there twice; expected it once");
+    }
+    if (depth == 1 && !known.contains(key)) {
+      throw SnapshotError(emulator::quoted(key) + ": is no key of a snapshot; expected none");
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text, refuse_strangers);
+  } catch (const Json::exception&) {
+    throw SnapshotError("file: is torn or no JSON; expected a snapshot");
+  }
+}
+
+}  // namespace
+
+std::uint64_t bench_hash(const Bench& bench) {
+  Bench without_memories = bench;
+  for (DeviceSetup& device : without_memories.devices) device.settings.nv.reset();
+  return hash_of_text(to_text(without_memories), hash_of({}));
+}
+
+std::string to_text(const WorldState& state, std::uint64_t bench) {
+  Json parts = Json::object();
+  for (const WorldState::Part& part : state.parts) parts[part.name] = to_base64(part.bytes);
+  const Json file{{"understudy", kFormat},
+                  {"kind", kKind},
+                  {"version", program_version()},
+                  {"bench", hex(bench)},
+                  {"simulated_time_ns", state.time.count()},
+                  {"checksum", hex(checksum(state))},
+                  {"state", std::move(parts)}};
+  return file.dump(2) + "\n";
+}
+
+WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
+  const Json file = parse_json(text);
+  if (!file.is_object() || !file.contains("understudy")) {
+    throw SnapshotError("understudy: is missing; expected a snapshot");
+  }
+  if (!file["understudy"].is_number_integer() || file["understudy"] != kFormat) {
+    throw SnapshotError("understudy: is of another format; expected " + std::to_string(kFormat));
+  }
+  if (text_of(file, "kind") != kKind) {
+    throw SnapshotError("kind: is " + emulator::quoted(text_of(file, "kind")) + "; expected " + kKind);
+  }
+  if (text_of(file, "version") != program_version()) {
+    throw SnapshotError("version: was written by " + emulator::quoted(text_of(file, "version")) +
+                        "; expected " + std::string(program_version()));
+  }
+  if (text_of(file, "bench") != hex(bench)) {
+    throw SnapshotError("bench: is of another bench; expected the one that it was taken from");
+  }
+  WorldState state;
+  const Json& time = demand(file, "simulated_time_ns");
+  if (!time.is_number_unsigned() ||
+      time.get<std::uint64_t>() > static_cast<std::uint64_t>(kHorizon.count())) {
+    throw SnapshotError("simulated_time_ns: is no time; expected a whole number");
+  }
+  state.time = SimTime{time.get<std::int64_t>()};
+  const Json& parts = demand(file, "state");
+  if (!parts.is_object()) throw SnapshotError("state: is no object; expected the parts of a world");
+  for (const auto& [name, bytes] : parts.items()) {
+    const auto decoded = bytes.is_string() ? from_base64(bytes.get_ref<const std::string&>()) : std::nullopt;
+    if (!decoded) throw SnapshotError("state: " + emulator::quoted(name) + ": is no base64; expected bytes");
+    state.parts.push_back({name, *decoded});
+  }
+  if (text_of(file, "checksum") != hex(checksum(state))) {
+    throw SnapshotError("checksum: is not that of the state; expected a file as it was written");
+  }
+  return state;
+}
+
+}  // namespace understudy::emulator

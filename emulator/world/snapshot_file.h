@@ -1,0 +1,27 @@
+// Snapshots as text: a world's state in a JSON file. It belongs to the version of the program that wrote it
+// and to the bench whose world it was, and is refused by all others.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "emulator/bench/bench.h"
+#include "emulator/world/snapshot.h"
+
+namespace understudy::emulator {
+
+/// A snapshot that cannot be used: one line, "field: what is wrong; what was expected".
+struct SnapshotError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Of all that the world's state does not hold. The memories that it began with do not count, because the
+/// state has its own.
+std::uint64_t bench_hash(const Bench& bench);
+
+std::string to_text(const WorldState& state, std::uint64_t bench);
+/// Throws SnapshotError for text that is torn, changed, no snapshot, or one of another version or bench.
+WorldState parse_snapshot(const std::string& text, std::uint64_t bench);
+
+}  // namespace understudy::emulator

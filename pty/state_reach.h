@@ -1,0 +1,13 @@
+// How far times may reach in a restored state: sums of a few of them still fit their count.
+#pragma once
+
+#include "pty/line_settings.h"
+
+namespace understudy::pty {
+
+constexpr bool is_within_reach(SimTime time) {
+  constexpr SimTime kFarthest{std::int64_t{1} << 61};
+  return time >= -kFarthest && time <= kFarthest;
+}
+
+}  // namespace understudy::pty

@@ -1,0 +1,143 @@
+// `understudy exec` at a terminal: the command has it, and Ctrl-C and Ctrl-Z do what they do under a shell.
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+/// A program at a terminal of its own, at which somebody sits.
+class AtTerminal {
+ public:
+  explicit AtTerminal(const Words& command) {
+    int master = -1;
+    pid_ = forkpty(&master, nullptr, nullptr, nullptr);
+    if (pid_ == 0) {
+      std::vector<char*> words;
+      for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
+      words.push_back(nullptr);
+      execvp(words[0], words.data());
+      _exit(127);
+    }
+    master_ = pty::Descriptor(master);
+  }
+  ~AtTerminal() {
+    master_.close();  // the terminal hangs up
+    if (!wait(Wait(2000))) kill(pid_, SIGKILL), wait(kPatience);
+  }
+  AtTerminal(const AtTerminal&) = delete;
+  AtTerminal& operator=(const AtTerminal&) = delete;
+
+  void type(const std::string& keys) const {
+    ASSERT_EQ(write(master_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
+  /// Whether this has been, or is within kPatience, on the screen since the last time.
+  bool shows(const std::string& text) {
+    return eventually([&] {
+      char part[512];
+      fd_set readable;
+      FD_ZERO(&readable);
+      FD_SET(master_.get(), &readable);
+      timeval no_time{};
+      if (select(master_.get() + 1, &readable, nullptr, nullptr, &no_time) > 0) {
+        const ssize_t size = read(master_.get(), part, sizeof part);
+        if (size > 0) screen_.append(part, static_cast<std::size_t>(size));
+      }
+      const auto at = screen_.find(text);
+      if (at == std::string::npos) return false;
+      screen_.erase(0, at + text.size());
+      return true;
+    });
+  }
+  std::optional<int> wait(Wait patience) {
+    eventually(
+        [this] {
+          int status = 0;
+          if (!code_ && waitpid(pid_, &status, WNOHANG) == pid_)
+            code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+          return code_.has_value();
+        },
+        patience);
+    return code_;
+  }
+  const std::string& screen() const { return screen_; }
+
+ private:
+  pid_t pid_ = -1;
+  pty::Descriptor master_;
+  std::string screen_;
+  std::optional<int> code_;
+};
+
+class ExecAtTerminal : public testing::Test {
+ protected:
+  Words exec(const std::string& script) const {
+    const std::string bench = folder_.write("bench.yaml",
+                                            "understudy: 1\nlines:\n  rs485: { stations: [ { name: feeder, "
+                                            "model: simple2-r3, address: 1 } ] }\n");
+    return {UNDERSTUDY_BINARY, "exec", bench, "--record", folder_ / "recording", "--",
+            "/bin/sh",         "-c",   script};
+  }
+
+ private:
+  PrivateFolder folder_;
+};
+
+TEST_F(ExecAtTerminal, LetsTheCommandReadIt) {
+  AtTerminal terminal(exec("echo name?; read name; echo hello $name"));
+  ASSERT_TRUE(terminal.shows("name?"));
+  terminal.type("feeder\n");
+  EXPECT_TRUE(terminal.shows("hello feeder")) << terminal.screen();
+  EXPECT_EQ(terminal.wait(kPatience), 0);
+}
+
+TEST_F(ExecAtTerminal, EndsTheCommandOnCtrlC) {
+  AtTerminal terminal(exec("echo ready; exec sleep 600"));
+  ASSERT_TRUE(terminal.shows("ready"));
+  terminal.type("\x03");
+  EXPECT_EQ(terminal.wait(kPatience), 128 + SIGINT);
+}
+
+TEST_F(ExecAtTerminal, LeavesCtrlCToACommandThatWantsIt) {
+  AtTerminal terminal(
+      exec("trap 'echo again; read x; exit 6' INT; echo ready; while :; do sleep 0.02; done"));
+  ASSERT_TRUE(terminal.shows("ready"));
+  terminal.type("\x03");
+  ASSERT_TRUE(terminal.shows("again"));
+  terminal.type("\n");
+  EXPECT_EQ(terminal.wait(kPatience), 6);
+}
+
+TEST_F(ExecAtTerminal, StopsOnCtrlZAndGoesOn) {
+  if (run({"bash", "-c", "true"}).exit_code != 0) GTEST_SKIP() << "bash is not installed";
+  std::string line;
+  for (const std::string& word :
+       exec("echo re''ady; trap 'echo go''ne; exit 4' INT; while :; do sleep 0.02; done")) {
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += quoted + "' ";
+  }
+  AtTerminal shell({"bash", "--norc", "--noprofile", "-i"});
+  shell.type("PS1='prompt''> '\n");
+  ASSERT_TRUE(shell.shows("prompt> "));
+  shell.type(line + "\n");
+  ASSERT_TRUE(shell.shows("ready")) << shell.screen();
+  shell.type("\x1a");
+  ASSERT_TRUE(shell.shows("Stopped")) << shell.screen();
+  ASSERT_TRUE(shell.shows("prompt> ")) << shell.screen();
+  shell.type("fg\n");
+  ASSERT_TRUE(shell.shows("exec")) << shell.screen();  // fg tells the job
+  shell.type("\x03");
+  ASSERT_TRUE(shell.shows("gone")) << shell.screen();
+  shell.type("echo code=$?\n");
+  EXPECT_TRUE(shell.shows("code=4")) << shell.screen();
+  shell.type("exit\n");
+  EXPECT_EQ(shell.wait(kPatience), 0);
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

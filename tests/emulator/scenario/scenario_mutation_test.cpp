@@ -1,0 +1,136 @@
+// Whatever stands in a scenario file: it is a scenario, or it gets one complaint. Nothing crashes, nothing
+// hangs.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/emulator/scenario/scenario_folder.h"
+
+namespace understudy::emulator {
+namespace {
+
+const std::string kFull = R"(understudy: 1
+name: everything at ${speed}
+bench:
+  lines: { rs485: { stations: [ { name: feeder, model: simple2-r3, firmware: 1.52 } ] } }
+  plant: { feeder.A: { home: { at: 0, width: 200 } } }
+nv: { feeder: after.json }
+gap: 1ms
+seed: 7
+parameters: { speed: 200, far: "${speed * 2}" }
+cases: [ { speed: 100 }, { speed: 400 } ]
+steps:
+  - write: { feeder.Aaxis_Speed: "${speed}", 0x1014: 1 }
+  - write: { feeder.HW_Code: 1 }
+    exception: 2
+  - expect: { 'feeder["Cord_A"]': 0 +- 2, feeder.STATUS.4: off }
+  - wait: { until: feeder.STATUS.4 == 0, within: 4s, takes: ..3s, poll: 20ms }
+  - never: { what: feeder.A.pulses != 0, name: still }
+  - end: still
+  - assert: [ feeder.A.pulses == 0, time < 3s ]
+  - send: { bytes: 01 03 00 01 00 01 +crc, reply: nothing }
+  - input: { feeder.AIN_A: 2.5V }
+  - inject: { lost_steps: feeder.A, one_in: 50, name: slippery }
+  - snapshot: here
+  - fork: { a: [ clear: slippery ], b: [ power: { feeder: cycle } ] }
+  - restore: here
+  - program: { feeder: indexing.lst }
+  - repeat: { times: 2, as: i, steps: [ say: "${i} of ${far}" ] }
+  - for: { each: [ A, B ], as: axis, steps: [ expect: { "Cord_${axis}": 0 } ] }
+  - include: homing.yaml
+)";
+
+class ScenarioMutation : public testing::Test {
+ protected:
+  /// True if it is a scenario or gets a complaint that begins with a file and a line.
+  bool is_handled(const std::string& text) const {
+    try {
+      folder_.parse(text);
+    } catch (const FileError& error) {
+      const std::string what = error.what();
+      const bool is_one_line = what.find('\n') == std::string::npos;
+      EXPECT_TRUE(is_one_line) << what;
+      EXPECT_TRUE(what.starts_with(folder_.path(""))) << what;
+      return is_one_line;
+    } catch (const std::exception& other) {
+      ADD_FAILURE() << other.what();
+      return false;
+    }
+    return true;
+  }
+
+  ScenarioFolder folder_;
+};
+
+TEST_F(ScenarioMutation, TheWholeIsGood) { EXPECT_EQ(folder_.complaint(kFull), ""); }
+
+TEST_F(ScenarioMutation, EveryBeginningOfAFileIsHandled) {
+  for (std::size_t size = 0; size <= kFull.size(); ++size) {
+    EXPECT_TRUE(is_handled(kFull.substr(0, size))) << "the first " << size << " bytes";
+  }
+}
+
+TEST_F(ScenarioMutation, EveryByteMayBeAnyOther) {
+  std::mt19937 random(815);
+  const std::string bytes("\0\n\t:-[}\"|&*!#$\x80\xFF", 16);
+  for (std::size_t i = 0; i < kFull.size(); ++i) {
+    std::string text = kFull;
+    text[i] = bytes[random() % bytes.size()];
+    EXPECT_TRUE(is_handled(text)) << "byte " << i << " is " << static_cast<int>(text[i]);
+  }
+}
+
+TEST_F(ScenarioMutation, PiecesMayBeMovedRepeatedAndLost) {
+  std::mt19937 random(4242);
+  const std::string words[] = {
+      "\n",     "  ",   "- ",       ": ",           "{ ",      " }", "[",   "]",       "'",   "\"",
+      "&a ",    "*a",   "<<: ",     "? ",           "| \n",    "~",  "${",  "}",       "$${", "${speed}",
+      "${1/0}", "1e99", "\xFF\xFE", "times: 99999", "steps: ", "..", "+- ", "feeder.", "0x",  "-1"};
+  for (int round = 0; round < 1500; ++round) {
+    std::string text = kFull;
+    const int changes = 1 + static_cast<int>(random() % 4);
+    for (int change = 0; change < changes; ++change) {
+      const std::size_t from = random() % text.size();
+      const std::size_t length = random() % 40;
+      const std::size_t to = random() % text.size();
+      switch (random() % 4) {
+        case 0: text.erase(from, length); break;
+        case 1: text.insert(to, text.substr(from, length)); break;
+        case 2: text.replace(to, length, text.substr(from, length)); break;
+        default: text.insert(to, words[random() % std::size(words)]); break;
+      }
+      if (text.empty()) text = "x";
+    }
+    EXPECT_TRUE(is_handled(text)) << "round " << round << ":\n" << text;
+  }
+}
+
+TEST_F(ScenarioMutation, StepsWithoutEndAreRefused) {
+  const auto refuse = [&](const std::string& steps) {
+    const std::string text = "understudy: 1\nbench: feeder.yaml\n" + steps;
+    EXPECT_TRUE(is_handled(text)) << text.substr(0, 200);
+    EXPECT_NE(folder_.complaint(text), "") << text.substr(0, 200);
+  };
+  refuse("steps: &s [ repeat: { times: 100000, steps: *s } ]\n");
+  refuse("steps: &s [ { say: x }, { repeat: { times: 100000, steps: *s } } ]\n");
+  refuse("steps: &s [ fork: { a: *s, b: *s } ]\n");
+  refuse("steps: [ &s { repeat: { times: 2, steps: [ *s, *s ] } } ]\n");
+  // 99999 * 99999 * 99999 steps
+  refuse(
+      "steps: [ repeat: { times: 99999, steps: [ repeat: { times: 99999, steps: [ repeat: { times: 99999, "
+      "steps: "
+      "[ say: x ] } ] } ] } ]\n");
+  std::string bomb = "steps:\n  - fork: { a: &a [ say: x, say: y ] }\n";
+  for (char name = 'b'; name < 'z'; ++name) {
+    bomb += std::string("  - fork: { a: &") + name + " [ ";
+    for (int i = 0; i < 9; ++i) {
+      bomb += std::string(i > 0 ? ", " : "") + "{ repeat: { times: 1, steps: *" +
+              static_cast<char>(name - 1) + " } }";
+    }
+    bomb += " ] }\n";
+  }
+  refuse(bomb);
+}
+
+}  // namespace
+}  // namespace understudy::emulator
