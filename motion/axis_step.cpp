@@ -181,10 +181,12 @@ void Axis::watch(const Surroundings& here) {
   const auto consider = [](std::int64_t& nearest, std::optional<std::int64_t> steps) {
     if (steps) nearest = std::min(nearest, *steps);
   };
-  consider(up, here.steps_until_change(travel_pulses, +1));
-  consider(down, here.steps_until_change(travel_pulses, -1));
+  if (here.depends_on_place()) {
+    consider(up, here.steps_until_change(travel_pulses, +1));
+    consider(down, here.steps_until_change(travel_pulses, -1));
+  }
   for (const Comparator& mine : comparators) {
-    if (mine.count != Count::command) continue;
+    if (mine.relation == Comparator::Relation::off || mine.count != Count::command) continue;
     consider(up, mine.steps_until_change(travel_pulses, +1));
     consider(down, mine.steps_until_change(travel_pulses, -1));
   }

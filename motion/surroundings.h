@@ -56,6 +56,7 @@ struct Surroundings {
   void set_steady(Signal signal, bool on);
 
   Signals at(std::int64_t travel) const;
+  bool depends_on_place() const { return zone_count > 0 || index_period > 0; }
 
   /// How many pulses (1 ...) in `direction` (+1 or -1) until some signal may change; nothing if none will.
   std::optional<std::int64_t> steps_until_change(std::int64_t travel, int direction) const;

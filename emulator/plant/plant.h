@@ -64,7 +64,7 @@ class PlantAxis {
 
   /// So many steps, as far as the stops let it; the rest is lost.
   void move(std::int64_t steps);
-  /// One tick: the pulses of the controller, and its outputs as they were at its end.
+  /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
   MachineFaults& faults() { return state_.faults; }
   void set_faults(const MachineFaults& faults) { state_.faults = faults; }

@@ -66,13 +66,27 @@ bool in_range(const Change& change) {
   return value >= row.min && value <= row.max;
 }
 
-// A Modbus request brings at most 123 words; scenarios and the control socket at most two.
+// A Modbus request brings at most 123 words; programs, scenarios and the control socket at most two.
 constexpr std::size_t kMostChanges = 128;
 
 struct Changes {
-  std::array<Change, kMostChanges> all;
+  std::span<Change> all;
   std::size_t count = 0;
 };
+
+/// Calls `act` with room for the changes of so many words. Clearing room for the most would cost more than
+/// all the rest of a program's write.
+template <typename Act>
+Refusal with_room_for(std::size_t words, Act act) {
+  if (words <= 2) {
+    std::array<Change, 2> few;
+    Changes changes{.all = few};
+    return act(changes);
+  }
+  std::array<Change, kMostChanges> many;
+  Changes changes{.all = many};
+  return act(changes);
+}
 
 /// What each register would hold, and whether that may be. Addresses are judged before values.
 Refusal gather(const Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words,
@@ -187,10 +201,11 @@ Refusal read_words(const Device& device, Table table, std::uint16_t first, std::
 }
 
 Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words) {
-  Changes changes;
-  const Refusal refusal = gather(device, table, first, words, changes);
-  if (refusal == Refusal::none) carry_out(device, changes);
-  return refusal;
+  return with_room_for(words.size(), [&](Changes& changes) {
+    const Refusal refusal = gather(device, table, first, words, changes);
+    if (refusal == Refusal::none) carry_out(device, changes);
+    return refusal;
+  });
 }
 
 Value read_value(const Device& device, const Place& place) {
@@ -210,8 +225,9 @@ Refusal prepare_value(const Device& device, const NamedPlace& place, Value value
   if (place.place.row->access == Access::read) return Refusal::no_register;
   if (const Refusal refusal = words_for(device, place, value, write); refusal != Refusal::none)
     return refusal;
-  Changes changes;
-  return gather(device, write.table, write.first, std::span(write.words).first(write.count), changes);
+  return with_room_for(write.count, [&](Changes& changes) {
+    return gather(device, write.table, write.first, std::span(write.words).first(write.count), changes);
+  });
 }
 
 Refusal write_prepared(Device& device, const PreparedWrite& write) {

@@ -42,7 +42,8 @@ World::World(const Bench& bench, const WorldOptions& options,
     set_external_input(setup.device, setup.terminal, setup.level);
   }
   for (const Fault& fault : bench.faults) inject(fault);
-  step_plant();  // a machine may stand on a switch at power-up
+  // A machine may stand on a switch at power-up.
+  for (std::size_t d = 0; d < devices_.size(); ++d) step_plant(d);
 }
 
 const PlantAxis& World::plant(std::size_t device, int axis) const {
@@ -50,13 +51,14 @@ const PlantAxis& World::plant(std::size_t device, int axis) const {
 }
 
 void World::advance_to(SimTime time) {
+  SimTime line_time = next_line_time();  // ticks leave the lines alone, watchers do not
   while (true) {
-    const SimTime line_time = next_line_time();
     const SimTime tick_time = time_of(done_ + 1);
     if (std::min(line_time, tick_time) > time) break;
     if (line_time < tick_time) {
       now_ = std::max(now_, line_time);
       run_lines(line_time);
+      line_time = next_line_time();
       continue;
     }
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
@@ -72,13 +74,14 @@ void World::advance_to(SimTime time) {
       run_tick();
     }
     now_ = std::max(now_, time_of(done_));
+    if (watchers_.empty()) continue;
     show_tick();
+    line_time = next_line_time();
   }
   now_ = std::max(now_, time);
 }
 
 void World::show_tick() {
-  if (watchers_.empty()) return;
   // One may take itself away.
   const std::vector<TickWatcher*> present = watchers_;
   for (TickWatcher* watcher : present) watcher->on_tick(done_);
@@ -93,11 +96,9 @@ std::optional<SimTime> World::next_due() const {
 Tick World::next_active_tick() const {
   if (disturbed_) return done_ + 1;
   Tick next = kNever;
-  for (const auto& device : devices_) {
-    if (device->powered()) next = std::min(next, device->next_active_tick(done_));
-  }
-  for (const auto& axes : plants_) {
-    for (const PlantAxis& plant : axes) next = std::min(next, plant.next_active_tick(done_));
+  for (std::size_t d = 0; d < devices_.size() && next > done_ + 1; ++d) {
+    if (devices_[d]->powered()) next = std::min(next, devices_[d]->next_active_tick(done_));
+    for (const PlantAxis& plant : plants_[d]) next = std::min(next, plant.next_active_tick(done_));
   }
   return next;
 }
@@ -113,48 +114,58 @@ void World::run_lines(SimTime time) {
 }
 
 void World::run_tick() {
-  const Tick tick = done_ + 1;
   disturbed_ = false;
-  const auto each = [&](auto&& phase) {
-    for (const auto& device : devices_) {
-      if (device->powered()) phase(*device);
-    }
-  };
-  each([&](Device& device) { device.sample_inputs(tick); });
-  each([&](Device& device) { device.run_interpreters(tick); });
-  each([&](Device& device) { device.step_motion(tick); });
-  done_ = tick;
-  step_plant();
-  for (const auto& device : devices_) device->set_now(tick);
-  each([&](Device& device) { device.update_outputs(tick); });
+  ++done_;
+  // Devices meet by their wires alone, which are latched when all are done. So one after another runs all its
+  // phases, while its state is in the processor's cache.
+  for (std::size_t d = 0; d < devices_.size(); ++d) run_device(d);
   latch_wires();
   ++ticks_run_;
 }
 
-void World::step_plant() {
-  for (std::size_t d = 0; d < devices_.size(); ++d) {
-    Device& device = *devices_[d];
-    const auto axes = device.model().axes;
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      PlantAxis& plant = plants_[d][a];
-      const AxisRow& axis = axes[a];
+void World::run_device(std::size_t number) {
+  Device& device = *devices_[number];
+  const bool powered = device.powered();
+  if (powered) {
+    device.sample_inputs(done_);
+    device.run_interpreters(done_);
+    device.step_motion(done_);
+  }
+  step_plant(number);
+  device.set_now(done_);
+  if (powered) device.update_outputs(done_);
+}
+
+void World::step_plant(std::size_t number) {
+  Device& device = *devices_[number];
+  const auto axes = device.model().axes;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    PlantAxis& plant = plants_[number][a];
+    const AxisRow& axis = axes[a];
+    const std::int64_t pulses = device.pulses_this_tick(static_cast<int>(a));
+    sent_pulses_[number][a] += pulses;
+    DriveInputs outputs;
+    if (plant.has_drive()) {
       const auto driven = [&](int terminal) { return terminal >= 0 && device.output(terminal); };
-      const std::int64_t pulses = device.pulses_this_tick(static_cast<int>(a));
-      sent_pulses_[d][a] += pulses;
-      plant.step(done_, pulses,
-                 {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)});
-      if (plant.has_encoder()) device.set_encoder(static_cast<int>(a), plant.encoder_counts());
-      const auto drive = [&](int terminal, bool level) {
-        if (terminal < 0) return;
-        inputs_[d][static_cast<std::size_t>(terminal)].plant = level;
-        apply_input(d, terminal);
-      };
-      drive(axis.home_input, plant.at_home());
-      drive(axis.lower_limit_input, plant.at_lower_limit());
-      drive(axis.upper_limit_input, plant.at_upper_limit());
-      drive(axis.alarm_input, plant.alarm_contact());
-      drive(axis.ready_input, plant.ready());
+      outputs = {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)};
     }
+    const std::int64_t position_before = plant.position_pulses();
+    plant.step(done_, pulses, outputs);
+    if (plant.has_encoder() && plant.position_pulses() != position_before) {
+      device.set_encoder(static_cast<int>(a), plant.encoder_counts());
+    }
+    const auto drive = [&](int terminal, bool level) {
+      if (terminal < 0) return;
+      bool& is_on = inputs_[number][static_cast<std::size_t>(terminal)].plant;
+      if (is_on == level) return;
+      is_on = level;
+      apply_input(number, terminal);
+    };
+    drive(axis.home_input, plant.at_home());
+    drive(axis.lower_limit_input, plant.at_lower_limit());
+    drive(axis.upper_limit_input, plant.at_upper_limit());
+    drive(axis.alarm_input, plant.alarm_contact());
+    drive(axis.ready_input, plant.ready());
   }
 }
 

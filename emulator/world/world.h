@@ -123,7 +123,8 @@ class World {
   void run_lines(SimTime time);
   Tick next_active_tick() const;
   SimTime next_line_time() const;
-  void step_plant();
+  void run_device(std::size_t number);
+  void step_plant(std::size_t number);
   void latch_wires();
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
