@@ -56,6 +56,13 @@ struct Dialect {
     reads_zero,
     ends
   } undefined_parameter = UndefinedParameter::reads_zero;
+  /// A line that would write a parameter that can only be read: it has no effect, or the program ends.
+  enum class ReadOnlyParameter : std::uint8_t {
+    ignored,
+    ends
+  } read_only_parameter = ReadOnlyParameter::ignored;
+  /// An operand that is 1 for ON and 0 for OFF, and holds something else: ON, or what its lowest bit says.
+  enum class Logic : std::uint8_t { not_zero_is_on, lowest_bit } logic = Logic::not_zero_is_on;
   /// A value beyond what a register, a delay or a command takes.
   enum class ValueOutOfRange : std::uint8_t {
     clamped,
@@ -78,6 +85,11 @@ constexpr Dialect dialect_of_firmware(int hundredths) {
   dialect.quirk_wait_move_b_is_move_inc_b_wait = hundredths <= 139;
   dialect.quirk_jump_timer1_does_not_work = hundredths <= 141;
   return dialect;
+}
+
+/// What an operand of logic says.
+constexpr bool is_on(const Dialect& dialect, std::uint8_t logic) {
+  return dialect.logic == Dialect::Logic::lowest_bit ? (logic & 1) != 0 : logic != 0;
 }
 
 /// `value` as something that holds `lowest` to `highest` of at most 16 bits takes it.

@@ -27,10 +27,21 @@ void go_on_at(Execution& execution, int line, const Dialect& dialect) {
   if (loop.counts && !is_inside && dialect.loop_left == Dialect::LoopLeft::forgotten) execution.loop = {};
 }
 
-/// Whether the program ends because the line names something that does not exist.
+bool writes_what_is_read_only(const Line& line) {
+  switch (written_by(line.command)) {
+    case Written::nothing: return false;
+    case Written::data1: return is_read_only(line.data1);
+    case Written::data2: return is_read_only(line.data2);
+  }
+  return false;
+}
+
+/// Whether the program ends because the line names something that does not exist, or does not take a value.
 bool ends_for_an_operand(const Line& line, const Dialect& dialect) {
   const bool by_operand = dialect.undefined_operand == Dialect::UndefinedOperand::ends;
   const bool by_parameter = dialect.undefined_parameter == Dialect::UndefinedParameter::ends;
+  const bool by_write = dialect.read_only_parameter == Dialect::ReadOnlyParameter::ends;
+  if (by_write && writes_what_is_read_only(line)) return true;
   if (!by_operand && !by_parameter) return false;
   const Instruction* instruction = find_instruction(line.command);
   const auto is_wrong = [&](Operand operand, std::uint8_t value) {
@@ -85,7 +96,7 @@ bool would_wait_on(const Execution& execution, const Program& program, const Dia
   if (ends_for_an_operand(line, dialect)) return false;
   const auto stays = [&](Then then) { return then == Then::same_line; };
   switch (line.command) {
-    case opcode_of("Wait_IO"): return !wait_io_is_over(line, machine);
+    case opcode_of("Wait_IO"): return !wait_io_is_over(line, dialect, machine);
     case opcode_of("Wait_Move_A"): return stays(after_wait_move<Axes::a>(line, program, dialect, machine));
     case opcode_of("Wait_Move_B"):
       return !dialect.quirk_wait_move_b_is_move_inc_b_wait &&

@@ -185,6 +185,23 @@ constexpr bool is_defined(Operand operand, std::uint8_t value) {
   }
 }
 
+/// Which operand names a parameter that the instruction writes.
+enum class Written : std::uint8_t { nothing, data1, data2 };
+constexpr Written written_by(std::uint8_t opcode) {
+  switch (opcode) {
+    case opcode_of("Load_CalcREG"):
+    case opcode_of("VAR_Inc"):
+    case opcode_of("VAR_Dec"):
+    case opcode_of("VAR_Direct"):
+    case opcode_of("VAR_INV"): return Written::data1;
+    case opcode_of("VAR_Copy"):
+    case opcode_of("VAR_INV_To"):
+    case opcode_of("VAR_Inc_To"):
+    case opcode_of("VAR_Dec_To"): return Written::data2;
+    default: return Written::nothing;
+  }
+}
+
 /// What an operand is, for people: "DIN number (0-10)".
 std::string_view describe(Operand operand);
 

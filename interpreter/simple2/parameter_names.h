@@ -51,6 +51,12 @@ inline constexpr RegisterName kRegisterNames[] = {
     {182, "Baxis_SyncRPM"},  // printed Axis_SyncRPM once more
 };
 
+/// Those that show what is measured take no value.
+constexpr bool is_read_only(std::uint8_t number) {
+  return number == 156 || number == 157 || number == 169 ||
+         number == 170;  // Analog_A, _B, ENCA_RPM, ENCB_RPM
+}
+
 /// The name in a listing. Nothing for a number that the manual does not define.
 std::optional<std::string> parameter_name(std::uint8_t number);
 

@@ -145,16 +145,16 @@ motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how) {
   return program;
 }
 
-std::int64_t encoder_rpm(const AxisState& axis, Tick now, Tick window, std::uint32_t counts_per_revolution,
-                         bool reversed) {
-  const std::int64_t then = axis.encoder_history[ring_place(now - window)];
+std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& meter) {
+  const std::int64_t then = axis.encoder_history[ring_place(now - meter.window)];
   const Wide counts = Wide{axis.encoder_counts} - then;
-  const std::int64_t windows_a_minute = 60'000 / window;
+  const std::int64_t windows_a_minute = 60'000 / meter.window;
   // To the nearest: whole counts would show a steady 100 RPM as 99 otherwise.
-  const Wide half = counts < 0 ? -Wide{counts_per_revolution / 2} : Wide{counts_per_revolution / 2};
-  const auto rpm = static_cast<std::int64_t>(
-      std::clamp<Wide>((counts * windows_a_minute + half) / counts_per_revolution, -40'000, 40'000));
-  return std::clamp<std::int64_t>(reversed ? -rpm : rpm, INT16_MIN, INT16_MAX);
+  const Wide half = Wide{meter.counts_per_revolution / 2} * (counts < 0 ? -1 : 1);
+  Wide rpm = (counts * windows_a_minute + half) / meter.counts_per_revolution;
+  if (meter.reversed) rpm = -rpm;
+  if (meter.wraps) return static_cast<std::int16_t>(static_cast<std::uint16_t>(rpm));
+  return static_cast<std::int64_t>(std::clamp<Wide>(rpm, INT16_MIN, INT16_MAX));
 }
 
 double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution) {

@@ -95,9 +95,16 @@ struct SyncSettings {
 };
 motion::Follower follower_by(SyncSettings settings);
 
-/// Counts a minute's revolutions over the last ticks, kSpeedWindow at most, within 16 bits with a sign.
-std::int64_t encoder_rpm(const AxisState& axis, Tick now, Tick window, std::uint32_t counts_per_revolution,
-                         bool reversed);
+/// How an encoder's speed is measured.
+struct SpeedMeter {
+  Tick window = AxisState::kSpeedWindow;  // at most that
+  std::uint32_t counts_per_revolution = 1;
+  bool reversed = false;
+  bool wraps = false;  // beyond 16 bits; otherwise it stays at the most they hold
+};
+
+/// Counts a minute's revolutions over the last ticks, as 16 bits with a sign.
+std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& meter);
 
 /// In the commanded sense, at the end of tick `now`.
 double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution);

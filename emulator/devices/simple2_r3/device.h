@@ -152,7 +152,7 @@ class Simple2R3 final : public Device {
   void follow_encoder(int axis);
   void stop(int axis);
   void switch_servo(int axis, bool on);
-  /// Speed, AccTime or DecTime of the axis were written.
+  /// Speed, AccTime, DecTime or Resoultion of the axis were written.
   void speed_changed(int axis);
   void preset_coordinate(int axis, std::int32_t pulses);
   void clear_alarm(int axis);
@@ -190,6 +190,8 @@ class Simple2R3 final : public Device {
   /// A new state that has only the memory, and the encoders' counts.
   void blank_state();
   std::uint32_t factory_bits(const RegisterRow& row) const;
+  /// As they are when the power comes.
+  void reset_timers();
   /// An input's level, if the register at `assignment_slot` gives it its special function.
   bool assigned_input(std::size_t assignment_slot, int number) const;
   /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").

@@ -150,9 +150,11 @@ Value read_encoder_speed(const Device& device, Cell cell) {
   const auto& image = self(device).state().image;
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(cell.argument)];
   const std::uint32_t resolution = std::max(image[slots.encoder_resolution], 1U);
-  const Tick window = self(device).chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow;
-  return encoder_rpm(axis_of(device, cell), device.now(), window, resolution,
-                     image[slots.encoder_polarity] != 0);
+  return encoder_rpm(axis_of(device, cell), device.now(),
+                     {.window = self(device).chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow,
+                      .counts_per_revolution = resolution,
+                      .reversed = image[slots.encoder_polarity] != 0,
+                      .wraps = self(device).chose(kEncoderSpeedWraps)});
 }
 
 Value read_now_line(const Device& device, Cell) {

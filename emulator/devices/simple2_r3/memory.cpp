@@ -104,6 +104,7 @@ void Simple2R3::power_up() {
   }
   state_.first_tick = now() + 1;
   state_.switches = switch_levels();
+  reset_timers();
   state_.password = static_cast<std::uint16_t>(state_.image[kPassword]);
   judge_lock();
   state_.program = interpreter::simple2::Program({}, flag_rules_of(*this));
@@ -133,6 +134,13 @@ std::uint8_t Simple2R3::switch_levels() const {
   return levels;
 }
 
+void Simple2R3::reset_timers() {
+  for (Timer& timer : state_.timers) {
+    timer = {};
+    if (chose(kTimersRunFromPowerUp)) timer.run(true, timer_time());
+  }
+}
+
 bool Simple2R3::dip_switch(int number) const {
   const std::uint8_t levels = chose(kSwitchesAlwaysRead) ? switch_levels() : state_.switches;
   return ((levels >> number) & 1) != 0;
@@ -159,7 +167,7 @@ void Simple2R3::reset_to_factory() {
   }
   if (chose(kResetKeepsVolatile)) return;
   state_.written_outputs = 0;
-  state_.timers = {};
+  reset_timers();
   for (AxisState& axis : state_.axes) axis.alarm_clear_until = 0;
 }
 

@@ -168,6 +168,8 @@ Dialect dialect_of(const Simple2R3& device) {
   take(kUnknownCommandEnds, dialect.unknown_command, Dialect::UnknownCommand::ends);
   take(kUndefinedOperandEnds, dialect.undefined_operand, Dialect::UndefinedOperand::ends);
   take(kUndefinedParameterEnds, dialect.undefined_parameter, Dialect::UndefinedParameter::ends);
+  take(kReadOnlyParameterEnds, dialect.read_only_parameter, Dialect::ReadOnlyParameter::ends);
+  take(kLogicLowestBit, dialect.logic, Dialect::Logic::lowest_bit);
   take(kLow16Bits, dialect.value_out_of_range, Dialect::ValueOutOfRange::low_16_bits);
   take(kGoesOnAt0, dialect.after_last_line, Dialect::AfterLastLine::goes_on_at_0);
   take(kDelayBeforeNextSlot, dialect.delay_counts, Dialect::DelayCounts::before_next_slot);

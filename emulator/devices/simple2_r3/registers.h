@@ -172,8 +172,8 @@ inline constexpr auto kProgramRows = section("程式控制", {
 inline constexpr auto kSystemRows = section("系統參數相關", {
     reg(0xF000, "Aaxis_Home_Speed",    u16, RW).also("Axis_Home_Speed").range(0, k2To15).in("RPM").kept(),
     reg(0xF001, "Baxis_Home_Speed",    u16, RW).range(0, k2To15).in("RPM").kept(),
-    reg(0xF002, "Aaxis_Resoultion",    u32, RW).also("Axis_Resoultion").range(1, k2To31).in("Pulse").from_factory(3200).kept(),
-    reg(0xF004, "Baxis_Resoultion",    u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
+    reg(0xF002, "Aaxis_Resoultion",    u32, RW).also("Axis_Resoultion").range(1, k2To31).in("Pulse").from_factory(3200).kept().does(change_speed, kAxisA),
+    reg(0xF004, "Baxis_Resoultion",    u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept().does(change_speed, kAxisB),
     reg(0xF006, "Aaxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").does(run_velocity, kAxisA),
     reg(0xF008, "Baxis_DirectmRPM",    s32, RW).range(kS32Min, kS32Max).in("mRPM").does(run_velocity, kAxisB),
     reg(0xF010, "Aaxis_Home_AccTime",  u16, RW).also("Axis_Home_AccTime").range(0, 3000).in("10ms").kept(),

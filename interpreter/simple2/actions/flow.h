@@ -19,12 +19,12 @@ inline bool status_bit(const Machine& machine, std::uint8_t bit) {
   return is_defined(Operand::status_bit, bit) && machine.status_bit(bit);
 }
 
-inline bool wait_io_is_over(const Line& line, const Machine& machine) {
-  return input(machine, line.data1) == (line.data2 != 0);
+inline bool wait_io_is_over(const Line& line, const Dialect& dialect, const Machine& machine) {
+  return input(machine, line.data1) == is_on(dialect, line.data2);
 }
 
 inline Then wait_io(Step& step) {
-  return wait_io_is_over(step.line, step.machine) ? Then::next_line : Then::same_line;
+  return wait_io_is_over(step.line, step.dialect, step.machine) ? Then::next_line : Then::same_line;
 }
 
 template <bool level>

@@ -11,16 +11,19 @@ namespace understudy::interpreter::simple2 {
 
 inline constexpr std::uint8_t kAllOutputs = (1U << kOutputCount) - 1;
 
-constexpr std::uint8_t levels(std::uint8_t logic) { return logic != 0 ? kAllOutputs : 0; }
+constexpr std::uint8_t levels(const Dialect& dialect, std::uint8_t logic) {
+  return is_on(dialect, logic) ? kAllOutputs : 0;
+}
 
 inline Then out(Step& step) {
   if (!is_defined(Operand::output, step.line.data1)) return Then::next_line;
-  step.machine.set_outputs(static_cast<std::uint8_t>(1U << step.line.data1), levels(step.line.data2));
+  step.machine.set_outputs(static_cast<std::uint8_t>(1U << step.line.data1),
+                           levels(step.dialect, step.line.data2));
   return Then::next_line;
 }
 
 inline Then out_all(Step& step) {
-  step.machine.set_outputs(kAllOutputs, levels(step.line.data1));
+  step.machine.set_outputs(kAllOutputs, levels(step.dialect, step.line.data1));
   return Then::next_line;
 }
 
@@ -30,7 +33,7 @@ inline Then out_array(Step& step) {
 }
 
 inline Then out_array_select(Step& step) {
-  step.machine.set_outputs(step.line.data1 & kAllOutputs, levels(step.line.data2));
+  step.machine.set_outputs(step.line.data1 & kAllOutputs, levels(step.dialect, step.line.data2));
   return Then::next_line;
 }
 

@@ -223,5 +223,21 @@ TEST(ChoicesInputs, AdcHas12Or10Bits) {
   }
 }
 
+TEST(ChoicesInputs, EncoderSpeedSaturatesOrWraps) {
+  // A resolution of 1: 60 counts in 100 ms are 36000 RPM, 65536 - 36000 = 29536 too many for a sign.
+  for (const auto& [option, rpm] :
+       each_option("encoder_speed_overflow", {{"saturates", 32767}, {"wraps", -29536}})) {
+    for (const int sign : {+1, -1}) {
+      ReadySimple2 feeder(with("encoder_speed_overflow", option));
+      feeder.set("ENCA_Resoultion", 1);
+      feeder.set("Axis_EncSync_NUM", 0);  // what is fed past a machine wakes no device, but sync mode looks
+      feeder.set("Aaxis_SyncMode", 1);
+      feeder.device().set_encoder(0, sign * 60);
+      feeder.run(1);
+      EXPECT_EQ(feeder.get("ENCA_RPM"), sign > 0 ? rpm : rpm == 32767 ? -32768 : 29536) << option;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace understudy::emulator::simple2_r3

@@ -159,12 +159,12 @@ TEST(ChoicesModes, ModeAfterStopIsPositionOrStays) {
     for (const auto& [option, stays] :
          each_option<bool>("mode_after_stop", {{"position", false}, {"stays", true}})) {
       ReadySimple2 feeder(with("mode_after_stop", option));
-      const auto mode_after = [&](const char* command, Value value) {
+      const auto mode_after = [&, &choice = option](const char* command, Value value) {
         feeder.set("Aaxis_SVON", 1);
         feeder.set(command, value);
         feeder.run(5);
         feeder.set(stop, std::string_view(stop) == "Aaxis_STOP" ? 1 : 0);
-        EXPECT_FALSE(feeder.moving('A')) << option << ", " << command;
+        EXPECT_FALSE(feeder.moving('A')) << choice << ", " << command;
         return feeder.get("Aaxis_Mode");
       };
       EXPECT_EQ(mode_after("Aaxis_DirectmRPM", 5000), stays ? 1 : 0) << option;

@@ -116,6 +116,21 @@ TEST(ChoicesMotion, SpeedWhileMovingWaitsForTheNextMoveOrCountsAtOnce) {
   }
 }
 
+TEST(ChoicesMotion, ResolutionWhileMovingWaitsForTheNextMoveOrCountsAtOnce) {
+  for (const auto& [option, in_100_ticks] :
+       each_option("speed_while_moving", {{"next_move", 100}, {"at_once", 200}})) {
+    ReadySimple2 feeder(with("speed_while_moving", option));
+    feeder.set_one_pulse_a_tick('A', 10'000);
+    feeder.set("Aaxis_Move_INC", 1);
+    feeder.run(100);
+    feeder.set("Aaxis_Resoultion", 6000);  // 20 RPM are two pulses a tick now
+    feeder.run(100);
+    const Value before = feeder.coordinate('A');
+    feeder.run(100);
+    EXPECT_EQ(feeder.coordinate('A') - before, in_100_ticks) << option;
+  }
+}
+
 TEST(ChoicesMotion, MoveBeginsAtItsBeginningOrOneTickIn) {
   for (const auto& [option, ticks] :
        each_option<Tick>("move_begins", {{"at_its_beginning", 111}, {"one_tick_in", 110}})) {
@@ -274,8 +289,8 @@ TEST(ChoicesMotion, ReadyGatesNothingOrEveryCommand) {
       ReadySimple2 feeder(with("ready_gates", option));
       feeder.set_one_pulse_a_tick('A', 100);
       feeder.set("Aaxis_Home_Speed", 20);
-      const auto is_taken = [&] {
-        feeder.set(command, value);
+      const auto is_taken = [&feeder, &name = command, &to = value] {
+        feeder.set(name, to);
         const bool taken = feeder.moving('A') || feeder.bit("Aaxis_Mode");
         feeder.set("Aaxis_STOP", 1);
         return taken;

@@ -106,6 +106,26 @@ TEST(ChoicesProgramRun, TimersCountIn1Or10Or100Milliseconds) {
   }
 }
 
+TEST(ChoicesProgramRun, TimersAtPowerUpAreStoppedOrRun) {
+  for (const auto& [option, runs_by_itself] :
+       each_option<bool>("timers_at_power_up", {{"stopped", false}, {"running", true}})) {
+    OneSimple2 feeder(with("timers_at_power_up", option));
+    feeder.run_to(100);
+    EXPECT_EQ(feeder.get("Timer1_Value"), runs_by_itself ? 100 : 0) << option;
+    switch_off_and_on(feeder);
+    feeder.run(30);
+    EXPECT_EQ(feeder.get("Timer2_Value"), runs_by_itself ? 30 : 0) << option << ": from 0 again";
+    feeder.set("Factory_Reset", 1);
+    feeder.run(7);
+    EXPECT_EQ(feeder.get("Timer1_Value"), runs_by_itself ? 7 : 0) << option;
+    start_program(feeder, {{0x54, 1, 0, 0}, kTheEnd});  // Timer_Stop
+    feeder.run(20);
+    const Value stopped = feeder.get("Timer1_Value");
+    feeder.run(20);
+    EXPECT_EQ(feeder.get("Timer1_Value"), stopped) << option;
+  }
+}
+
 TEST(ChoicesProgramRun, StartKeepsOrClearsWhatProgramsCountWith) {
   for (const auto& [option, kept] :
        each_option<bool>("program_start", {{"keeps_them", true}, {"clears_them", false}})) {

@@ -6,7 +6,7 @@ namespace understudy::emulator::simple2_r3 {
 namespace {
 
 // CMD of the lines used here.
-constexpr std::uint16_t kWaitIo = 0x01, kDelay = 0x02, kJump = 0x03, kLoop = 0x04, kOut = 0x05, kEnd = 0xFF;
+constexpr std::uint16_t kWaitIo = 0x01, kJump = 0x03, kOut = 0x05, kEnd = 0xFF;
 constexpr std::uint16_t kMoveA = 0x20, kMoveSpeedA = 0x22, kMoveAccDecA = 0x23, kMoveAWait = 0x25;
 constexpr std::uint16_t kJumpTimer1 = 0x1A, kCountUp = 0x51, kCountDown = 0x52, kCountTo = 0x53;
 constexpr std::uint16_t kTimerStart = 0x55, kCopy = 0x62, kAdd = 0x63, kSub = 0x64, kDiv = 0x66, kDivR = 0x6D;

@@ -33,7 +33,7 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
       // choices_io_test.cpp
       "version_encoding", "trigger_read_back", "command_values", "set_move", "factory_values",
       "assignment_effect", "write_under_function", "output_read_back", "aclr_again",
-      "unassigned_input_status", "analog_scaling", "adc_width",
+      "unassigned_input_status", "analog_scaling", "adc_width", "encoder_speed_overflow",
       // choices_memory_test.cpp
       "factory_reset_of_volatile", "factory_reset_motion", "eeprom_time", "eeprom_erasure",
       "write_while_saving", "power_cut", "switches_sampled", "password_kept", "first_password",
@@ -46,11 +46,12 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
       "homing_sequence", "home_unassigned", "home_coordinate", "home_bit", "moving_bit", "velocity_unit",
       "velocity_commit", "velocity_step", "mode_after_stop", "values_after_stop", "dropped_value",
       "pwm_servo", "sync_ratio", "sync_slope", "sync_lost_pulses", "sync_period", "encoder_speed",
-      // choices_program_test.cpp, choices_program_run_test.cpp
-      "timer1_defect", "undefined_operand", "undefined_parameter", "value_out_of_range", "program_speed",
-      "program_pulse", "wait_slot", "flags_found", "flags_after_end", "same_flag_twice", "arithmetic",
-      "division", "counter_overflow", "timer_unit", "program_start", "start_while_running", "program_end",
-      "timers_at_end", "line_after_end", "erase_while_running"};
+      // choices_operands_test.cpp, choices_program_test.cpp, choices_program_run_test.cpp
+      "logic_operand", "read_only_parameter", "timers_at_power_up", "timer1_defect", "undefined_operand",
+      "undefined_parameter", "value_out_of_range", "program_speed", "program_pulse", "wait_slot",
+      "flags_found", "flags_after_end", "same_flag_twice", "arithmetic", "division", "counter_overflow",
+      "timer_unit", "program_start", "start_while_running", "program_end", "timers_at_end", "line_after_end",
+      "erase_while_running"};
   std::set<std::string_view> selectable;
   for (const ChoiceRow& row : kChoices) {
     if (options_of(row).size() > 1) selectable.insert(row.id);
