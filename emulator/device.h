@@ -37,6 +37,8 @@ class Device {
 
   // --- registers -----------------------------------------------------------------------------
   const RegisterMap& registers() const { return model_.registers; }
+  /// The map's, or what this device makes of it.
+  virtual MapPolicy map_policy() const { return registers().policy(); }
   /// One slot for each register, as the map numbers them.
   virtual std::span<std::uint32_t> image() = 0;
   virtual std::span<const std::uint32_t> image() const = 0;
@@ -48,6 +50,8 @@ class Device {
 
   // --- the wire ------------------------------------------------------------------------------
   virtual Addressing addressing(std::uint8_t address) const = 0;
+  /// Whether a request that it refuses gets an exception, or no answer.
+  virtual bool answers_refusals() const { return true; }
   virtual pty::LineSettings line_settings() const = 0;
 
   // --- power and memory -------------------------------------------------------------------------

@@ -229,17 +229,44 @@ std::optional<std::uint64_t> RtuFramer::first_open_character() const {
 std::optional<RtuFrame> RtuFramer::take(SimTime now) {
   if (!character_under_way_ && is_silent(now)) end_of_silence();
   if (ready_count_ == 0 || now < *due()) return std::nullopt;
+  return take_ready();
+}
+
+RtuFrame RtuFramer::take_ready() {
   const Ready ready = ready_[ready_first_];
-  RtuFrame frame;
-  std::copy_n(values_.begin() + ready.first, ready.size, frame.bytes.begin());
-  frame.size = ready.size;
-  const Mark& last = marks_[ready.first + ready.size - std::size_t{1}];
-  frame.end = last.end;
-  frame.last_character = last.number;
+  const RtuFrame frame = frame_at(ready.first, ready.size);
   ready_first_ = (ready_first_ + 1) % kMaxReady;
   --ready_count_;
   rewind_if_empty();
   return frame;
+}
+
+RtuFrame RtuFramer::frame_at(std::size_t first, std::size_t size) const {
+  RtuFrame frame;
+  std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(first), size, frame.bytes.begin());
+  frame.size = size;
+  const Mark& last = marks_[first + size - 1];
+  frame.end = last.end;
+  frame.last_character = last.number;
+  return frame;
+}
+
+/// Under the strict rule: what is undecided would be a frame, if it ended here.
+bool RtuFramer::may_be_over() const {
+  return framing_.strict && undecided_ < used_ && !character_under_way_ && oversize_ == 0 &&
+         rtu_crc_ok(bytes(undecided_, used_));
+}
+
+std::optional<RtuFrame> RtuFramer::peek() const {
+  if (ready_count_ > 0) return frame_at(ready_[ready_first_].first, ready_[ready_first_].size);
+  if (may_be_over()) return frame_at(undecided_, used_ - undecided_);
+  return std::nullopt;
+}
+
+std::optional<RtuFrame> RtuFramer::take_early() {
+  if (ready_count_ == 0 && may_be_over()) end_of_silence();
+  if (ready_count_ == 0) return std::nullopt;
+  return take_ready();
 }
 
 }  // namespace understudy::pty

@@ -63,6 +63,13 @@ class RtuFramer {
   /// Call again while it returns a frame or due() is not later than now.
   std::optional<RtuFrame> take(SimTime now);
 
+  /// The frame that take() would give if no silence had to be waited for: a complete one, or under the strict
+  /// rule all that has come since the last silence, if its checksum is right. For a device that is too quick.
+  std::optional<RtuFrame> peek() const;
+  std::optional<RtuFrame> take_early();
+
+  const RtuFraming& framing() const { return framing_; }
+
   /// Number of the first character that is in a frame not taken yet, or may still become part of one;
   /// nothing if there is none. What came before it was taken or dropped.
   std::optional<std::uint64_t> first_open_character() const;
@@ -115,6 +122,9 @@ class RtuFramer {
     std::uint16_t size = 0;
   };
 
+  bool may_be_over() const;
+  RtuFrame frame_at(std::size_t first, std::size_t size) const;
+  RtuFrame take_ready();
   SimTime patience() const;  // of the undecided part, under the rule in force
   bool is_silent(SimTime at) const;
   void search();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct Bench {
   std::vector<WireSetup> wires;
   std::vector<InputSetup> inputs;
   std::vector<Fault> faults;  // those there are from the beginning
+  std::uint64_t seed = 0;     // where randomness begins
 };
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.

@@ -10,6 +10,7 @@
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/device.h"
 #include "emulator/text_file.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator {
 
@@ -33,8 +34,10 @@ class BenchReader {
     read_lines(root.at("lines"));
     if (root.has("plant")) read_plant(root.at("plant"));
     if (root.has("wires")) read_wires(root.at("wires"));
+    if (root.has("seed")) bench_.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
     check_devices();
     read_disturbances(root);
+    if (root.has("faults")) check_faults(root.at("faults").elements());
     return std::move(bench_);
   }
 
@@ -300,6 +303,9 @@ class BenchReader {
       known.push_back(
           {device.settings.name, device.model, firmware != 0 ? firmware : device.model->firmwares.back()});
     }
+    for (const LineSetup& line : bench_.lines) {
+      for (const std::size_t device : line.stations) known[device].line = line.name;
+    }
     if (root.has("inputs")) {
       root.at("inputs").demand_map();
       for (const auto& [name, level] : root.at("inputs").entries()) {
@@ -311,6 +317,18 @@ class BenchReader {
         bench_.faults.push_back(read_fault(fault, known));
       }
     }
+  }
+
+  /// What faults wait for, in a world without them.
+  void check_faults(const std::vector<YamlFields>& fields) const {
+    const auto is_simple = [](const Fault& fault) {
+      return fault.trigger.when.empty() && fault.kind != Fault::Kind::encoder_noise;
+    };
+    if (std::all_of(bench_.faults.begin(), bench_.faults.end(), is_simple)) return;
+    Bench whole = bench_;
+    whole.faults.clear();
+    const World world(whole, {}, {});
+    for (std::size_t i = 0; i < fields.size(); ++i) demand_possible(fields[i], world, bench_.faults[i]);
   }
 
   std::string folder_;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "emulator/faults/fault_form.h"
 #include "emulator/forms/form.h"
 
 namespace understudy::emulator {
@@ -96,7 +97,9 @@ inline constexpr Form kDeviceForm = keys_form(kDeviceKeys);
 inline constexpr Form kDevicesForm = names_form(kDeviceForm);
 inline constexpr Form kMachineForm = keys_form(kMachineKeys);
 inline constexpr Form kPlantForm = names_form(kMachineForm);
-inline constexpr Form kFaultsForm = list_form(kTextByName);
+inline constexpr Form kFaultForm = keys_form(kFaultKeys);
+inline constexpr Form kFaultsForm = list_form(kFaultForm);
+inline constexpr Form kSeedForm = integer_form(0, INT64_MAX);
 
 inline constexpr KeyRow kLinesKey{"lines", "The serial lines, by names of yours.", &kLinesForm, true};
 inline constexpr KeyRow kDevicesKey{"devices", "Devices with more to say, by names of yours.", &kDevicesForm};
@@ -107,11 +110,13 @@ inline constexpr KeyRow kWiresKey{"wires", "From an output to an input: feeder.D
 inline constexpr KeyRow kInputsKey{"inputs", "What inputs are given at first.", &kTextByName};
 inline constexpr KeyRow kFaultsKey{"faults", "What is broken at first: { stall: feeder.A }.", &kFaultsForm};
 
+inline constexpr KeyRow kSeedKey{"seed", "Where randomness begins.", &kSeedForm};
+
 inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
-                                       kWiresKey,   kInputsKey, kFaultsKey};
+                                       kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};
 /// A bench inside another file needs no version of its own.
-inline constexpr std::array kInlineBenchKeys{kLinesKey, kDevicesKey, kPlantKey,
-                                             kWiresKey, kInputsKey,  kFaultsKey};
+inline constexpr std::array kInlineBenchKeys{kLinesKey,  kDevicesKey, kPlantKey, kWiresKey,
+                                             kInputsKey, kFaultsKey,  kSeedKey};
 inline constexpr Form kBenchForm = keys_form(kBenchKeys);
 inline constexpr Form kInlineBenchForm = keys_form(kInlineBenchKeys);
 

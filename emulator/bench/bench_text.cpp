@@ -15,6 +15,9 @@ KnownDevices known_devices(const Bench& bench) {
   for (const DeviceSetup& device : bench.devices) {
     known.push_back({device.settings.name, device.model, device.settings.firmware});
   }
+  for (const LineSetup& line : bench.lines) {
+    for (const std::size_t device : line.stations) known[device].line = line.name;
+  }
   return known;
 }
 
@@ -99,9 +102,10 @@ std::string to_text(const Bench& bench) {
   for (const Fault& fault : bench.faults) {
     const FaultText parts = fault_text(known, fault);
     Json entry{{parts.kind, parts.place}};
-    for (const auto& [name, amount] : parts.amounts) entry[name] = amount;
+    for (const auto& [name, value] : parts.fields) entry[name] = value;
     text["faults"].push_back(entry);
   }
+  if (bench.seed != 0) text["seed"] = bench.seed;
   return text.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

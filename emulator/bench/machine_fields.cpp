@@ -2,7 +2,7 @@
 
 #include "emulator/bench/bench_form.h"
 #include "emulator/bench/level.h"
-#include "emulator/parse_integer.h"
+#include "emulator/world/check_fault.h"
 
 namespace understudy::emulator {
 
@@ -96,6 +96,16 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
   }
 }
 
+void demand_possible(const YamlFields& fields, const World& world, const Fault& fault) {
+  try {
+    check_fault(world, fault);
+  } catch (const FaultFieldError& error) {
+    fields.at(error.field).fail(error.complaint);
+  } catch (const NameError& error) {
+    fields.fail(error.what());
+  }
+}
+
 Fault read_fault(const YamlFields& fields, const KnownDevices& devices, std::string_view other_key) {
   fields.demand_map();
   FaultText text{};
@@ -108,18 +118,13 @@ Fault read_fault(const YamlFields& fields, const KnownDevices& devices, std::str
       text.place = value.text();
       continue;
     }
-    const bool is_level = key == "level";
-    const auto amount =
-        is_level ? parse_level(value.text(), TerminalRow::Kind::digital_in) : parse_integer(value.text());
-    if (!amount) {
-      value.fail("'" + value.text() + "' is not possible; expected " +
-                 (is_level ? "on or off" : "a whole number"));
-    }
-    text.amounts.emplace_back(key, *amount);
+    text.fields.emplace_back(key, value.text());
   }
   if (is_first) fields.fail("is empty; expected a fault, as in `{ stall: feeder.A }`");
   try {
     return find_fault(devices, text);
+  } catch (const FaultFieldError& error) {
+    fields.at(error.field).fail(error.complaint);
   } catch (const NameError& error) {
     fields.fail(error.what());
   }

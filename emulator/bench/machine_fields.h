@@ -7,6 +7,8 @@
 
 namespace understudy::emulator {
 
+class World;
+
 /// One entry of `plant`: the machine on an axis.
 PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis);
 /// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
@@ -14,5 +16,8 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
 /// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` may be there as well, for
 /// others.
 Fault read_fault(const YamlFields& fields, const KnownDevices& devices, std::string_view other_key = {});
+
+/// Complains of a fault that the world cannot have.
+void demand_possible(const YamlFields& fields, const World& world, const Fault& fault);
 
 }  // namespace understudy::emulator

@@ -22,6 +22,7 @@ struct KnownDevice {
   std::string name;
   const Model* model = nullptr;
   Firmware firmware = 0;
+  std::string line{};  // that it stands on
 };
 using KnownDevices = std::vector<KnownDevice>;
 

@@ -48,6 +48,9 @@ struct ServeArguments {
   std::string nv;  // the folder for memories of devices that have no file of their own
   std::string capture;
   std::string record;
+  std::string trace;  // a file: .csv or .vcd
+  std::vector<std::string> trace_also;
+  bool lint = false;
   std::string version;  // of this program
 };
 int serve(const ServeArguments& arguments);
@@ -69,10 +72,13 @@ struct RunArguments {
   std::vector<std::string> scenarios;  // files
   bool real_time = false;
   std::string junit;
+  std::string report;
+  bool lint = false;
   std::optional<int> jobs;  // none: one for each core
   std::string shard;        // "1/4"
   std::optional<std::uint64_t> seed;
-  std::string filter;  // a pattern for names
+  std::string filter;   // a pattern for names
+  std::string version;  // of this program
 };
 int run_scenarios(const RunArguments& arguments);
 
@@ -84,13 +90,30 @@ struct ReplayArguments {
 };
 int replay_recording(const ReplayArguments& arguments);
 
+struct PlotArguments {
+  std::string trace;   // a file that --trace has written
+  std::string output;  // .png or .svg; empty: beside the trace
+  std::vector<std::string> also;
+};
+int plot_trace(const PlotArguments& arguments);
+
 struct ControlArguments {
   std::string socket;
   bool json = false;
   std::string verb;
   std::vector<std::string> operands;
+  std::string within = "1h";  // of simulated time, for `run-until`
 };
 int control(const ControlArguments& arguments);
+/// Where the control socket is: what was given, or UNDERSTUDY_CONTROL, or the private one.
+std::string socket_path(const std::string& given);
+
+struct WatchArguments {
+  std::string socket;
+  std::string every = "200ms";  // of wall time
+  int times = 0;                // 0: until it is interrupted
+};
+int watch(const WatchArguments& arguments);
 
 struct PollArguments {
   std::string port;

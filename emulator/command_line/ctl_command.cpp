@@ -17,12 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string socket_path(const ControlArguments& arguments) {
-  if (!arguments.socket.empty()) return arguments.socket;
-  if (const char* from_exec = std::getenv("UNDERSTUDY_CONTROL"); from_exec != nullptr) return from_exec;
-  return default_control_path();
-}
-
 /// "NAME=VALUE" operands as an object.
 Json assignments(const ControlArguments& arguments) {
   Json values = Json::object();
@@ -63,6 +57,35 @@ Json levels(const ControlArguments& arguments) {
   return values;
 }
 
+/// "drop feeder nth=3" as an object, with the kind and its place first.
+Json fault_of(const std::vector<std::string>& operands) {
+  Json fault{{operands[0], operands[1]}};
+  for (std::size_t i = 2; i < operands.size(); ++i) {
+    const std::size_t equals = operands[i].find('=');
+    const std::string name = operands[i].substr(0, equals);
+    if (equals == std::string::npos || name.empty())
+      throw UsageError("ctl inject: '" + operands[i] + "' is not understood; expected NAME=VALUE");
+    if (fault.contains(name)) throw UsageError("ctl inject: '" + name + "' is given twice; expected it once");
+    fault[name] = operands[i].substr(equals + 1);
+  }
+  return fault;
+}
+
+/// What has come of one that waits.
+std::string course_text(const Json& fault) {
+  std::string text;
+  const auto count = [&](const char* key, const char* word) {
+    if (!fault.contains(key)) return;
+    text += (text.empty() ? ": " : ", ") + std::string(word) + " " +
+            std::to_string(fault.at(key).get<std::int64_t>());
+  };
+  count("seen", "seen");
+  count("matched", "matched");
+  count("hits", "hit");
+  if (fault.value("in_force", false)) text += ", in force";
+  return text;
+}
+
 std::string listing_of(const std::string& path) {
   const auto text = read_text_file(path);
   if (!text) throw UsageError("ctl program: " + path + ": cannot be read; expected a listing");
@@ -101,11 +124,7 @@ Json message_for(const ControlArguments& arguments) {
     if (arguments.operands.size() == 2) message["text"] = listing_of(arguments.operands.back());
   } else if (verb == "inject") {
     if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and where");
-    message["fault"] = arguments.operands[0];
-    message["at"] = arguments.operands[1];
-    ControlArguments amounts = arguments;
-    amounts.operands.erase(amounts.operands.begin(), amounts.operands.begin() + 2);
-    if (!amounts.operands.empty()) message.update(assignments(amounts));
+    message["fault"] = fault_of(arguments.operands);
   } else if (verb == "clear") {
     if (arguments.operands.size() != 1) throw UsageError("ctl clear: expected the number of a fault, or all");
     if (arguments.operands[0] != "all") message["number"] = demand_number(arguments);
@@ -119,6 +138,12 @@ Json message_for(const ControlArguments& arguments) {
       throw UsageError("ctl advance: expected one duration with a unit, such as 250ms");
     }
     message["by"] = arguments.operands[0];
+  } else if (verb == "run-until") {
+    if (arguments.operands.size() != 1) {
+      throw UsageError("ctl run-until: expected one condition, such as 'feeder.STATUS.4 == 0'");
+    }
+    message["condition"] = arguments.operands[0];
+    message["within"] = arguments.within;
   } else if (!arguments.operands.empty()) {
     throw UsageError("ctl " + verb + ": '" + arguments.operands[0] +
                      "' is one word too many; expected nothing after it");
@@ -174,9 +199,15 @@ void print_status(const Json& status) {
 
 }  // namespace
 
+std::string socket_path(const std::string& given) {
+  if (!given.empty()) return given;
+  if (const char* from_exec = std::getenv("UNDERSTUDY_CONTROL"); from_exec != nullptr) return from_exec;
+  return default_control_path();
+}
+
 int control(const ControlArguments& arguments) {
   const Json message = message_for(arguments);
-  const std::string path = socket_path(arguments);
+  const std::string path = socket_path(arguments.socket);
   const std::string line = ask_control(path, message.dump(-1, ' ', false, Json::error_handler_t::replace));
   try {
     const Json reply = Json::parse(line);
@@ -198,12 +229,19 @@ int control(const ControlArguments& arguments) {
       std::printf("fault %lld\n", reply.at("number").get<long long>());
     } else if (reply.contains("faults")) {
       for (const Json& fault : reply.at("faults")) {
-        std::printf("%lld %s\n", fault.at("number").get<long long>(),
-                    fault.at("fault").get<std::string>().c_str());
+        std::printf("%lld %s%s\n", fault.at("number").get<long long>(),
+                    fault.at("fault").get<std::string>().c_str(), course_text(fault).c_str());
       }
     } else if (reply.contains("simulated_time_ns")) {
       std::printf("simulated time %s\n",
                   format_duration(SimTime{reply.at("simulated_time_ns").get<std::int64_t>()}).c_str());
+    }
+    if (accepted && !reply.value("reached", true)) {
+      if (!arguments.json) {
+        std::fprintf(stderr, "understudy: ctl run-until: '%s' did not come true within %s\n",
+                     one_line(arguments.operands[0]).c_str(), arguments.within.c_str());
+      }
+      return kExitFailed;
     }
     return accepted ? kExitWell : kExitBadInput;
   } catch (const Json::exception&) {

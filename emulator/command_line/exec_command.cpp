@@ -19,6 +19,7 @@
 #include "emulator/edge/port_group.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/edge/tty_shim.h"
+#include "emulator/lint/lint.h"
 #include "emulator/one_line.h"
 #include "emulator/scenario/companion.h"
 #include "emulator/scenario/result_text.h"
@@ -169,8 +170,11 @@ int play(const ExecArguments& arguments, const Serving& serving, const std::opti
       stop_if_over();
     });
   }
+  std::optional<Lint> lint;
+  if (arguments.serve.lint) lint.emplace(daemon.world());
   daemon.run();
   signals.unwatch(daemon.loop());
+  if (lint) print_findings(lint->findings());
   const int scenario_code = companion ? tell_of(*companion, *scenario) : kExitWell;
   if (timed_out) {
     std::fprintf(stderr, "understudy: exec: %s: ended, as it took longer than %s\n",

@@ -20,6 +20,8 @@ const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
     "");
 
+constexpr const char* kLintHelp = "Tell at the end what a real controller would not forgive its host";
+
 struct CommandLine {
   CLI::App app{"Firmware-faithful emulator of industrial motion controllers.", "understudy"};
   DescribeArguments describe;
@@ -28,7 +30,9 @@ struct CommandLine {
   RunArguments run;
   ReplayArguments replay;
   ControlArguments control;
+  WatchArguments watched;
   PollArguments poll;
+  PlotArguments plot;
   std::string program;
   std::string schema;
   std::vector<std::string> files;
@@ -48,6 +52,7 @@ struct CommandLine {
     add_replay();
     add_control();
     add_poll();
+    add_plot();
     add_program_text();
     add_check();
     add_schema();
@@ -107,6 +112,16 @@ struct CommandLine {
         .add_option("--record", serving.record,
                     "Write everything that comes from outside to this file, for `understudy replay`")
         ->check(kNotEmpty);
+    command
+        .add_option("--trace", serving.trace,
+                    "Write what moves and switches to this file: FILE.csv, or FILE.vcd for GTKWave")
+        ->check(kNotEmpty);
+    command
+        .add_option("--trace-also", serving.trace_also,
+                    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A")
+        ->delimiter(',')
+        ->check(kNotEmpty);
+    command.add_flag("--lint", serving.lint, kLintHelp);
   }
 
   void add_serve() {
@@ -159,14 +174,32 @@ struct CommandLine {
                       "By the clock on the wall, over real ports, with libmodbus as the host");
     command->add_option("--junit", run.junit, "Write the results to this file, as JUnit XML")
         ->check(kNotEmpty);
+    command->add_option("--report", run.report, "Write a page about all of it to this file, as HTML")
+        ->check(kNotEmpty);
+    command->add_flag("--lint", run.lint, kLintHelp);
     command->add_option("--jobs", run.jobs,
                         "How many are played at a time [one for each core, 8 at least in real time]");
     command->add_option("--shard", run.shard, "I/N: of all scenarios the I-th, and each N-th after it")
         ->check(kNotEmpty);
-    command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds");
+    command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds")
+        ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
     command->add_option("--filter", run.filter, "Those whose names fit this pattern, such as '*move*'")
         ->check(kNotEmpty);
-    command->callback([this] { chosen = [this] { return run_scenarios(run); }; });
+    command->callback([this] {
+      run.version = UNDERSTUDY_VERSION;
+      chosen = [this] { return run_scenarios(run); };
+    });
+  }
+
+  void add_watch(CLI::App& of) {
+    CLI::App* command = of.add_subcommand("watch", "Show all that moves, again and again, until Ctrl-C");
+    command->add_option("--every", watched.every, "Time between two looks")->capture_default_str();
+    command->add_option("--times", watched.times, "How many looks; 0: without end")->capture_default_str();
+    command->fallthrough();
+    command->callback([this] {
+      watched.socket = control.socket;
+      chosen = [this] { return watch(watched); };
+    });
   }
 
   void add_control() {
@@ -177,6 +210,7 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->add_flag("--json", control.json, "Print the reply as it came: one JSON object");
     command->require_subcommand(1);
+    add_watch(*command);
     const auto add = [&](const char* verb, const char* help, const char* operand, const char* operand_help) {
       CLI::App* sub = command->add_subcommand(verb, help);
       if (operand != nullptr) sub->add_option(operand, control.operands, operand_help);
@@ -185,6 +219,7 @@ struct CommandLine {
         control.verb = verb;
         chosen = [this] { return understudy::emulator::control(control); };
       });
+      return sub;
     };
     add("status", "Time, lateness, lines, stations, machines", nullptr, nullptr);
     add("get", "Read registers", "NAME", "Such as feeder.Cord_A or feeder.STATUS.4");
@@ -200,6 +235,10 @@ struct CommandLine {
     add("snapshot", "Write the state of everything to a file", "FILE", "Is replaced if it is there");
     add("restore", "Make everything what it was", "FILE", "Of the same bench, by the same version");
     add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");
+    add("run-until", "Move simulated time on until a condition is true, where the clock stands", "CONDITION",
+        "Such as 'feeder.STATUS.4 == 0'")
+        ->add_option("--within", control.within, "Simulated time after which to give up")
+        ->capture_default_str();
     add("pause", "Stop simulated time", nullptr, nullptr);
     add("resume", "Let it run again", nullptr, nullptr);
   }
@@ -222,6 +261,17 @@ struct CommandLine {
     command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);
     command->add_option("--times", poll.times, "How many rounds; 0: without end")->capture_default_str();
     command->callback([this] { chosen = [this] { return poll_port(poll); }; });
+  }
+
+  void add_plot() {
+    CLI::App* command = app.add_subcommand("plot", "Draw a trace, with gnuplot");
+    command->add_option("TRACE", plot.trace, "A file that --trace has written")->required();
+    command->add_option("-o,--output", plot.output, "FILE.png or FILE.svg [beside the trace, as PNG]")
+        ->check(kNotEmpty);
+    command->add_option("--also", plot.also, "Columns to draw in panels of their own, such as feeder.STATUS")
+        ->delimiter(',')
+        ->check(kNotEmpty);
+    command->callback([this] { chosen = [this] { return plot_trace(plot); }; });
   }
 
   void add_program_text() {

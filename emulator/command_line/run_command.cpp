@@ -7,6 +7,10 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/file_error.h"
+#include "emulator/lint/lint.h"
+#include "emulator/one_line.h"
+#include "emulator/report/camera.h"
+#include "emulator/report/page.h"
 #include "emulator/scenario/junit.h"
 #include "emulator/scenario/real_stage.h"
 #include "emulator/scenario/result_text.h"
@@ -24,7 +28,7 @@ std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   for (const std::string& file : arguments.scenarios) {
     try {
       for (Scenario& scenario : load_scenarios(file)) {
-        if (arguments.seed) scenario.seed = *arguments.seed;
+        if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
         scenarios.push_back(std::move(scenario));
       }
     } catch (const FileError& error) {
@@ -67,24 +71,26 @@ int jobs_of(const RunArguments& arguments) {
 }
 
 /// Opened before anything is played, so that a wrong path is told at once.
-class JunitFile {
+class ResultFile {
  public:
-  explicit JunitFile(const std::string& path) : path_(path) {
+  /// Nothing is written if the path is empty.
+  ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
     if (path_.empty()) return;
     file_.open(path_, std::ios::binary | std::ios::trunc);
     demand_good();
   }
-  void write(std::span<const ScenarioResult> results) {
-    if (path_.empty()) return;
-    file_ << junit_text(results) << std::flush;
+  bool is_wanted() const { return !path_.empty(); }
+  void write(const std::string& text) {
+    file_ << text << std::flush;
     demand_good();
   }
 
  private:
   void demand_good() const {
     if (file_.good()) return;
-    throw std::system_error(errno, std::generic_category(), "--junit: " + path_ + " cannot be written");
+    throw std::system_error(errno, std::generic_category(), flag_ + ": " + path_ + " cannot be written");
   }
+  std::string flag_;
   std::string path_;
   std::ofstream file_;
 };
@@ -104,16 +110,29 @@ int run_scenarios(const RunArguments& arguments) {
   auto loaded = load_all(arguments);
   if (!loaded) return kExitBadInput;
   const std::vector<Scenario> scenarios = choose_some(std::move(*loaded), arguments);
-  JunitFile junit(arguments.junit);
+  ResultFile junit("--junit", arguments.junit);
+  ResultFile report("--report", arguments.report);
   std::vector<ScenarioResult> all;
   PlayOptions options;
+  if (arguments.lint) {
+    options.onlookers.push_back([](World& world) { return std::make_unique<Lint>(world); });
+  }
   if (arguments.real_time) options.make_stage = make_real_stage;
+  if (report.is_wanted()) {
+    options.onlookers.push_back([](World& world) { return std::make_unique<Camera>(world); });
+  }
   play_all(scenarios, options, jobs, [&](const std::vector<ScenarioResult>& results) {
     print(results);
     all.insert(all.end(), results.begin(), results.end());
   });
   std::printf("%s\n", summary_line(all).c_str());
-  junit.write(all);
+  for (const ScenarioResult& result : all) {
+    for (const std::string& finding : result.manners) {
+      std::fprintf(stderr, "lint: %s\n", one_line(result.file + ": " + result.name + ": " + finding).c_str());
+    }
+  }
+  if (junit.is_wanted()) junit.write(junit_text(all));
+  if (report.is_wanted()) report.write(report_page(all, arguments.version));
   const bool has_failed = std::any_of(all.begin(), all.end(), [](const ScenarioResult& result) {
     return result.verdict == ScenarioResult::Verdict::failed;
   });

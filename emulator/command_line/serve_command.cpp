@@ -7,6 +7,7 @@
 #include "emulator/command_line/serving.h"
 #include "emulator/edge/port_group.h"
 #include "emulator/edge/readiness.h"
+#include "emulator/lint/lint.h"
 
 namespace understudy::emulator {
 
@@ -23,9 +24,12 @@ int serve(const ServeArguments& arguments) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
   }
+  std::optional<Lint> lint;
+  if (arguments.lint) lint.emplace(daemon.world());
   notify_service_manager("READY=1");
   daemon.run();
   notify_service_manager("STOPPING=1");
+  if (lint) print_findings(lint->findings());
   return kExitWell;
 }
 

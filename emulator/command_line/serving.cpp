@@ -1,5 +1,6 @@
 #include "emulator/command_line/serving.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -8,6 +9,8 @@
 #include "emulator/device.h"
 #include "emulator/edge/nv_keeper.h"
 #include "emulator/edge/port_group.h"
+#include "emulator/one_line.h"
+#include "emulator/trace/trace.h"
 
 namespace understudy::emulator {
 
@@ -82,6 +85,25 @@ std::string demand_capture(const ServeArguments& arguments) {
   return demand_path(arguments, "--capture", path);
 }
 
+std::string demand_trace(const ServeArguments& arguments, const Bench& bench) {
+  const std::string& path = arguments.trace;
+  if (path.empty()) {
+    if (arguments.trace_also.empty()) return path;
+    throw UsageError("--trace-also: expected --trace FILE beside it");
+  }
+  if (!path.ends_with(".csv") && !path.ends_with(".vcd")) {
+    throw UsageError("--trace: " + path + ": is no kind of trace; expected FILE.csv or FILE.vcd");
+  }
+  if (!arguments.trace_also.empty()) {
+    try {
+      trace_signals(World(bench, {}, {}), arguments.trace_also);
+    } catch (const NameError& error) {
+      throw UsageError(std::string("--trace-also: ") + error.what());
+    }
+  }
+  return demand_path(arguments, "--trace", path);
+}
+
 std::optional<gid_t> demand_group(const std::string& name) {
   if (name.empty()) return std::nullopt;
   const auto group = find_group(name);
@@ -101,6 +123,8 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.control_path = arguments.control;
   options.capture_path = demand_capture(arguments);
   options.record_path = demand_path(arguments, "--record", arguments.record);
+  options.trace_path = demand_trace(arguments, serving.bench);
+  options.trace_also = arguments.trace_also;
   options.version = arguments.version;
   const auto speed = parse_speed(arguments.speed);
   if (!speed) {
@@ -110,6 +134,10 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.speed = *speed;
   serving.group = demand_group(arguments.group);
   return serving;
+}
+
+void print_findings(const std::vector<std::string>& findings) {
+  for (const std::string& finding : findings) std::fprintf(stderr, "lint: %s\n", one_line(finding).c_str());
 }
 
 }  // namespace understudy::emulator

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emulator/bench/bench.h"
 #include "emulator/command_line/commands.h"
@@ -21,5 +22,8 @@ struct Serving {
 /// Reads the bench and the memories it begins with. `command` is for messages. Throws what is wrong with
 /// them.
 Serving make_serving(const ServeArguments& arguments, const std::string& command);
+
+/// What `--lint` has found, on standard error.
+void print_findings(const std::vector<std::string>& findings);
 
 }  // namespace understudy::emulator

@@ -36,8 +36,22 @@ std::int32_t demand_level(const Json& value, const std::string& name, const Term
 }
 
 /// Of a fault.
-std::int64_t demand_amount(const Json& value, const std::string& name) {
-  return name == "level" ? level_of(value, name, TerminalRow::Kind::digital_in) : demand_integer(value, name);
+std::string field_of(const Json& value, const std::string& name) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number_integer()) throw MessageError(name + ": expected a whole number or a text");
+  return value.dump();
+}
+
+/// What has come of a fault so far.
+Json course_of(std::size_t number, const ArmedFault& armed, const KnownDevices& known) {
+  const auto& [fault, course] = armed;
+  Json entry{{"number", number}, {"fault", to_text(known, fault)}};
+  if (!waits(fault)) return entry;
+  if (is_of_frames(fault.kind) || is_about_frames(fault.trigger)) entry["seen"] = course.seen;
+  entry["matched"] = course.matched;
+  entry["hits"] = course.hits;
+  if (!is_of_frames(fault.kind)) entry["in_force"] = course.in_force;
+  return entry;
 }
 
 std::size_t demand_device(const Daemon& daemon, const Json& message) {
@@ -102,10 +116,19 @@ Json program_message(Daemon& daemon, const Json& message) {
 }
 
 Json inject_message(Daemon& daemon, const Json& message) {
-  FaultText text{.kind = demand_text(message, "fault"), .place = demand_text(message, "at"), .amounts = {}};
-  for (const auto& [key, value] : message.items()) {
-    if (key == "do" || key == "fault" || key == "at") continue;
-    text.amounts.emplace_back(key, demand_amount(value, key));
+  demand_keys(message, {"do", "fault"});
+  const Json& entries = demand(message, "fault");
+  if (!entries.is_object() || entries.empty() || !entries.front().is_string()) {
+    throw MessageError("fault: expected an object such as {\"stall\":\"feeder.A\"}");
+  }
+  FaultText text{};
+  for (const auto& [key, value] : entries.items()) {
+    if (&value != &entries.front()) {
+      text.fields.emplace_back(key, field_of(value, key));
+      continue;
+    }
+    text.kind = key;
+    text.place = value.get<std::string>();
   }
   const Fault fault = find_fault(daemon.world().known(), text);
   daemon.catch_up();
@@ -131,8 +154,8 @@ Json list_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do"});
   daemon.catch_up();
   Json faults = Json::array();
-  for (const auto& [number, fault] : daemon.world().faults()) {
-    faults.push_back(Json{{"number", number}, {"fault", to_text(daemon.world().known(), fault)}});
+  for (const auto& [number, armed] : daemon.world().faults()) {
+    faults.push_back(course_of(number, armed, daemon.world().known()));
   }
   return Json{{"ok", true}, {"faults", faults}};
 }

@@ -83,33 +83,12 @@ Json set(Daemon& daemon, const Json& message) {
   return Json{{"ok", true}};
 }
 
-/// The reply comes when simulated time is there.
-void advance(Daemon& daemon, const Json& message, const std::function<void(const std::string&)>& reply) {
-  demand_keys(message, {"do", "by"});
-  const Json& by = demand(message, "by");
-  const auto duration = by.is_string() ? parse_duration(by.get<std::string>()) : std::nullopt;
-  if (!duration) throw MessageError("by: expected a duration with a unit, such as \"250ms\"");
-  if (*duration > std::chrono::hours(24 * 365))
-    throw MessageError("by: is more than a year; expected at most that");
-  if (*duration > kHorizon - daemon.world().now()) {
-    throw MessageError("by: is beyond the end of simulated time; expected at most " +
-                       format_duration(kHorizon - daemon.world().now()));
-  }
-  const bool begun = daemon.advance(*duration, [&daemon, reply] {
-    reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());
-  });
-  if (!begun) {
-    throw MessageError(
-        "time runs by itself, or is being advanced already; expected --speed manual, or `pause` first");
-  }
-}
-
 /// Those that are answered at once.
 struct Verb {
   std::string_view name;
   Json (*answer)(Daemon& daemon, const Json& message);
 };
-constexpr std::array<Verb, 11> kVerbs{{{"status", status_message},
+constexpr std::array<Verb, 13> kVerbs{{{"status", status_message},
                                        {"get", get},
                                        {"set", set},
                                        {"input", input_message},
@@ -119,7 +98,9 @@ constexpr std::array<Verb, 11> kVerbs{{{"status", status_message},
                                        {"clear", clear_message},
                                        {"list", list_message},
                                        {"snapshot", snapshot_message},
-                                       {"restore", restore_message}}};
+                                       {"restore", restore_message},
+                                       {"pause", pause_message},
+                                       {"resume", resume_message}}};
 
 }  // namespace
 
@@ -134,15 +115,9 @@ void handle_message(Daemon& daemon, const std::string& line,
     for (const Verb& known : kVerbs) {
       if (verb == known.name) return reply(known.answer(daemon, message).dump());
     }
-    if (verb == "advance") return advance(daemon, message, reply);
-    if (verb == "pause" || verb == "resume") {
-      demand_keys(message, {"do"});
-      if (verb == "pause") daemon.pause();
-      if (verb == "resume" && !daemon.resume())
-        throw MessageError("time is being advanced; expected `resume` after that");
-      return reply(Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}}.dump());
-    }
-    std::string names = "advance, pause, resume";
+    if (verb == "advance") return advance_message(daemon, message, reply);
+    if (verb == "run-until") return run_until_message(daemon, message, reply);
+    std::string names = "advance, run-until";
     for (const Verb& known : kVerbs) names += ", " + std::string(known.name);
     throw MessageError("'" + verb + "' is nothing to do; expected one of " + names);
   } catch (const Json::exception&) {

@@ -1,6 +1,7 @@
 #include "emulator/control/message_fields.h"
 #include "emulator/control/verbs.h"
 #include "emulator/edge/daemon.h"
+#include "emulator/register_map/access.h"
 
 namespace understudy::emulator {
 
@@ -35,12 +36,41 @@ Json line_status(const Daemon& daemon, const Port& port) {
   return status;
 }
 
+/// Those that tell best what it is doing.
+Json telling_registers(const Device& device) {
+  Json values = Json::object();
+  for (const std::string_view name : device.model().state_registers) {
+    const auto place = device.registers().find(name, device.firmware());
+    if (place) values[std::string(name)] = read_value(device, *place);
+  }
+  return values;
+}
+
 Json device_status(const World& world, std::size_t number) {
   const Device& device = world.device(number);
   Json status{
       {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
   status["power"] = device.powered() ? "on" : "off";
   if (!device.pulse_format().empty()) status["pulse_format"] = device.pulse_format();
+  if (device.powered()) status["registers"] = telling_registers(device);
+  status["inputs"] = Json::object();
+  status["outputs"] = Json::object();
+  for (std::size_t i = 0; i < device.model().terminals.size(); ++i) {
+    const TerminalRow& terminal = device.model().terminals[i];
+    const auto place = static_cast<int>(i);
+    const std::string name(terminal.name);
+    if (is_input(terminal.kind)) {
+      status["inputs"][name] = device.input(place);
+    } else {
+      status["outputs"][name] = device.output(place) ? 1 : 0;
+    }
+  }
+  status["axes"] = Json::object();
+  for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
+    const auto place = static_cast<int>(axis);
+    status["axes"][std::string(device.model().axes[axis].name)] =
+        Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
+  }
   status["machines"] = Json::object();
   for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
     const PlantAxis& plant = world.plant(number, static_cast<int>(axis));

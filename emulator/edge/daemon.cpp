@@ -39,7 +39,8 @@ WorldOptions world_options(const DaemonOptions& options) {
 }  // namespace
 
 Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log)
-    : log_(std::move(log)), world_(bench, world_options(options), log_),
+    : log_(std::move(log)),
+      world_(bench, world_options(options), log_),
       bench_hash_(emulator::bench_hash(bench)),
       pacer_(options.speed, wall_now()) {
   if (options.watch_signals) watch_signals();
@@ -149,7 +150,7 @@ void Daemon::start_recording(const Bench& bench, const DaemonOptions& options) {
   const RecordingHeader header{.version = options.version,
                                .bench = to_text(bench),
                                .options = world_options(options),
-                               .seed = 0,
+                               .seed = bench.seed,
                                .snapshot = {}};
   recorder_ = std::make_unique<Recorder>(world_, header,
                                          [this](std::string_view line) { recording_file_->take(line); });
@@ -159,8 +160,8 @@ void Daemon::start_trace(const DaemonOptions& options) {
   std::vector<TraceSignal> signals = trace_signals(world_, options.trace_also);
   trace_file_ = std::make_unique<GrowingFile>(options.trace_path, "the trace", log_);
   const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
-  trace_ = std::make_unique<Trace>(world_, std::move(signals),
-                                   options.trace_path.ends_with(".vcd") ? vcd_format(take) : csv_format(take));
+  trace_ = std::make_unique<Trace>(
+      world_, std::move(signals), options.trace_path.ends_with(".vcd") ? vcd_format(take) : csv_format(take));
 }
 
 void Daemon::finish_capture() {
@@ -213,21 +214,39 @@ bool Daemon::resume() {
   return true;
 }
 
-bool Daemon::advance(SimTime duration, std::function<void()> done) {
+bool Daemon::advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there) {
   if (!pacer_.standing() || advance_done_ || duration > kHorizon - world_.now()) return false;
   advance_target_ = world_.now() + duration;
+  advance_is_there_ = std::move(is_there);
   advance_done_ = std::move(done);
   return true;
 }
 
+/// Tick by tick, for a slice of wall time at most. The target moves here where the condition is true.
+void Daemon::work_towards_condition() {
+  const WallTime until = wall_now() + kWorkSlice;
+  while (world_.now() < advance_target_ && wall_now() < until) {
+    if (advance_is_there_()) {
+      advance_target_ = world_.now();
+      return;
+    }
+    world_.advance_to(std::min(advance_target_, time_of(tick_at(world_.now()) + 1)));
+  }
+}
+
 void Daemon::work_on_advance() {
-  work_towards(advance_target_);
+  if (advance_is_there_) {
+    work_towards_condition();
+  } else {
+    work_towards(advance_target_);
+  }
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;
   // What the advance has put on the line is on its way before the caller hears that it is over.
   for (const auto& port : ports_) port->flush();
   const std::function<void()> done = std::move(advance_done_);
   advance_done_ = nullptr;
+  advance_is_there_ = nullptr;
   done();
 }
 

@@ -16,9 +16,9 @@
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
+#include "emulator/growing_file.h"
 #include "emulator/recording/recorder.h"
 #include "emulator/trace/trace.h"
-#include "emulator/growing_file.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "pty/capture_file.h"
@@ -37,7 +37,7 @@ struct DaemonOptions {
   std::string record_path;   // empty: no recording
   std::string trace_path;    // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
-  std::string version;       // of the program, for the recording
+  std::string version;  // of the program, for the recording
 };
 
 class Daemon {
@@ -52,8 +52,8 @@ class Daemon {
   void run();
   /// Ends run() soon. On the thread that runs it.
   void stop() { stopping_ = true; }
-  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread. It may
-  /// put the world into another state; simulated time goes on from there.
+  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread. It
+  /// may put the world into another state; simulated time goes on from there.
   void post(std::function<void()> act);
   /// For what else is to be waited for.
   EventLoop& loop() { return loop_; }
@@ -67,9 +67,10 @@ class Daemon {
   void pause();
   /// False while an advance is under way.
   bool resume();
-  /// Moves simulated time on by `duration`, then calls `done`. Only where the clock stands; false
-  /// otherwise, or while another advance is under way.
-  bool advance(SimTime duration, std::function<void()> done);
+  /// Moves simulated time on by `duration`, or to the end of the first tick at which `is_there` is true
+  /// (asked at the end of every tick), then calls `done`. Only where the clock stands; false otherwise, or
+  /// while another advance is under way.
+  bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
   /// Brings the world to the present moment.
   void catch_up();
 
@@ -77,8 +78,8 @@ class Daemon {
   std::uint64_t bench_hash() const { return bench_hash_; }
   /// Why the world cannot be put into another state now; empty if it can.
   std::string_view why_no_restore() const;
-  /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that are
-  /// there now. Throws StateError, and nothing has changed then.
+  /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
+  /// are there now. Throws StateError, and nothing has changed then.
   void restore(const WorldState& state);
 
  private:
@@ -93,6 +94,7 @@ class Daemon {
   void judge_stall();
   void work_towards(SimTime target);
   void work_on_advance();
+  void work_towards_condition();
   std::optional<WallTime> next_wake() const;
   void wait();
 
@@ -119,7 +121,8 @@ class Daemon {
   std::optional<WallTime> planned_;  // for when the loop meant to wake; judged once
 
   SimTime advance_target_{0};
-  std::function<void()> advance_done_;  // set while an advance is under way
+  std::function<bool()> advance_is_there_;  // may be none
+  std::function<void()> advance_done_;      // set while an advance is under way
 };
 
 }  // namespace understudy::emulator

@@ -19,9 +19,9 @@ void Eeprom::keep(std::size_t slot, std::uint32_t bits) {
   ++revision_;
 }
 
-void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now) {
+void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same) {
   const std::vector<std::uint32_t>& before = rewriting_.empty() ? kept_ : rewriting_;
-  if (slots_[slot] != Slot::rests || before[slot] == bits) return;
+  if (slots_[slot] != Slot::rests || (before[slot] == bits && !even_if_same)) return;
   slots_[slot] = Slot::waits;
   jobs_.push_back({static_cast<std::uint32_t>(slot), takes});
   // The first of them begins with the next tick.

@@ -18,7 +18,8 @@ class Eeprom {
 
   /// A register was written after tick `now`; `bits` is what it holds. A value that is kept already is not
   /// written again, one that waits keeps its place.
-  void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now);
+  /// `even_if_same`: also what is there already.
+  void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same = false);
   /// Everything at once, as it is in the image now and in place of all that waits, as an erasure does it.
   void rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now);
   /// At the end of `tick`: keeps what is done, single registers with the values that the image has then.

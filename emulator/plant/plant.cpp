@@ -96,6 +96,7 @@ void PlantAxis::check(const State& state) {
     demand_reach(pulses);
   }
   demand_reach(state.faults.slipped_pulses);
+  demand_reach(state.faults.encoder_noise_counts);
   if (state.enabled_at != kNever) demand_reach(state.enabled_at);
 }
 
@@ -115,6 +116,7 @@ std::int64_t PlantAxis::encoder_counts() const {
   counts +=
       static_cast<std::uint64_t>(rest) * counts_per_revolution / static_cast<std::uint64_t>(per_revolution);
   if (setup_.encoder_reversed) counts = 0 - counts;
+  counts += static_cast<std::uint64_t>(state_.faults.encoder_noise_counts);
   return static_cast<std::int64_t>(counts << 2) >> 2;  // its low 62 bits, with their sign
 }
 

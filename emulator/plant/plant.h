@@ -45,10 +45,11 @@ struct PlantSetup {
 
 /// What is wrong with a machine.
 struct MachineFaults {
-  bool stalled = false;             // the motor is blocked: every pulse is lost
-  std::int64_t loses_one_in = 0;    // every so manieth pulse is lost; 0: none
-  std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
-  bool alarm = false;               // what the drive's alarm is for; it outlives it until it is cleared
+  bool stalled = false;                   // the motor is blocked: every pulse is lost
+  std::int64_t loses_one_in = 0;          // every so manieth pulse is lost; 0: none
+  std::int64_t slipped_pulses = 0;        // how far it has been pushed by force since the last tick
+  bool alarm = false;                     // what the drive's alarm is for; it outlives it until it is cleared
+  std::int64_t encoder_noise_counts = 0;  // so many too many
   bool operator==(const MachineFaults&) const = default;
 };
 

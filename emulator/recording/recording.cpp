@@ -114,11 +114,17 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
 }
 
 Fault fault_at(const Json& object, const KnownDevices& devices) {
-  FaultText text{.kind = text_at(object, "fault"), .place = text_at(object, "at"), .amounts = {}};
-  const Json& amounts = demand(object, "amounts");
-  if (!amounts.is_object()) throw RecordingError("amounts: is no object; expected one");
-  for (const auto& [name, value] : amounts.items()) {
-    text.amounts.emplace_back(name, number_at(amounts, name.c_str(), INT64_MIN, INT64_MAX));
+  const Json& fault = demand(object, "fault");
+  if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is no object; expected one");
+  FaultText text{};
+  for (const auto& [name, value] : fault.items()) {
+    if (!value.is_string()) throw RecordingError("fault: holds what is no text; expected texts");
+    if (&value != &fault.front()) {
+      text.fields.emplace_back(name, value.get<std::string>());
+      continue;
+    }
+    text.kind = name;
+    text.place = value.get<std::string>();
   }
   try {
     return find_fault(devices, text);
@@ -193,10 +199,8 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
     case What::power: line["on"] = event.value != 0; break;
     case What::inject: {
       const FaultText text = fault_text(devices, event.fault);
-      line["fault"] = text.kind;
-      line["at"] = text.place;
-      line["amounts"] = Json::object();
-      for (const auto& [name, amount] : text.amounts) line["amounts"][name] = amount;
+      line["fault"] = Json{{text.kind, text.place}};
+      for (const auto& [name, value] : text.fields) line["fault"][name] = value;
       break;
     }
     case What::clear: line["number"] = event.value; break;

@@ -1,5 +1,6 @@
 #include "emulator/register_map/access.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -66,6 +67,11 @@ bool in_range(const Change& change) {
   return value >= row.min && value <= row.max;
 }
 
+void bring_into_range(Change& change) {
+  const RegisterRow& row = *change.place.row;
+  change.bits = static_cast<std::uint32_t>(std::clamp(value_of(change.bits, row.type), row.min, row.max));
+}
+
 // A Modbus request brings at most 123 words; programs, scenarios and the control socket at most two.
 constexpr std::size_t kMostChanges = 128;
 
@@ -92,16 +98,17 @@ Refusal with_room_for(std::size_t words, Act act) {
 Refusal gather(const Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words,
                Changes& changes) {
   const RegisterMap& map = device.registers();
+  const MapPolicy policy = device.map_policy();
   if (first + words.size() > 65536 || words.size() > kMostChanges) return Refusal::no_register;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Place place =
         map.at(table, static_cast<std::uint16_t>(first + i), device.firmware(), device.low_word_first());
     if (!place) {
-      if (map.policy().unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
+      if (policy.unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
       continue;
     }
     if (place.row->access == Access::read) {
-      if (map.policy().read_only == MapPolicy::ReadOnly::refused) return Refusal::no_register;
+      if (policy.read_only == MapPolicy::ReadOnly::refused) return Refusal::no_register;
       continue;
     }
     const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.slot == place.slot;
@@ -111,36 +118,48 @@ Refusal gather(const Device& device, Table table, std::uint16_t first, std::span
     if (place.part == Place::Part::low) change.low = true;
     if (place.part == Place::Part::high) change.high = true;
   }
-  const bool halves_alone = map.policy().halves == MapPolicy::Halves::may_be_written_alone;
   for (std::size_t i = 0; i < changes.count; ++i) {
-    const Change& change = changes.all[i];
+    Change& change = changes.all[i];
     if (!complete(change)) {
-      if (!halves_alone) return Refusal::no_register;
-      continue;  // half a value cannot be judged
+      if (policy.halves == MapPolicy::Halves::come_whole) return Refusal::no_register;
+      if (policy.halves == MapPolicy::Halves::may_be_written_alone)
+        continue;  // half a value cannot be judged
     }
-    if (!in_range(change)) return Refusal::bad_value;
+    if (in_range(change)) continue;
+    if (policy.out_of_range == MapPolicy::OutOfRange::refused) return Refusal::bad_value;
+    bring_into_range(change);
   }
   return Refusal::none;
 }
 
-/// Stores everything, then lets it take effect, both in ascending order.
-void carry_out(Device& device, Changes& changes) {
-  for (std::size_t i = 0; i < changes.count; ++i) {
-    Change& change = changes.all[i];
-    change.bits &= change.place.row->stored_bits;
-    device.image()[static_cast<std::size_t>(change.place.slot)] = change.bits;
+void store(Device& device, Change& change) {
+  change.bits &= change.place.row->stored_bits;
+  device.image()[static_cast<std::size_t>(change.place.slot)] = change.bits;
+}
+
+void take_effect(Device& device, const Change& change) {
+  const RegisterRow& row = *change.place.row;
+  if (change.bits == 0 && !row.acts_on_zero) return;
+  if (!row.unmodelled.empty()) device.mention_unmodelled(row);
+  if (row.effect != nullptr) {
+    Cell cell = cell_of(change.place);
+    cell.high_half = !is_32_bit(row.type) || change.high;
+    row.effect(device, cell, value_of(change.bits, row.type));
   }
-  for (std::size_t i = 0; i < changes.count; ++i) {
-    const Change& change = changes.all[i];
-    const RegisterRow& row = *change.place.row;
-    if (change.bits == 0 && !row.acts_on_zero) continue;
-    if (!row.unmodelled.empty()) device.mention_unmodelled(row);
-    if (row.effect != nullptr) {
-      Cell cell = cell_of(change.place);
-      cell.high_half = !is_32_bit(row.type) || change.high;
-      row.effect(device, cell, value_of(change.bits, row.type));
+  device.register_written(row, static_cast<std::size_t>(change.place.slot));
+}
+
+/// Stores everything, then lets it take effect, both in ascending order; or each register in its turn.
+void carry_out(Device& device, Changes& changes) {
+  const std::span all = std::span(changes.all).first(changes.count);
+  if (device.map_policy().effects == MapPolicy::Effects::one_by_one) {
+    for (Change& change : all) {
+      store(device, change);
+      take_effect(device, change);
     }
-    device.register_written(row, static_cast<std::size_t>(change.place.slot));
+  } else {
+    for (Change& change : all) store(device, change);
+    for (const Change& change : all) take_effect(device, change);
   }
   device.registers_written();
 }
@@ -180,17 +199,18 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Pr
 
 Refusal read_words(const Device& device, Table table, std::uint16_t first, std::span<std::uint16_t> words) {
   const RegisterMap& map = device.registers();
+  const MapPolicy policy = device.map_policy();
   if (first + words.size() > 65536) return Refusal::no_register;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Place place =
         map.at(table, static_cast<std::uint16_t>(first + i), device.firmware(), device.low_word_first());
     if (!place) {
-      if (map.policy().unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
+      if (policy.unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
       words[i] = 0;
       continue;
     }
     if (place.row->access == Access::write) {
-      if (map.policy().write_only == MapPolicy::WriteOnly::refused) return Refusal::no_register;
+      if (policy.write_only == MapPolicy::WriteOnly::refused) return Refusal::no_register;
       words[i] = 0;
       continue;
     }

@@ -156,7 +156,16 @@ struct MapPolicy {
   enum class Unmapped : std::uint8_t { refused, reads_zero } unmapped = Unmapped::refused;
   enum class WriteOnly : std::uint8_t { reads_zero, refused } write_only = WriteOnly::reads_zero;
   enum class ReadOnly : std::uint8_t { refused, ignores_writes } read_only = ReadOnly::refused;
-  enum class Halves : std::uint8_t { may_be_written_alone, come_whole } halves = Halves::may_be_written_alone;
+  /// Half of a 32-bit register alone: taken whatever the whole becomes, judged with the other half as it is,
+  /// or never taken.
+  enum class Halves : std::uint8_t {
+    may_be_written_alone,
+    judged_with_the_other,
+    come_whole
+  } halves = Halves::may_be_written_alone;
+  enum class OutOfRange : std::uint8_t { refused, clamped } out_of_range = OutOfRange::refused;
+  /// Whether the registers of one request take effect once all of them are stored, or each in its turn.
+  enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;
 };
 

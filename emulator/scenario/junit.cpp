@@ -64,9 +64,9 @@ std::string case_text(const ScenarioResult& result) {
     text += "      <failure type=\"expectation\" message=\"" + xml_escaped(result.failure->what) + "\">" +
             xml_escaped(lines_text(failure_lines(result))) + "</failure>\n";
   }
-  if (!result.steps.empty()) {
-    text += "      <system-out>" + xml_escaped(lines_text(step_lines(result))) + "</system-out>\n";
-  }
+  std::string output = lines_text(step_lines(result));
+  for (const std::string& finding : result.manners) output += "lint: " + finding + "\n";
+  if (!output.empty()) text += "      <system-out>" + xml_escaped(output) + "</system-out>\n";
   return text + "    </testcase>\n";
 }
 

@@ -1,5 +1,5 @@
-// Who looks on while a scenario is played, for what is told of it afterwards: a report, the host's manners. What is
-// played is the same with and without one.
+// Who looks on while a scenario is played, for what is told of it afterwards: a report, the host's manners.
+// What is played is the same with and without one.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace understudy::emulator {
 class Onlooker {
  public:
   virtual ~Onlooker() = default;
-  /// The world was put into another state, after so many steps: its time may be an earlier one, and its lines are
-  /// hearing something else.
+  /// The world was put into another state, after so many steps: its time may be an earlier one, and its lines
+  /// are hearing something else.
   virtual void world_restored(std::size_t steps) = 0;
   /// The play is over. What was seen goes into its result.
   virtual void finish(ScenarioResult& result) = 0;

@@ -42,6 +42,7 @@ void read_inputs(StepsReader& reader, const YamlFields& step, const YamlFields& 
 void read_inject(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
   InjectStep inject;
   inject.fault = read_fault(value, reader.trial().known(), "name");
+  reader.trial().demand_fault(value, inject.fault);
   const std::string fault = to_text(reader.trial().known(), inject.fault);
   inject.name = fault;
   auto& in_force = reader.story().faults;

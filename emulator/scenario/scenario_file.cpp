@@ -173,7 +173,10 @@ class ScenarioReader {
     if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
     scenario.bench = read_its_bench(root);
     if (root.has("gap")) scenario.gap = root.at("gap").duration();
-    if (root.has("seed")) scenario.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
+    if (root.has("seed")) {
+      scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
+    }
+    scenario.seed = scenario.bench.seed;
     const Trial trial = make_trial(root, scenario.bench);
     StepsReader steps(trial, file_, path_);
     scenario.steps = steps.read(root.at("steps"), parameters);

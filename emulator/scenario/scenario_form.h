@@ -12,7 +12,6 @@ inline constexpr std::array<const Form*, 2> kBenchWays{&kText, &kInlineBenchForm
 inline constexpr Form kBenchOrFileForm = either_form(kBenchWays);
 inline constexpr std::array<const Form*, 2> kFirmwareWays{&kText, &kTextByName};
 inline constexpr Form kFirmwareForm = either_form(kFirmwareWays);
-inline constexpr Form kSeedForm = integer_form(0, INT64_MAX);
 inline constexpr Form kCasesForm = list_form(kTextByName);
 
 inline constexpr std::array kScenarioKeys{

@@ -10,10 +10,6 @@ namespace understudy::emulator {
 
 namespace {
 
-/// Registers that tell how a device stands, as far as its model has them: "{}" is an axis.
-constexpr std::array<std::string_view, 5> kTelling{"STATUS", "{}axis_Mode", "Cord_{}", "EEPROM_Writing",
-                                                   "PROG_MAIN_RunTime_Status"};
-
 std::string registers_text(const Device& device) {
   std::string text;
   const auto add = [&](const std::string& name) {
@@ -27,17 +23,7 @@ std::string registers_text(const Device& device) {
                   static_cast<unsigned>(value) & 0xFFFFU);
     text += hexadecimal.data();
   };
-  for (const std::string_view telling : kTelling) {
-    const std::size_t axis_at = telling.find("{}");
-    if (axis_at == std::string_view::npos) {
-      add(std::string(telling));
-      continue;
-    }
-    for (const AxisRow& axis : device.model().axes) {
-      add(std::string(telling.substr(0, axis_at)) + std::string(axis.name) +
-          std::string(telling.substr(axis_at + 2)));
-    }
-  }
+  for (const std::string_view name : device.model().state_registers) add(std::string(name));
   return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "emulator/faults/fault_form.h"
 #include "emulator/forms/form.h"
 
 namespace understudy::emulator {
@@ -26,6 +27,8 @@ inline constexpr std::array kSpanKeys{KeyRow{"what", "The condition, looked at i
 inline constexpr Form kSpanKeysForm = keys_form(kSpanKeys);
 inline constexpr std::array<const Form*, 2> kSpanWays{&kText, &kSpanKeysForm};
 inline constexpr Form kSpanForm = either_form(kSpanWays);
+
+inline constexpr Form kInjectForm = keys_form(kInjectKeys);
 
 inline constexpr std::array<std::string_view, 3> kPowerWords{"on", "off", "cycle"};
 inline constexpr Form kPowerWordsForm = words_form(kPowerWords);

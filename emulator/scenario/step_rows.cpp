@@ -27,7 +27,7 @@ std::span<const StepRow> step_rows() {
       // From outside.
       StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &kTextByName},
               read_inputs},
-      StepRow{{"inject", "Breaks something.", &kTextByName}, read_inject},
+      StepRow{{"inject", "Breaks something.", &kInjectForm}, read_inject},
       StepRow{{"clear", "Mends it: the fault's name, or `all`.", &kText}, read_clear},
       StepRow{{"power", "Switches devices on, off, or off and on again.", &kPowerForm}, read_power},
       StepRow{{"program", "Loads a program into a device.", &kTextByName}, read_program},

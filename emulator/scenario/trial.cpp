@@ -1,5 +1,6 @@
 #include "emulator/scenario/trial.h"
 
+#include "emulator/bench/machine_fields.h"
 #include "emulator/expression/parser.h"
 #include "emulator/parse_integer.h"
 #include "emulator/scenario/parameters.h"
@@ -178,6 +179,10 @@ void Trial::demand_program(const YamlFields& field, std::size_t device, const st
   } catch (const SettingError& error) {
     field.fail(error.what());
   }
+}
+
+void Trial::demand_fault(const YamlFields& field, const Fault& fault) const {
+  demand_possible(field, world_, fault);
 }
 
 void Trial::demand_memory(const YamlFields& field, std::size_t device, const NvImage& image) const {

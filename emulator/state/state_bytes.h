@@ -24,6 +24,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -54,6 +55,8 @@ template <class T>
 inline constexpr bool kIsVector = false;
 template <class T>
 inline constexpr bool kIsVector<std::vector<T>> = true;
+template <>
+inline constexpr bool kIsVector<std::string> = true;  // of bytes
 template <class T>
 inline constexpr bool kIsMap = false;
 template <class Key, class T>

@@ -1,5 +1,6 @@
 #include "emulator/trace/trace.h"
 
+#include <algorithm>
 #include <array>
 
 namespace understudy::emulator {
@@ -38,6 +39,9 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
   const Probes probes(world);
   for (const std::string& name : also) {
     const NamedNumber number = probes.resolve(name);
+    const bool is_there = std::any_of(signals.begin(), signals.end(),
+                                      [&](const TraceSignal& signal) { return signal.name == name; });
+    if (is_there) continue;
     signals.push_back(
         {.name = name, .kind = probes.value(number.handle).is_whole() ? Kind::whole : Kind::real});
   }
@@ -56,7 +60,10 @@ Trace::Trace(World& world, std::vector<TraceSignal> signals, std::unique_ptr<Tra
   world_.add_watcher(*this);
 }
 
-Trace::~Trace() { world_.remove_watcher(*this); }
+Trace::~Trace() {
+  world_.remove_watcher(*this);
+  if (tick_at(world_.now()) > last_row_) format_->end(world_.now(), values_);
+}
 
 void Trace::on_tick(Tick tick) { look(time_of(tick)); }
 
@@ -69,8 +76,10 @@ void Trace::look(SimTime at) {
     values_[i] = value;
     anything = true;
   }
-  if (anything) format_->row(at, values_, is_new_);
   has_begun_ = true;
+  if (!anything) return;
+  format_->row(at, values_, is_new_);
+  last_row_ = tick_at(at);
 }
 
 }  // namespace understudy::emulator

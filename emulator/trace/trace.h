@@ -29,6 +29,8 @@ class TraceFormat {
   /// Values in the order of the signals; `is_new[i]` where one has changed since the last call, and all at
   /// first.
   virtual void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>& is_new) = 0;
+  /// Nothing has changed since the last row, and nothing more will come.
+  virtual void end(SimTime at, const std::vector<Number>& values) = 0;
 };
 
 std::unique_ptr<TraceFormat> csv_format(TakeLine take);
@@ -57,6 +59,7 @@ class Trace final : private TickWatcher {
   std::vector<Number> values_;
   std::vector<bool> is_new_;
   bool has_begun_ = false;
+  Tick last_row_ = 0;
   std::unique_ptr<TraceFormat> format_;
 };
 

@@ -4,7 +4,8 @@ namespace understudy::emulator {
 
 namespace {
 
-/// A row for each tick at which something changed, with everything: `time_ms,feeder.A.pulses,...`.
+/// A row for each tick at which something changed, and for the end, with everything:
+/// `time_ms,feeder.A.pulses,...`.
 class CsvTrace final : public TraceFormat {
  public:
   explicit CsvTrace(TakeLine take) : take_(std::move(take)) {}
@@ -16,6 +17,10 @@ class CsvTrace final : public TraceFormat {
   }
 
   void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>&) override {
+    end(at, values);
+  }
+
+  void end(SimTime at, const std::vector<Number>& values) override {
     std::string line = std::to_string(tick_at(at));
     for (const Number value : values) line += "," + number_text(value);
     take_(line + "\n");

@@ -63,6 +63,10 @@ class VcdTrace final : public TraceFormat {
     take_(text);
   }
 
+  void end(SimTime at, const std::vector<Number>&) override {
+    take_("#" + std::to_string(tick_at(at)) + "\n");
+  }
+
  private:
   /// "feeder.A.position", "feeder.STATUS.4" (a bit stays with its register); no blank may be in a name.
   static std::vector<std::string> parts_of(const std::string& name) {

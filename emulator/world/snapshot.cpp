@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "emulator/world/check_fault.h"
 #include "emulator/world/state_fields.h"
 
 namespace understudy::emulator {
@@ -70,17 +71,28 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
+/// One that could have been injected.
+void check_fault_value(const World& world, const Fault& fault) {
+  demand_state(fault.device < world.device_count(), "a fault is of no device");
+  const Model& model = world.device(fault.device).model();
+  const bool is_of_input = fault.kind == Fault::Kind::stuck;
+  const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
+  demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
+  demand_state(fault.kind != Fault::Kind::slip || waits(fault), "a slip lasts");
+  demand_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
+               "a fault contradicts itself");
+  check_fault(world, fault);
+}
+
 void check_faults(const World& world, const WorldValues& values) {
-  for (const auto& [number, fault] : std::get<kFaults>(values)) {
+  for (const auto& [number, armed] : std::get<kFaults>(values)) {
     demand_state(number < std::get<kNextFault>(values), "a fault has a number of the future");
-    demand_state(fault.device < world.device_count(), "a fault is of no device");
-    const Model& model = world.device(fault.device).model();
-    const bool is_of_input = fault.kind == Fault::Kind::stuck;
-    const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
-    demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
-    demand_state(fault.kind != Fault::Kind::slip, "a slip lasts");
-    demand_state(fault.amount >= 0, "a fault has no such amount");
-    demand_reach(fault.amount);
+    check_fault_value(world, armed.fault);
+    const FaultCourse& course = armed.course;
+    for (const std::int64_t count : {course.seen, course.matched, course.hits}) {
+      demand_state(count >= 0, "a fault has been seen less than never");
+      demand_reach(count);
+    }
   }
 }
 
@@ -202,6 +214,7 @@ void restore(World& world, const WorldState& state) {
   // Nothing from here on throws.
   WorldFields::of(world, [&](auto&... field) { std::tie(field...) = std::move(values); });
   EdgeFields::of(world, [&](auto&... field) { std::tie(field...) = ticks; });
+  WorldFields::rearm(world);
   for (std::size_t d = 0; d < machines.size(); ++d) {
     for (std::size_t a = 0; a < machines[d].size(); ++a) {
       WorldFields::plants(world)[d][a].restore(machines[d][a]);

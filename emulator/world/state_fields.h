@@ -13,14 +13,23 @@ struct WorldFields {
     // What it is made of, and who looks at it, is no state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
     auto& [known, devices, lines, plants, sent_pulses, inputs, wires, watchers, listener, faults, next_fault,
-           disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
+           fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
     return visit(sent_pulses, inputs, faults, next_fault, disturbed, now, done);
   }
   static auto& plants(Like<World> auto& world) { return world.plants_; }
   // clang-format off
   static void of(Like<World::Input> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<Fault> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<MachineFaults> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
+  static void of(Like<Fault> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
+  }
+  static void of(Like<FaultTrigger> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  }
+  static void of(Like<FaultCourse> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
+  }
+  static void of(Like<ArmedFault> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
+  static void of(Like<MachineFaults> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
   static void of(Like<PlantAxis::State> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
   }
@@ -46,10 +55,14 @@ struct WorldFields {
     auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
   }
   static void of(Like<StationCounters> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<RtuStation::State> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
+  static void of(Like<RtuStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
+  static void of(Like<RtuStation::State> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
   // clang-format on
 
-  static constexpr Fault::Kind last(Fault::Kind) { return Fault::Kind::stuck; }
+  static void rearm(World& world) { world.arm_faults(); }
+
+  static constexpr Fault::Kind last(Fault::Kind) { return Fault::Kind::collision; }
+  static constexpr Fault::Side last(Fault::Side) { return Fault::Side::both; }
   static constexpr pty::Parity last(pty::Parity) { return pty::Parity::even; }
 
   static void check(const auto&) {}  // only the whole tells what may be: snapshot.cpp
@@ -59,7 +72,7 @@ struct WorldFields {
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
     auto& [known, devices, lines, plants, sent_pulses, inputs, wires, watchers, listener, faults, next_fault,
-           disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
+           fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
     return visit(ticks_run, ticks_crossed);
   }
   static void of(Like<pty::Line::State> auto& v, auto visit) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "emulator/world/check_fault.h"
+#include "emulator/world/fault_watch.h"
+
 namespace understudy::emulator {
 
 World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
-    : wires_(bench.wires) {
+    : wires_(bench.wires), seed_(bench.seed) {
   for (const DeviceSetup& setup : bench.devices) {
     devices_.push_back(make_device(*setup.model, setup.settings, log));
     known_.push_back({setup.settings.name, setup.model, devices_.back()->firmware()});
@@ -36,6 +39,7 @@ World::World(const Bench& bench, const WorldOptions& options,
       if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
       line.stations.push_back(std::make_unique<RtuStation>(*devices_[number], framing));
       line.line.attach(*line.stations.back());
+      known_[number].line = setup.name;
     }
   }
   for (const InputSetup& setup : bench.inputs) {
@@ -45,6 +49,8 @@ World::World(const Bench& bench, const WorldOptions& options,
   // A machine may stand on a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) step_plant(d);
 }
+
+World::~World() = default;
 
 const PlantAxis& World::plant(std::size_t device, int axis) const {
   return plants_[device][static_cast<std::size_t>(axis)];
@@ -63,7 +69,7 @@ void World::advance_to(SimTime time) {
     }
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
     const Tick reachable = tick_at(std::min(time, line_time));
-    const Tick active = bulk_ticks_ ? next_active_tick() : done_ + 1;
+    const Tick active = bulk_ticks_ ? std::min(next_active_tick(), next_fault_tick()) : done_ + 1;
     if (active > done_ + 1) {
       // Watchers see each of them.
       const Tick last_quiet = watchers_.empty() ? std::min(reachable, active - 1) : done_ + 1;
@@ -72,6 +78,7 @@ void World::advance_to(SimTime time) {
       for (const auto& device : devices_) device->set_now(done_);
     } else {
       run_tick();
+      if (fault_watch_) look_at_faults();
     }
     now_ = std::max(now_, time_of(done_));
     if (watchers_.empty()) continue;
@@ -88,7 +95,7 @@ void World::show_tick() {
 }
 
 std::optional<SimTime> World::next_due() const {
-  const SimTime due = std::min(next_line_time(), time_of(next_active_tick()));
+  const SimTime due = std::min(next_line_time(), time_of(std::min(next_active_tick(), next_fault_tick())));
   if (due == kForever) return std::nullopt;
   return due;
 }
@@ -104,13 +111,20 @@ Tick World::next_active_tick() const {
 }
 
 SimTime World::next_line_time() const {
-  SimTime next = kForever;
+  SimTime next = fault_watch_ ? fault_watch_->next_moment() : kForever;
+  if (next != kForever) next = std::max(next, now_);
   for (const auto& line : lines_) next = std::min(next, line->line.due().value_or(kForever));
   return next;
 }
 
+/// What is due at `time` on the lines, after the faults that strike at that moment.
 void World::run_lines(SimTime time) {
+  if (fault_watch_) {
+    fault_watch_->look(now_, false);
+    settle_faults();
+  }
   for (const auto& line : lines_) line->line.run(time);
+  if (fault_watch_) settle_faults();
 }
 
 void World::run_tick() {
@@ -220,6 +234,10 @@ void World::switch_power(std::size_t device, bool on) {
   if (devices_[device]->powered() == on) return;
   begin_act();
   if (listener_ != nullptr) listener_->on_power(device, on);
+  put_power(device, on);
+}
+
+void World::put_power(std::size_t device, bool on) {
   devices_[device]->switch_power(on);
   disturbed_ = true;
   for (const auto& line : lines_) {
@@ -236,16 +254,20 @@ void World::switch_power(std::size_t device, bool on) {
 }
 
 std::size_t World::inject(const Fault& fault) {
+  check_fault(*this, fault);
   begin_act();
   if (listener_ != nullptr) listener_->on_inject(fault);
   disturbed_ = true;
   const std::size_t number = next_fault_++;
-  if (fault.kind == Fault::Kind::slip) {
+  if (fault.kind == Fault::Kind::slip && !waits(fault)) {
     plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
-  } else {
-    faults_.emplace(number, fault);
-    apply_faults(fault.device);
+    return number;
   }
+  ArmedFault armed{.fault = fault};
+  armed.course.in_force = armed.course.is_news = !waits(fault);
+  faults_.emplace(number, armed);
+  arm_faults();
+  settle_faults();
   return number;
 }
 
@@ -254,11 +276,72 @@ bool World::clear_fault(std::size_t number) {
   if (found == faults_.end()) return false;
   begin_act();
   if (listener_ != nullptr) listener_->on_clear_fault(number);
-  const std::size_t device = found->second.device;
+  const ArmedFault armed = found->second;
   faults_.erase(found);
   disturbed_ = true;
-  apply_faults(device);
+  arm_faults();
+  apply_faults(armed.fault.device);
+  if (armed.course.has_acted && !devices_[armed.fault.device]->powered()) put_power(armed.fault.device, true);
   return true;
+}
+
+/// Whoever waits is looked after.
+void World::arm_faults() {
+  const auto needs_watch = [](const auto& entry) {
+    return waits(entry.second.fault) || entry.second.fault.period_ticks != 0;
+  };
+  fault_watch_.reset();
+  if (std::any_of(faults_.begin(), faults_.end(), needs_watch)) {
+    fault_watch_ = std::make_unique<FaultWatch>(*this, faults_, seed_);
+  }
+  for (const auto& line : lines_) {
+    for (const auto& station : line->stations) {
+      const auto is_its = [&](const auto& device) { return device.get() == &station->device(); };
+      const auto device = std::find_if(devices_.begin(), devices_.end(), is_its) - devices_.begin();
+      station->set_faults(fault_watch_.get(), static_cast<std::size_t>(device));
+    }
+  }
+}
+
+Tick World::next_fault_tick() const { return fault_watch_ ? fault_watch_->next_tick(done_) : kNever; }
+
+/// The end of a tick that was run.
+void World::look_at_faults() {
+  now_ = std::max(now_, time_of(done_));
+  fault_watch_->look(now_, true);
+  settle_faults();
+  for (const auto& [number, armed] : faults_) {
+    const Fault& fault = armed.fault;
+    if (fault.kind != Fault::Kind::encoder_noise || !armed.course.in_force) continue;
+    const MachineFaults& faults = plants_[fault.device][static_cast<std::size_t>(fault.place)].faults();
+    if (faults.encoder_noise_counts == encoder_noise_counts(fault, done_)) continue;
+    apply_faults(fault.device);
+    disturbed_ = true;
+  }
+}
+
+/// Does what has begun or ended.
+void World::settle_faults() {
+  for (auto& [number, armed] : faults_) {
+    auto& [fault, course] = armed;
+    if (!course.is_news) continue;
+    course.is_news = false;
+    disturbed_ = true;
+    switch (fault.kind) {
+      case Fault::Kind::slip:
+        plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
+        break;
+      case Fault::Kind::power_cut: {
+        // Power that was off already is not its own to give back.
+        const bool cuts = course.in_force && devices_[fault.device]->powered();
+        const bool gives_back = !course.in_force && course.has_acted && !devices_[fault.device]->powered();
+        course.has_acted = cuts;
+        if (cuts || gives_back) put_power(fault.device, gives_back);
+        break;
+      }
+      default: apply_faults(fault.device); break;
+    }
+  }
 }
 
 /// Of several of one kind at one place the last one counts.
@@ -267,16 +350,24 @@ void World::apply_faults(std::size_t device) {
     plant.set_faults({.slipped_pulses = plant.faults().slipped_pulses});
   }
   for (Input& input : inputs_[device]) input.stuck.reset();
-  for (const auto& [number, fault] : faults_) {
-    if (fault.device != device) continue;
+  for (const auto& [number, armed] : faults_) {
+    const Fault& fault = armed.fault;
+    if (fault.device != device || !armed.course.in_force) continue;
     const auto place = static_cast<std::size_t>(fault.place);
     switch (fault.kind) {
       case Fault::Kind::stall: plants_[device][place].faults().stalled = true; break;
       case Fault::Kind::lost_steps: plants_[device][place].faults().loses_one_in = fault.amount; break;
       case Fault::Kind::alarm: plants_[device][place].faults().alarm = true; break;
       case Fault::Kind::stuck: inputs_[device][place].stuck = fault.amount != 0; break;
-      case Fault::Kind::slip: break;
+      case Fault::Kind::encoder_noise:
+        plants_[device][place].faults().encoder_noise_counts = encoder_noise_counts(fault, done_);
+        break;
+      default: break;
     }
+  }
+  for (std::size_t a = 0; a < plants_[device].size(); ++a) {
+    const PlantAxis& plant = plants_[device][a];
+    if (plant.has_encoder()) devices_[device]->set_encoder(static_cast<int>(a), plant.encoder_counts());
   }
   for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
 }

@@ -6,6 +6,7 @@
 // follow each other in the bench's order.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -42,10 +43,15 @@ class TickWatcher {
   virtual void on_tick(Tick tick) = 0;
 };
 
+class FaultWatch;
+
 class World {
  public:
-  /// Throws SettingError for what the models refuse.
+  /// Throws SettingError for what the models refuse, NameError for what its faults wait for.
   World(const Bench& bench, const WorldOptions& options, const std::function<void(const std::string&)>& log);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
 
   SimTime now() const { return now_; }
   /// Does all that is due up to `time`, included. Times in the past are no error and do nothing.
@@ -99,12 +105,13 @@ class World {
   void switch_power(std::size_t device, bool on);
 
   // --- faults --------------------------------------------------------------------------------
-  /// In force from the next tick on; the number is for clear_fault().
+  /// In force from the next tick on, or when its trigger says so; the number is for clear_fault(). NameError
+  /// for what this world cannot have; nothing has changed then.
   std::size_t inject(const Fault& fault);
   /// False if there is none of that number.
   bool clear_fault(std::size_t number);
-  /// Those in force, in the order of their numbers.
-  const std::map<std::size_t, Fault>& faults() const { return faults_; }
+  /// Those there are, whether they have struck or wait, in the order of their numbers.
+  const std::map<std::size_t, ArmedFault>& faults() const { return faults_; }
 
  private:
   friend struct WorldFields;  // state_fields.h: what of all this is state
@@ -128,6 +135,11 @@ class World {
   void latch_wires();
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
+  void put_power(std::size_t device, bool on);
+  void arm_faults();
+  void look_at_faults();
+  void settle_faults();
+  Tick next_fault_tick() const;
 
   KnownDevices known_;
   std::vector<std::unique_ptr<Device>> devices_;
@@ -138,8 +150,10 @@ class World {
   std::vector<WireSetup> wires_;
   std::vector<TickWatcher*> watchers_;
   OutsideListener* listener_ = nullptr;
-  std::map<std::size_t, Fault> faults_;  // by number
+  std::map<std::size_t, ArmedFault> faults_;  // by number
   std::size_t next_fault_ = 1;
+  std::unique_ptr<FaultWatch> fault_watch_;  // null: no fault waits for anything
+  std::uint64_t seed_ = 0;
   bool disturbed_ = false;  // from outside, in a way that devices do not see: the next tick is run
   SimTime now_{0};
   Tick done_ = 0;  // the last tick that is over

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -304,6 +305,32 @@ TEST(ControlSocket, IsFoundByTheEnvironmentToo) {
   const Finished finished = understudy({"ctl", "get", "HW_Code"}, {{"UNDERSTUDY_CONTROL", daemon.control()}});
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   EXPECT_EQ(finished.output, "HW_Code 49153\n");
+}
+
+// --- run-until and watch ---------------------------------------------------------------------------
+
+TEST(ControlRunUntil, MovesTimeToWhereItIsTrue) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  expect_done(daemon, {"set", "Aaxis_SVON=1", "Aaxis_Pulse=3200", "Aaxis_Speed=200", "Aaxis_Move_INC=1"});
+  EXPECT_EQ(daemon.ctl({"run-until", "device.STATUS.4 == 0"}).output, "simulated time 311ms\n");
+  const Finished never = daemon.ctl({"run-until", "device.STATUS.4 == 1", "--within", "10ms"});
+  EXPECT_EQ(never.exit_code, 1);
+  EXPECT_EQ(never.errors,
+            "understudy: ctl run-until: 'device.STATUS.4 == 1' did not come true within 10ms\n");
+  EXPECT_EQ(simulated_ns(daemon), 321'000'000);
+  expect_refused(daemon, {"run-until", "device.STATU.4 == 1"}, "the nearest is 'STATUS'");
+  expect_refused(daemon, {"run-until"}, "expected one condition");
+}
+
+TEST(ControlWatch, PrintsTablesOneAfterAnother) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  const Finished finished = daemon.ctl({"watch", "--times", "3", "--every", "10ms"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  const auto lines = lines_of(finished.output);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "time         0s, speed manual"), 3);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), ""), 2 * 3) << finished.output;
+  EXPECT_EQ(finished.output.find('\x1b'), std::string::npos) << "this is no terminal";
+  expect_refused(daemon, {"watch", "--every", "often"}, "expected 10ms or more");
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ std::uint32_t resolution_of(const State& state, int axis) {
 
 Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), given) {
   dialect_ = dialect_of(*this);
+  map_policy_ = chosen_map_policy();
   timer_unit_ = chose(kTimer10ms) ? 10 : chose(kTimer100ms) ? 100 : 1;
   assigned_at_power_up_ = chose(kAssignedAtPowerUp);
   adc_10_bits_ = chose(kAdc10Bits);
@@ -47,6 +48,17 @@ Addressing Simple2R3::addressing(std::uint8_t address) const {
   if (address == rotary_switch) return Addressing::obey_and_reply;
   if (address == 0 && !chose(kStation0Ignored)) return Addressing::obey_silently;
   return Addressing::ignore;
+}
+
+MapPolicy Simple2R3::chosen_map_policy() const {
+  MapPolicy policy = registers().policy();
+  if (chose(kUnmappedReadsZero)) policy.unmapped = MapPolicy::Unmapped::reads_zero;
+  if (chose(kWriteToReadOnlyIgnored)) policy.read_only = MapPolicy::ReadOnly::ignores_writes;
+  if (chose(kReadOfWriteOnlyRefused)) policy.write_only = MapPolicy::WriteOnly::refused;
+  if (chose(kHalvesJudged)) policy.halves = MapPolicy::Halves::judged_with_the_other;
+  if (chose(kWriteClamped)) policy.out_of_range = MapPolicy::OutOfRange::clamped;
+  if (chose(kEffectsInTurn)) policy.effects = MapPolicy::Effects::one_by_one;
+  return policy;
 }
 
 pty::LineSettings Simple2R3::line_settings() const {
@@ -135,11 +147,25 @@ std::uint16_t Simple2R3::adc_at(int number) const {
   return static_cast<std::uint16_t>(std::max(adc, 0));
 }
 
+std::uint16_t Simple2R3::input_levels() const {
+  std::uint32_t levels = 0;
+  for (int i = 0; i < kInputCount; ++i) levels |= static_cast<std::uint32_t>(input(i)) << i;
+  return static_cast<std::uint16_t>(levels);
+}
+
 void Simple2R3::sample_inputs(Tick) {
-  state_.inputs = 0;
-  for (int i = 0; i < kInputCount; ++i) state_.inputs |= static_cast<std::uint16_t>(input(i) << i);
+  const std::uint16_t levels = input_levels();
+  if (levels != state_.inputs) state_.touched = true;
+  state_.inputs = levels;
   for (int i = 0; i < kAnalogCount; ++i) state_.adc[static_cast<std::size_t>(i)] = adc_at(i);
-  state_.touched = false;
+}
+
+bool Simple2R3::sees_something_new() const {
+  if (input_levels() != state_.inputs) return true;
+  for (int i = 0; i < kAnalogCount; ++i) {
+    if (adc_at(i) != state_.adc[static_cast<std::size_t>(i)]) return true;
+  }
+  return false;
 }
 
 bool Simple2R3::starts_by_itself() const { return state_.image[slot("AutoStart_MainProg")] != 0; }
@@ -162,9 +188,11 @@ void Simple2R3::step_motion(Tick tick) {
     const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(number)];
     if (alarm_latches_) axis.alarm_latched = alarm(number);
     if (alarm_takes_servo_ && axis.motor.servo_on && alarm(number)) switch_servo(number, false);
-    if (const motion::Signals on = signals_of(number); on != axis.signals.steady) {
-      axis.signals.steady = on;
-      ++axis.signals.version;
+    if (state_.touched || alarm_latches_) {
+      if (const motion::Signals on = signals_of(number); on != axis.signals.steady) {
+        axis.signals.steady = on;
+        ++axis.signals.version;
+      }
     }
     const std::uint32_t resolution = resolution_of(state_, number);
     const std::uint32_t acceleration = std::max(state_.image[slots.velocity_acceleration], 1U);
@@ -181,6 +209,7 @@ void Simple2R3::step_motion(Tick tick) {
     const bool home_found = (axis.motor.events & motion::bit(motion::Event::homed)) != 0;
     if (home_found && !chose(kHomeKeepsCoordinate)) axis.coordinate_pulses = 0;
   }
+  state_.touched = false;
   if (motion_first_) {
     set_now(tick);  // what a line starts begins in the next tick
     run_program(tick);
@@ -197,12 +226,6 @@ void Simple2R3::update_outputs(Tick tick) {
 
 Tick Simple2R3::next_active_tick(Tick done) const {
   if (state_.touched) return done + 1;
-  for (int i = 0; i < kInputCount; ++i) {
-    if (input(i) != ((state_.inputs >> i) & 1)) return done + 1;
-  }
-  for (int i = 0; i < kAnalogCount; ++i) {
-    if (adc_at(i) != state_.adc[static_cast<std::size_t>(i)]) return done + 1;
-  }
   if (done < state_.first_tick && starts_by_itself()) return state_.first_tick;
   Tick next = state_.eeprom.next_active_tick();
   if (state_.execution.running) {
@@ -210,10 +233,11 @@ Tick Simple2R3::next_active_tick(Tick done) const {
   }
   for (int number = 0; number < 2; ++number) {
     const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
-    if (signals_of(number) != axis.signals.steady) return done + 1;
     next = std::min(next, simple2_r3::next_active_tick(axis, done));
     if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);
   }
+  // Last, because it takes longest, and what moves need not be asked.
+  if (next > done + 1 && sees_something_new()) return done + 1;
   return next;
 }
 

@@ -72,7 +72,7 @@ struct State {
   std::uint8_t written_outputs = 0;               // bit n: the last level written to DOUT n
   std::uint16_t assignments = 0;                  // bit n: the register 0x0A00 + n, as it was at power-up
   std::array<ProgramSpeed, 2> program_speeds{};
-  bool touched = false;  // registers were written since the last tick
+  bool touched = true;  // registers or inputs may have changed since motion looked at them
 
   bool operator==(const State&) const = default;
 };
@@ -96,6 +96,8 @@ class Simple2R3 final : public Device {
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
+  MapPolicy map_policy() const override { return map_policy_; }
+  bool answers_refusals() const override { return !chose(kRefusalsNotAnswered); }
   void register_written(const RegisterRow& row, std::size_t slot) override;
   void registers_written() override {
     state_.touched = true;
@@ -185,7 +187,10 @@ class Simple2R3 final : public Device {
   /// DIP1 is number 0.
   bool dip_switch(int number) const;
   std::uint8_t switch_levels() const;
+  /// What is at the terminals now.
+  std::uint16_t input_levels() const;
   std::uint16_t adc_at(int number) const;
+  bool sees_something_new() const;
   Eeprom factory_memory() const;
   /// A new state that has only the memory, and the encoders' counts.
   void blank_state();
@@ -200,6 +205,7 @@ class Simple2R3 final : public Device {
   /// Appendix A and the 100 kHz limit: the law of a position move.
   motion::SpeedLaw law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                           std::uint32_t deceleration_10ms) const;
+  MapPolicy chosen_map_policy() const;
   bool is_too_fast(int axis, std::int64_t milli_rpm) const;
   /// Where commands need Ready, and it is not there.
   bool lacks_ready(int axis) const;
@@ -216,6 +222,7 @@ class Simple2R3 final : public Device {
 
   // From firmware and choices, for what is asked for often: no state.
   interpreter::simple2::Dialect dialect_;
+  MapPolicy map_policy_;
   Tick timer_unit_ = 1;
   bool assigned_at_power_up_ = false;
   bool adc_10_bits_ = false;

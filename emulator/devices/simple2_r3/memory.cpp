@@ -73,7 +73,8 @@ void Simple2R3::register_written(const RegisterRow& row, std::size_t slot) {
   if (!was_saving_) was_saving_ = state_.eeprom.writing();
   if (*was_saving_ && chose(kNotSavedWhileSaving)) return;
   const Tick ticks_per_word = chose(kEeprom1msAWord) ? 1 : 5;
-  state_.eeprom.write(slot, state_.image[slot], ticks_per_word * (is_32_bit(row.type) ? 2 : 1), now());
+  state_.eeprom.write(slot, state_.image[slot], ticks_per_word * (is_32_bit(row.type) ? 2 : 1), now(),
+                      chose(kSameValueSaved));
 }
 
 void Simple2R3::blank_state() {

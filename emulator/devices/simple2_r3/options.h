@@ -26,8 +26,15 @@ consteval Option option(std::string_view id, std::string_view name) {
 // --- the wire ---
 inline constexpr Option kStation0Ignored = option("station_0_request", "ignored");
 inline constexpr Option kSwitch0Silent = option("switch_0_broadcast", "silent");
+inline constexpr Option kRefusalsNotAnswered = option("exceptions", "no_answer");
+inline constexpr Option kEffectsInTurn = option("request_effects", "each_in_its_turn");
 inline constexpr Option kSwitchesAlwaysRead = option("switches_sampled", "always");
 // --- registers ---
+inline constexpr Option kUnmappedReadsZero = option("unmapped_addresses", "zero_and_ignored");
+inline constexpr Option kWriteToReadOnlyIgnored = option("write_to_read_only", "ignored");
+inline constexpr Option kWriteClamped = option("write_out_of_range", "clamped");
+inline constexpr Option kReadOfWriteOnlyRefused = option("read_of_write_only", "exception_02");
+inline constexpr Option kHalvesJudged = option("half_writes", "judged_with_other_half");
 inline constexpr Option kVersionBcd = option("version_encoding", "bcd");
 inline constexpr Option kTriggersReadZero = option("trigger_read_back", "zero");
 inline constexpr Option kCommandValuesNotShown = option("command_values", "not_shown");
@@ -45,6 +52,7 @@ inline constexpr Option kAnalogThroughZero = option("analog_scaling", "line_thro
 inline constexpr Option kAdc10Bits = option("adc_width", "10_bits_100_a_volt");
 // --- memory ---
 inline constexpr Option kEeprom1msAWord = option("eeprom_time", "1ms_a_word");
+inline constexpr Option kSameValueSaved = option("eeprom_same_value", "saved_again");
 inline constexpr Option kErasure100ms = option("eeprom_erasure", "100ms");
 inline constexpr Option kNotSavedWhileSaving = option("write_while_saving", "not_saved");
 inline constexpr Option kPowerCutLeavesNew = option("power_cut", "new_value");

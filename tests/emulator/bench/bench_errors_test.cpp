@@ -77,9 +77,8 @@ TEST(BenchErrors, TheFormatsVersion) {
 TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
   expect_complaints({
       {"understudy: 1\nline: {}\n",
-       "2: line: is no key here; expected one of understudy, lines, devices, plant, wires, inputs, faults "
-       "(the nearest is "
-       "'lines')"},
+       "2: line: is no key here; expected one of understudy, lines, devices, plant, wires, inputs, faults, "
+       "seed (the nearest is 'lines')"},
       {"understudy: 1\nlines: {}\nlines: {}\n", "3: lines: is given twice; expected it once"},
       {"understudy: 1\nunderstudy: 1\n", "2: understudy: is given twice; expected it once"},
       {with_line("speed: 1"),

@@ -42,7 +42,15 @@ plant:
   turner.B: { limits: { upper: 10 } }
 wires: [ feeder.DOUT_4 -> turner.DIN_10, turner.DOUT_0 -> third.DIN_1 ]
 inputs: { turner.DIN_3: on, feeder.AIN_A: 2.5V, third.DIN_2: off }
-faults: [ { stall: turner.A }, { lost_steps: feeder.B, one_in: 50 }, { stuck: third.DIN_4, level: 1 } ]
+faults:
+  - { stall: turner.A }
+  - { lost_steps: feeder.B, one_in: 50 }
+  - { stuck: third.DIN_4, level: 1 }
+  - { drop: other, when: 'feeder["Cord_A"] > 5 and time >= 1s', nth: 3.., chance: 0.5%, seed: 9 }
+  - { noise: feeder, before: FF 00, after: "0A", of: both, address: Aaxis_Speed, from: 1s, to: 1500ms }
+  - { encoder_noise: feeder.A, counts: 3, period: 10ms, at: 250ms, for: 1s }
+  - { power_cut: third, function: 0x10, every: 3, times: 2 }
+seed: 77
 )";
 
 TEST(BenchText, ReadAgainIsTheSameBench) {
@@ -79,6 +87,8 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(again.wires.size(), 2U);
   EXPECT_EQ(again.inputs.size(), 3U);
   EXPECT_EQ(again.faults, bench.faults);
+  EXPECT_EQ(again.faults.size(), 7u);
+  EXPECT_EQ(again.seed, 77u);
 }
 
 TEST(BenchText, OfAFactoryBenchIsShort) {

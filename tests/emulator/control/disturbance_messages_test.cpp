@@ -128,14 +128,14 @@ TEST(ProgramMessages, AWrongListingLeavesTheProgramAsItWas) {
 TEST(FaultMessages, AreNumberedListedAndCleared) {
   DaemonRig rig;
   EXPECT_EQ(rig.reply_to(R"({"do":"list"})"), R"({"ok":true,"faults":[]})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":"stall","at":"feeder.A"})"), R"({"ok":true,"number":1})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":"lost_steps","at":"turner.B","one_in":50})"),
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"stall":"feeder.A"}})"), R"({"ok":true,"number":1})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"lost_steps":"turner.B","one_in":50}})"),
             R"({"ok":true,"number":2})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":"slip","at":"feeder.B","pulses":-30})"),
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"slip":"feeder.B","pulses":-30}})"),
             R"({"ok":true,"number":3})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":"stuck","at":"feeder.DIN_2","level":"on"})"),
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"stuck":"feeder.DIN_2","level":"on"}})"),
             R"({"ok":true,"number":4})");
-  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":"alarm","at":"turner.A"})"), R"({"ok":true,"number":5})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"alarm":"turner.A"}})"), R"({"ok":true,"number":5})");
   EXPECT_EQ(rig.reply_to(R"({"do":"list"})"),
             R"({"ok":true,"faults":[{"number":1,"fault":"stall feeder.A"},)"
             R"({"number":2,"fault":"lost_steps turner.B one_in=50"},)"
@@ -157,12 +157,38 @@ TEST(FaultMessages, AreNumberedListedAndCleared) {
   EXPECT_EQ(rig.reply_to(R"({"do":"clear"})"), kDone) << "nothing to clear is no error";
 }
 
+TEST(FaultMessages, ThatWaitAreListedWithTheirCourse) {
+  DaemonRig rig;
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"drop":"feeder","nth":3,"of":"request"}})"),
+            R"({"ok":true,"number":1})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"stall":"feeder.A","at":"30ms","for":"10ms"}})"),
+            R"({"ok":true,"number":2})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"inject","fault":{"alarm":"turner.B","when":"feeder.DIN_1 == 1"}})"),
+            R"({"ok":true,"number":3})");
+  const auto course = [&](std::size_t i) { return rig.ask(R"({"do":"list"})")["faults"][i]; };
+  EXPECT_EQ(rig.reply_to(R"({"do":"list"})"),
+            R"({"ok":true,"faults":[)"
+            R"({"number":1,"fault":"drop feeder of=request nth=3","seen":0,"matched":0,"hits":0},)"
+            R"({"number":2,"fault":"stall feeder.A at=30ms for=10ms","matched":0,"hits":0,"in_force":false},)"
+            R"({"number":3,"fault":"alarm turner.B when=\"feeder.DIN_1 == 1\"",)"
+            R"("matched":0,"hits":0,"in_force":false}]})");
+  run(rig, 35);
+  EXPECT_EQ(course(1)["hits"], 1);
+  EXPECT_EQ(course(1)["in_force"], true);
+  rig.reply_to(R"({"do":"input","values":{"feeder.DIN_1":"on"}})");
+  run(rig, 10);
+  EXPECT_EQ(course(1)["in_force"], false);
+  EXPECT_EQ(course(2)["in_force"], true);
+  rig.reply_to(R"({"do":"clear"})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"list"})"), R"({"ok":true,"faults":[]})");
+}
+
 TEST(FaultMessages, OfTheBenchAreListedToo) {
   DaemonRig rig(kManual, "faults: [ { stall: turner.A }, { stuck: feeder.DIN_0, level: off } ]\n");
   EXPECT_EQ(rig.reply_to(R"({"do":"list"})"), R"({"ok":true,"faults":[{"number":1,"fault":"stall turner.A"},)"
                                               R"({"number":2,"fault":"stuck feeder.DIN_0 level=0"}]})");
   EXPECT_EQ(rig.reply_to(R"({"do":"clear","number":1})"), kDone);
-  EXPECT_EQ(rig.ask(R"({"do":"inject","fault":"stall","at":"feeder.A"})")["number"], 3);
+  EXPECT_EQ(rig.ask(R"({"do":"inject","fault":{"stall":"feeder.A"}})")["number"], 3);
 }
 
 TEST(StatusMessage, TellsWhatADriveIsAt) {
@@ -178,7 +204,7 @@ TEST(StatusMessage, TellsWhatADriveIsAt) {
   EXPECT_EQ(drive(), "off");
   run(rig, 1);
   EXPECT_EQ(drive(), "ready");
-  rig.reply_to(R"({"do":"inject","fault":"alarm","at":"feeder.A"})");
+  rig.reply_to(R"({"do":"inject","fault":{"alarm":"feeder.A"}})");
   EXPECT_EQ(drive(), "alarm");
   run(rig, 1);
   rig.reply_to(R"({"do":"clear"})");
@@ -196,7 +222,7 @@ struct Bad {
 TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
   const auto input = [](const std::string& values) { return R"({"do":"input","values":)" + values + "}"; };
   const auto inject = [](const std::string& more) { return R"({"do":"inject",)" + more + "}"; };
-  const std::string kinds = " is no fault; expected one of stall, lost_steps, slip, alarm, stuck";
+  const std::string such = R"(fault: expected an object such as {"stall":"feeder.A"})";
   const std::vector<Bad> cases = {
       {input(R"({"feeder.DIN_1":"high"})"), "feeder.DIN_1: 'high' is no level; expected on or off"},
       {input(R"({"feeder.DIN_1":"2.5V"})"), "feeder.DIN_1: '2.5V' is no level; expected on or off"},
@@ -231,34 +257,49 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
       {R"({"do":"program","device":"nobody","text":"NOP"})",
        "no device is called 'nobody'; the nearest is 'feeder'"},
 
-      {inject(R"("at":"feeder.A")"), "'fault' is missing"},
-      {inject(R"("fault":"stall")"), "'at' is missing"},
-      {inject(R"("fault":1,"at":"feeder.A")"), "fault: expected a text"},
-      {inject(R"("fault":"stall","at":["feeder.A"])"), "at: expected a text"},
-      {inject(R"("fault":"jam","at":"feeder.A")"), "'jam'" + kinds},
-      {inject(R"("fault":"","at":"feeder.A")"), "''" + kinds},
-      {inject(R"("fault":"stall","at":"feeder.C")"), "no axis of feeder is called 'C'; expected one of A, B"},
-      {inject(R"("fault":"stall","at":"A")"), "no device is called 'A'; the nearest is 'feeder'"},
-      {inject(R"("fault":"stall","at":"feeder.A","x":1)"),
-       "stall: 'x' is nothing it has; expected no more than the axis"},
-      {inject(R"("fault":"stall","at":"feeder.A","":0)"),
-       "stall: '' is nothing it has; expected no more than the axis"},
-      {inject(R"("fault":"lost_steps","at":"feeder.A")"),
+      {inject(R"("stall":"feeder.A")"), "'stall' is no key of this message"},
+      {R"({"do":"inject"})", "'fault' is missing"},
+      {inject(R"("fault":"stall")"), such},
+      {inject(R"("fault":{})"), such},
+      {inject(R"("fault":["stall","feeder.A"])"), such},
+      {inject(R"("fault":{"stall":1})"), such},
+      {inject(R"("fault":{"stall":["feeder.A"]})"), such},
+      {inject(R"("fault":{"stall":"feeder.A"},"one_in":5)"), "'one_in' is no key of this message"},
+      {inject(R"("fault":{"jam":"feeder.A"})"), "'jam' is no fault; the nearest is 'alarm'"},
+      {inject(R"("fault":{"":"feeder.A"})"), "'' is no fault; the nearest is 'slip'"},
+      {inject(R"("fault":{"stall":"feeder.C"})"), "no axis of feeder is called 'C'; expected one of A, B"},
+      {inject(R"("fault":{"stall":"A"})"), "no device is called 'A'; the nearest is 'feeder'"},
+      {inject(R"("fault":{"stall":"feeder.A","x":1})"), "stall: x: is nothing it has; the nearest is 'at'"},
+      {inject(R"("fault":{"stall":"feeder.A","":0})"), "stall: : is nothing it has; the nearest is 'at'"},
+      {inject(R"("fault":{"lost_steps":"feeder.A"})"),
        "lost_steps: one_in is missing; expected 1 to 1000000000000"},
-      {inject(R"("fault":"lost_steps","at":"feeder.A","one_in":0)"),
+      {inject(R"("fault":{"lost_steps":"feeder.A","one_in":0})"),
        "lost_steps: one_in: 0 is out of range; expected 1 to 1000000000000"},
-      {inject(R"("fault":"lost_steps","at":"feeder.A","one_in":"50")"), "one_in: expected a whole number"},
-      {inject(R"("fault":"lost_steps","at":"feeder.A","one_in":1.5)"), "one_in: expected a whole number"},
-      {inject(R"("fault":"lost_steps","at":"feeder.A","one_in":18446744073709551615)"),
-       "one_in: expected a whole number"},
-      {inject(R"("fault":"slip","at":"feeder.A","pulses":1000000001)"),
+      {inject(R"("fault":{"lost_steps":"feeder.A","one_in":"5O"})"),
+       "lost_steps: one_in: '5O' is not possible; expected a whole number"},
+      {inject(R"("fault":{"lost_steps":"feeder.A","one_in":1.5})"),
+       "one_in: expected a whole number or a text"},
+      {inject(R"("fault":{"lost_steps":"feeder.A","one_in":18446744073709551615})"),
+       "lost_steps: one_in: '18446744073709551615' is not possible; expected a whole number"},
+      {inject(R"("fault":{"slip":"feeder.A","pulses":1000000001})"),
        "slip: pulses: 1000000001 is out of range; expected -1000000000 to 1000000000"},
-      {inject(R"("fault":"stuck","at":"feeder.DIN_1")"), "stuck: level is missing; expected 0 to 1"},
-      {inject(R"("fault":"stuck","at":"feeder.DIN_1","level":"high")"),
-       "level: 'high' is no level; expected on or off"},
-      {inject(R"("fault":"stuck","at":"feeder.DIN_1","level":true)"), "level: expected a whole number"},
-      {inject(R"("fault":"stuck","at":"feeder.DIP1","level":1)"),
+      {inject(R"("fault":{"stuck":"feeder.DIN_1"})"), "stuck: level is missing; expected on or off"},
+      {inject(R"("fault":{"stuck":"feeder.DIN_1","level":"high"})"),
+       "stuck: level: 'high' is not possible; expected on or off"},
+      {inject(R"("fault":{"stuck":"feeder.DIN_1","level":true})"),
+       "level: expected a whole number or a text"},
+      {inject(R"("fault":{"stuck":"feeder.DIP1","level":1})"),
        "'feeder.DIP1' cannot be stuck; expected a digital input"},
+
+      {inject(R"("fault":{"drop":"feeder","nht":3})"), "drop: nht: is nothing it has; the nearest is 'nth'"},
+      {inject(R"("fault":{"drop":"feeder","when":"feeder.A.puls > 5"})"),
+       "drop: when: column 1 of 'feeder.A.puls > 5': axis A has no 'puls'; the nearest is 'pulses'"},
+      {inject(R"("fault":{"drop":"feeder","when":"feeder.A.pulses >"})"),
+       "drop: when: column 18 of 'feeder.A.pulses >': unexpected end; expected a name, a number or '('"},
+      {inject(R"("fault":{"drop":"feeder","when":"time"})"),
+       "drop: when: 'time' is a duration; expected a condition"},
+      {inject(R"("fault":{"encoder_noise":"feeder.A","counts":1})"),
+       "feeder.A has no encoder; expected one in `plant`"},
 
       {R"({"do":"clear","number":1})", "number: 1 is no fault in force; expected one of `list`"},
       {R"({"do":"clear","number":"all"})", "number: expected a whole number"},

@@ -127,7 +127,7 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
       {"{\"do\":null}", no_object},
       {"{\"do\":[\"status\"]}", no_object},
       {"{\"do\":\"\"}",
-       "'' is nothing to do; expected one of advance, pause, resume, status, get, set, input, "
+       "'' is nothing to do; expected one of advance, run-until, status, get, set, input, "
        "power, program, inject, clear, list"},
       {"{\"do\":\"jump\"}", "'jump' is nothing to do; expected "},
       {"{\"do\":\"a\\nb\"}", "'a\nb' is nothing to do; expected "},

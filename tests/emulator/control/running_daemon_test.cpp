@@ -126,5 +126,61 @@ TEST(RunningDaemon, RealTimePassesByItselfUnlessPaused) {
   EXPECT_GT(now(), paused + 5'000'000);
 }
 
+TEST(RunUntil, StopsAtTheEndOfTheFirstTickAtWhichItIsTrue) {
+  Running daemon;
+  // One revolution at 200 rpm with the shortest ramps, 10 ms each: 310 ms, from the end of the tick after the
+  // write.
+  daemon.ask(R"({"do":"advance","by":"40ms"})");
+  daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":3200,)"
+             R"("feeder.Aaxis_Speed":200,"feeder.Aaxis_Move_INC":1}})");
+  const auto until = [&](const std::string& condition, const std::string& within = "10s") {
+    return daemon.ask(Json{{"do", "run-until"}, {"condition", condition}, {"within", within}}.dump());
+  };
+  const auto reached = [](std::int64_t ms) {
+    return Json{{"ok", true}, {"reached", true}, {"simulated_time_ns", ms * 1'000'000}};
+  };
+  // Full speed is 10.667 pulses a tick; the ramp's 10 ms bring half of 10 ticks: 53.3, and 95 whole ticks
+  // 1013.3.
+  EXPECT_EQ(until("feeder.A.pulses >= 1066"), reached(41 + 105));
+  EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310));
+  EXPECT_EQ(daemon.get("feeder.Cord_A"), 3200);
+  EXPECT_EQ(until("feeder.STATUS.4 == 0"), reached(41 + 310)) << "true already";
+  EXPECT_EQ(until("feeder.STATUS.4 == 1", "1500us"),
+            (Json{{"ok", true}, {"reached", false}, {"simulated_time_ns", 352'500'000}}));
+  EXPECT_EQ(until("time >= 400ms"), reached(400)) << "quiet ticks are looked at as well";
+}
+
+TEST(RunUntil, RefusesWhatIsNoConditionAndMovesNothing) {
+  Running daemon;
+  struct Case {
+    std::string message;
+    std::string why;
+  };
+  for (const Case& c : std::vector<Case>{
+           {R"({"do":"run-until","within":"1s"})", "'condition' is missing"},
+           {R"({"do":"run-until","condition":"1"})", "'within' is missing"},
+           {R"({"do":"run-until","condition":1,"within":"1s"})", "condition"},
+           {R"({"do":"run-until","condition":"1","within":"1"})", "within: expected a duration"},
+           {R"({"do":"run-until","condition":"feeder.Cord_Z > 0","within":"1s"})", "the nearest is 'Cord_"},
+           {R"({"do":"run-until","condition":"feeder.Cord_A >","within":"1s"})", "condition: column"},
+           {R"({"do":"run-until","condition":"1","within":"1s","by":"1s"})", "'by'"}}) {
+    const Json reply = daemon.ask(c.message);
+    EXPECT_EQ(reply["ok"], false) << c.message;
+    EXPECT_NE(reply["error"].get<std::string>().find(c.why), std::string::npos) << reply;
+  }
+  const Json no_result =
+      daemon.ask(R"({"do":"run-until","condition":"1 / feeder.Cord_A > 0","within":"1s"})");
+  EXPECT_EQ(no_result["ok"], false) << no_result;
+  EXPECT_EQ(daemon.ask(R"({"do":"status"})")["status"]["simulated_time_ns"], 0);
+}
+
+TEST(RunUntil, IsForAClockThatStands) {
+  Running daemon({.kind = Speed::Kind::factor});
+  const std::string message = R"({"do":"run-until","condition":"time > 0","within":"1s"})";
+  EXPECT_NE(daemon.ask(message)["error"].get<std::string>().find("time runs by itself"), std::string::npos);
+  daemon.ask(R"({"do":"pause"})");
+  EXPECT_EQ(daemon.ask(message)["reached"], true);
+}
+
 }  // namespace
 }  // namespace understudy::emulator

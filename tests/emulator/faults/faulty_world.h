@@ -25,12 +25,14 @@ inline World make_faulty_world(const std::string& more = "") {
 }
 
 inline Fault fault(const World& world, const std::string& kind, const std::string& place,
-                   std::vector<std::pair<std::string, std::int64_t>> amounts = {}) {
-  return find_fault(world.known(), {.kind = kind, .place = place, .amounts = std::move(amounts)});
+                   const std::vector<std::pair<std::string, std::int64_t>>& amounts = {}) {
+  FaultText text{.kind = kind, .place = place, .fields = {}};
+  for (const auto& [name, amount] : amounts) text.fields.emplace_back(name, std::to_string(amount));
+  return find_fault(world.known(), text);
 }
 inline std::size_t inject(World& world, const std::string& kind, const std::string& place,
-                          std::vector<std::pair<std::string, std::int64_t>> amounts = {}) {
-  return world.inject(fault(world, kind, place, std::move(amounts)));
+                          const std::vector<std::pair<std::string, std::int64_t>>& amounts = {}) {
+  return world.inject(fault(world, kind, place, amounts));
 }
 
 inline void run(World& world, Tick ticks) { world.advance_to(time_of(tick_at(world.now()) + ticks)); }

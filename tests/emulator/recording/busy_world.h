@@ -74,7 +74,8 @@ class BusyWorld {
         break;
       case 4: world_.switch_power(static_cast<std::size_t>(below(2)), below(3) != 0); break;
       case 5:
-        world_.inject(find_fault(world_.known(), {"lost_steps", "feeder.A", {{"one_in", 3 + below(5)}}}));
+        world_.inject(find_fault(world_.known(),
+                                 {"lost_steps", "feeder.A", {{"one_in", std::to_string(3 + below(5))}}}));
         break;
       case 6: world_.clear_fault(static_cast<std::size_t>(1 + below(3))); break;
       case 7: {

@@ -47,7 +47,8 @@ const std::vector<ScenarioResult> kResults = {
     {.name = "a move",
      .file = "b.yaml",
      .steps = {{"b.yaml", 5, "write a=1", SimTime{0}, SimTime{9'916'666}}},
-     .simulated = SimTime{3'075'000'000}},
+     .simulated = SimTime{3'075'000'000},
+     .manners = {"rs485: 2 requests <soon>"}},
     {.verdict = Verdict::failed,
      .name = "it's \"<odd>\" & more",
      .file = "a.yaml",
@@ -65,7 +66,7 @@ TEST(Junit, IsReadBackAsItWasMeant) {
       "testsuites errors='0' failures='1' name='understudy' skipped='1' tests='4' time='4.075000025'\n"
       "  testsuite errors='0' failures='0' name='b.yaml' skipped='0' tests='2' time='3.075000025'\n"
       "    testcase classname='b.yaml' name='a move' time='3.075000000'\n"
-      "      system-out '0s to 9.916666ms  b.yaml:5  write a=1'\n"
+      "      system-out '0s to 9.916666ms  b.yaml:5  write a=1\\nlint: rs485: 2 requests <soon>'\n"
       "    testcase classname='b.yaml' name='another' time='0.000000025'\n"
       "  testsuite errors='0' failures='1' name='a.yaml' skipped='1' tests='2' time='1.000000000'\n"
       "    testcase classname='a.yaml' name='it\\'s \"<odd>\" & more' time='1.000000000'\n"

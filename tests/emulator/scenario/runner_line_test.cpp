@@ -168,8 +168,8 @@ TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
   EXPECT_EQ(
       failure.state,
       (std::vector<std::string>{
-          "feeder: STATUS 0 (0x0000), Aaxis_Mode 0, Baxis_Mode 0, Cord_A 0, Cord_B 0, EEPROM_Writing 0, "
-          "PROG_MAIN_RunTime_Status 0",
+          "feeder: STATUS 0 (0x0000), Aaxis_Mode 0, Baxis_Mode 0, Cord_A 0, Cord_B 0, "
+          "PROG_MAIN_RunTime_Status 0, PROG_MAIN_NowLine 0, EEPROM_Writing 0",
           "feeder.A: pulses 0, speed 0, position 0",
           "feeder.B: pulses 0, speed 0, position 0",
       }));

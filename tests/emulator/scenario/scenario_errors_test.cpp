@@ -62,9 +62,8 @@ TEST_F(ScenarioErrors, TheBench) {
   expect_complaints({
       {"understudy: 1\nbench: ''\nsteps: []\n", "2: bench: is empty; expected a path"},
       {"understudy: 1\nbench: { line: {} }\nsteps: []\n",
-       "2: bench.line: is no key here; expected one of lines, devices, plant, wires, inputs, faults (the "
-       "nearest "
-       "is 'lines')"},
+       "2: bench.line: is no key here; expected one of lines, devices, plant, wires, inputs, faults, "
+       "seed (the nearest is 'lines')"},
       {"understudy: 1\nbench: { lines: { a: { stations: [ { name: x, model: simple2-r4 } ] } } }\nsteps: "
        "[]\n",
        "2: bench.lines.a.stations[0].model: 'simple2-r4' is no model; the nearest is 'simple2-r3'"},

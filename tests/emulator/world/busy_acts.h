@@ -101,15 +101,24 @@ class BusyActs {
 
   Doing some_fault() {
     const std::int64_t pulses = between(-20, 20);
-    static const FaultText kFaults[] = {{"stall", "feeder.A", {}},
-                                        {"lost_steps", "feeder.A", {{"one_in", 7}}},
-                                        {"alarm", "turner.B", {}},
-                                        {"stuck", "feeder.DIN_2", {{"level", 1}}}};
+    static const FaultText kFaults[] = {
+        {"stall", "feeder.A", {}},
+        {"lost_steps", "feeder.A", {{"one_in", "7"}}},
+        {"alarm", "turner.B", {}},
+        {"stuck", "feeder.DIN_2", {{"level", "1"}}},
+        {"encoder_noise", "turner.B", {{"counts", "3"}, {"period", "4ms"}}},
+        {"power_cut", "turner", {{"chance", "2%"}, {"for", "3ms"}}},
+        {"delay", "rs485", {{"by", "15ms"}, {"of", "both"}, {"every", "2"}}},
+        {"duplicate", "feeder", {{"after", "9ms"}, {"chance", "40%"}}},
+        {"noise", "turner", {{"before", "FF"}, {"when", "feeder.A.pulses > 5"}}},
+        {"slow", "turner", {{"by", "30ms"}, {"nth", "2.."}}},
+        {"stall", "turner.B", {{"function", "6"}, {"for", "12ms"}}},
+        {"early_reply", "feeder", {}}};
     const FaultText lasting = kFaults[between(0, std::size(kFaults) - 1)];
     const bool slips = between(0, 1) == 0;
     return [=](World& world) {
       if (world.faults().size() > 2) world.clear_fault(world.faults().begin()->first);
-      const FaultText slip{"slip", "feeder.A", {{"pulses", pulses}}};
+      const FaultText slip{"slip", "feeder.A", {{"pulses", std::to_string(pulses)}}};
       world.inject(find_fault(world.known(), slips ? slip : lasting));
     };
   }

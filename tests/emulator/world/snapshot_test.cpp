@@ -224,14 +224,12 @@ TEST(Snapshot, OneStateHasSeveralContinuations) {
 // --- what is refused -------------------------------------------------------------------------------
 
 /// Busy, with all that there is to flip.
-World busy_world(std::uint64_t seed_value, const std::string& timing) {
+void keep_busy(World& world, std::uint64_t seed_value) {
   BusyActs random(seed_value);
-  World world = make_world(timing);
   for (const Act& act : random.make(80)) {
     world.advance_to(act.at);
     act.carry_out(world);
   }
-  return world;
 }
 
 std::string refusal_of(World& world, const WorldState& state) {
@@ -244,7 +242,8 @@ std::string refusal_of(World& world, const WorldState& state) {
 }
 
 TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
-  World world = busy_world(seed() + 1000, "wire");
+  World world = make_world("wire");
+  keep_busy(world, seed() + 1000);
   const WorldState good = save(world);
   const auto refused = [&](const std::string& what, auto spoil) {
     WorldState bad = good;
@@ -278,7 +277,8 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
 /// (sanitizers look at that). UNDERSTUDY_FLIPS: every so manieth byte of the devices.
 void flip_bytes(std::uint64_t seed_value, const std::string& timing, std::size_t stride, int& refused,
                 int& taken) {
-  World world = busy_world(seed_value, timing);
+  World world = make_world(timing);
+  keep_busy(world, seed_value);
   const WorldState good = save(world);
   const std::uint64_t good_hash = hash(world);
   std::mt19937_64 random(seed_value);

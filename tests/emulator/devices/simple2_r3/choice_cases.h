@@ -31,6 +31,16 @@ inline Given with(const std::string& choice, const std::string& option) {
   return {.choices = {{choice, option}}};
 }
 
+/// The device's reply to a frame on its line, at once; no bytes if it is silent.
+inline std::vector<std::uint8_t> ask(OneSimple2& feeder, const std::vector<std::uint8_t>& frame) {
+  pty::Line& line = feeder.world().line(0).line;
+  line.receive(frame, feeder.world().now());
+  feeder.run(20);
+  const std::vector<std::uint8_t> reply(line.output().begin(), line.output().end());
+  line.take_output(reply.size());
+  return reply;
+}
+
 /// A line of a program: CMD, DATA1, DATA2, JMP.
 using ProgramLine = std::array<std::uint16_t, 4>;
 

@@ -43,6 +43,24 @@ TEST(ChoicesMemory, EepromTimeIsFiveOrOneMillisecondsAWord) {
   }
 }
 
+TEST(ChoicesMemory, TheSameValueIsNotSavedAgainOrIs) {
+  for (const auto& [option, again] :
+       each_option<bool>("eeprom_same_value", {{"not_saved_again", false}, {"saved_again", true}})) {
+    OneSimple2 feeder(with("eeprom_same_value", option));
+    feeder.set("PROG_MEM0", 7);
+    EXPECT_TRUE(feeder.bit("EEPROM_Writing")) << option;
+    feeder.run(50);
+    EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option;
+    feeder.set("PROG_MEM0", 7);
+    EXPECT_EQ(feeder.bit("EEPROM_Writing"), again) << option;
+    feeder.run(11);
+    EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option;
+    feeder.set("PROG_VAR0", 7);  // is not kept at all
+    feeder.set("PROG_VAR0", 7);
+    EXPECT_FALSE(feeder.bit("EEPROM_Writing")) << option;
+  }
+}
+
 TEST(ChoicesMemory, ErasureTakes500Or100Milliseconds) {
   for (const char* command : {"PROG_MAIN_Erase_ALL", "Factory_Reset"}) {
     for (const auto& [option, ticks] :

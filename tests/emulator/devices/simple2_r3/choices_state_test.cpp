@@ -25,10 +25,10 @@ struct Chosen {
   std::string option;
 };
 
-World world_of(const Chosen& chosen) {
+std::unique_ptr<World> world_of(const Chosen& chosen) {
   Bench bench = parse_bench(two_devices("instant", 19'200), "two.yaml", ".");
   for (DeviceSetup& device : bench.devices) device.settings.choices[chosen.id] = chosen.option;
-  return World(bench, {}, {});
+  return std::make_unique<World>(bench, WorldOptions{}, [](const std::string&) {});
 }
 
 /// Hashes of a life, just before each of its acts.
@@ -45,19 +45,19 @@ Life live(World& world, const std::vector<Act>& acts) {
 }
 
 Life live_in_single_ticks(const Chosen& chosen, const std::vector<Act>& acts) {
-  World world = world_of(chosen);
-  world.set_bulk_ticks(false);
-  return live(world, acts);
+  const auto world = world_of(chosen);
+  world->set_bulk_ticks(false);
+  return live(*world, acts);
 }
 
 /// Again and again another world takes over, at any place within the acts.
 Life live_in_many_worlds(const Chosen& chosen, const std::vector<Act>& acts) {
-  auto world = std::make_unique<World>(world_of(chosen));
+  auto world = world_of(chosen);
   Life life;
   for (std::size_t i = 0; i < acts.size(); ++i) {
     if (i % kActsBetweenSaves == kActsBetweenSaves - 1) {
       world->advance_to(world->now() + (acts[i].at - world->now()) / 2);
-      auto next = std::make_unique<World>(world_of(chosen));
+      auto next = world_of(chosen);
       restore(*next, save(*world));
       world = std::move(next);
     }
@@ -76,8 +76,7 @@ TEST(ChoicesState, EveryOptionsStateIsSavedAndNeedsNoTickThatIsQuiet) {
     for (std::size_t i = options.size() == 1 ? 1 : 0; i < options.size(); ++i) {
       const Chosen chosen{std::string(row.id), std::string(options[i])};
       const std::vector<Act> acts = BusyActs(seed() + lives++).make(kActs);
-      World world = world_of(chosen);
-      const Life life = live(world, acts);
+      const Life life = live(*world_of(chosen), acts);
       EXPECT_EQ(life, live_in_single_ticks(chosen, acts)) << chosen.id << ": " << chosen.option;
       EXPECT_EQ(life, live_in_many_worlds(chosen, acts)) << chosen.id << ": " << chosen.option;
     }

@@ -1,0 +1,108 @@
+// `understudy plot`: a picture of a trace, drawn by gnuplot.
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/edge/private_folder.h"
+#include "emulator/one_line.h"
+#include "emulator/text_file.h"
+#include "emulator/trace/plot_script.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// Of gnuplot's work, removed with all that is in it.
+class WorkFolder {
+ public:
+  ~WorkFolder() {
+    std::error_code ignored;
+    for (const std::string& file : {script(), picture(), complaints()})
+      std::filesystem::remove(file, ignored);
+  }
+  std::string script() { return folder_.path() + "/script"; }
+  std::string picture() { return folder_.path() + "/picture"; }
+  std::string complaints() { return folder_.path() + "/complaints"; }
+
+ private:
+  PrivateFolder folder_;
+};
+
+[[noreturn]] void throw_error(int error, const std::string& what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
+/// Its exit code. What it has to say goes into a file.
+int run_gnuplot(WorkFolder& folder) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, folder.complaints().c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  std::string program = "gnuplot";
+  std::string no_defaults = "-d";
+  std::string script = folder.script();
+  char* const words[] = {program.data(), no_defaults.data(), script.data(), nullptr};
+  pid_t child = -1;
+  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, words, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw_error(error, "plot: gnuplot cannot be started (Debian's package is gnuplot-nox)");
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// The line of what gnuplot has said that tells most: the last one with words in it.
+std::string complaint_in(const std::string& text) {
+  std::string complaint = "it said nothing";
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    if (line.find_first_not_of(" \t^") != std::string::npos) complaint = line;
+    begin = end + 1;
+  }
+  return complaint;
+}
+
+}  // namespace
+
+int plot_trace(const PlotArguments& arguments) {
+  std::filesystem::path output = arguments.output;
+  if (output.empty()) output = std::filesystem::path(arguments.trace).replace_extension(".png");
+  const bool is_svg = output.extension() == ".svg";
+  if (!is_svg && output.extension() != ".png") {
+    throw UsageError("--output: " + output.string() +
+                     ": is no kind of picture; expected FILE.png or FILE.svg");
+  }
+  const TraceTable table = read_trace(arguments.trace);
+  WorkFolder folder;
+  const std::string script = plot_script(table, arguments.also, is_svg ? PlotFormat::svg : PlotFormat::png,
+                                         folder.picture(), arguments.trace);
+  if (const int error = replace_text_file(folder.script(), script); error != 0) {
+    throw_error(error, "plot: " + folder.script() + " cannot be written");
+  }
+  const int code = run_gnuplot(folder);
+  const auto picture = read_text_file(folder.picture());
+  if (code != 0 || !picture || picture->empty()) {
+    const std::string said = read_text_file(folder.complaints()).value_or("");
+    std::fprintf(stderr, "understudy: plot: gnuplot made no picture: %s\n",
+                 one_line(complaint_in(said)).c_str());
+    return kExitNoResource;
+  }
+  if (const int error = replace_text_file(output.string(), *picture); error != 0) {
+    throw_error(error, "--output: " + output.string() + " cannot be written");
+  }
+  std::printf("%s\n", output.c_str());
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

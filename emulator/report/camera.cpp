@@ -1,0 +1,140 @@
+#include "emulator/report/camera.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "emulator/scenario/frame_text.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Kind = SeenSignal::Kind;
+
+// A scene keeps so many frames from its beginning, and as many from its end.
+constexpr std::size_t kFramesKept = 300;
+constexpr double kMillivolts = 1000;
+
+}  // namespace
+
+Camera::Camera(World& world) : world_(world), probes_(world) {
+  for (const KnownDevice& device : world.known()) {
+    for (const AxisRow& row : device.model->axes) {
+      const std::string axis = device.name + "." + std::string(row.name);
+      add_sight(axis + ".position", Kind::position);
+      add_sight(axis + ".pulses", Kind::pulses);
+      add_sight(axis + ".speed", Kind::speed);
+      for (const char* word : {".home", ".lower_limit", ".upper_limit", ".alarm"}) {
+        add_sight(axis + word, Kind::bit);
+      }
+    }
+    for (const TerminalRow& row : device.model->terminals) {
+      if (row.kind == TerminalRow::Kind::dip_switch) continue;
+      add_sight(device.name + "." + std::string(row.name),
+                row.kind == TerminalRow::Kind::analog_in ? Kind::analog : Kind::bit);
+    }
+    add_sight(device.name + ".power", Kind::bit);
+  }
+  world_.add_watcher(*this);
+  world_restored(0);
+}
+
+Camera::~Camera() {
+  world_.remove_watcher(*this);
+  ignore_lines();
+}
+
+void Camera::add_sight(const std::string& name, Kind kind) {
+  sights_.push_back({kind, name, probes_.resolve(name).handle, Envelope()});
+}
+
+void Camera::watch_lines() {
+  requests_.assign(world_.line_count(), {});
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    framers_.push_back(std::make_unique<pty::CaptureFrames>(
+        i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); }));
+    world_.line(i).line.add_observer(*framers_.back());
+  }
+}
+
+void Camera::ignore_lines() {
+  for (std::size_t i = 0; i < framers_.size(); ++i) world_.line(i).line.remove_observer(*framers_[i]);
+  framers_.clear();
+}
+
+void Camera::world_restored(std::size_t steps) {
+  ignore_lines();  // what they were hearing is no more
+  end_scene();
+  watch_lines();
+  scene_.first_step = steps;
+  scene_.begin = scene_.end = world_.now();
+  on_tick(tick_at(world_.now()));
+}
+
+void Camera::on_tick(Tick tick) {
+  for (Sight& sight : sights_) {
+    const double value = probes_.value(sight.handle).real();
+    sight.values.add(tick, sight.kind == Kind::analog ? value / kMillivolts : value);
+  }
+  scene_.end = std::max(scene_.end, time_of(tick));
+}
+
+void Camera::add(const pty::CapturedPacket& packet) {
+  const bool is_from_host = packet.way == pty::Way::from_host;
+  auto& request = requests_[packet.line];
+  SeenFrame frame{.time = packet.time,
+                  .line = world_.line(packet.line).line.name(),
+                  .is_from_host = is_from_host,
+                  .text = is_from_host ? request_text(world_, packet.line, packet.bytes)
+                                       : reply_text(world_, packet.line, request, packet.bytes),
+                  .bytes = hex_text(packet.bytes),
+                  .remark = std::string(text_of(packet.remark))};
+  if (is_from_host) {
+    request.assign(packet.bytes.begin(), packet.bytes.end());
+  } else {
+    request.clear();
+  }
+  scene_.frames.push_back(std::move(frame));
+  // In lumps, so that a long run does not move them for each one that comes.
+  if (scene_.frames.size() < 4 * kFramesKept) return;
+  const auto first = scene_.frames.begin() + kFramesKept;
+  scene_.frames.erase(first, scene_.frames.end() - kFramesKept);
+  scene_.frames_left_out += 2 * kFramesKept;
+}
+
+void Camera::end_scene() {
+  Scene scene = std::exchange(scene_, {});
+  std::vector<Sight> sights = std::exchange(sights_, {});
+  for (const Sight& sight : sights) {
+    SeenSignal signal{.name = sight.name,
+                      .kind = sight.kind,
+                      .least = sight.values.least(),
+                      .greatest = sight.values.greatest()};
+    for (const Envelope::Point& point : sight.values.points()) {
+      signal.points.push_back({point.tick, point.value});
+    }
+    scene.signals.push_back(std::move(signal));
+    sights_.push_back({sight.kind, sight.name, sight.handle, Envelope()});
+  }
+  if (scene.frames.size() > 2 * kFramesKept) {
+    const std::size_t more = scene.frames.size() - 2 * kFramesKept;
+    const auto first = scene.frames.begin() + kFramesKept;
+    scene.frames.erase(first, first + static_cast<std::ptrdiff_t>(more));
+    scene.frames_left_out += more;
+  }
+  scene.left_out_at = kFramesKept;
+  // What was no frame is given once that is plain, which may be after the next one.
+  std::stable_sort(scene.frames.begin(), scene.frames.end(),
+                   [](const SeenFrame& a, const SeenFrame& b) { return a.time < b.time; });
+  const bool is_empty = scene.begin == scene.end && scene.frames.empty();
+  if (!is_empty) footage_.scenes.push_back(std::move(scene));
+}
+
+void Camera::finish(ScenarioResult& result) {
+  for (const auto& framer : framers_) framer->finish();
+  scene_.end = std::max(scene_.end, world_.now());
+  end_scene();
+  result.footage = std::make_shared<const Footage>(std::move(footage_));
+}
+
+}  // namespace understudy::emulator

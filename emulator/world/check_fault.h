@@ -1,0 +1,14 @@
+// Whether a world can have a fault.
+#pragma once
+
+#include "emulator/faults/fault.h"
+
+namespace understudy::emulator {
+
+class World;
+
+/// NameError for one that it cannot have: a condition that it does not understand, noise on an encoder that
+/// is not there.
+void check_fault(const World& world, const Fault& fault);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,270 @@
+#include "emulator/world/fault_watch.h"
+
+#include <algorithm>
+
+#include "emulator/expression/parser.h"
+#include "emulator/faults/kinds.h"
+#include "emulator/one_line.h"
+#include "emulator/world/check_fault.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+using Kind = Fault::Kind;
+
+constexpr int kDeviceBusy = 6;  // the exception of that name
+
+/// ExpressionError, or what the resolver throws.
+Expression parse_condition(const std::string& text, const Probes& probes) {
+  ExpressionParser parser(text, probes);
+  const Term term = parser.expression();
+  parser.expect_end();
+  if (term.unit != Unit::none) {
+    throw NameError(quoted(text) + " is " + kind_of(term.unit) + "; expected a condition");
+  }
+  return parser.take();
+}
+
+/// What is known by name but kept by nobody here, as what a scenario counts.
+void demand_value(const Probes& probes, const Expression::Name& name) {
+  try {
+    probes.value(name.number.handle);
+  } catch (const NameError&) {
+    throw NameError(quoted(name.spelling) + " is nothing to wait for; expected what the world itself knows");
+  }
+}
+
+/// Which registers a request is about.
+FrameFacts facts_of(const HeardFrame& frame) {
+  FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
+  const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };
+  switch (facts.function) {
+    case 0x01:
+    case 0x02:
+    case 0x03:
+    case 0x04:
+    case 0x0F:
+    case 0x10:
+    case 0x17:
+      if (frame.bytes.size() < 8) break;
+      facts.first = word(2);
+      facts.count = word(4);
+      break;
+    case 0x05:
+    case 0x06:
+    case 0x16:
+      if (frame.bytes.size() < 6) break;
+      facts.first = word(2);
+      facts.count = 1;
+      break;
+    default: break;
+  }
+  return facts;
+}
+
+pty::WireFault stage_of(const Fault& fault) {
+  using Stage = pty::WireFault::Kind;
+  pty::WireFault stage{.before = fault.before, .after = fault.after};
+  switch (fault.kind) {
+    case Kind::slow:
+    case Kind::delay: stage.kind = Stage::delay; break;
+    case Kind::corrupt_checksum: stage.kind = Stage::corrupt_checksum; break;
+    case Kind::truncate: stage.kind = Stage::truncate; break;
+    case Kind::duplicate: stage.kind = Stage::duplicate; break;
+    case Kind::noise: stage.kind = Stage::noise; break;
+    case Kind::collision: stage.kind = Stage::collision; break;
+    default: stage.kind = Stage::drop; break;
+  }
+  if (stage.kind == Stage::truncate) {
+    stage.size = static_cast<std::size_t>(fault.amount);
+  } else {
+    stage.time = SimTime{fault.amount};
+  }
+  return stage;
+}
+
+bool is_of_requests(const Fault& fault) {
+  return is_of_wire(fault.kind) && (fault.kind == Kind::slow || fault.side != Fault::Side::reply);
+}
+
+bool is_of_replies(const Fault& fault) {
+  return is_of_wire(fault.kind) && fault.kind != Kind::slow && fault.side != Fault::Side::request;
+}
+
+}  // namespace
+
+std::int64_t encoder_noise_counts(const Fault& fault, Tick tick) {
+  const bool is_second_half = fault.period_ticks != 0 && tick % fault.period_ticks >= fault.period_ticks / 2;
+  return is_second_half ? -fault.amount : fault.amount;
+}
+
+void check_fault(const World& world, const Fault& fault) {
+  if (fault.kind == Kind::encoder_noise && !world.plant(fault.device, fault.place).has_encoder()) {
+    const KnownDevice& device = world.known()[fault.device];
+    throw NameError(device.name + "." +
+                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
+                    " has no encoder; expected one in `plant`");
+  }
+  if (fault.trigger.when.empty()) return;
+  const Probes probes(world);
+  try {
+    const Expression condition = parse_condition(fault.trigger.when, probes);
+    for (const Expression::Name& name : condition.names) demand_value(probes, name);
+  } catch (const std::runtime_error& error) {
+    throw FaultFieldError(std::string(fault_kind(fault.kind).name), "when", error.what());
+  }
+}
+
+FaultWatch::FaultWatch(const World& world, Faults& faults, std::uint64_t seed)
+    : faults_(faults), seed_(seed), lines_(world.device_count()), probes_(world) {
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    for (const auto& station : world.line(i).stations) {
+      for (std::size_t d = 0; d < world.device_count(); ++d) {
+        if (&station->device() == &world.device(d)) lines_[d] = i;
+      }
+    }
+  }
+  for (const auto& [number, armed] : faults_) {
+    const std::string& when = armed.fault.trigger.when;
+    if (!when.empty()) conditions_.try_emplace(when, parse_condition(when, probes_));
+  }
+}
+
+/// What has no result does not hold.
+bool FaultWatch::holds(const std::string& expression) {
+  try {
+    return is_true(conditions_.at(expression), probes_);
+  } catch (const ExpressionError&) {
+    return false;
+  }
+}
+
+/// Every fault has a stream of its own, whatever others there are.
+std::uint64_t FaultWatch::stream(std::size_t number) const { return draw(draw(seed_, 1), number); }
+
+// --- time ----------------------------------------------------------------------------------------
+
+SimTime FaultWatch::next_moment() const {
+  if (has_news()) return SimTime{0};
+  SimTime next = kForever;
+  for (const auto& [number, armed] : faults_) {
+    if (is_of_frames(armed.fault.kind) || !waits(armed.fault)) continue;
+    next = std::min(next, emulator::next_moment(armed.fault.trigger, armed.course));
+  }
+  return next;
+}
+
+Tick FaultWatch::next_tick(Tick done) const {
+  Tick next = kNever;
+  for (const auto& [number, armed] : faults_) {
+    const Fault& fault = armed.fault;
+    if (is_of_frames(fault.kind)) continue;
+    if (waits(fault)) next = std::min(next, next_look(fault.trigger, armed.course, done));
+    if (fault.kind == Kind::encoder_noise && armed.course.in_force && fault.period_ticks != 0) {
+      const Tick half = fault.period_ticks / 2;
+      next = std::min(next, (done / half + 1) * half);
+    }
+  }
+  return next;
+}
+
+void FaultWatch::look(SimTime now, bool is_tick) {
+  for (auto& [number, armed] : faults_) {
+    auto& [fault, course] = armed;
+    if (is_of_frames(fault.kind) || !waits(fault)) continue;
+    if (is_tick == is_of_time_alone(fault.trigger)) continue;
+    if (!is_tick && emulator::next_moment(fault.trigger, course) > now) continue;
+    const bool was_in_force = course.in_force;
+    bool strikes = false;
+    if (is_about_frames(fault.trigger)) {
+      course.in_force = course.in_force && now < course.until;
+    } else {
+      strikes = strikes_time(fault.trigger, course, now, *this, stream(number));
+    }
+    course.is_news = course.is_news || (fault.kind == Kind::slip ? strikes : course.in_force != was_in_force);
+  }
+}
+
+bool FaultWatch::has_news() const {
+  return std::any_of(faults_.begin(), faults_.end(),
+                     [](const auto& entry) { return entry.second.course.is_news; });
+}
+
+// --- frames --------------------------------------------------------------------------------------
+
+bool FaultWatch::is_at(const Fault& fault, std::size_t device) const {
+  return fault.on_line ? lines_[fault.device] == lines_[device] : fault.device == device;
+}
+
+bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
+  return strikes_frame(armed.fault.trigger, armed.course, facts_of(frame), *this, stream(number));
+}
+
+/// Every station of a line hears the same request: it is judged when the first of them asks.
+bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
+  FaultCourse& course = armed.course;
+  if (!armed.fault.on_line) return frame.is_for_device && is_hit(number, armed, frame);
+  if (frame.last_character > course.judged_character) {
+    course.judged_character = frame.last_character;
+    course.was_hit = is_hit(number, armed, frame);
+  }
+  return frame.last_character == course.judged_character && course.was_hit;
+}
+
+bool FaultWatch::is_early(const HeardFrame& frame) {
+  bool is_early = false;
+  for (auto& [number, armed] : faults_) {
+    if (armed.fault.kind != Kind::early_reply || !is_at(armed.fault, frame.device)) continue;
+    is_early = is_hit(number, armed, frame) || is_early;
+  }
+  return is_early;
+}
+
+std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
+  std::vector<pty::WireFault> stages;
+  for (auto& [number, armed] : faults_) {
+    if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame.device)) continue;
+    if (!is_request_hit(number, armed, frame)) continue;
+    stages.push_back(stage_of(armed.fault));
+    // What is dropped does not get to the stages behind.
+    if (stages.back().kind == pty::WireFault::Kind::drop) break;
+  }
+  return stages;
+}
+
+FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
+  Treatment treatment;
+  for (auto& [number, armed] : faults_) {
+    auto& [fault, course] = armed;
+    if (!is_at(fault, frame.device)) continue;
+    if (fault.kind == Kind::busy || fault.kind == Kind::exception) {
+      if (treatment.exception != 0 || !is_hit(number, armed, frame)) continue;
+      treatment.exception = fault.kind == Kind::busy ? kDeviceBusy : static_cast<int>(fault.amount);
+      continue;
+    }
+    // Machines and devices: while it is in force nothing strikes.
+    if (is_of_frames(fault.kind) || !is_about_frames(fault.trigger) || course.in_force) continue;
+    if (!is_hit(number, armed, frame)) continue;
+    course.is_news = true;
+    if (fault.kind == Kind::slip) continue;
+    course.in_force = true;
+    if (fault.trigger.lasts == SimTime{0}) course.until = kForever;
+    if (fault.kind == Kind::power_cut) treatment.is_answered = false;
+  }
+  return treatment;
+}
+
+std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
+  std::vector<pty::WireFault> stages;
+  for (auto& [number, armed] : faults_) {
+    if (!is_of_replies(armed.fault) || !is_at(armed.fault, frame.device)) continue;
+    if (!is_hit(number, armed, frame)) continue;
+    stages.push_back(stage_of(armed.fault));
+    if (stages.back().kind == pty::WireFault::Kind::drop) break;
+  }
+  return stages;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,57 @@
+// Looks after the faults of a world that wait for something: asked by stations about frames, by the world
+// about time. There is none where nothing waits.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "emulator/expression/expression.h"
+#include "emulator/faults/fault.h"
+#include "emulator/faults/frame_faults.h"
+#include "emulator/probe/probes.h"
+
+namespace understudy::emulator {
+
+class World;
+
+class FaultWatch final : public FrameFaults, private ConditionSource {
+ public:
+  using Faults = std::map<std::size_t, ArmedFault>;  // by number
+
+  /// All must outlive it. The faults must be of the world (check_fault); when others have come or gone, it
+  /// must be made anew.
+  FaultWatch(const World& world, Faults& faults, std::uint64_t seed);
+
+  // --- time ------------------------------------------------------------------------------------
+  /// When look() wants to be called next by the clock, as is_tick = false; kForever if it does not.
+  SimTime next_moment() const;
+  /// The first tick after `done` at whose end it wants to be called.
+  Tick next_tick(Tick done) const;
+  /// What has begun or ended by now is news in its course.
+  void look(SimTime now, bool is_tick);
+  bool has_news() const;
+
+  // --- frames ----------------------------------------------------------------------------------
+  bool is_early(const HeardFrame& frame) override;
+  std::vector<pty::WireFault> on_request(const HeardFrame& frame) override;
+  Treatment on_serving(const HeardFrame& frame) override;
+  std::vector<pty::WireFault> on_reply(const HeardFrame& frame) override;
+
+ private:
+  bool holds(const std::string& expression) override;
+  bool is_at(const Fault& fault, std::size_t device) const;
+  bool is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
+  bool is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
+  std::uint64_t stream(std::size_t number) const;
+
+  Faults& faults_;
+  std::uint64_t seed_;
+  std::vector<std::size_t> lines_;  // of the devices
+  Probes probes_;
+  std::map<std::string, Expression> conditions_;
+};
+
+/// What is wrong with a machine's encoder at the end of `tick`, in counts.
+std::int64_t encoder_noise_counts(const Fault& fault, Tick tick);
+
+}  // namespace understudy::emulator

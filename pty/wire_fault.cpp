@@ -1,0 +1,57 @@
+#include "pty/wire_fault.h"
+
+#include <algorithm>
+
+namespace understudy::pty {
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kSomebody = 0x55;  // edges all along, as of a talker at another speed
+
+void collide(Bytes& bytes, const Bytes& other) {
+  const std::size_t common = other.empty() ? bytes.size() : std::min(bytes.size(), other.size());
+  for (std::size_t i = 0; i < common; ++i) bytes[i] &= other.empty() ? kSomebody : other[i];
+  if (other.size() > common) {
+    bytes.insert(bytes.end(), other.begin() + static_cast<std::ptrdiff_t>(common), other.end());
+  }
+}
+
+void double_all(std::vector<WirePiece>& pieces, SimTime late) {
+  const std::size_t count = std::min(pieces.size(), kMostWirePieces - pieces.size());
+  for (std::size_t i = 0; i < count; ++i) pieces.push_back({pieces[i].late + late, pieces[i].bytes});
+}
+
+}  // namespace
+
+std::vector<WirePiece> through_faults(std::span<const std::uint8_t> message,
+                                      std::span<const WireFault> stages) {
+  std::vector<WirePiece> pieces{{SimTime{0}, Bytes(message.begin(), message.end())}};
+  for (const WireFault& stage : stages) {
+    if (stage.kind == WireFault::Kind::drop) return {};
+    if (stage.kind == WireFault::Kind::duplicate) double_all(pieces, stage.time);
+    for (auto& [late, bytes] : pieces) {
+      switch (stage.kind) {
+        case WireFault::Kind::drop:
+        case WireFault::Kind::duplicate: break;
+        case WireFault::Kind::delay: late += stage.time; break;
+        case WireFault::Kind::corrupt_checksum:
+          if (!bytes.empty()) bytes.back() ^= 0xFF;
+          break;
+        case WireFault::Kind::truncate: bytes.resize(std::min(bytes.size(), stage.size)); break;
+        case WireFault::Kind::noise:
+          bytes.insert(bytes.begin(), stage.before.begin(), stage.before.end());
+          bytes.insert(bytes.end(), stage.after.begin(), stage.after.end());
+          break;
+        case WireFault::Kind::collision: collide(bytes, stage.before); break;
+      }
+    }
+  }
+  std::erase_if(pieces, [](const WirePiece& piece) { return piece.bytes.empty(); });
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const WirePiece& a, const WirePiece& b) { return a.late < b.late; });
+  return pieces;
+}
+
+}  // namespace understudy::pty

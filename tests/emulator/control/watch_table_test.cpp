@@ -1,0 +1,69 @@
+// What `ctl watch` shows.
+#include "emulator/control/watch_table.h"
+
+#include "tests/emulator/control/daemon_rig.h"
+
+namespace understudy::emulator {
+namespace {
+
+TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
+  DaemonRig rig;
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":3200,"feeder.Aaxis_Speed":200,)"
+          R"("feeder.Aaxis_Move_INC":1,"feeder.DOUT_4":1}})");
+  rig.ask(R"({"do":"input","values":{"turner.DIN_7":1,"turner.AIN_B":"2.5V"}})");
+  // 10 ms of acceleration to 10666.7 pulses a second from 1 ms on: 53.3 pulses; 50 ms at that speed: 533.3.
+  rig.daemon.world().advance_to(std::chrono::milliseconds(61));
+  const std::string status = rig.reply_to(R"({"do":"status"})");
+  const auto lines = watch_table(status, "", 0);
+  const std::vector<std::string> expected{
+      "time         61ms, speed manual",
+      "lateness     p50 0 us, p99 0 us, greatest 0 us, 0 slips",
+      "rs485        19200 8E1, host closed, 0 bytes in, 0 out",
+      "",
+      "feeder       simple2-r3, firmware 1.52",
+      "  A                   586 pulses      10666.7 pulses/s   machine at 586",
+      "  B                     0 pulses          0.0 pulses/s   machine at 0",
+      "  registers  STATUS 1040  Aaxis_Mode 0  Baxis_Mode 0  Cord_A 586  Cord_B 0",
+      "             PROG_MAIN_RunTime_Status 0  PROG_MAIN_NowLine 0  EEPROM_Writing 0",
+      "  inputs     -",
+      "  outputs    DOUT_4",
+      "",
+      "turner       simple2-r3, firmware 1.40",
+  };
+  ASSERT_GE(lines.size(), expected.size());
+  EXPECT_EQ(
+      std::vector<std::string>(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(expected.size())),
+      expected);
+  // The wire brought DOUT_4 to it.
+  EXPECT_EQ(lines.at(lines.size() - 2), "  inputs     DIN_7  DIN_10  AIN_B 2500 mV");
+  EXPECT_EQ(lines.back(), "  outputs    -");
+}
+
+TEST(WatchTable, CountsFramesASecond) {
+  DaemonRig rig;
+  const std::string before = rig.reply_to(R"({"do":"status"})");
+  Json after = Json::parse(before);
+  after["status"]["lines"][0]["stations"][0]["requests"] = 40;
+  after["status"]["lines"][0]["stations"][0]["replies"] = 30;
+  after["status"]["lines"][0]["stations"][1]["requests"] = 5;
+  EXPECT_EQ(watch_table(after.dump(), before, 0.5).at(2),
+            "rs485        19200 8E1, host closed, 150.0 frames/s, 0 bytes in, 0 out");
+  // After a restore there may be fewer.
+  EXPECT_NE(watch_table(before, after.dump(), 0.5).at(2).find(", 0.0 frames/s"), std::string::npos);
+}
+
+TEST(WatchTable, SaysWhatHasNoPower) {
+  DaemonRig rig;
+  rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
+  const auto lines = watch_table(rig.reply_to(R"({"do":"status"})"), "", 0);
+  EXPECT_EQ(lines.at(4), "feeder       simple2-r3, firmware 1.52, without power");
+}
+
+TEST(WatchTable, RefusesWhatIsNoStatus) {
+  for (const char* const reply : {"", "{}", "[]", R"({"ok":true,"status":{}})"}) {
+    EXPECT_THROW(watch_table(reply, "", 0), ControlError) << reply;
+  }
+}
+
+}  // namespace
+}  // namespace understudy::emulator

@@ -1,0 +1,166 @@
+// The page as a browser and a reader see it: whole in itself, well formed, with the failing moment where it
+// was.
+#include "emulator/report/page.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "emulator/report/camera.h"
+#include "tests/emulator/scenario/played.h"
+
+namespace understudy::emulator {
+namespace {
+
+PlayOptions filmed() {
+  PlayOptions options;
+  options.onlookers.push_back([](World& world) { return std::make_unique<Camera>(world); });
+  return options;
+}
+
+std::string page_of(const std::string& steps) {
+  return report_page(play(scenario_of(steps), filmed()), "1.2.3");
+}
+
+/// Says what is wrong with a page: tags that do not match, names used twice, links that lead nowhere.
+constexpr const char* kReader = R"(
+import sys, html.parser
+class Reader(html.parser.HTMLParser):
+    open, names, links = [], [], []
+    def handle_starttag(self, tag, attributes):
+        for name, value in attributes:
+            if name == 'id': self.names.append(value)
+            if name == 'href': self.links.append(value)
+        if tag not in ('meta', 'br'): self.open.append(tag)
+    def handle_startendtag(self, tag, attributes): pass
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag: print('unexpected end of', tag, self.getpos())
+reader = Reader()
+reader.feed(open(sys.argv[1], encoding='utf-8').read())
+reader.close()
+if reader.open: print('left open:', reader.open)
+if len(set(reader.names)) != len(reader.names): print('names used twice')
+for link in reader.links:
+    if link[:1] != '#' or link[1:] not in reader.names: print('leads nowhere:', link)
+)";
+
+std::string complaints_of_a_parser(const std::string& page) {
+  const std::string file = testing::TempDir() + "understudy-page" + std::to_string(getpid()) + ".html";
+  const std::string script = file + ".py";
+  std::ofstream(file) << page;
+  std::ofstream(script) << kReader;
+  std::string output;
+  if (FILE* const pipe = popen(("python3 " + script + " " + file + " 2>&1").c_str(), "r")) {
+    for (int c = 0; (c = fgetc(pipe)) != EOF;) output += static_cast<char>(c);
+    pclose(pipe);
+  } else {
+    return "python3 does not run";
+  }
+  std::filesystem::remove(file);
+  std::filesystem::remove(script);
+  return output;
+}
+
+const std::string kDay =
+    kServoOn + "  - snapshot: on\n" + kExampleMove +
+    "  - wait: { until: feeder.STATUS.4 == 0, within: 4s, poll: 50ms }\n"
+    "  - restore: on\n"
+    "  - input: { feeder.DIN_10: on, feeder.AIN_A: 1V }\n"
+    "  - send: { bytes: 01 03 00, reply: nothing, within: 20ms }\n"
+    "  - fork: { well: [ advance: 5ms ], ill: [ advance: 5ms, assert: feeder.DIN_10 == 0 ] }\n";
+
+TEST(ReportPage, IsWellFormedWhateverHasHappened) {
+  EXPECT_EQ(complaints_of_a_parser(page_of(kDay)), "");
+  EXPECT_EQ(complaints_of_a_parser(page_of("  - assert: 1 == 2\n" + kDay)), "");
+  EXPECT_EQ(complaints_of_a_parser(report_page({}, "1.2.3")), "");
+  EXPECT_EQ(complaints_of_a_parser(report_page(play(scenario_of(kDay)), "1.2.3")), "");  // without footage
+}
+
+TEST(ReportPage, NeedsNothingFromElsewhere) {
+  const std::string page = page_of(kDay);
+  for (const char* reference : {"http", "src=", "url(", "@import", "<link", "<iframe", "fetch("}) {
+    EXPECT_EQ(page.find(reference), std::string::npos) << reference;
+  }
+}
+
+TEST(ReportPage, IsTheSameForEqualPlays) { EXPECT_EQ(page_of(kDay), page_of(kDay)); }
+
+TEST(ReportPage, ShowsNamesAsTheyAre) {
+  const ScenarioResult odd{.verdict = ScenarioResult::Verdict::failed,
+                           .name = "<script>alert(1)</script> & \"more\"",
+                           .file = "a<b>.yaml",
+                           .steps = {{"a<b>.yaml", 3, "say </code>", SimTime{0}, SimTime{0}, true}},
+                           .failure = Failure{.what = "x < y", .frames = {"<b>"}, .state = {"</pre>"}},
+                           .manners = {"<i>"}};
+  const std::string page = report_page({&odd, 1}, "1.2.3");
+  EXPECT_EQ(complaints_of_a_parser(page), "");
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;more&quot;"), std::string::npos);
+  EXPECT_NE(page.find("<code>&lt;i&gt;</code>"), std::string::npos);
+}
+
+TEST(ReportPage, MarksTheFailingMoment) {
+  const std::string page =
+      page_of(kServoOn + kExampleMove + "  - never: feeder.A.pulses > 1000\n  - advance: 500ms\n");
+  // The run is cut there, so that the mark is at the end: x = 1085.
+  EXPECT_NE(page.find("<line class=\"failure\" x1=\"1085.00\""), std::string::npos);
+  EXPECT_NE(page.find("failed at "), std::string::npos);
+  const std::string well = page_of(kServoOn + kExampleMove + "  - advance: 500ms\n");
+  EXPECT_EQ(well.find("<line class=\"failure\""), std::string::npos);
+  EXPECT_EQ(well.find("failed at "), std::string::npos);
+}
+
+TEST(ReportPage, DrawsWhatMovedWithItsData) {
+  const std::string page = page_of(kServoOn + kExampleMove + "  - advance: 3200ms\n");
+  std::smatch found;
+  const std::regex position(
+      "data-name=\"feeder.A.position\" data-base=\"0\" transform=\"[^\"]*\" points=\"([^\"]*)\"");
+  ASSERT_TRUE(std::regex_search(page, found, position));
+  const std::string points = found[1];
+  EXPECT_TRUE(points.starts_with("0,0 ")) << points.substr(0, 20);
+  EXPECT_TRUE(points.ends_with(",32000")) << points.substr(points.size() - 20);
+  // The machine has followed, so the pulses say nothing more; B stood still; no input changed.
+  for (const char* name : {"feeder.A.pulses", "feeder.B.position", "feeder.DIN_10"}) {
+    EXPECT_EQ(page.find("data-name=\"" + std::string(name)), std::string::npos) << name;
+  }
+  EXPECT_NE(page.find("data-name=\"feeder.A.speed\""), std::string::npos);
+  EXPECT_NE(page.find("position [pulses]"), std::string::npos);
+  EXPECT_NE(page.find("speed [pulses/s]"), std::string::npos);
+  EXPECT_NE(page.find("simulated time [s]"), std::string::npos);
+}
+
+TEST(ReportPage, DrawsPulsesThatTheMachineDidNotFollow) {
+  const std::string page =
+      page_of("  - inject: { stall: feeder.A }\n" + kServoOn + kExampleMove + "  - advance: 500ms\n");
+  EXPECT_NE(page.find("class=\"line k0 dashed\" data-name=\"feeder.A.pulses\""), std::string::npos);
+}
+
+TEST(ReportPage, HasEveryStepWithItsFrames) {
+  const std::string page = page_of(kServoOn + kExampleMove + "  - say: the end\n");
+  EXPECT_NE(page.find("<code>write feeder.Aaxis_SVON=1</code>"), std::string::npos);
+  EXPECT_NE(page.find("<code>write 0x1014 feeder.Aaxis_SVON = 1</code>"), std::string::npos);
+  EXPECT_NE(page.find("title=\"0.005333333 s\">0.005333<"), std::string::npos);  // the reply
+  EXPECT_NE(page.find("<code>say the end</code>"), std::string::npos);
+  std::size_t frames = 0;
+  for (std::size_t at = page.find("<summary>2 frames</summary>"); at != std::string::npos;
+       at = page.find("<summary>2 frames</summary>", at + 1)) {
+    ++frames;
+  }
+  EXPECT_EQ(frames, 2U);
+}
+
+TEST(ReportPage, OfAnHourIsStillSmall) {
+  const std::string steps =
+      "  - repeat:\n      times: 100\n      steps:\n        - write: { feeder.Aaxis_Pulse: 320000, "
+      "feeder.Aaxis_Speed: "
+      "600, feeder.Aaxis_AccTime: 50, feeder.Aaxis_DecTime: 50, feeder.Aaxis_Move_INC: 1 }\n"
+      "        - advance: 36s\n";
+  const std::string page = page_of(kServoOn + steps);
+  EXPECT_LT(page.size(), 600'000U);
+}
+
+}  // namespace
+}  // namespace understudy::emulator
