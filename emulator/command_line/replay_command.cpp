@@ -1,12 +1,42 @@
+#include <signal.h>
+
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
+#include "emulator/command_line/serving.h"
+#include "emulator/edge/daemon.h"
 #include "emulator/recording/replay.h"
+#include "emulator/world/snapshot.h"
 
 namespace understudy::emulator {
+
+namespace {
+
+/// The recorded world as it was then, with a clock that stands, until a signal ends it.
+int serve_from(const Replayed& replayed, const WorldState& state, const std::string& control) {
+  signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
+  Bench bench = replayed.bench;
+  for (LineSetup& line : bench.lines) line.link.clear();  // where it was recorded, somebody else may be at it
+  DaemonOptions options;
+  options.speed.kind = Speed::Kind::manual;
+  options.strict_framing = replayed.header.options.strict_framing;
+  options.enforce_settings = replayed.header.options.enforce_settings;
+  options.control_path = control;
+  Daemon daemon(bench, options, log_line);
+  daemon.restore(state);
+  say_ready(daemon);
+  std::printf("the clock stands at %s: understudy ctl --control %s status\n",
+              format_duration(daemon.world().now()).c_str(), daemon.control_path().c_str());
+  std::fflush(stdout);
+  daemon.run();
+  return kExitWell;
+}
+
+}  // namespace
 
 int replay_recording(const ReplayArguments& arguments) {
   std::optional<SimTime> until;
@@ -16,8 +46,11 @@ int replay_recording(const ReplayArguments& arguments) {
       throw UsageError("--until: '" + arguments.until + "' is no duration; expected one such as 2.5s");
   }
   std::ifstream file(arguments.recording, std::ios::binary);
+  std::optional<WorldState> state;
   const auto begin = std::chrono::steady_clock::now();
-  const Replayed replayed = replay(file, arguments.recording, until);
+  const Replayed replayed = replay(file, arguments.recording, until, {}, [&](const World& world) {
+    if (until) state = save(world);
+  });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (replayed.header.version != arguments.version) {
     log_line("the recording is from version " + replayed.header.version + ", this is " + arguments.version);
@@ -32,7 +65,8 @@ int replay_recording(const ReplayArguments& arguments) {
               arguments.recording.c_str(), static_cast<unsigned long long>(result.events),
               static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
               seconds, result.has_end || until ? "" : "; it breaks off before its end");
-  return kExitWell;
+  if (result.verdict != ReplayResult::Verdict::stopped) return kExitWell;
+  return serve_from(replayed, *state, arguments.control);
 }
 
 }  // namespace understudy::emulator

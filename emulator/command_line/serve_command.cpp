@@ -1,7 +1,5 @@
 #include <signal.h>
 
-#include <cstdio>
-
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/serving.h"
@@ -18,12 +16,8 @@ int serve(const ServeArguments& arguments) {
   Daemon daemon(serving.bench, serving.options, log_line);
   for (const auto& port : daemon.ports()) {
     if (serving.group) share_port(port->terminal().path(), *serving.group);
-    std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
-                port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
-  }
+  say_ready(daemon);
   std::optional<Lint> lint;
   if (arguments.lint) lint.emplace(daemon.world());
   notify_service_manager("READY=1");

@@ -136,6 +136,16 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   return serving;
 }
 
+void say_ready(const Daemon& daemon) {
+  for (const auto& port : daemon.ports()) {
+    std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
+                port->terminal().path().c_str(), port->terminal().link_path().c_str());
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
+  }
+}
+
 void print_findings(const std::vector<std::string>& findings) {
   for (const std::string& finding : findings) std::fprintf(stderr, "lint: %s\n", one_line(finding).c_str());
 }

@@ -23,6 +23,9 @@ struct Serving {
 /// them.
 Serving make_serving(const ServeArguments& arguments, const std::string& command);
 
+/// One line for each port on standard output: its pty and its link. Throws PortError if nobody can read it.
+void say_ready(const Daemon& daemon);
+
 /// What `--lint` has found, on standard error.
 void print_findings(const std::vector<std::string>& findings);
 

@@ -161,6 +161,7 @@ lines:
 
   EXPECT_NE(unit().find("\nType=notify\n"), std::string::npos);
   const Words command = start_command(unit(), {{"%t", folder() / "run"},
+                                               {"%S", folder() / "state"},
                                                {"%i", "feeder"},
                                                {"/etc/understudy", folder().path()},
                                                {"$SERVE_FLAGS", ""},
