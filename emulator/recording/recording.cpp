@@ -178,50 +178,89 @@ RecordingHeader parse_header(std::string_view text) {
   return header;
 }
 
+namespace {
+
+/// An event's line. Put together by hand, because a JSON library's objects would be most of what recording
+/// costs; that library escapes what needs it.
+class EventLine {
+ public:
+  EventLine(SimTime at, What what) {
+    text_.reserve(128);
+    text_ += R"({"t":)" + std::to_string(at.count()) + R"(,"do":")";
+    text_ += word_of(what);
+    text_ += '"';
+  }
+  void number(std::string_view key, std::int64_t value) { raw(key, std::to_string(value)); }
+  void truth(std::string_view key, bool value) { raw(key, value ? "true" : "false"); }
+  void hexadecimal(std::string_view key, const std::vector<std::uint8_t>& bytes) {
+    raw(key, '"' + hex_of(bytes) + '"');
+  }
+  void json(std::string_view key, const Json& value) {
+    raw(key, value.dump(-1, ' ', false, Json::error_handler_t::replace));
+  }
+  std::string finished() && { return std::move(text_) + '}'; }
+
+ private:
+  void raw(std::string_view key, std::string_view value) {
+    text_ += ",\"";
+    text_ += key;
+    text_ += "\":";
+    text_ += value;
+  }
+  std::string text_;
+};
+
+std::vector<std::uint8_t> bytes_of_words(const PreparedWrite& write) {
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < write.count; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(write.words[i] >> 8));
+    bytes.push_back(static_cast<std::uint8_t>(write.words[i]));
+  }
+  return bytes;
+}
+
+}  // namespace
+
 std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
-  Json line{{"t", event.at.count()}, {"do", word_of(event.what)}};
-  if (is_of_a_line(event.what)) line["line"] = event.where;
-  if (is_of_a_device(event.what)) line["device"] = event.where;
+  EventLine line(event.at, event.what);
+  const auto where = static_cast<std::int64_t>(event.where);
+  if (is_of_a_line(event.what)) line.number("line", where);
+  if (is_of_a_device(event.what)) line.number("device", where);
   switch (event.what) {
     case What::bytes:
     case What::departed:
-    case What::said: line["bytes"] = hex_of(event.bytes); break;
+    case What::said: line.hexadecimal("bytes", event.bytes); break;
     case What::settings:
       if (event.host) {
-        line["baud"] = event.host->baud;
-        line["stop_bits"] = event.host->stop_bits;
+        line.number("baud", event.host->baud);
+        line.number("stop_bits", event.host->stop_bits);
       }
       break;
     case What::input:
-      line["terminal"] = event.place;
-      line["level"] = event.value;
+      line.number("terminal", event.place);
+      line.number("level", event.value);
       break;
-    case What::power: line["on"] = event.value != 0; break;
+    case What::power: line.truth("on", event.value != 0); break;
     case What::inject: {
       const FaultText text = fault_text(devices, event.fault);
-      line["fault"] = Json{{text.kind, text.place}};
-      for (const auto& [name, value] : text.fields) line["fault"][name] = value;
+      Json fault{{text.kind, text.place}};
+      for (const auto& [name, value] : text.fields) fault[name] = value;
+      line.json("fault", fault);
       break;
     }
-    case What::clear: line["number"] = event.value; break;
-    case What::write: {
-      std::vector<std::uint8_t> words;
-      for (std::size_t i = 0; i < event.write.count; ++i) {
-        words.push_back(static_cast<std::uint8_t>(event.write.words[i] >> 8));
-        words.push_back(static_cast<std::uint8_t>(event.write.words[i]));
-      }
-      line["table"] = static_cast<int>(event.write.table);
-      line["first"] = event.write.first;
-      line["words"] = hex_of(words);
+    case What::clear: line.number("number", event.value); break;
+    case What::write:
+      line.number("table", static_cast<int>(event.write.table));
+      line.number("first", event.write.first);
+      line.hexadecimal("words", bytes_of_words(event.write));
       break;
-    }
-    case What::program: line["text"] = event.text; break;
+    case What::program: line.json("text", Json(event.text)); break;
     case What::opened:
     case What::closed:
     case What::nothing_more:
     case What::end: break;
   }
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return std::move(line).finished();
 }
 
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count) {

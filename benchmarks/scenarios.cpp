@@ -1,0 +1,162 @@
+// What scenarios cost: a whole suite in free time, getting one going, recording it, saving and restoring the
+// state of a busy world.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "benchmarks/busy_bench.h"
+#include "benchmarks/figures.h"
+#include "benchmarks/processor_clock.h"
+#include "emulator/bench/bench_text.h"
+#include "emulator/recording/recorder.h"
+#include "emulator/scenario/runner.h"
+#include "emulator/scenario/scenario_file.h"
+#include "emulator/world/snapshot.h"
+
+namespace understudy::benchmarks {
+
+namespace {
+
+using emulator::Scenario;
+using emulator::ScenarioResult;
+using emulator::World;
+
+constexpr int kRounds = 21;
+constexpr double kSuiteBar = 2000;  // simulated seconds a second
+constexpr double kStartBarMs = 5;
+constexpr double kRecordingBar = 1.05;
+constexpr double kSnapshotBarUs = 100;
+
+double seconds_of(std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); }
+
+template <typename Work>
+double processor_seconds(Work work) {
+  const auto begin = processor_time_here();
+  work();
+  return seconds_of(processor_time_here() - begin);
+}
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string path = entry.path().string();
+    if (path.ends_with(".yaml") && emulator::kind_of_file(path) == emulator::FileKind::scenario) {
+      files.push_back(path);
+    }
+  }
+  return files;
+}
+
+struct Played {
+  std::size_t scenarios = 0;
+  double simulated_s = 0;
+};
+
+/// Reads them, checks them and plays them, as `understudy run` does.
+template <typename OptionsFor>
+Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
+  Played played;
+  for (const std::string& file : files) {
+    for (const Scenario& scenario : emulator::load_scenarios(file)) {
+      ++played.scenarios;
+      for (const ScenarioResult& result : emulator::play(scenario, options_for(scenario))) {
+        played.simulated_s += seconds_of(result.simulated);
+      }
+    }
+  }
+  return played;
+}
+
+/// Writes down everything, into a string.
+class RecordingOnlooker final : public emulator::Onlooker {
+ public:
+  RecordingOnlooker(World& world, const emulator::RecordingHeader& header)
+      : recorder_(world, header, [this](std::string_view line) { text_ += line; }) {}
+  void world_restored(std::size_t) override {}
+  void finish(ScenarioResult&) override {}
+
+ private:
+  std::string text_;
+  emulator::Recorder recorder_;
+};
+
+emulator::PlayOptions recorded(const Scenario& scenario) {
+  emulator::PlayOptions options;
+  options.onlookers.push_back([&](World& world) {
+    const emulator::RecordingHeader header{
+        .version = "", .bench = to_text(scenario.bench), .options = {}, .seed = 0, .snapshot = {}};
+    return std::make_unique<RecordingOnlooker>(world, header);
+  });
+  return options;
+}
+
+void measure_suite(const std::string& folder) {
+  const std::vector<std::string> files = files_in(folder);
+  Played played;
+  std::vector<double> plain;
+  std::vector<double> ratios;
+  for (int round = 0; round < kRounds; ++round) {
+    plain.push_back(processor_seconds(
+        [&] { played = play_all(files, [](const Scenario&) { return emulator::PlayOptions{}; }); }));
+    ratios.push_back(processor_seconds([&] { play_all(files, recorded); }) / plain.back());
+  }
+  const double each_s = median(plain);
+  std::printf("%zu scenarios of %s: %.1f simulated seconds in %.1f ms, %.0f times real time\n",
+              played.scenarios, folder.c_str(), played.simulated_s, 1000 * each_s,
+              played.simulated_s / each_s);
+  print_verdict("processor time of 2000 simulated seconds of the suite",
+                kSuiteBar * each_s / played.simulated_s, 1, " s");
+  print_verdict("the suite recorded, against not recorded", median(ratios), kRecordingBar);
+}
+
+void measure_start(const std::string& folder) {
+  const std::string text =
+      "understudy: 1\nname: start\n"
+      "bench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
+      "steps: [ advance: 1ms ]\n";
+  std::vector<double> starts_ms;
+  for (int round = 0; round < 10 * kRounds; ++round) {
+    starts_ms.push_back(1000 * processor_seconds([&] {
+                          emulator::play(emulator::parse_scenarios(text, folder + "/start.yaml").front());
+                        }));
+  }
+  print_verdict("reading, checking and starting a scenario", median(starts_ms), kStartBarMs, " ms");
+}
+
+void measure_snapshots() {
+  const auto world = make_busy_world(1, Activity::positions);
+  world->advance_to(std::chrono::seconds(1));
+  std::vector<double> both_us;
+  std::size_t bytes = 0;
+  for (int round = 0; round < 100 * kRounds; ++round) {
+    both_us.push_back(1e6 * processor_seconds([&] {
+                        const emulator::WorldState state = save(*world);
+                        restore(*world, state);
+                        if (round == 0) {
+                          for (const auto& part : state.parts) bytes += part.bytes.size();
+                        }
+                      }));
+  }
+  std::printf("a snapshot of a busy world of one device: %zu bytes\n", bytes);
+  print_verdict("a snapshot, and its restore", median(both_us), kSnapshotBarUs, " us");
+}
+
+}  // namespace
+
+}  // namespace understudy::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace understudy::benchmarks;
+  const std::string folder = argc > 1 ? argv[1] : SCENARIOS_FOLDER;
+  try {
+    measure_suite(folder);
+    measure_start(folder);
+    measure_snapshots();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "scenarios: %s\n", error.what());
+    return 2;
+  }
+}
