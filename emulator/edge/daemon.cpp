@@ -60,8 +60,7 @@ Daemon::~Daemon() {
   memories_.reset();
   trace_.reset();
   trace_file_.reset();
-  recorder_.reset();
-  recording_file_.reset();
+  recording_.reset();
   finish_capture();
   if (signals_ >= 0) close(signals_);
   if (posted_signal_ >= 0) close(posted_signal_);
@@ -146,14 +145,13 @@ void Daemon::start_capture(const std::string& path) {
 }
 
 void Daemon::start_recording(const Bench& bench, const DaemonOptions& options) {
-  recording_file_ = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
   const RecordingHeader header{.version = options.version,
                                .bench = to_text(bench),
                                .options = world_options(options),
                                .seed = bench.seed,
                                .snapshot = {}};
-  recorder_ = std::make_unique<Recorder>(world_, header,
-                                         [this](std::string_view line) { recording_file_->take(line); });
+  recording_ =
+      std::make_unique<RecordingSpool>(world_, header, options.record_path, options.record_cap_bytes, log_);
 }
 
 void Daemon::start_trace(const DaemonOptions& options) {
@@ -252,7 +250,7 @@ void Daemon::work_on_advance() {
 
 std::string_view Daemon::why_no_restore() const {
   if (advance_done_) return "time is being advanced; expected `restore` after that";
-  if (recorder_) return "a recording is being made, which has one course; expected none";
+  if (recording_) return "a recording is being made, which has one course; expected none";
   if (trace_) return "a trace is being made, which has one course; expected none";
   return {};
 }
@@ -298,6 +296,7 @@ void Daemon::run() {
       port->flush();
     }
     memories_->look(now);
+    if (recording_) recording_->look();
   }
 }
 

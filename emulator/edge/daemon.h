@@ -17,7 +17,7 @@
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/growing_file.h"
-#include "emulator/recording/recorder.h"
+#include "emulator/recording/recording_spool.h"
 #include "emulator/trace/trace.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
@@ -35,7 +35,8 @@ struct DaemonOptions {
   bool watch_signals = true;
   std::string capture_path;  // empty: no capture
   std::string record_path;   // empty: no recording
-  std::string trace_path;    // .csv or .vcd; empty: no trace
+  std::size_t record_cap_bytes = kRecordingCapBytes;
+  std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
   std::string version;  // of the program, for the recording
 };
@@ -105,8 +106,7 @@ class Daemon {
   std::unique_ptr<pty::CaptureFile> capture_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
   std::unique_ptr<NvKeeper> memories_;
-  std::unique_ptr<GrowingFile> recording_file_;
-  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<RecordingSpool> recording_;
   std::unique_ptr<GrowingFile> trace_file_;
   std::unique_ptr<Trace> trace_;
   Pacer pacer_;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "emulator/bench/bench_file.h"
+#include "emulator/world/snapshot_file.h"
 #include "pty/line_observer.h"
 
 namespace understudy::emulator {
@@ -119,6 +120,15 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
     throw fail(std::string("bench: ") + error.what());
   }
   World world(replayed.bench, replayed.header.options, {});
+  if (!replayed.header.snapshot.empty()) {
+    try {
+      restore(world, parse_snapshot(replayed.header.snapshot, bench_hash(replayed.bench)));
+    } catch (const SnapshotError& error) {
+      throw fail(std::string("snapshot: ") + error.what());
+    } catch (const StateError& error) {
+      throw fail(std::string("snapshot: ") + error.what());
+    }
+  }
   if (world_made) world_made(world);
   Speeches speeches(world);
   const auto expect_silence = [&] {

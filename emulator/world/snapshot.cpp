@@ -212,7 +212,7 @@ void restore(World& world, const WorldState& state) {
   parts.demand_end();
 
   // Nothing from here on throws.
-  WorldFields::of(world, [&](auto&... field) { std::tie(field...) = std::move(values); });
+  WorldFields::of(world, [&from = values](auto&... field) { std::tie(field...) = std::move(from); });
   EdgeFields::of(world, [&](auto&... field) { std::tie(field...) = ticks; });
   WorldFields::rearm(world);
   for (std::size_t d = 0; d < machines.size(); ++d) {

@@ -1,11 +1,13 @@
 // A world that everything happens to, and the recording of it.
 #pragma once
 
+#include <memory>
 #include <random>
 #include <string>
 
 #include "emulator/bench/bench_text.h"
 #include "emulator/recording/recorder.h"
+#include "emulator/world/snapshot_file.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator {
@@ -16,9 +18,9 @@ class BusyWorld {
       : random_(seed),
         bench_(parse_bench(two_devices(timing, 19200), "two.yaml", ".")),
         world_(bench_, {}, {}),
-        recorder_(world_,
-                  {.version = "1.2.3", .bench = to_text(bench_), .options = {}, .seed = seed, .snapshot = {}},
-                  [this](std::string_view line) { text_ += line; }) {}
+        header_{.version = "1.2.3", .bench = to_text(bench_), .options = {}, .seed = seed, .snapshot = {}} {
+    begin();
+  }
 
   /// Hosts come, write good and bad frames, in one lump or in pieces, and go; inputs, power, faults,
   /// registers and programs change; time goes on in odd steps.
@@ -30,16 +32,28 @@ class BusyWorld {
     world_.advance_to(world_.now() + std::chrono::seconds(1));
   }
 
+  /// Forgets what was recorded; what comes is another recording, from a snapshot.
+  void begin_again() {
+    header_.snapshot = to_text(save(world_), bench_hash(bench_));
+    recorder_.reset();
+    text_.clear();
+    begin();
+  }
+
   World& world() { return world_; }
   std::uint64_t said() const { return said_; }
   /// The recording, ended.
   std::string finish() {
-    recorder_.finish();
+    recorder_->finish();
     return text_;
   }
   const std::string& text() const { return text_; }
 
  private:
+  void begin() {
+    recorder_ = std::make_unique<Recorder>(world_, header_, [this](std::string_view line) { text_ += line; });
+  }
+
   std::int64_t below(std::int64_t count) {
     return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(count));
   }
@@ -110,7 +124,8 @@ class BusyWorld {
   World world_;
   std::string text_;
   std::uint64_t said_ = 0;
-  Recorder recorder_;
+  RecordingHeader header_;
+  std::unique_ptr<Recorder> recorder_;
 };
 
 }  // namespace understudy::emulator

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "emulator/world/snapshot.h"
 #include "tests/emulator/recording/busy_world.h"
 
 namespace understudy::emulator {
@@ -107,6 +108,36 @@ TEST(Replay, TellsWhatIsMissingWhatIsTooMuchAndWhatComesAtAnotherTime) {
             "expected " + text + "6ms; nothing was said");
   EXPECT_EQ(play(header + request + reply("5333334") + end).result.difference,
             "expected " + text + "5.333334ms; said was " + text + "5.333333ms");
+}
+
+TEST(Replay, ARecordingMayBeginInTheMiddleWithASnapshot) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    BusyWorld busy(seed, seed % 3 == 0 ? "instant" : "wire");
+    busy.play(100);
+    busy.begin_again();
+    busy.play(100);
+    const std::string text = busy.finish();
+    EXPECT_NE(text.find("\"snapshot\""), std::string::npos);
+    std::uint64_t end = 0;
+    const Replayed again = play(text, {}, [&](const World& world) { end = hash(world); });
+    EXPECT_EQ(again.result.verdict, Verdict::same) << again.result.difference;
+    EXPECT_TRUE(again.result.has_end);
+    EXPECT_EQ(end, hash(busy.world()));
+  }
+}
+
+TEST(Replay, ASnapshotThatDoesNotBelongToTheBenchIsRefused) {
+  BusyWorld busy(1);
+  busy.play(20);
+  busy.begin_again();
+  busy.play(20);
+  std::string text = busy.finish();
+  const std::size_t at = text.find("rs485");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 5, "rs486");
+  const std::string why = refusal(text);
+  EXPECT_TRUE(why.starts_with("a.jsonl:1: snapshot: bench: ")) << why;
 }
 
 TEST(Replay, StopsWhereItIsTold) {

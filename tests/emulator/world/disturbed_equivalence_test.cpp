@@ -132,7 +132,23 @@ class RandomEvents {
         break;
       default: break;
     }
+    if (between(0, 9) == 0) fault = {.kind = Fault::Kind::power_cut, .device = device};
+    if (between(0, 2) == 0) fault.trigger = trigger(fault);
     return fault;
+  }
+
+  FaultTrigger trigger(const Fault& fault) {
+    FaultTrigger trigger;
+    const bool lasts = fault.kind != Fault::Kind::slip && between(0, 1) == 0;
+    if (lasts) trigger.lasts = std::chrono::microseconds(between(1, 90'000));
+    switch (between(0, 4)) {
+      case 0: trigger.at = std::chrono::microseconds(between(0, 3'000'000)); break;
+      case 1: trigger.from = std::chrono::microseconds(between(1, 3'000'000)); break;
+      case 2: trigger.when = "time / 1ms % 97 > 60"; break;
+      case 3: trigger.chance = kAlways / 50; break;
+      default: trigger.every = between(1, 3); break;
+    }
+    return trigger;
   }
 
   Bytes frame(int station) {
