@@ -101,7 +101,7 @@ class BenchReader {
     }
     const std::string path = path_in(folder_, field);
     const auto text = read_text_file(path);
-    if (!text) field.fail(path + " cannot be read; expected a listing");
+    if (!text) field.fail(path + " " + text.why + "; expected a listing");
     settings.program = *text;
     settings.program_name = path;
   }
@@ -355,7 +355,7 @@ Bench read_bench(const YamlFields& fields, const std::string& folder) {
 
 Bench load_bench(const std::string& path, const std::string& links) {
   const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: bench: cannot be read; expected a bench file");
+  if (!text) throw FileError(path + ":1: bench: " + text.why + "; expected a bench file");
   return parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
 }
 

@@ -73,7 +73,9 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
+  std::string record;  // a folder
   bool lint = false;
+  bool hash = false;
   std::optional<int> jobs;  // none: one for each core
   std::string shard;        // "1/4"
   std::optional<std::uint64_t> seed;

@@ -88,7 +88,7 @@ std::string course_text(const Json& fault) {
 
 std::string listing_of(const std::string& path) {
   const auto text = read_text_file(path);
-  if (!text) throw UsageError("ctl program: " + path + ": cannot be read; expected a listing");
+  if (!text) throw UsageError("ctl program: " + path + ": " + text.why + "; expected a listing");
   return *text;
 }
 
@@ -201,7 +201,8 @@ void print_status(const Json& status) {
 
 std::string socket_path(const std::string& given) {
   if (!given.empty()) return given;
-  if (const char* from_exec = std::getenv("UNDERSTUDY_CONTROL"); from_exec != nullptr) return from_exec;
+  const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
+  if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // empty is as if unset
   return default_control_path();
 }
 

@@ -134,6 +134,8 @@ int play(const ExecArguments& arguments, const Serving& serving, const std::opti
   for (const auto& port : daemon.ports()) {
     if (serving.group) share_port(port->terminal().path(), *serving.group);
   }
+  std::optional<Lint> lint;
+  if (arguments.serve.lint) lint.emplace(daemon.world());
   std::optional<Child> child;
   std::optional<Companion> companion;
   bool child_is_over = false;
@@ -170,8 +172,6 @@ int play(const ExecArguments& arguments, const Serving& serving, const std::opti
       stop_if_over();
     });
   }
-  std::optional<Lint> lint;
-  if (arguments.serve.lint) lint.emplace(daemon.world());
   daemon.run();
   signals.unwatch(daemon.loop());
   if (lint) print_findings(lint->findings());

@@ -176,7 +176,12 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->add_option("--report", run.report, "Write a page about all of it to this file, as HTML")
         ->check(kNotEmpty);
+    command->add_option("--record", run.record,
+                        "Folder for the recordings of all scenarios [those of failures, below /tmp]")
+        ->check(kNotEmpty);
     command->add_flag("--lint", run.lint, kLintHelp);
+    command->add_flag("--hash", run.hash,
+                      "Print a hash of all that each scenario's devices said and did, for comparison");
     command->add_option("--jobs", run.jobs,
                         "How many are played at a time [one for each core, 8 at least in real time]");
     command->add_option("--shard", run.shard, "I/N: of all scenarios the I-th, and each N-th after it")

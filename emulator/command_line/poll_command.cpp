@@ -14,6 +14,7 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
+#include "emulator/scenario/free_stage.h"
 #include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
@@ -217,6 +218,8 @@ int poll_port(const PollArguments& arguments) {
   for (int round = 0; round < arguments.times || arguments.times == 0; ++round) {
     if (round > 0) std::this_thread::sleep_for(every);
     for (const Item& item : items) {
+      // Whatever was said before, a device needs that silence to know that a frame has ended.
+      std::this_thread::sleep_for(silence_between_frames({.baud = arguments.baud}));
       const bool good =
           item.write ? write_item(context.get(), item) : read_item(context.get(), item, arguments.function);
       const bool is_broadcast = arguments.station == 0 && errno == ETIMEDOUT;  // nobody answers that

@@ -17,9 +17,9 @@ using interpreter::simple2::Line;
 using interpreter::simple2::Lines;
 
 /// Null, and one line on standard error, if it cannot be read.
-std::optional<std::string> content_of(const std::string& file) {
+FileText content_of(const std::string& file) {
   auto text = read_text_file(file);
-  if (!text) std::fprintf(stderr, "%s: cannot be read; expected a file\n", file.c_str());
+  if (!text) std::fprintf(stderr, "%s: %s; expected a file\n", file.c_str(), text.why.c_str());
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "emulator/command_line/serving.h"
 #include "emulator/edge/daemon.h"
 #include "emulator/recording/replay.h"
+#include "emulator/text_file.h"
 #include "emulator/world/snapshot.h"
 
 namespace understudy::emulator {
@@ -24,6 +25,7 @@ int serve_from(const Replayed& replayed, const WorldState& state, const std::str
   DaemonOptions options;
   options.speed.kind = Speed::Kind::manual;
   options.strict_framing = replayed.header.options.strict_framing;
+  options.patience = replayed.header.options.patience;
   options.enforce_settings = replayed.header.options.enforce_settings;
   options.control_path = control;
   Daemon daemon(bench, options, log_line);
@@ -44,6 +46,9 @@ int replay_recording(const ReplayArguments& arguments) {
     until = parse_duration(arguments.until);
     if (!until)
       throw UsageError("--until: '" + arguments.until + "' is no duration; expected one such as 2.5s");
+  }
+  if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
+    throw RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
   std::ifstream file(arguments.recording, std::ios::binary);
   std::optional<WorldState> state;

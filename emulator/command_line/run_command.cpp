@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cerrno>
+#include <cinttypes>
 #include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <thread>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/run_recordings.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
 #include "emulator/one_line.h"
@@ -95,9 +97,12 @@ class ResultFile {
   std::ofstream file_;
 };
 
-void print(const std::vector<ScenarioResult>& results) {
+void print(const std::vector<ScenarioResult>& results, bool with_hash) {
   for (const ScenarioResult& result : results) {
     std::printf("%s\n", verdict_line(result).c_str());
+    if (with_hash && result.verdict != ScenarioResult::Verdict::not_reached) {
+      std::printf("hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
+    }
     for (const std::string& line : failure_lines(result)) std::printf("      %s\n", line.c_str());
   }
   std::fflush(stdout);
@@ -107,13 +112,17 @@ void print(const std::vector<ScenarioResult>& results) {
 
 int run_scenarios(const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
+  if (arguments.hash && arguments.real_time) {
+    throw UsageError("--hash: in real time no two runs are the same; expected it without --real-time");
+  }
   auto loaded = load_all(arguments);
   if (!loaded) return kExitBadInput;
   const std::vector<Scenario> scenarios = choose_some(std::move(*loaded), arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
+  RunRecordings recordings(arguments.record, arguments.real_time, arguments.version);
   std::vector<ScenarioResult> all;
-  PlayOptions options;
+  PlayOptions options{.with_hash = arguments.hash};
   if (arguments.lint) {
     options.onlookers.push_back([](World& world) { return std::make_unique<Lint>(world); });
   }
@@ -121,8 +130,14 @@ int run_scenarios(const RunArguments& arguments) {
   if (report.is_wanted()) {
     options.onlookers.push_back([](World& world) { return std::make_unique<Camera>(world); });
   }
-  play_all(scenarios, options, jobs, [&](const std::vector<ScenarioResult>& results) {
-    print(results);
+  const auto options_for = [&](const Scenario& scenario) {
+    PlayOptions of_one = options;
+    of_one.onlookers.push_back([&](World& world) { return recordings.record(world, scenario); });
+    return of_one;
+  };
+  play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
+    for (ScenarioResult& result : results) recordings.settle(result);
+    print(results, arguments.hash);
     all.insert(all.end(), results.begin(), results.end());
   });
   std::printf("%s\n", summary_line(all).c_str());

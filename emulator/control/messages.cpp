@@ -8,7 +8,9 @@
 #include "emulator/control/message_fields.h"
 #include "emulator/control/verbs.h"
 #include "emulator/edge/daemon.h"
+#include "emulator/one_line.h"
 #include "emulator/register_map/access.h"
+#include "emulator/strict_json.h"
 
 namespace understudy::emulator {
 
@@ -107,7 +109,9 @@ constexpr std::array<Verb, 13> kVerbs{{{"status", status_message},
 void handle_message(Daemon& daemon, const std::string& line,
                     const std::function<void(const std::string&)>& reply) {
   try {
-    const Json message = Json::parse(line);
+    const Json message = parse_strict_json<Json>(line, [](const std::string& key) {
+      return MessageError(emulator::quoted(key) + " is there twice; expected it once");
+    });
     if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
       throw MessageError("expected an object with a word under \"do\"");
     }
@@ -122,7 +126,7 @@ void handle_message(Daemon& daemon, const std::string& line,
     throw MessageError("'" + verb + "' is nothing to do; expected one of " + names);
   } catch (const Json::exception&) {
     reply(R"({"ok":false,"error":"the message is not JSON; expected one object on one line"})");
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     // Names come from outside and may be no UTF-8.
     reply(Json{{"ok", false}, {"error", error.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace));
   }

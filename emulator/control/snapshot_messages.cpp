@@ -44,7 +44,7 @@ Json restore_message(Daemon& daemon, const Json& message) {
     throw MessageError(std::string(why));
   }
   const auto text = read_text_file(path);
-  if (!text) throw MessageError(path + ": file: cannot be read; expected a snapshot");
+  if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");
   daemon.catch_up();
   try {
     daemon.restore(parse_snapshot(*text, daemon.bench_hash()));

@@ -32,7 +32,7 @@ SimTime patience_at(const Speed& speed) {
 
 WorldOptions world_options(const DaemonOptions& options) {
   return {.strict_framing = options.strict_framing,
-          .patience = patience_at(options.speed),
+          .patience = options.patience.value_or(patience_at(options.speed)),
           .enforce_settings = options.enforce_settings};
 }
 
@@ -98,13 +98,28 @@ void Daemon::watch_posts() {
   });
 }
 
-void Daemon::post(std::function<void()> act) {
+bool Daemon::post(std::function<void()> act) {
   {
     const std::lock_guard lock(posted_mutex_);
+    if (is_over_) return false;
     posted_.push_back(std::move(act));
   }
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t put = write(posted_signal_, &one, sizeof one);
+  return true;
+}
+
+bool Daemon::is_over() {
+  const std::lock_guard lock(posted_mutex_);
+  return is_over_;
+}
+
+/// Whoever waits for what was posted learns by its end that it is never done.
+void Daemon::end_posts() {
+  std::vector<std::function<void()>> dropped;
+  const std::lock_guard lock(posted_mutex_);
+  is_over_ = true;
+  dropped.swap(posted_);
 }
 
 const std::string& Daemon::control_path() const {
@@ -200,6 +215,7 @@ void Daemon::work_towards(SimTime target) {
 }
 
 void Daemon::pause() {
+  if (advance_done_) advance_target_ = world_.now();  // it ends here, and says so
   judge_stall();
   pacer_.pause(wall_now());
   catch_up();                                 // to the moment at which the clock stopped,
@@ -281,6 +297,10 @@ void Daemon::wait() {
 }
 
 void Daemon::run() {
+  struct Leaving {
+    ~Leaving() { daemon.end_posts(); }
+    Daemon& daemon;
+  } const leaving{*this};
   pacer_.moved_to(world_.now(), wall_now());  // opening the ports took no simulated time
   while (!stopping_) {
     wait();
@@ -298,6 +318,8 @@ void Daemon::run() {
     memories_->look(now);
     if (recording_) recording_->look();
   }
+  // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something did.
+  if (!advance_done_) catch_up();
 }
 
 }  // namespace understudy::emulator

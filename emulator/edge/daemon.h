@@ -29,6 +29,7 @@ namespace understudy::emulator {
 struct DaemonOptions {
   Speed speed;
   bool strict_framing = false;
+  std::optional<SimTime> patience{};  // with half a frame; without it, as the speed has it
   bool enforce_settings = true;
   bool has_control = true;   // a control socket
   std::string control_path;  // empty: the default one, if it is free
@@ -54,8 +55,11 @@ class Daemon {
   /// Ends run() soon. On the thread that runs it.
   void stop() { stopping_ = true; }
   /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread. It
-  /// may put the world into another state; simulated time goes on from there.
-  void post(std::function<void()> act);
+  /// may put the world into another state; simulated time goes on from there. Once run() has left, however it
+  /// did, nothing is called any more: what still waits is dropped, and this returns false.
+  bool post(std::function<void()> act);
+  /// Whether run() has left.
+  bool is_over();
   /// For what else is to be waited for.
   EventLoop& loop() { return loop_; }
 
@@ -65,6 +69,7 @@ class Daemon {
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
   const std::string& control_path() const;
 
+  /// An advance that is under way ends here.
   void pause();
   /// False while an advance is under way.
   bool resume();
@@ -86,6 +91,7 @@ class Daemon {
  private:
   void watch_signals();
   void watch_posts();
+  void end_posts();
   void open_control(const std::string& asked_path);
   void make_ports(const Bench& bench);
   void start_capture(const std::string& path);
@@ -117,6 +123,7 @@ class Daemon {
   int posted_signal_ = -1;  // an eventfd
   std::mutex posted_mutex_;
   std::vector<std::function<void()>> posted_;
+  bool is_over_ = false;  // under the same mutex
   bool stopping_ = false;
   std::optional<WallTime> planned_;  // for when the loop meant to wake; judged once
 

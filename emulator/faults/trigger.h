@@ -44,12 +44,11 @@ struct FaultCourse {
   std::int64_t seen = 0;     // frames of its place
   std::int64_t matched = 0;  // occasions that matched
   std::int64_t hits = 0;
-  SimTime until{-1};       // what a hit lasts to
-  SimTime looked_at{-1};   // of time alone: the moment
-  bool was_met = false;    // time and condition, when looked at last
-  bool in_force = false;   // of machines and devices
-  bool is_news = false;    // it has just begun or ended, and is still to be carried out
-  bool has_acted = false;  // a power cut found power to cut
+  SimTime until{-1};      // what a hit lasts to
+  SimTime looked_at{-1};  // of time alone: the moment
+  bool was_met = false;   // time and condition, when looked at last
+  bool in_force = false;  // of machines and devices
+  bool is_news = false;   // it has just begun or ended, and is still to be carried out
   // Of a line's requests: the one judged last, which each station asks about.
   std::uint64_t judged_character = 0;
   bool was_hit = false;

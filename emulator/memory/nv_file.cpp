@@ -12,7 +12,7 @@ std::optional<NvImage> read_nv_file(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error) && !error) return std::nullopt;
   const auto text = read_text_file(path);
-  if (!text) throw NvError(path + ": file: cannot be read; expected an NV image");
+  if (!text) throw NvError(path + ": file: " + text.why + "; expected an NV image");
   try {
     return parse_nv_image(*text);
   } catch (const NvError& wrong) {

@@ -5,6 +5,7 @@
 
 #include "emulator/bench/names.h"
 #include "emulator/one_line.h"
+#include "emulator/strict_json.h"
 
 namespace understudy::emulator {
 
@@ -60,7 +61,9 @@ std::string hex_of(const std::vector<std::uint8_t>& bytes) {
 
 Json parse_line(std::string_view line) {
   try {
-    Json parsed = Json::parse(line);
+    Json parsed = parse_strict_json<Json>(line, [](const std::string& key) {
+      return RecordingError(emulator::quoted(key) + ": is there twice; expected it once");
+    });
     if (!parsed.is_object()) throw RecordingError("line: is no object; expected one");
     return parsed;
   } catch (const Json::exception&) {

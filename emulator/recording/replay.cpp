@@ -163,8 +163,12 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
       throw fail(error.what());
     }
   }
-  const bool is_stopped = until && !result.has_end && result.difference.empty();
-  if (is_stopped) world.advance_to(*until);
+  if (result.has_end && std::getline(recording, line)) {
+    ++line_number;
+    throw fail("line: stands behind the end; expected nothing more");
+  }
+  const bool is_stopped = until && result.difference.empty();
+  if (is_stopped && !result.has_end) world.advance_to(*until);
   result.reached = world.now();
   if (!result.difference.empty()) {
     result.verdict = ReplayResult::Verdict::different;

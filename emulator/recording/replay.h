@@ -14,7 +14,7 @@ struct ReplayResult {
   enum class Verdict : std::uint8_t {
     same,       // every byte, at its time
     different,  // `difference` tells the first
-    stopped,    // before its end, as asked
+    stopped,    // as asked, or at its end if that comes first
   } verdict = Verdict::same;
   std::string difference;  // one line
   SimTime reached{0};

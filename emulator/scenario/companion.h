@@ -24,8 +24,9 @@ Scenario load_companion(const std::string& path, const Bench& bench);
 
 class Companion {
  public:
-  /// Begins once the daemon runs, which it must do until `over` was called, on the daemon's thread. The
-  /// scenario must outlive it.
+  /// Begins once the daemon runs, which it does until `over` was called, on the daemon's thread. Where it
+  /// ends before, the play was given up. The scenario must outlive it, and nobody may touch the world before
+  /// this is gone.
   Companion(const Scenario& scenario, Daemon& daemon, std::function<void()> over);
   ~Companion() { thread_.join(); }
   Companion(const Companion&) = delete;

@@ -37,6 +37,7 @@ class FreeStage::Host final : public pty::LineObserver {
   /// When the last byte of whatever was on the line is over.
   SimTime quiet_since() const { return quiet_since_; }
   void keep_busy(SimTime until) { quiet_since_ = std::max(quiet_since_, until); }
+  void set_quiet_since(SimTime since) { quiet_since_ = since; }
   /// Simulated time was set back: what was said later was never said.
   void forget_after(SimTime now) { quiet_since_ = now == SimTime{0} ? kEver : std::min(quiet_since_, now); }
 
@@ -89,6 +90,16 @@ void FreeStage::with_world(const std::function<void(World&)>& act) {
   // It was put into another state: what was said and written meanwhile is not part of its past.
   for (const auto& host : hosts_) host->forget_after(world_.now());
   tick_of_last_write_ = 0;
+}
+
+std::vector<SimTime> FreeStage::quiet_since() {
+  std::vector<SimTime> since;
+  for (const auto& host : hosts_) since.push_back(host->quiet_since());
+  return since;
+}
+
+void FreeStage::set_quiet_since(const std::vector<SimTime>& since) {
+  for (std::size_t i = 0; i < hosts_.size() && i < since.size(); ++i) hosts_[i]->set_quiet_since(since[i]);
 }
 
 bool FreeStage::run_until(const std::function<bool(World&)>& is_there, SimTime deadline) {

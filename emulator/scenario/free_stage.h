@@ -40,6 +40,8 @@ class FreeStage final : public Stage {
   void advance(SimTime by) override { world_.advance_to(world_.now() + by); }
   SimTime now() override { return world_.now(); }
   Tick tick_of_last_write() override { return tick_of_last_write_; }
+  std::vector<SimTime> quiet_since() override;
+  void set_quiet_since(const std::vector<SimTime>& since) override;
 
  private:
   class Host;

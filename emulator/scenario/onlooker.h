@@ -18,6 +18,7 @@ class Onlooker {
   /// The world was put into another state, after so many steps: its time may be an earlier one, and its lines
   /// are hearing something else.
   virtual void world_restored(std::size_t steps) = 0;
+  virtual void step_over() {}
   /// The play is over. What was seen goes into its result.
   virtual void finish(ScenarioResult& result) = 0;
 };

@@ -101,9 +101,13 @@ void read_program(StepsReader& reader, const YamlFields& step, const YamlFields&
     // The path of a listing, or the listing itself if it has several lines.
     const bool is_inline = field.text().find('\n') != std::string::npos;
     program.file = is_inline ? field.file() : field.path();
-    const auto text = is_inline ? field.text() : read_text_file(program.file);
-    if (!text) field.fail(program.file + " cannot be read; expected a listing");
-    program.text = *text;
+    if (is_inline) {
+      program.text = field.text();
+    } else {
+      const auto text = read_text_file(program.file);
+      if (!text) field.fail(program.file + " " + text.why + "; expected a listing");
+      program.text = *text;
+    }
     reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
     reader.add(step, "program " + name + (is_inline ? "" : " " + field.text()), std::move(program));
   }

@@ -37,6 +37,31 @@ bool names_peaks(const Steps& steps) {
                      [](const Step& step) { return std::visit(NamesPeaks{}, step.what); });
 }
 
+/// Whether a step lets time go on, or puts it back.
+struct MovesTime {
+  bool operator()(const WriteStep&) const { return true; }
+  bool operator()(const ExpectStep&) const { return true; }
+  bool operator()(const SendStep&) const { return true; }
+  bool operator()(const WaitStep&) const { return true; }
+  bool operator()(const AdvanceStep&) const { return true; }
+  bool operator()(const RestoreStep&) const { return true; }
+  bool operator()(const auto&) const { return false; }
+};
+bool moves_time(const Step& step) { return std::visit(MovesTime{}, step.what); }
+
+/// What is waited for, in these steps or a branch of them, before anything else moves time.
+void add_awaited(std::span<const Step> steps, std::vector<std::string>& conditions) {
+  for (const Step& step : steps) {
+    if (const auto* const wait = std::get_if<WaitStep>(&step.what); wait != nullptr && !wait->poll) {
+      conditions.push_back(wait->until);
+    }
+    if (const auto* const fork = std::get_if<ForkStep>(&step.what)) {
+      for (const ForkStep::Branch& branch : fork->branches) add_awaited(branch.steps, conditions);
+    }
+    if (moves_time(step)) return;
+  }
+}
+
 }  // namespace
 
 Performance::Eyes::Eyes(World& of, bool with_hash)
@@ -65,20 +90,25 @@ Performance::~Performance() {
   stage_->with_world([&](World& world) {
     world.remove_watcher(eyes_->peaks);
     world.remove_watcher(eyes_->spans);
-    if (eyes_->history) world.remove_watcher(*eyes_->history);
+    for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
     eyes_.reset();
   });
 }
 
-std::optional<Failure> Performance::play(const Step& step, const Step* next) {
+std::optional<Failure> Performance::play(std::span<const Step> steps) {
+  const Step& step = steps.front();
   step_ = &step;
   try {
     const bool may_write =
         std::holds_alternative<WriteStep>(step.what) || std::holds_alternative<SendStep>(step.what);
-    const WaitStep* const wait = next == nullptr ? nullptr : std::get_if<WaitStep>(&next->what);
-    if (may_write && wait != nullptr && !wait->poll) begin_history(wait->until);
+    if (may_write) {
+      std::vector<std::string> awaited;
+      add_awaited(steps.subspan(1), awaited);
+      end_histories();
+      for (const std::string& condition : awaited) begin_history(condition);
+    }
     std::visit([this](const auto& what) { perform(what); }, step.what);
-    if (!may_write) end_history();
+    if (!may_write && moves_time(step)) end_histories();
     throw_if_broken();
     return std::nullopt;
   } catch (const StepError& error) {
@@ -125,10 +155,14 @@ Performance::Checkpoint Performance::save() {
   Checkpoint checkpoint;
   checkpoint.faults = faults_;
   checkpoint.last_write = last_write();
+  checkpoint.quiet_since = stage_->quiet_since();
   stage_->with_world([&](World& world) {
     checkpoint.world = emulator::save(world);
     checkpoint.spans = eyes_->spans.save();
     checkpoint.peaks = eyes_->peaks.save();
+    for (const auto& [condition, history] : eyes_->histories) {
+      checkpoint.histories[condition] = history.save();
+    }
     if (eyes_->hash) checkpoint.hash = eyes_->hash->value();
   });
   return checkpoint;
@@ -141,11 +175,20 @@ void Performance::restore(const Checkpoint& checkpoint) {
     emulator::restore(world, checkpoint.world);
     world.remove_watcher(eyes_->spans);
     if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
-    eyes_->spans.restore(checkpoint.spans);
+    std::vector<SpanWatch::Span> spans = checkpoint.spans;
+    for (SpanWatch::Span& span : spans) {
+      // What its names stand for is known to the probes that found them, and those were another
+      // performance's.
+      span.condition = parse_expression(span.condition.text, eyes_->probes);
+    }
+    eyes_->spans.restore(spans);
     eyes_->peaks.restore(checkpoint.peaks);
     eyes_->frames.begin_anew();
     if (eyes_->hash) eyes_->hash->restore(checkpoint.hash);
   });
+  stage_->set_quiet_since(checkpoint.quiet_since);
+  end_histories();
+  for (const auto& [condition, past] : checkpoint.histories) begin_history(condition, past);
 }
 
 std::uint64_t Performance::outcome_hash() {

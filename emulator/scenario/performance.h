@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +45,8 @@ class Performance {
     Peaks::State peaks;
     std::vector<std::pair<std::string, std::size_t>> faults;
     Tick last_write = 0;
+    std::map<std::string, ConditionHistory::State> histories;
+    std::vector<SimTime> quiet_since;  // as Stage has it
     std::uint64_t hash = 0;
   };
 
@@ -52,9 +56,9 @@ class Performance {
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
 
-  /// Plays a step that is neither a snapshot, nor a restore, nor a fork. `next` is the step after it, null if
-  /// it is the last one.
-  std::optional<Failure> play(const Step& step, const Step* next);
+  /// Plays the first one of `steps`, which is neither a snapshot, nor a restore, nor a fork. Those after it
+  /// tell what will be waited for.
+  std::optional<Failure> play(std::span<const Step> steps);
 
   Checkpoint save();
   void restore(const Checkpoint& checkpoint);
@@ -74,7 +78,7 @@ class Performance {
     SpanWatch spans;
     FrameLog frames;
     std::unique_ptr<OutcomeHash> hash;
-    std::unique_ptr<ConditionHistory> history;  // for the `wait` that follows a write
+    std::map<std::string, ConditionHistory> histories;  // by the condition that a `wait` after a write has
   };
   struct Place {
     std::size_t line = 0;
@@ -103,9 +107,11 @@ class Performance {
   Tick poll_for(const WaitStep& step);
   /// Up to that time, or to the tick at which a span is broken.
   void pass_time(SimTime until);
+  /// The moment so long after this one. StepError where time has ended by then.
+  SimTime moment_in(SimTime duration);
   Tick last_write();
-  void begin_history(const std::string& condition);
-  void end_history();
+  void begin_history(const std::string& condition, const ConditionHistory::State& past = {});
+  void end_histories();
 
   // performance_outside.cpp: what is done to the bench
   void perform(const InputStep& step);

@@ -147,6 +147,7 @@ void Performance::perform(const ExpectStep& step) {
 
 void Performance::perform(const SendStep& step) {
   const bool wants_bytes = step.reply && !step.reply->empty();
+  moment_in(step.within);  // there is such a moment
   const std::size_t wanted = wants_bytes ? step.reply->size() : SIZE_MAX;
   const std::vector<std::uint8_t> reply = stage_->exchange(step.line, step.bytes, wanted, step.within);
   if (!step.reply || reply == *step.reply) return;

@@ -43,7 +43,15 @@ void Performance::pass_time(SimTime until) {
   }
 }
 
-void Performance::perform(const AdvanceStep& step) { pass_time(stage_->now() + step.by); }
+SimTime Performance::moment_in(SimTime duration) {
+  const SimTime rest = std::max(kHorizon - stage_->now(), SimTime{0});
+  if (duration <= rest) return stage_->now() + duration;
+  throw StepError(format_duration(duration) +
+                  " from now on is beyond the end of simulated time; expected at most " +
+                  format_duration(rest));
+}
+
+void Performance::perform(const AdvanceStep& step) { pass_time(moment_in(step.by)); }
 
 // --- waiting -----------------------------------------------------------------------------------
 
@@ -54,19 +62,21 @@ Tick Performance::last_write() {
 }
 
 /// What comes true while the reply to a write is still on the line has come true after that write.
-void Performance::begin_history(const std::string& condition) {
-  end_history();
+void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
   stage_->with_world([&](World& world) {
-    eyes_->history =
-        std::make_unique<ConditionHistory>(parse_expression(condition, eyes_->probes), eyes_->probes);
-    world.add_watcher(*eyes_->history);
+    const auto [history, is_new] =
+        eyes_->histories.try_emplace(condition, parse_expression(condition, eyes_->probes), eyes_->probes);
+    if (!is_new) return;
+    history->second.restore(past);
+    world.add_watcher(history->second);
   });
 }
 
-void Performance::end_history() {
+void Performance::end_histories() {
+  if (eyes_->histories.empty()) return;
   stage_->with_world([&](World& world) {
-    if (eyes_->history) world.remove_watcher(*eyes_->history);
-    eyes_->history.reset();
+    for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
+    eyes_->histories.clear();
   });
 }
 
@@ -82,12 +92,15 @@ void Performance::perform(const WaitStep& step) {
 }
 
 Tick Performance::wait_for(const WaitStep& step) {
+  const SimTime deadline = moment_in(step.within);
   const Tick earliest = last_write();
   std::optional<Tick> came_true;
   Expression condition;
   stage_->with_world([&](World&) {
     condition = parse_expression(step.until, eyes_->probes);
-    if (eyes_->history) came_true = eyes_->history->first_from(earliest);
+    if (const auto history = eyes_->histories.find(step.until); history != eyes_->histories.end()) {
+      came_true = history->second.first_from(earliest);
+    }
   });
   if (came_true) return *came_true;
   std::optional<std::string> no_result;
@@ -99,7 +112,7 @@ Tick Performance::wait_for(const WaitStep& step) {
       return true;
     }
   };
-  const bool is_there = stage_->run_until(is_over, stage_->now() + step.within);
+  const bool is_there = stage_->run_until(is_over, deadline);
   throw_if_broken();
   if (no_result) throw StepError(*no_result);
   if (is_there) return std::max(tick_at(stage_->now()), earliest);
@@ -115,9 +128,9 @@ Tick Performance::poll_for(const WaitStep& step) {
   stage_->with_world([&](World& world) { known = world.known(); });
   PolledRegisters registers(known);
   const Expression condition = parse_expression(step.until, registers);
-  const SimTime begin = stage_->now();
-  for (SimTime round = begin;; round = std::max(round + *step.poll, stage_->now())) {
-    if (round >= begin + step.within) break;
+  const SimTime deadline = moment_in(step.within);
+  for (SimTime round = stage_->now();; round = std::max(round + *step.poll, stage_->now())) {
+    if (round >= deadline) break;
     pass_time(round);
     registers.values.clear();
     std::vector<bool> low_word_first;

@@ -89,23 +89,37 @@ RealStage::~RealStage() {
 }
 
 void RealStage::with_world(const std::function<void(World&)>& act) {
-  std::promise<void> done;
-  daemon_.post([&] {
+  const auto act_now = [&] {
     World& world = daemon_.world();
     const SimTime before = world.now();
+    act(world);
+    if (world.now() < before) writes_->begin_anew();
+  };
+  // What is dropped unused breaks its promise.
+  auto done = std::make_shared<std::promise<void>>();
+  std::future<void> is_done = done->get_future();
+  bool was_dropped = !daemon_.post([&act_now, done = std::move(done)] {
     try {
-      act(world);
-      if (world.now() < before) writes_->begin_anew();
-      done.set_value();
+      act_now();
+      done->set_value();
     } catch (...) {
-      done.set_exception(std::current_exception());
+      done->set_exception(std::current_exception());
     }
   });
-  done.get_future().get();
+  if (!was_dropped) {
+    try {
+      is_done.get();
+    } catch (const std::future_error&) {
+      was_dropped = true;
+    }
+  }
+  // Nobody else runs the world any more. What looks at it is still to be taken away.
+  if (was_dropped) act_now();
 }
 
 void RealStage::throw_if_given_up() const {
-  if (options_.given_up != nullptr && *options_.given_up) throw StageGivenUp();
+  const bool is_given_up = options_.given_up != nullptr && *options_.given_up;
+  if (is_given_up || daemon_.is_over()) throw StageGivenUp();
 }
 
 std::optional<WallTime> RealStage::wall_time_until(SimTime time) {

@@ -27,13 +27,15 @@ struct RealStageOptions {
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
   /// False: the hosts on its lines are others, and it has none of its own.
   bool has_hosts = true;
-  /// Once it is true, whatever waits for time to pass throws StageGivenUp. Null: nobody gives up.
+  /// Once it is true, whatever waits for time to pass throws StageGivenUp; so it does where the daemon has
+  /// ended, as time stands from then on. Null: nobody gives up.
   const std::atomic<bool>* given_up = nullptr;
 };
 
 class RealStage final : public Stage {
  public:
-  /// Another thread runs the daemon, as long as this lives. Throws pty::PortError.
+  /// Another thread runs the daemon. Once that has ended, however it did, it must leave the world alone as
+  /// long as this lives. Throws pty::PortError.
   RealStage(Daemon& daemon, RealStageOptions options);
   /// The same with a daemon of its own, which has been started.
   RealStage(std::unique_ptr<DaemonThread> thread, RealStageOptions options);

@@ -42,12 +42,13 @@ struct ScenarioResult {
   } verdict = Verdict::passed;
   std::string name{};  // "a move takes its time", a branch "a move takes its time / with a stall"
   std::string file{};
-  std::vector<StepResult> steps{};   // the last one is that which failed; of a branch its own
-  std::optional<Failure> failure{};  // if it failed
-  SimTime simulated{0};              // how long it was played; of a branch, from its fork on
-  std::uint64_t outcome_hash = 0;    // of all output, if that was asked for (outcome_hash.h)
+  std::vector<StepResult> steps{};           // the last one is that which failed; of a branch its own
+  std::optional<Failure> failure{};          // if it failed
+  SimTime simulated{0};                      // how long it was played; of a branch, from its fork on
+  std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
   std::shared_ptr<const Footage> footage{};  // of a report, if one was asked for
   std::vector<std::string> manners{};        // what a lint has found, if one was asked for; single lines
+  std::string recording{};                   // its path, if one was made
 };
 
 }  // namespace understudy::emulator

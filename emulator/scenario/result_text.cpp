@@ -56,6 +56,7 @@ std::vector<std::string> failure_lines(const ScenarioResult& result) {
   for (const std::string& frame : failure.frames) add("    " + frame);
   if (!failure.state.empty()) add("  the state at " + format_duration(failure.at) + ":");
   for (const std::string& state : failure.state) add("    " + state);
+  if (!result.recording.empty()) add("to run this again: understudy replay " + result.recording);
   return lines;
 }
 

@@ -1,6 +1,7 @@
 #include "emulator/scenario/runner.h"
 
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -32,6 +33,9 @@ class Onlookers {
 
   void world_restored(std::size_t steps) {
     tell([&](Onlooker& onlooker) { onlooker.world_restored(steps); });
+  }
+  void step_over() {
+    tell([](Onlooker& onlooker) { onlooker.step_over(); });
   }
   void finish(ScenarioResult& result) {
     tell([&](Onlooker& onlooker) { onlooker.finish(result); });
@@ -90,12 +94,13 @@ class Runner {
       } else if (fork != nullptr) {
         forks.push_back({.step = fork, .begin = save(), .known = known});
       } else {
-        result.failure = performance.play(step, i + 1 < steps.size() ? &steps[i + 1] : nullptr);
+        result.failure = performance.play(std::span(steps).subspan(i));
       }
       played.end = performance.now();
       played.has_failed = result.failure.has_value();
       const bool is_restored = std::holds_alternative<RestoreStep>(step.what);
       if (!is_restored) result.simulated += played.end - played.begin;
+      onlookers.step_over();
     }
     if (result.failure) result.verdict = ScenarioResult::Verdict::failed;
     if (options_.with_hash) result.outcome_hash = performance.outcome_hash();

@@ -215,13 +215,13 @@ std::vector<Scenario> parse_scenarios(const std::string& text, const std::string
 
 std::vector<Scenario> load_scenarios(const std::string& path) {
   const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: scenario: cannot be read; expected a scenario file");
+  if (!text) throw FileError(path + ":1: scenario: " + text.why + "; expected a scenario file");
   return parse_scenarios(*text, path);
 }
 
 FileKind kind_of_file(const std::string& path) {
   const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: file: cannot be read; expected a bench or a scenario");
+  if (!text) throw FileError(path + ":1: file: " + text.why + "; expected a bench or a scenario");
   const YamlFields root =
       YamlFields::parse(*text, path, "file", "a bench (`lines:`) or a scenario (`bench:` and `steps:`)");
   if (!root.has("steps"))

@@ -84,7 +84,7 @@ void StepsReader::read_included(const YamlFields& field) {
   auto it = file_.included.find(path);
   if (it == file_.included.end()) {
     const auto text = read_text_file(path);
-    if (!text) field.fail(field.path() + " cannot be read; expected a file of steps");
+    if (!text) field.fail(field.path() + " " + text.why + "; expected a file of steps");
     const YamlFields root = YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
     root.demand_keys(kIncludedKeys);
     root.at("understudy").integer(kVersionForm);

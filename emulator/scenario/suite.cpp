@@ -20,11 +20,11 @@ class Board {
  public:
   explicit Board(std::span<const Scenario> scenarios) : scenarios_(scenarios), entries_(scenarios.size()) {}
 
-  void work(const PlayOptions& options) {
+  void work(const OptionsFor& options_for) {
     while (const auto number = take()) {
       Entry entry;
       try {
-        entry.results = play(scenarios_[*number], options);
+        entry.results = play(scenarios_[*number], options_for(scenarios_[*number]));
       } catch (...) {
         entry.error = std::current_exception();
       }
@@ -95,13 +95,13 @@ std::vector<Scenario> choose(std::vector<Scenario> scenarios, const std::string&
   return chosen;
 }
 
-void play_all(std::span<const Scenario> scenarios, const PlayOptions& options, int jobs,
+void play_all(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
               const std::function<void(const std::vector<ScenarioResult>&)>& tell) {
   Board board(scenarios);
   std::vector<std::jthread> threads;
   const std::size_t count = std::min(static_cast<std::size_t>(std::max(jobs, 1)), scenarios.size());
   const auto stop_at_end = [&board](void*) { board.stop(); };
-  for (std::size_t i = 0; i < count; ++i) threads.emplace_back([&] { board.work(options); });
+  for (std::size_t i = 0; i < count; ++i) threads.emplace_back([&] { board.work(options_for); });
   // Also when something is thrown the threads are not left to play on.
   const std::unique_ptr<void, decltype(stop_at_end)> guard(&board, stop_at_end);
   for (std::size_t i = 0; i < scenarios.size(); ++i) tell(board.results_of(i));

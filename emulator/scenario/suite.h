@@ -25,9 +25,12 @@ std::optional<Shard> parse_shard(std::string_view text);
 /// order stays as it is.
 std::vector<Scenario> choose(std::vector<Scenario> scenarios, const std::string& pattern, Shard shard);
 
+/// How a scenario is to be played. It is asked on the threads that play.
+using OptionsFor = std::function<PlayOptions(const Scenario&)>;
+
 /// Plays all on `jobs` threads. `tell` gets the results of each scenario, in their order, on the thread that
 /// calls. What play() throws comes out here, after the results of all scenarios before that one.
-void play_all(std::span<const Scenario> scenarios, const PlayOptions& options, int jobs,
+void play_all(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
               const std::function<void(const std::vector<ScenarioResult>&)>& tell);
 
 }  // namespace understudy::emulator

@@ -28,20 +28,21 @@ bool SpanWatch::close(const std::string& name) {
 }
 
 void ConditionHistory::on_tick(Tick tick) {
-  last_ = tick;
+  state_.last = tick;
   bool holds = false;
   try {
     holds = is_true(condition_, values_);
   } catch (const std::runtime_error&) {  // whoever waits for it will be told
   }
-  if (holds != (changes_.size() % 2 != 0)) changes_.push_back(tick);
+  if (holds != (state_.changes.size() % 2 != 0)) state_.changes.push_back(tick);
 }
 
 std::optional<Tick> ConditionHistory::first_from(Tick begin) const {
-  for (std::size_t i = 0; i < changes_.size(); i += 2) {
-    const bool is_last = i + 1 == changes_.size();
-    const Tick first = std::max(changes_[i], begin);
-    if (first < (is_last ? last_ + 1 : changes_[i + 1])) return first;
+  const std::vector<Tick>& changes = state_.changes;
+  for (std::size_t i = 0; i < changes.size(); i += 2) {
+    const bool is_last = i + 1 == changes.size();
+    const Tick first = std::max(changes[i], begin);
+    if (first < (is_last ? state_.last + 1 : changes[i + 1])) return first;
   }
   return std::nullopt;
 }

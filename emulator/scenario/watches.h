@@ -53,6 +53,12 @@ class SpanWatch final : public TickWatcher {
 /// At which ticks a condition held, from when it is added to the world.
 class ConditionHistory final : public TickWatcher {
  public:
+  /// What it has seen so far, as a value.
+  struct State {
+    std::vector<Tick> changes;  // it holds from the first on, not from the second on, and so forth
+    Tick last = 0;
+  };
+
   /// The source must outlive it.
   ConditionHistory(Expression condition, const ValueSource& values)
       : condition_(std::move(condition)), values_(values) {}
@@ -61,11 +67,13 @@ class ConditionHistory final : public TickWatcher {
   /// The first tick from `begin` on at which it held.
   std::optional<Tick> first_from(Tick begin) const;
 
+  const State& save() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
  private:
   Expression condition_;
   const ValueSource& values_;
-  std::vector<Tick> changes_;  // it holds from the first on, not from the second on, and so forth
-  Tick last_ = 0;
+  State state_;
 };
 
 }  // namespace understudy::emulator

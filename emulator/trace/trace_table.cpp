@@ -72,7 +72,7 @@ TraceTable read_trace(const std::string& path) {
     throw FileError(path + ": is no trace; expected FILE.csv or FILE.vcd");
   }
   const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ": cannot be read; expected a trace");
+  if (!text) throw FileError(path + ": " + text.why + "; expected a trace");
   TraceTable table = is_csv ? parse_csv_trace(*text, path) : parse_vcd_trace(*text, path);
   if (table.ticks.empty()) throw FileError(path + ": has no rows; expected one at least");
   return table;

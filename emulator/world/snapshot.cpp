@@ -21,7 +21,7 @@ auto values_of(const World& world) {
 }
 using WorldValues = decltype(values_of(std::declval<const World&>()));
 
-enum : std::size_t { kSentPulses, kInputs, kFaults, kNextFault, kDisturbed, kNow, kDone };
+enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone };
 
 // --- saving ----------------------------------------------------------------------------------------
 
@@ -34,8 +34,19 @@ WorldState::Part world_part(const World& world) {
   return {"world", writer.take()};
 }
 
+/// How it hears a host is no state, but a world goes on as another one did only if it is the same.
+struct Hearing {
+  bool is_strict = false;         // about silence
+  bool enforces_settings = true;  // deaf to a host of another speed
+};
+Hearing hearing_of(const World::OneLine& line) {
+  return {.is_strict = line.framing.strict, .enforces_settings = line.line.options().enforce_settings};
+}
+
 WorldState::Part line_part(const World::OneLine& line) {
   StateWriter writer(1024);
+  writer.write<WorldFields>(hearing_of(line).is_strict);
+  writer.write<WorldFields>(hearing_of(line).enforces_settings);
   writer.write<WorldFields>(line.line.save());
   for (const auto& station : line.stations) writer.write<WorldFields>(station->save());
   return {"line " + line.line.name(), writer.take()};
@@ -100,6 +111,7 @@ WorldValues read_values(const World& world, StateReader& reader) {
   WorldValues values = values_of(world);
   std::apply([&](auto&... field) { (reader.read<WorldFields>(field), ...); }, values);
   check_inputs(world, values);
+  demand_state(std::get<kSupplies>(values).size() == world.device_count(), "it has other devices");
   check_pulses(world, values);
   check_faults(world, values);
   const SimTime now = std::get<kNow>(values);
@@ -118,6 +130,24 @@ Machines read_machines(const World& world, StateReader& reader) {
     }
   }
   return machines;
+}
+
+void read_hearing(const World::OneLine& line, StateReader& reader) {
+  Hearing its;
+  reader.read<WorldFields>(its.is_strict);
+  reader.read<WorldFields>(its.enforces_settings);
+  const Hearing ours = hearing_of(line);
+  if (its.is_strict != ours.is_strict) {
+    throw StateError(its.is_strict
+                         ? "was saved with strict framing; expected a world that has it too"
+                         : "was saved with tolerant framing; expected a world without strict framing");
+  }
+  if (its.enforces_settings != ours.enforces_settings) {
+    throw StateError(
+        its.enforces_settings
+            ? "was saved where a host of another speed is not heard; expected a world where it is not"
+            : "was saved where a host of any speed is heard; expected a world where it is");
+  }
 }
 
 /// What the edge part holds besides lines.
@@ -190,6 +220,7 @@ void restore(World& world, const WorldState& state) {
     const World::OneLine& line = world.line(i);
     parts.read("line " + line.line.name(), [&](std::span<const std::byte> bytes) {
       StateReader reader(bytes);
+      read_hearing(line, reader);
       reader.read<WorldFields>(lines[i]);
       stations[i].resize(line.stations.size());
       for (std::size_t j = 0; j < stations[i].size(); ++j) {

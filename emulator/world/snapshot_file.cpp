@@ -10,6 +10,7 @@
 #include "emulator/one_line.h"
 #include "emulator/state/base64.h"
 #include "emulator/state/state_bytes.h"
+#include "emulator/strict_json.h"
 #include "emulator/version.h"
 
 namespace understudy::emulator {
@@ -50,29 +51,24 @@ std::string text_of(const Json& object, const char* key) {
   return text.get<std::string>();
 }
 
-/// nlohmann keeps the last of two equal keys without a word; this refuses them, and keys that are unknown.
 Json parse_json(const std::string& text) {
-  const std::set<std::string> known{"understudy",        "kind",     "version", "bench",
-                                    "simulated_time_ns", "checksum", "state"};
-  std::vector<std::set<std::string>> keys;
-  const auto refuse_strangers = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event != Json::parse_event_t::key) return true;
-    const auto& key = parsed.get_ref<const std::string&>();
-    if (!keys.back().insert(key).second) {
-      throw SnapshotError(emulator::quoted(key) + ": is there twice; expected it once");
-    }
-    if (depth == 1 && !known.contains(key)) {
-      throw SnapshotError(emulator::quoted(key) + ": is no key of a snapshot; expected none");
-    }
-    return true;
-  };
+  static const std::set<std::string> kKnown{"understudy",        "kind",     "version", "bench",
+                                            "simulated_time_ns", "checksum", "state"};
+  Json parsed;
   try {
-    return Json::parse(text, refuse_strangers);
+    parsed = parse_strict_json<Json>(text, [](const std::string& key) {
+      return SnapshotError(emulator::quoted(key) + ": is there twice; expected it once");
+    });
   } catch (const Json::exception&) {
     throw SnapshotError("file: is torn or no JSON; expected a snapshot");
   }
+  if (!parsed.is_object()) return parsed;
+  for (const auto& [key, value] : parsed.items()) {
+    if (!kKnown.contains(key)) {
+      throw SnapshotError(emulator::quoted(key) + ": is no key of a snapshot; expected none");
+    }
+  }
+  return parsed;
 }
 
 }  // namespace

@@ -12,13 +12,14 @@ struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
     // What it is made of, and who looks at it, is no state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
-    auto& [known, devices, lines, plants, sent_pulses, inputs, wires, watchers, listener, faults, next_fault,
-           fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
-    return visit(sent_pulses, inputs, faults, next_fault, disturbed, now, done);
+    auto& [known, devices, lines, plants, sent_pulses, inputs, supplies, wires, watchers, listener, faults,
+           next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
+    return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
   }
   static auto& plants(Like<World> auto& world) { return world.plants_; }
   // clang-format off
   static void of(Like<World::Input> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
+  static void of(Like<World::Supply> auto& v, auto visit) { auto& [a] = v; visit(a); }
   static void of(Like<Fault> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
   }
@@ -26,7 +27,7 @@ struct WorldFields {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
   }
   static void of(Like<FaultCourse> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
+    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
   }
   static void of(Like<ArmedFault> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<MachineFaults> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
@@ -71,8 +72,8 @@ struct WorldFields {
 /// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
-    auto& [known, devices, lines, plants, sent_pulses, inputs, wires, watchers, listener, faults, next_fault,
-           fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
+    auto& [known, devices, lines, plants, sent_pulses, inputs, supplies, wires, watchers, listener, faults,
+           next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
     return visit(ticks_run, ticks_crossed);
   }
   static void of(Like<pty::Line::State> auto& v, auto visit) {

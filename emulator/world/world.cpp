@@ -9,7 +9,7 @@ namespace understudy::emulator {
 
 World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
-    : wires_(bench.wires), seed_(bench.seed) {
+    : supplies_(bench.devices.size()), wires_(bench.wires), seed_(bench.seed) {
   for (const DeviceSetup& setup : bench.devices) {
     devices_.push_back(make_device(*setup.model, setup.settings, log));
     known_.push_back({setup.settings.name, setup.model, devices_.back()->firmware()});
@@ -231,13 +231,21 @@ void World::load_program(std::size_t device, std::string_view text) {
 }
 
 void World::switch_power(std::size_t device, bool on) {
-  if (devices_[device]->powered() == on) return;
+  if (supplies_[device].is_switched_on == on) return;
   begin_act();
   if (listener_ != nullptr) listener_->on_power(device, on);
-  put_power(device, on);
+  supplies_[device].is_switched_on = on;
+  settle_power(device);
 }
 
-void World::put_power(std::size_t device, bool on) {
+/// A device has power where it is switched on and no fault cuts it.
+void World::settle_power(std::size_t device) {
+  const auto cuts = [&](const auto& entry) {
+    const auto& [fault, course] = entry.second;
+    return fault.kind == Fault::Kind::power_cut && fault.device == device && course.in_force;
+  };
+  const bool on = supplies_[device].is_switched_on && std::none_of(faults_.begin(), faults_.end(), cuts);
+  if (devices_[device]->powered() == on) return;
   devices_[device]->switch_power(on);
   disturbed_ = true;
   for (const auto& line : lines_) {
@@ -276,12 +284,12 @@ bool World::clear_fault(std::size_t number) {
   if (found == faults_.end()) return false;
   begin_act();
   if (listener_ != nullptr) listener_->on_clear_fault(number);
-  const ArmedFault armed = found->second;
+  const std::size_t device = found->second.fault.device;
   faults_.erase(found);
   disturbed_ = true;
   arm_faults();
-  apply_faults(armed.fault.device);
-  if (armed.course.has_acted && !devices_[armed.fault.device]->powered()) put_power(armed.fault.device, true);
+  apply_faults(device);
+  settle_power(device);
   return true;
 }
 
@@ -331,14 +339,7 @@ void World::settle_faults() {
       case Fault::Kind::slip:
         plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
         break;
-      case Fault::Kind::power_cut: {
-        // Power that was off already is not its own to give back.
-        const bool cuts = course.in_force && devices_[fault.device]->powered();
-        const bool gives_back = !course.in_force && course.has_acted && !devices_[fault.device]->powered();
-        course.has_acted = cuts;
-        if (cuts || gives_back) put_power(fault.device, gives_back);
-        break;
-      }
+      case Fault::Kind::power_cut: settle_power(fault.device); break;
       default: apply_faults(fault.device); break;
     }
   }

@@ -101,7 +101,8 @@ class World {
   Refusal write(std::size_t device, const PreparedWrite& write);
   /// Throws ProgramError.
   void load_program(std::size_t device, std::string_view text);
-  /// Between two ticks. What a device without power was saying ends at once.
+  /// Between two ticks. What a device without power was saying ends at once. One whose power is cut has none
+  /// until that is over, and then only if it is switched on.
   void switch_power(std::size_t device, bool on);
 
   // --- faults --------------------------------------------------------------------------------
@@ -124,6 +125,11 @@ class World {
     std::optional<bool> stuck{};
   };
 
+  /// Of a device's power.
+  struct Supply {
+    bool is_switched_on = true;
+  };
+
   void begin_act();
   void run_tick();
   void show_tick();
@@ -135,7 +141,7 @@ class World {
   void latch_wires();
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
-  void put_power(std::size_t device, bool on);
+  void settle_power(std::size_t device);
   void arm_faults();
   void look_at_faults();
   void settle_faults();
@@ -147,6 +153,7 @@ class World {
   std::vector<std::vector<PlantAxis>> plants_;  // [device][axis]
   std::vector<std::vector<std::int64_t>> sent_pulses_;
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]
+  std::vector<Supply> supplies_;            // by device
   std::vector<WireSetup> wires_;
   std::vector<TickWatcher*> watchers_;
   OutsideListener* listener_ = nullptr;

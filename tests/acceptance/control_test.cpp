@@ -307,6 +307,14 @@ TEST(ControlSocket, IsFoundByTheEnvironmentToo) {
   EXPECT_EQ(finished.output, "HW_Code 49153\n");
 }
 
+TEST(ControlSocket, AnEmptyVariableIsAsIfItWereNotSet) {
+  const PrivateFolder folder;
+  const Finished finished =
+      understudy({"ctl", "status"}, {{"UNDERSTUDY_CONTROL", ""}, {"XDG_RUNTIME_DIR", folder.path()}});
+  EXPECT_EQ(finished.exit_code, 3);
+  EXPECT_NE(finished.errors.find("understudy.control: nobody answers"), std::string::npos) << finished.errors;
+}
+
 // --- run-until and watch ---------------------------------------------------------------------------
 
 TEST(ControlRunUntil, MovesTimeToWhereItIsTrue) {

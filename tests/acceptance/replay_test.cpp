@@ -1,8 +1,11 @@
 // A day over a real port, recorded, and run again.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include "tests/acceptance/modbus_host.h"
@@ -84,6 +87,35 @@ TEST_F(RecordedDay, StopsWhereItIsToldAndLetsOneLookAround) {
   EXPECT_EQ(ready->find(folder_.path()), std::string::npos);
   replay.send(SIGTERM);
   EXPECT_EQ(replay.wait(kPatience), 0);
+}
+
+TEST_F(RecordedDay, StopsAtItsEndIfThatComesFirst) {
+  const std::string control = folder_ / "control";
+  Process replay({UNDERSTUDY_BINARY, "replay", recording_, "--until", "10h", "--control", control});
+  ASSERT_TRUE(eventually([&] { return replay.output().find("the clock stands at ") != std::string::npos; }))
+      << replay.output() << replay.errors();
+  EXPECT_EQ(understudy({"ctl", "--control", control, "get", "Cord_A", "DIN_10"}).output,
+            "Cord_A 3200\nDIN_10 1\n");
+  replay.send(SIGTERM);
+  EXPECT_EQ(replay.wait(kPatience), 0);
+}
+
+/// Its time is the bench's, also where nothing happens.
+TEST(QuietRecording, LastsAsLongAsTheDaemonDid) {
+  const PrivateFolder folder;
+  const std::string recording = folder / "quiet.jsonl";
+  {
+    RunningUnderstudy daemon({"--record", recording, "--speed", "1000x"});
+    ASSERT_TRUE(eventually([&] { return daemon.ctl({"status"}).output.find("simulated time 0s") != 0; }));
+    usleep(200'000);  // 200 simulated seconds
+    EXPECT_EQ(daemon.stop(SIGTERM), 0);
+  }
+  const Finished finished = understudy({"replay", recording});
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  std::smatch simulated;
+  ASSERT_TRUE(std::regex_search(finished.output, simulated, std::regex(", ([0-9]+)[.0-9]*s simulated")))
+      << finished.output;
+  EXPECT_GE(std::stoi(simulated[1]), 200) << finished.output;
 }
 
 TEST_F(RecordedDay, IsRefusedWhereItIsNoRecording) {

@@ -98,7 +98,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "one job in place of what waits, shorter than word by word"},
     {"write_while_saving", "狀態相關", "a persistent register written while EEPROM_Writing is 1",
      "queued|not_saved", kProposal,
-     "it waits for its turn; not_saved: it counts until power-off, and is lost then"},
+     "it waits for its turn; not_saved: it is lost at power-off, unless that register is just being written"},
     {"power_cut", "狀態相關", "what a power cut leaves of the quantity that is being written",
      "old_value|new_value", kProposal,
      "whole in either case, as both halves of a 32-bit register are written as one; what waits behind it is "

@@ -254,5 +254,31 @@ TEST(ControlMessages, ASetThatSaysOkHasWrittenEveryValue) {
   EXPECT_EQ(reply["ok"].get<bool>(), rig.value("feeder.Axis_SyncRPM.6") == 1) << reply;
 }
 
+TEST(ControlMessages, AKeyThatIsThereTwiceIsRefusedAndDoesNothing) {
+  DaemonRig rig;
+  for (const auto& [message, key] : std::vector<std::pair<std::string, std::string>>{
+           {R"({"do":"status","do":"pause"})", "do"},
+           {R"({"do":"set","values":{"feeder.Aaxis_Speed":1,"feeder.Aaxis_Speed":2}})",
+            "feeder.Aaxis_Speed"}}) {
+    const Json reply = rig.ask(message);
+    EXPECT_EQ(reply["ok"], false) << message;
+    EXPECT_EQ(reply["error"], "'" + key + "' is there twice; expected it once");
+  }
+  EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], false);
+  EXPECT_TRUE(rig.is_untouched());
+}
+
+TEST(ControlMessages, WhateverGoesWrongIsAReply) {
+  DaemonRig rig;
+  std::vector<std::string> replies;
+  handle_message(rig.daemon, R"({"do":"status"})", [&](const std::string& line) {
+    replies.push_back(line);
+    // As the library throws it where there is no memory for a text, say.
+    if (replies.size() == 1) throw std::length_error("too long");
+  });
+  ASSERT_EQ(replies.size(), 2u);
+  EXPECT_EQ(replies[1], R"({"ok":false,"error":"too long"})");
+}
+
 }  // namespace
 }  // namespace understudy::emulator

@@ -182,5 +182,20 @@ TEST(RunUntil, IsForAClockThatStands) {
   EXPECT_EQ(daemon.ask(message)["reached"], true);
 }
 
+TEST(RunUntil, EndsWhereItIsWhenTimeIsPaused) {
+  Running daemon;
+  Json reply;
+  std::thread waits(
+      [&] { reply = daemon.ask(R"({"do":"run-until","condition":"feeder.Cord_A > 0","within":"8760h"})"); });
+  // Nothing ever moves; it goes on tick by tick until somebody says stop.
+  while (daemon.ask(R"({"do":"status"})")["status"]["simulated_time_ns"] == 0) usleep(1000);
+  const Json paused = daemon.ask(R"({"do":"pause"})");
+  waits.join();
+  EXPECT_EQ(reply["ok"], true) << reply;
+  EXPECT_EQ(reply["reached"], false);
+  EXPECT_EQ(reply["simulated_time_ns"], paused["simulated_time_ns"]);
+  EXPECT_EQ(daemon.ask(R"({"do":"resume"})")["ok"], true);
+}
+
 }  // namespace
 }  // namespace understudy::emulator

@@ -191,9 +191,69 @@ TEST(PowerCut, GivesBackOnlyWhatItHasTaken) {
   EXPECT_FALSE(line.world().device(0).powered());
   line.world().clear_fault(2);
   EXPECT_TRUE(line.world().device(1).powered());
-  line.inject("power_cut turner");
-  line.world().switch_power(1, true);
-  EXPECT_TRUE(line.world().device(1).powered()) << "somebody has put the fuse back";
+}
+
+TEST(PowerCut, LastsAsLongAsAnyOfThem) {
+  FaultyLine line;
+  World& world = line.world();
+  const auto feeder_at = [&](SimTime time) {
+    world.advance_to(time);
+    return world.device(0).powered();
+  };
+  // From 20 to 60 ms, from 40 to 80 ms, and one within the second, from 65 to 70 ms.
+  line.inject("power_cut feeder at=20ms for=40ms");
+  line.inject("power_cut feeder at=40ms for=40ms");
+  line.inject("power_cut feeder at=65ms for=5ms");
+  EXPECT_TRUE(feeder_at(19'999us));
+  for (const SimTime time : {20ms, 39ms, 41ms, 59ms, 61ms, 66ms, 71ms, 79ms}) EXPECT_FALSE(feeder_at(time));
+  EXPECT_TRUE(feeder_at(80ms));
+
+  const std::size_t first = line.inject("power_cut feeder");
+  const std::size_t second = line.inject("power_cut feeder");
+  world.clear_fault(first);
+  EXPECT_FALSE(world.device(0).powered()) << "the second one is in force";
+  world.clear_fault(second);
+  EXPECT_TRUE(world.device(0).powered());
+  EXPECT_TRUE(world.device(1).powered());
+}
+
+TEST(PowerCut, AndTheSwitchAreTwoThings) {
+  struct Case {
+    std::vector<bool> switched;  // during the cut, one after the other
+    bool on_afterwards;
+  };
+  for (const auto& [switched, on_afterwards] : std::vector<Case>{{{}, true},
+                                                                 {{false}, false},
+                                                                 {{true}, true},
+                                                                 {{false, true}, true},
+                                                                 {{false, true, false}, false}}) {
+    FaultyLine timed;
+    timed.inject("power_cut feeder at=10ms for=20ms");
+    FaultyLine cleared;
+    cleared.world().advance_to(10ms);
+    const std::size_t number = cleared.inject("power_cut feeder");
+    for (FaultyLine* line : {&timed, &cleared}) {
+      World& world = line->world();
+      world.advance_to(15ms);
+      EXPECT_FALSE(world.device(0).powered());
+      for (const bool on : switched) {
+        world.switch_power(0, on);
+        EXPECT_FALSE(world.device(0).powered()) << "it is cut";
+      }
+      // Another world that goes on from here knows how the switch stands.
+      FaultyLine other;
+      restore(other.world(), save(world));
+      for (World* one : {&world, &other.world()}) {
+        one->advance_to(29'999us);
+        EXPECT_FALSE(one->device(0).powered());
+        one->advance_to(30ms);
+        if (line == &cleared) one->clear_fault(number);
+        EXPECT_EQ(one->device(0).powered(), on_afterwards);
+        one->switch_power(0, true);
+        EXPECT_TRUE(one->device(0).powered());
+      }
+    }
+  }
 }
 
 // --- chance and state ------------------------------------------------------------------------------

@@ -121,6 +121,48 @@ TEST(RunnerForks, BranchesThatDoTheSameHaveTheSameOutcome) {
   EXPECT_NE(results[0].outcome_hash, results[3].outcome_hash);
 }
 
+TEST(RunnerForks, TheHostIsSilentAsLongInABranchAsOnTheMainLine) {
+  const std::string reads = "[ expect: { feeder.Aaxis_Speed: 200 }, expect: { feeder.STATUS.10: 1 } ]\n";
+  const std::string read_here =
+      "  - expect: { feeder.Aaxis_Speed: 200 }\n  - expect: { feeder.STATUS.10: 1 }\n";
+  // Once right behind a reply, once 1 ms after it, which is within t3.5.
+  for (const std::string between : {"", "  - advance: 1ms\n"}) {
+    const auto results = all_of(kServoOn + kExampleMove + between + "  - fork: { one: " + reads + "  }\n" +
+                                    "  - snapshot: there\n" + read_here +
+                                    // The line was busy since, and is not now.
+                                    "  - restore: there\n" + read_here,
+                                true);
+    ASSERT_EQ(verdicts(results), (std::vector<std::string>{"passed test", "passed test / one"}));
+    const std::vector<StepResult>& main = results[0].steps;
+    const std::vector<StepResult>& branch = results[1].steps;
+    const std::size_t first = main.size() - 5;  // read twice, restore, read twice
+    // t3.5 after the reply to the write, which was over at 29,286,458 ns, come 8 characters, 750 us and 7
+    // ones: 2,005,209 + 4,583,333 + 750,000 + 4,010,416 or 4,010,417.
+    EXPECT_NEAR(static_cast<double>(branch[0].end.count()), 29'286'458 + 11'348'958, 2);
+    for (const std::size_t i : {0U, 1U}) {
+      EXPECT_EQ(branch[i].end, main[first + i].end);
+      EXPECT_EQ(branch[i].end, main[first + 3 + i].end);
+    }
+  }
+}
+
+TEST(RunnerForks, ASpanThatIsOpenIsWatchedInEachBranch) {
+  // The names that were asked for before the span are others than those that a branch asks for first.
+  const auto results =
+      all_of(kServoOn +
+             "  - wait: { until: feeder.STATUS.10 == 1 and feeder.Aaxis_Speed == 0, within: 1s }\n"
+             "  - never: { what: feeder.A.lost > 100, name: lost }\n"
+             "  - fork:\n"
+             "      sound: [ wait: { until: time > 1s, within: 2s }, assert: feeder.A.lost == 0 ]\n"
+             "      blocked:\n"
+             "        - inject: { stall: feeder.A }\n"
+             "      " +
+             kExampleMove + "        - advance: 1s\n");
+  ASSERT_EQ(verdicts(results),
+            (std::vector<std::string>{"passed test", "passed test / sound", "failed test / blocked"}));
+  EXPECT_NE(results[2].failure->what.find("never 'lost'"), std::string::npos) << results[2].failure->what;
+}
+
 TEST(RunnerForks, ASnapshotFromBeforeIsKnownInABranch) {
   const auto results =
       all_of("  - snapshot: begin\n" + kServoOn +

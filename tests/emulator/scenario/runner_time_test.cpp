@@ -57,6 +57,54 @@ TEST(RunnerTimes, WhatComesTrueWhileTheReplyIsOnTheLineIsNotMissed) {
   passing(kServoOn + kExampleMove + "  - wait: { until: feeder.A.pulses == 0, within: 1s, takes: 0ms }\n");
 }
 
+TEST(RunnerTimes, StepsThatPassNoTimeMayStandBetweenAWriteAndItsWait) {
+  // As above: no pulse is out at tick 25, one is at tick 29, and the reply is on the line up to 29.286 ms.
+  const std::string wait = "  - wait: { until: feeder.A.pulses == 0, within: 1s, takes: 0ms }\n";
+  for (const std::string between :
+       {"say: on its way", "assert: feeder.STATUS.4 == 1", "input: { feeder.DIN_10: on }",
+        "inject: { stall: feeder.B, name: b }", "never: feeder.A.pulses > 32000",
+        "always: { what: feeder.power, name: fed }", "reset: peaks", "snapshot: moving",
+        "fork: { one: [ say: one ] }", "power: { feeder: on }"}) {
+    passing(kServoOn + kExampleMove + "  - " + between + "\n" + wait);
+  }
+  passing("  - inject: { stall: feeder.B, name: b }\n  - always: { what: feeder.power, name: fed }\n" +
+          kServoOn + kExampleMove + "  - clear: b\n  - end: fed\n  - say: both are gone\n" + wait);
+  // A step that passes time is what the wait begins after: at 31.286 ms tick 31 is over, 6 ms after tick 25.
+  passing(kServoOn + kExampleMove +
+          "  - advance: 2ms\n  - wait: { until: feeder.A.pulses >= 1, within: 1s, takes: 6ms }\n");
+}
+
+TEST(RunnerTimes, WhatABranchWaitsForIsLookedForFromTheWriteAsWell) {
+  const std::string wait = "wait: { until: feeder.A.pulses == 0, within: 1s, takes: 0ms }";
+  const auto results =
+      play(scenario_of(kServoOn + kExampleMove + "  - fork:\n      one: [ say: one, " + wait +
+                       " ]\n      two: [ wait: { until: feeder.A.pulses < 1, within: 1s, "
+                       "takes: 0ms } ]\n  - snapshot: there\n  - " +
+                       wait + "\n  - restore: there\n  - " + wait + "\n"),
+           {});
+  ASSERT_EQ(results.size(), 3U);
+  for (const ScenarioResult& result : results) EXPECT_TRUE(has_passed(result)) << result.name << why(result);
+}
+
+TEST(RunnerTimes, NothingGoesOnBeyondTheEndOfTime) {
+  // 100 years of 365 days are 876000 hours.
+  const ScenarioResult result = passing("  - advance: 876000h\n");
+  EXPECT_EQ(result.steps.back().end, kHorizon);
+  const std::string beyond = " from now on is beyond the end of simulated time; expected at most ";
+  for (const auto& [steps, what] : std::vector<std::pair<std::string, std::string>>{
+           {"  - advance: 876000h\n  - advance: 876000h\n  - advance: 876000h\n",
+            "3153600000s" + beyond + "0s"},
+           {"  - advance: 876000h\n  - advance: 1ns\n", "1ns" + beyond + "0s"},
+           {"  - advance: 875999h\n  - wait: { until: feeder.STATUS == 1, within: 2h }\n",
+            "7200s" + beyond + "3600s"},
+           {"  - advance: 875999h\n  - wait: { until: feeder.STATUS == 1, within: 2h, poll: 1h }\n",
+            "7200s" + beyond + "3600s"},
+           {"  - advance: 876000h\n  - send: { line: rs485, bytes: 01, within: 1s }\n",
+            "1s" + beyond + "0s"}}) {
+    EXPECT_EQ(failing(steps).what, what) << steps;
+  }
+}
+
 TEST(RunnerTimes, AWaitThatIsTrueAlreadyEndsAtOnce) {
   const ScenarioResult result =
       passing("  - advance: 10.4ms\n  - wait: { until: feeder.STATUS == 0, within: 1s }\n");

@@ -105,7 +105,8 @@ std::vector<Scenario> many() {
 std::string told(const std::vector<Scenario>& scenarios, int jobs) {
   std::vector<ScenarioResult> all;
   std::string text;
-  play_all(scenarios, {.with_hash = true}, jobs, [&](const std::vector<ScenarioResult>& results) {
+  const auto options_for = [](const Scenario&) { return PlayOptions{.with_hash = true}; };
+  play_all(scenarios, options_for, jobs, [&](const std::vector<ScenarioResult>& results) {
     for (const ScenarioResult& result : results) {
       text += verdict_line(result) + " " + std::to_string(result.outcome_hash) + "\n" + why(result);
       all.push_back(result);
@@ -139,7 +140,7 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
     names.push_back(results.front().name);
   };
   try {
-    play_all(scenarios, options, 4, tell);
+    play_all(scenarios, [&](const Scenario&) { return options; }, 4, tell);
     ADD_FAILURE() << "expected it to throw";
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "no port is free");

@@ -273,6 +273,28 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
   EXPECT_EQ(save(alone), of_alone);
 }
 
+TEST(Snapshot, IsRefusedWhereALineHearsItsHostDifferently) {
+  const Bench bench =
+      parse_bench("understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n",
+                  "one.yaml", ".");
+  World tolerant(bench, {}, {});
+  World strict(bench, {.strict_framing = true}, {});
+  World any_speed(bench, {.enforce_settings = false}, {});
+  World patient(bench, {.patience = 1s}, {});
+  for (World* world : {&tolerant, &strict, &any_speed, &patient}) world->advance_to(20ms);
+  EXPECT_EQ(refusal_of(tolerant, save(strict)),
+            "line rs485: was saved with strict framing; expected a world that has it too");
+  EXPECT_EQ(refusal_of(strict, save(tolerant)),
+            "line rs485: was saved with tolerant framing; expected a world without strict framing");
+  EXPECT_EQ(refusal_of(tolerant, save(any_speed)),
+            "line rs485: was saved where a host of any speed is heard; expected a world where it is");
+  EXPECT_EQ(
+      refusal_of(any_speed, save(tolerant)),
+      "line rs485: was saved where a host of another speed is not heard; expected a world where it is not");
+  EXPECT_EQ(refusal_of(tolerant, save(patient)), "") << "a daemon at another speed is more patient";
+  EXPECT_EQ(refusal_of(strict, save(strict)), "");
+}
+
 /// Whatever a byte becomes, the state is refused, and nothing has changed, or it is one that can be lived on
 /// (sanitizers look at that). UNDERSTUDY_FLIPS: every so manieth byte of the devices.
 void flip_bytes(std::uint64_t seed_value, const std::string& timing, std::size_t stride, int& refused,

@@ -1,0 +1,33 @@
+#include "emulator/scenario/play_recorder.h"
+
+#include <utility>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/world/snapshot_file.h"
+
+namespace understudy::emulator {
+
+PlayRecorder::PlayRecorder(World& world, RecordingHeader header, std::string path)
+    : world_(world), header_(std::move(header)), path_(std::move(path)) {
+  begin();
+}
+
+void PlayRecorder::begin() {
+  spool_.reset();  // the one before is over, and its file is free
+  // What breaks off is played as far as it goes: nobody needs to be told while the play is on.
+  spool_ = std::make_unique<RecordingSpool>(world_, header_, path_, kRecordingCapBytes, [](const auto&) {});
+}
+
+void PlayRecorder::world_restored(std::size_t) {
+  header_.snapshot = to_text(save(world_), bench_hash(parse_bench(header_.bench, "bench", "")));
+  begin();
+}
+
+void PlayRecorder::step_over() { spool_->look(); }
+
+void PlayRecorder::finish(ScenarioResult& result) {
+  spool_.reset();
+  result.recording = path_;
+}
+
+}  // namespace understudy::emulator

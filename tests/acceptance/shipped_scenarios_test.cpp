@@ -1,0 +1,289 @@
+// The scenarios that are shipped: each asks a question and passes; what they do is the same in every run, on
+// any machine; and in real time, over real ports with libmodbus, the verdicts are the same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kFolder = PROJECT_FOLDER "/scenarios";
+const std::string kOfModel = kFolder + "/simple2-r3";
+const std::string kLineFaults = kOfModel + "/line_faults";
+
+/// The .yaml files of one folder, in order.
+Words files_in(const std::string& folder) {
+  Words files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Words operator+(Words some, const Words& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
+const Words& all() {
+  static const Words files = files_in(kOfModel) + files_in(kLineFaults);
+  return files;
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string last_line_of(const std::string& text) {
+  const Words lines = lines_of(text);
+  return lines.empty() ? "" : lines.back();
+}
+
+// --- as they are -------------------------------------------------------------------------------------------
+
+TEST(ShippedScenarios, EveryFileIsSound) {
+  Words files;
+  for (const auto& entry : fs::recursive_directory_iterator(kFolder)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  }
+  EXPECT_GE(files.size(), all().size());
+  const Finished finished = understudy(Words{"check"} + files);
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  EXPECT_EQ(lines_of(finished.output).size(), files.size());
+}
+
+TEST(ShippedScenarios, EachAsksAQuestionAndThePageKnowsIt) {
+  EXPECT_GE(all().size(), 20U);
+  const std::string page = text_of(kFolder + "/README.md");
+  for (const std::string& file : all()) {
+    const Words lines = lines_of(text_of(file));
+    std::string comment;
+    for (const std::string& line : lines) {
+      if (!line.starts_with("#")) break;
+      comment += line + "\n";
+    }
+    const std::size_t question = comment.find('?');
+    EXPECT_NE(question, std::string::npos) << file << ": asks nothing";
+    EXPECT_GT(comment.size(), question + 100) << file << ": explains nothing";
+    EXPECT_NE(page.find("(" + fs::relative(file, kFolder).string() + ")"), std::string::npos)
+        << file << " is not on the page";
+  }
+  const std::regex link("\\]\\(([^)]+)\\)");
+  for (auto i = std::sregex_iterator(page.begin(), page.end(), link); i != std::sregex_iterator(); ++i) {
+    EXPECT_TRUE(fs::exists(kFolder + "/" + (*i)[1].str())) << (*i)[1] << " is not there";
+  }
+}
+
+// --- in free time ------------------------------------------------------------------------------------------
+
+/// Everything that a run prints, with the hashes of all that the devices said and did.
+std::string printed(const Words& flags = {}, const Environment& environment = {},
+                    const std::string& program = UNDERSTUDY_BINARY) {
+  const Finished finished = run(Words{program, "run", "--hash"} + flags + all(), environment);
+  EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
+  EXPECT_NE(last_line_of(finished.output).find(" passed, 0 failed; "), std::string::npos);
+  return finished.output;
+}
+
+TEST(ShippedScenarios, PassInFreeTimeAndDoTheSameInTwentyRuns) {
+  const std::string first = printed({"--jobs", "2"});
+  std::size_t hashes = 0;
+  std::set<std::string> different;
+  for (const std::string& line : lines_of(first)) {
+    if (!line.starts_with("hash ")) continue;
+    ++hashes;
+    different.insert(line.substr(line.rfind(' ')));
+  }
+  EXPECT_GE(hashes, all().size());
+  // One pair is the same on purpose: a program that is loaded in two ways.
+  EXPECT_EQ(different.size(), hashes - 1) << "scenarios do the same, or nothing is hashed";
+  for (int i = 1; i < 20; ++i) {
+    ASSERT_EQ(printed({"--jobs", std::to_string(1 + i % 4)}), first) << "run " << i;
+  }
+}
+
+TEST(ShippedScenarios, DoTheSameUnderLoad) {
+  const std::string alone = printed();
+  std::vector<std::jthread> load;
+  for (unsigned i = 0; i < 3 * std::thread::hardware_concurrency(); ++i) {
+    load.emplace_back([](const std::stop_token& over) {
+      for (volatile unsigned n = 0; !over.stop_requested();) n = n + 1;
+    });
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(printed({"--jobs", "8"}), alone);
+}
+
+TEST(ShippedScenarios, DoTheSameOnAProcessorWithoutFusedMultiplication) {
+  EXPECT_EQ(printed({}, {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2,-AVX,-FMA4,-AVX512F"}}), printed());
+  EXPECT_EQ(printed({}, {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-AVX2"}}), printed());
+}
+
+TEST(ShippedScenarios, DoTheSameInAnotherBuild) {
+  const char* const other = std::getenv("UNDERSTUDY_OTHER_BINARY");
+  if (other == nullptr || *other == '\0') {
+    GTEST_SKIP() << "UNDERSTUDY_OTHER_BINARY names no program of another build type";
+  }
+  ASSERT_TRUE(fs::exists(other)) << other;
+  EXPECT_EQ(printed({}, {}, other), printed());
+}
+
+TEST(ShippedScenarios, AHashTellsWhenSomethingIsDifferent) {
+  const PrivateFolder folder;
+  const auto hash_of = [&](const std::string& speed) {
+    const std::string path = folder.write(
+        "move.yaml",
+        "understudy: 1\nbench: { lines: { a: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
+        "steps: [ write: { feeder.Aaxis_Speed: " +
+            speed + " } ]\n");
+    return lines_of(understudy({"run", "--hash", path}).output).at(1);
+  };
+  EXPECT_EQ(hash_of("200").substr(0, 10), "hash move ");
+  EXPECT_EQ(hash_of("200"), hash_of("200"));
+  EXPECT_NE(hash_of("200"), hash_of("201"));
+  const Finished refused = understudy({"run", "--hash", "--real-time", kOfModel + "/alarm.yaml"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors,
+            "understudy: --hash: in real time no two runs are the same; expected it without --real-time\n");
+}
+
+// --- in real time ------------------------------------------------------------------------------------------
+
+constexpr Wait kBound{60'000};      // all of them, in parallel
+constexpr double kSimulated = 120;  // seconds in all
+constexpr int kAttempts = 3;
+
+/// "ok    alarm.yaml: an alarm, and clearing it", by the scenario; without how long it took.
+std::map<std::string, std::string> verdicts_of(const std::string& output) {
+  std::map<std::string, std::string> verdicts;
+  const std::regex verdict("^(ok|FAIL|-) +(.*) \\([^)]*\\)$");
+  for (const std::string& line : lines_of(output)) {
+    std::smatch found;
+    if (std::regex_match(line, found, verdict)) verdicts[found[2]] = found[1];
+  }
+  return verdicts;
+}
+
+/// Of "46 passed, 0 failed; 37.3s simulated".
+double simulated_seconds(const std::string& output) {
+  const std::string line = last_line_of(output);
+  const std::size_t at = line.find("; ");
+  return at == std::string::npos ? -1 : std::strtod(line.c_str() + at + 2, nullptr);
+}
+
+TEST(ShippedScenarios, HaveTheSameVerdictsInRealTime) {
+  const PrivateFolder folder;
+  const Words files = files_in(kOfModel);
+  const Finished free = understudy(Words{"run"} + files);
+  const auto expected = verdicts_of(free.output);
+  EXPECT_GE(expected.size(), files.size());
+  EXPECT_GT(simulated_seconds(free.output), 10) << last_line_of(free.output);
+  EXPECT_LE(simulated_seconds(free.output), kSimulated) << last_line_of(free.output);
+
+  // A machine that stands still for half a second makes any host's timeouts run out; a second attempt is
+  // given to what was hit by that, and to nothing else.
+  const auto begin = std::chrono::steady_clock::now();
+  std::string output;
+  std::map<std::string, std::string> verdicts;
+  for (int i = 0; i < kAttempts && verdicts != expected; ++i) {
+    Process real(Words{UNDERSTUDY_BINARY, "run", "--real-time", "--record", folder / "recordings"} + files);
+    const auto spent = std::chrono::steady_clock::now() - begin;
+    ASSERT_TRUE(real.wait(std::chrono::duration_cast<Wait>(kBound - spent))) << "it takes too long";
+    output = real.output();
+    for (const auto& [scenario, verdict] : verdicts_of(output)) {
+      if (verdicts[scenario] != "ok") verdicts[scenario] = verdict;
+    }
+  }
+  EXPECT_EQ(verdicts, expected) << output;
+
+  // Each of these plays, over a pty and by the clock on the wall, runs again in free time to the byte.
+  std::size_t recordings = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "recordings")) {
+    const Finished again = understudy({"replay", entry.path().string()});
+    EXPECT_EQ(again.exit_code, 0) << again.errors;
+    ++recordings;
+  }
+  EXPECT_EQ(recordings, expected.size());
+}
+
+// --- recordings --------------------------------------------------------------------------------------------
+
+TEST(RunRecordings, AllArePlayedAgainByteByByte) {
+  const PrivateFolder folder;
+  const Finished finished = understudy(Words{"run", "--record", folder / "all"} + all());
+  EXPECT_EQ(finished.exit_code, 0) << finished.output << finished.errors;
+  std::size_t recordings = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "all")) {
+    const Finished again = understudy({"replay", entry.path().string()});
+    EXPECT_EQ(again.exit_code, 0) << again.errors;
+    ++recordings;
+  }
+  EXPECT_EQ(recordings, verdicts_of(finished.output).size());
+}
+
+const std::string kFails =
+    "understudy: 1\n"
+    "name: it / fails\n"
+    "bench: { lines: { a: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
+    "steps:\n"
+    "  - write: { feeder.Aaxis_SVON: 1 }\n"
+    "  - fork:\n"
+    "      well: [ expect: { feeder.Aaxis_SVON: 1 } ]\n"
+    "      ill: [ expect: { feeder.Aaxis_SVON: 0 } ]\n";
+
+/// The command that a failed run prints; empty if it prints none.
+std::string replay_command(const std::string& output) {
+  const std::string word = "to run this again: ";
+  for (const std::string& line : lines_of(output)) {
+    if (const std::size_t at = line.find(word); at != std::string::npos) return line.substr(at + word.size());
+  }
+  return "";
+}
+
+TEST(RunRecordings, OneOfAFailureIsKeptAndRunsAgain) {
+  const PrivateFolder folder;
+  const std::string file = folder.write("fails.yaml", kFails);
+  for (const Words& flags : {Words{}, Words{"--real-time"}, Words{"--record", folder / "kept"}}) {
+    const Finished finished = understudy(Words{"run", file, "--junit", folder / "results.xml"} + flags);
+    EXPECT_EQ(finished.exit_code, 1) << finished.errors;
+    const std::string command = replay_command(finished.output);
+    ASSERT_TRUE(command.starts_with("understudy replay ")) << finished.output;
+    EXPECT_NE(text_of(folder / "results.xml").find(command), std::string::npos);
+    const std::string path = command.substr(18);
+    EXPECT_TRUE(path.ends_with("/it_fails_ill.jsonl")) << path;
+    const Finished again = understudy({"replay", path});
+    EXPECT_EQ(again.exit_code, 0) << again.errors;
+    EXPECT_NE(again.output.find(": the same: "), std::string::npos) << again.output;
+    // Of the three plays one has failed; --record keeps the others as well.
+    const auto kept = std::distance(fs::directory_iterator(fs::path(path).parent_path()), {});
+    const bool all_are_kept = path.starts_with(folder.path());
+    EXPECT_EQ(kept, all_are_kept ? 3 : 1);
+    if (!all_are_kept) fs::remove_all(fs::path(path).parent_path());
+  }
+}
+
+TEST(RunRecordings, AFolderThatCannotBeHadIsToldBeforeAnythingIsPlayed) {
+  const PrivateFolder folder;
+  const std::string file = folder.write("fails.yaml", kFails);
+  const Finished finished = understudy({"run", file, "--record", file + "/in"});
+  EXPECT_EQ(finished.exit_code, 3);
+  EXPECT_EQ(finished.output, "");
+  EXPECT_EQ(finished.errors, "understudy: --record: " + file + "/in cannot be written: Not a directory\n");
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

@@ -1,0 +1,137 @@
+// Files that are read and replaced as a whole: what is no regular file is not waited for.
+#include "emulator/text_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/memory/nv_file.h"
+#include "emulator/scenario/scenario_file.h"
+#include "emulator/trace/trace_table.h"
+
+namespace understudy::emulator {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TextFile : public testing::Test {
+ protected:
+  TextFile() {
+    EXPECT_NE(mkdtemp(folder_.data()), nullptr);
+    EXPECT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+    fs::create_symlink(path("pipe"), path("link"));
+  }
+  ~TextFile() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string put(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  static std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+ private:
+  std::string folder_ = "/tmp/understudy-text-XXXXXX";
+};
+
+TEST_F(TextFile, IsReadByteForByte) {
+  for (const std::string& text : {std::string(), std::string("a\0b\r\n\xFF", 6), std::string(200'001, 'x')}) {
+    const FileText read = read_text_file(put("file", text));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, text);
+    EXPECT_EQ(why_not_readable(path("file")), "");
+  }
+}
+
+TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
+  // Nobody writes to the pipe, and /dev/zero has no end: each would be waited for for ever.
+  for (const std::string& file : {path("pipe"), path("link"), path(""), std::string("/dev/zero"),
+                                  std::string("/dev/null"), std::string("/dev/tty0")}) {
+    if (!fs::exists(file)) continue;
+    const FileText read = read_text_file(file);
+    EXPECT_FALSE(read) << file;
+    // A terminal may not be ours to open.
+    if (file != "/dev/tty0") {
+      EXPECT_EQ(read.why, "is no regular file") << file;
+    }
+    EXPECT_EQ(why_not_readable(file), read.why) << file;
+  }
+  for (const std::string& file : {path("none"), path("none/file"), std::string()}) {
+    EXPECT_FALSE(read_text_file(file)) << file;
+    EXPECT_EQ(read_text_file(file).why, "cannot be read") << file;
+    EXPECT_EQ(why_not_readable(file), "cannot be read") << file;
+  }
+}
+
+TEST_F(TextFile, IsReadUpToTheLimitAndNotBeyond) {
+  const std::string file = put("large", "");
+  fs::resize_file(file, kMostTextBytes);  // with a hole: it takes no space on the disk
+  EXPECT_EQ(read_text_file(file).value_or("").size(), kMostTextBytes);
+  fs::resize_file(file, kMostTextBytes + 1);
+  EXPECT_FALSE(read_text_file(file));
+  EXPECT_EQ(read_text_file(file).why, "is larger than 64 MiB");
+  EXPECT_EQ(why_not_readable(file), "") << "what is read piece by piece may have any length";
+}
+
+TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
+  const auto complaint = [](const auto& read) -> std::string {
+    try {
+      read();
+      return "";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  const std::string pipe = path("pipe");
+  const std::string csv = path("pipe.csv");
+  ASSERT_EQ(mkfifo(csv.c_str(), 0600), 0);
+  EXPECT_EQ(complaint([&] { load_bench(pipe); }),
+            pipe + ":1: bench: is no regular file; expected a bench file");
+  EXPECT_EQ(complaint([&] { load_scenarios(pipe); }),
+            pipe + ":1: scenario: is no regular file; expected a scenario file");
+  EXPECT_EQ(complaint([&] { kind_of_file(pipe); }),
+            pipe + ":1: file: is no regular file; expected a bench or a scenario");
+  EXPECT_EQ(complaint([&] { read_nv_file(pipe); }),
+            pipe + ": file: is no regular file; expected an NV image");
+  EXPECT_EQ(complaint([&] { read_trace(csv); }), csv + ": is no regular file; expected a trace");
+  // A bench's listing, a scenario's and what it includes.
+  const std::string bench =
+      "understudy: 1\nlines:\n  rs485:\n    stations:\n      - { name: feeder, model: simple2-r3 }\n";
+  EXPECT_EQ(complaint([&] {
+              load_bench(put("b.yaml", bench.substr(0, bench.rfind(" }")) + ", program: pipe }\n"));
+            }),
+            path("b.yaml") + ":5: lines.rs485.stations[0].program: " + pipe +
+                " is no regular file; expected a listing");
+  put("feeder.yaml", bench);
+  for (const auto& [step, why] : std::vector<std::pair<std::string, std::string>>{
+           {"program: { feeder: pipe }",
+            ".program.feeder: " + pipe + " is no regular file; expected a listing"},
+           {"include: pipe", ".include: " + pipe + " is no regular file; expected a file of steps"}}) {
+    const std::string file = put("s.yaml", "understudy: 1\nbench: feeder.yaml\nsteps:\n  - " + step + "\n");
+    EXPECT_EQ(complaint([&] { load_scenarios(file); }), file + ":4: steps[0]" + why);
+  }
+}
+
+TEST_F(TextFile, IsReplacedAsAWholeAndTouchesNoNeighbour) {
+  put("file", "old");
+  put("file.new", "precious");
+  put("file.new-2", "too");
+  EXPECT_EQ(replace_text_file(path("file"), "new"), 0);
+  EXPECT_EQ(content(path("file")), "new");
+  EXPECT_EQ(content(path("file.new")), "precious");
+  EXPECT_EQ(content(path("file.new-2")), "too");
+  EXPECT_FALSE(fs::exists(path("file.new-3")));
+  EXPECT_EQ(replace_text_file(path("none/file"), "new"), ENOENT);
+}
+
+}  // namespace
+}  // namespace understudy::emulator
