@@ -14,7 +14,8 @@ set(scenarios_folder ${CMAKE_INSTALL_DATADIR}/understudy/scenarios)
 install(TARGETS understudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # The program looks for it in lib/understudy, whatever the libraries' folder is called.
 install(TARGETS understudy_tty_shim LIBRARY DESTINATION lib/understudy)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} PATTERN "*.port" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} USE_SOURCE_PERMISSIONS
+  PATTERN "*.port" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
