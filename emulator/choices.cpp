@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "emulator/one_line.h"
 #include "emulator/register_map/register_map.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -35,12 +37,12 @@ std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
     if (row == rows.end()) {
       std::vector<std::string> ids;
       for (const ChoiceRow& r : rows) ids.emplace_back(r.id);
-      throw ChoiceError("no choice is called '" + id + "'; the nearest is '" + nearest_word(id, ids) + "'");
+      throw ChoiceError("no choice is called " + quoted(id) + suggestion(id, ids));
     }
     const std::vector<std::string_view> options = options_of(*row);
     const auto found = std::find(options.begin(), options.end(), option);
     if (found == options.end()) {
-      throw ChoiceError("choice '" + id + "' has no option '" + option + "'; expected one of " +
+      throw ChoiceError("choice " + quoted(id) + " has no option " + quoted(option) + "; expected one of " +
                         std::string(row->options));
     }
     chosen[static_cast<std::size_t>(row - rows.begin())] = static_cast<std::uint8_t>(found - options.begin());

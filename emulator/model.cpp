@@ -7,6 +7,7 @@
 #include "emulator/devices/simple2_r3/model.h"
 #include "emulator/one_line.h"
 #include "emulator/register_map/access.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -70,9 +71,8 @@ int demand_switch(const Model& model, const std::string& name) {
     if (model.terminals[i].name == name) return static_cast<int>(i);
     names.emplace_back(model.terminals[i].name);
   }
-  throw SettingError(
-      "dip", quoted(name) + " is no switch of " + std::string(model.name) +
-                 (names.empty() ? "; it has none" : "; the nearest is '" + nearest_word(name, names) + "'"));
+  throw SettingError("dip", quoted(name) + " is no switch of " + std::string(model.name) +
+                                suggestion(name, names, "it has none"));
 }
 
 }  // namespace

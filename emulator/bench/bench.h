@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/faults/fault.h"
+#include "emulator/file_claims.h"
 #include "emulator/model.h"
 #include "emulator/plant/plant.h"
 #include "pty/line.h"
@@ -55,8 +56,9 @@ struct Bench {
   std::vector<MachineSetup> machines;
   std::vector<WireSetup> wires;
   std::vector<InputSetup> inputs;
-  std::vector<Fault> faults;  // those there are from the beginning
-  std::uint64_t seed = 0;     // where randomness begins
+  std::vector<Fault> faults;       // those there are from the beginning
+  std::uint64_t seed = 0;          // where randomness begins
+  std::vector<FileClaim> files{};  // that it was read from, but for memories
 };
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.

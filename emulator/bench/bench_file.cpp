@@ -9,6 +9,8 @@
 #include "emulator/bench/names.h"
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/device.h"
+#include "emulator/one_line.h"
+#include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 #include "emulator/world/world.h"
 
@@ -21,7 +23,7 @@ void demand_name(const YamlFields& field, const std::string& name) {
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
-  if (!plain) field.fail("'" + name + "' is no name; expected letters, digits, _ and -");
+  if (!plain) field.fail(emulator::quoted(name) + " is no name; expected letters, digits, _ and -");
 }
 
 class BenchReader {
@@ -45,7 +47,8 @@ class BenchReader {
   // --- devices -------------------------------------------------------------------------------
   std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
     demand_name(name_field, name);
-    if (find_device(name) >= 0) name_field.fail("two devices are called '" + name + "'; expected a new name");
+    if (find_device(name) >= 0)
+      name_field.fail("two devices are called " + emulator::quoted(name) + "; expected a new name");
     DeviceSetup device;
     device.settings.name = name;
     const YamlFields model = fields.at("model");
@@ -53,14 +56,13 @@ class BenchReader {
     if (device.model == nullptr) {
       std::vector<std::string> names;
       for (const Model* known : all_models()) names.emplace_back(known->name);
-      model.fail("'" + model.text() + "' is no model; the nearest is '" + nearest_word(model.text(), names) +
-                 "'");
+      model.fail(emulator::quoted(model.text()) + " is no model" + suggestion(model.text(), names));
     }
     if (fields.has("firmware")) {
       const YamlFields firmware = fields.at("firmware");
       device.settings.firmware = parse_firmware(firmware.text());
       if (device.settings.firmware == 0)
-        firmware.fail("'" + firmware.text() + "' is no version; expected one like \"1.52\"");
+        firmware.fail(emulator::quoted(firmware.text()) + " is no version; expected one like \"1.52\"");
     }
     if (fields.has("set")) {
       fields.at("set").demand_map();
@@ -93,7 +95,7 @@ class BenchReader {
   }
 
   /// The path of a listing, or the listing itself if it has several lines.
-  void read_program(const YamlFields& field, DeviceSettings& settings) const {
+  void read_program(const YamlFields& field, DeviceSettings& settings) {
     if (field.text().find('\n') != std::string::npos) {
       settings.program = field.text();
       settings.program_name = settings.name + ".program";
@@ -104,6 +106,7 @@ class BenchReader {
     if (!text) field.fail(path + " " + text.why + "; expected a listing");
     settings.program = *text;
     settings.program_name = path;
+    bench_.files.push_back({path, "the program of " + emulator::quoted(settings.name)});
   }
 
   /// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
@@ -121,7 +124,8 @@ class BenchReader {
     device.nv_path = path_in(folder_, field);
     for (const DeviceSetup& other : bench_.devices) {
       if (other.nv_path == device.nv_path) {
-        field.fail("device '" + other.settings.name + "' has the same file; expected another");
+        field.fail("device " + emulator::quoted(other.settings.name) +
+                   " has the same file; expected another");
       }
     }
   }
@@ -146,8 +150,7 @@ class BenchReader {
     if (found >= 0) return static_cast<std::size_t>(found);
     std::vector<std::string> names;
     for (const DeviceSetup& device : bench_.devices) names.push_back(device.settings.name);
-    field.fail("no device is called '" + name + "'" +
-               (names.empty() ? "" : "; the nearest is '" + nearest_word(name, names) + "'"));
+    field.fail("no device is called " + emulator::quoted(name) + suggestion(name, names));
   }
 
   // --- lines ---------------------------------------------------------------------------------
@@ -164,19 +167,20 @@ class BenchReader {
     if (fields.has("link")) {
       const YamlFields link = fields.at("link");
       line.link = path_in(links_, link);
+      if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without");
       const auto absolute = [](const std::string& path) {
         return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
       };
       for (const LineSetup& other : bench_.lines) {
         if (!other.link.empty() && absolute(other.link) == absolute(line.link))
-          link.fail("line '" + other.name + "' has the same link; expected another path");
+          link.fail("line " + emulator::quoted(other.name) + " has the same link; expected another path");
       }
     }
     if (fields.has("baud")) line.baud = static_cast<int>(fields.at("baud").integer(kBaudForm));
     if (fields.has("timing")) {
       const YamlFields timing = fields.at("timing");
       if (timing.text() != "wire" && timing.text() != "instant") {
-        timing.fail("'" + timing.text() + "' is no timing; expected wire or instant");
+        timing.fail(emulator::quoted(timing.text()) + " is no timing; expected wire or instant");
       }
       line.timing = timing.text() == "wire" ? pty::Timing::wire : pty::Timing::instant;
     }
@@ -221,7 +225,7 @@ class BenchReader {
                                             const char* example) const {
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos)
-      field.fail("'" + name + "' names no device; expected a name like " + example);
+      field.fail(emulator::quoted(name) + " names no device; expected a name like " + example);
     return {demand_device(field, name.substr(0, dot)), name.substr(dot + 1)};
   }
 
@@ -234,8 +238,8 @@ class BenchReader {
       if (axis < 0) {
         std::string axes;
         for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
-        fields.fail("'" + axis_name + "' is no axis of " + std::string(model.name) + "; expected one of " +
-                    axes);
+        fields.fail(emulator::quoted(axis_name) + " is no axis of " + std::string(model.name) +
+                    "; expected one of " + axes);
       }
       bench_.machines.push_back({.device = device,
                                  .axis = axis,
@@ -254,9 +258,9 @@ class BenchReader {
     for (const TerminalRow& row : model.terminals) {
       if (row.kind == kind) names.emplace_back(row.name);
     }
-    field.fail("'" + terminal_name + "' is no " +
+    field.fail(emulator::quoted(terminal_name) + " is no " +
                (kind == TerminalRow::Kind::digital_in ? "input" : "output") + " of " +
-               std::string(model.name) + "; the nearest is '" + nearest_word(terminal_name, names) + "'");
+               std::string(model.name) + suggestion(terminal_name, names));
   }
 
   void read_wires(const YamlFields& wires) {
@@ -343,6 +347,9 @@ class BenchReader {
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
                   const std::string& links) {
   const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
+  if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
+    throw FileError(name + ":1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
+  }
   root.demand_keys(kBenchKeys);
   root.at("understudy").integer(kVersionForm);
   return BenchReader(folder, links).read(root);
@@ -356,7 +363,9 @@ Bench read_bench(const YamlFields& fields, const std::string& folder) {
 Bench load_bench(const std::string& path, const std::string& links) {
   const auto text = read_text_file(path);
   if (!text) throw FileError(path + ":1: bench: " + text.why + "; expected a bench file");
-  return parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
+  Bench bench = parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
+  bench.files.insert(bench.files.begin(), {path, "the bench itself"});
+  return bench;
 }
 
 }  // namespace understudy::emulator

@@ -2,6 +2,7 @@
 
 #include "emulator/bench/bench_form.h"
 #include "emulator/bench/level.h"
+#include "emulator/one_line.h"
 #include "emulator/world/check_fault.h"
 
 namespace understudy::emulator {
@@ -20,7 +21,7 @@ PulseSpan read_span(const YamlFields& field) {
 bool read_word(const YamlFields& field, std::string_view first, std::string_view second) {
   const std::string word = field.text();
   if (word != first && word != second) {
-    field.fail("'" + word + "' is unknown; expected " + std::string(first) + " or " + std::string(second));
+    field.fail(quoted(word) + " is unknown; expected " + std::string(first) + " or " + std::string(second));
   }
   return word == first;
 }
@@ -88,7 +89,7 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
     const TerminalRow& row = input.row(devices);
     const auto level = parse_level(field.text(), row.kind);
     if (!level)
-      field.fail("'" + field.text() + "' is no level; expected " + std::string(level_example(row.kind)));
+      field.fail(quoted(field.text()) + " is no level; expected " + std::string(level_example(row.kind)));
     demand_level(row, name, *level);
     return {.device = input.device, .terminal = input.terminal, .level = static_cast<std::int32_t>(*level)};
   } catch (const NameError& error) {

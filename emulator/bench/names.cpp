@@ -2,6 +2,7 @@
 
 #include "emulator/bench/bench.h"
 #include "emulator/one_line.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -22,8 +23,7 @@ int number_of(const KnownDevices& devices, std::string_view name) {
 NameError no_device(const KnownDevices& devices, std::string_view name) {
   std::vector<std::string> names;
   for (const KnownDevice& device : devices) names.push_back(device.name);
-  return NameError("no device is called " + quoted(name) +
-                   (names.empty() ? "" : "; the nearest is '" + nearest_word(name, names) + "'"));
+  return NameError("no device is called " + quoted(name) + suggestion(name, names));
 }
 
 Split split(const KnownDevices& devices, std::string_view name) {
@@ -57,7 +57,7 @@ InputName find_input(const KnownDevices& devices, std::string_view name) {
     if (is_input(row.kind)) names.emplace_back(row.name);
   }
   throw NameError("no input of " + devices[number].name + " is called " + quoted(rest) +
-                  "; the nearest is '" + nearest_word(rest, names) + "'");
+                  suggestion(rest, names));
 }
 
 void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level) {

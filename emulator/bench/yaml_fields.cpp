@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <set>
 
+#include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/register_map/register_map.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -105,8 +107,9 @@ void YamlFields::demand_keys(std::span<const KeyRow> known) const {
       names.emplace_back(row.key);
       list += (list.empty() ? "" : ", ") + names.back();
     }
-    value.fail("is no key here; expected one of " + list + " (the nearest is '" + nearest_word(key, names) +
-               "')");
+    const auto nearest = near_word(key, names);
+    value.fail("is no key here; expected one of " + list +
+               (nearest ? " (the nearest is '" + *nearest + "')" : ""));
   }
 }
 
@@ -123,7 +126,7 @@ std::optional<YamlFields> YamlFields::find(std::string_view key) const {
 YamlFields YamlFields::at(std::string_view key) const {
   if (!is_map()) fail("expected a map, as in `key: value`");
   auto value = find(key);
-  if (!value) fail("'" + std::string(key) + "' is missing; expected it here");
+  if (!value) fail(emulator::quoted(key) + " is missing; expected it here");
   return *std::move(value);
 }
 
@@ -162,8 +165,8 @@ std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) cons
   const std::string digits = text();
   const auto value = parse_integer(digits);
   if (!value || *value < lowest || *value > highest) {
-    fail("'" + digits + "' is not possible; expected a whole number from " + std::to_string(lowest) + " to " +
-         std::to_string(highest));
+    fail(emulator::quoted(digits) + " is not possible; expected a whole number from " +
+         std::to_string(lowest) + " to " + std::to_string(highest));
   }
   return *value;
 }
@@ -172,14 +175,14 @@ bool YamlFields::on_or_off() const {
   const std::string word = text();
   const bool on = word == "on" || word == "true" || word == "1";
   if (!on && word != "off" && word != "false" && word != "0")
-    fail("'" + word + "' is neither; expected on or off");
+    fail(emulator::quoted(word) + " is neither; expected on or off");
   return on;
 }
 
 SimTime YamlFields::duration() const {
   const std::string written = text();
   const auto duration = parse_duration(written);
-  if (!duration) fail("'" + written + "' is no duration; expected one such as 250ms");
+  if (!duration) fail(emulator::quoted(written) + " is no duration; expected one such as 250ms");
   return *duration;
 }
 
@@ -187,7 +190,7 @@ Tick YamlFields::ticks() const {
   const std::string written = text();
   const auto duration = parse_duration(written);
   if (!duration || *duration % kTickLength != SimTime{0}) {
-    fail("'" + written + "' is no duration of whole milliseconds; expected one such as 120ms");
+    fail(emulator::quoted(written) + " is no duration of whole milliseconds; expected one such as 120ms");
   }
   return *duration / kTickLength;
 }

@@ -27,10 +27,11 @@ Json assignments(const ControlArguments& arguments) {
                            ? std::nullopt
                            : parse_integer(std::string_view(operand).substr(equals + 1));
     if (!value || name.empty())
-      throw UsageError("ctl " + arguments.verb + ": '" + operand +
-                       "' is not understood; expected NAME=VALUE");
+      throw UsageError("ctl " + arguments.verb + ": " + emulator::quoted(operand) +
+                       " is not understood; expected NAME=VALUE");
     if (values.contains(name))
-      throw UsageError("ctl " + arguments.verb + ": '" + name + "' is given twice; expected it once");
+      throw UsageError("ctl " + arguments.verb + ": " + emulator::quoted(name) +
+                       " is given twice; expected it once");
     values[name] = *value;
   }
   if (values.empty()) throw UsageError("ctl " + arguments.verb + ": nothing to do; expected NAME=VALUE");
@@ -44,8 +45,9 @@ Json levels(const ControlArguments& arguments) {
     const std::size_t equals = operand.find('=');
     const std::string name = operand.substr(0, equals);
     if (equals == std::string::npos || name.empty() || equals + 1 == operand.size())
-      throw UsageError("ctl input: '" + operand + "' is not understood; expected NAME=LEVEL");
-    if (values.contains(name)) throw UsageError("ctl input: '" + name + "' is given twice; expected it once");
+      throw UsageError("ctl input: " + emulator::quoted(operand) + " is not understood; expected NAME=LEVEL");
+    if (values.contains(name))
+      throw UsageError("ctl input: " + emulator::quoted(name) + " is given twice; expected it once");
     const std::string level = operand.substr(equals + 1);
     if (const auto number = parse_integer(level)) {
       values[name] = *number;
@@ -64,8 +66,10 @@ Json fault_of(const std::vector<std::string>& operands) {
     const std::size_t equals = operands[i].find('=');
     const std::string name = operands[i].substr(0, equals);
     if (equals == std::string::npos || name.empty())
-      throw UsageError("ctl inject: '" + operands[i] + "' is not understood; expected NAME=VALUE");
-    if (fault.contains(name)) throw UsageError("ctl inject: '" + name + "' is given twice; expected it once");
+      throw UsageError("ctl inject: " + emulator::quoted(operands[i]) +
+                       " is not understood; expected NAME=VALUE");
+    if (fault.contains(name))
+      throw UsageError("ctl inject: " + emulator::quoted(name) + " is given twice; expected it once");
     fault[name] = operands[i].substr(equals + 1);
   }
   return fault;
@@ -95,8 +99,8 @@ std::string listing_of(const std::string& path) {
 std::int64_t demand_number(const ControlArguments& arguments) {
   const auto number = parse_integer(arguments.operands[0]);
   if (!number) {
-    throw UsageError("ctl clear: '" + arguments.operands[0] +
-                     "' is not understood; expected the number of a fault, or all");
+    throw UsageError("ctl clear: " + emulator::quoted(arguments.operands[0]) +
+                     " is not understood; expected the number of a fault, or all");
   }
   return *number;
 }
@@ -145,8 +149,8 @@ Json message_for(const ControlArguments& arguments) {
     message["condition"] = arguments.operands[0];
     message["within"] = arguments.within;
   } else if (!arguments.operands.empty()) {
-    throw UsageError("ctl " + verb + ": '" + arguments.operands[0] +
-                     "' is one word too many; expected nothing after it");
+    throw UsageError("ctl " + verb + ": " + emulator::quoted(arguments.operands[0]) +
+                     " is one word too many; expected nothing after it");
   }
   return message;
 }

@@ -4,6 +4,8 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/describe/describe.h"
 #include "emulator/describe/fidelity_page.h"
+#include "emulator/one_line.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -11,8 +13,8 @@ const Model& demand_model(const std::string& name) {
   if (const Model* model = find_model(name)) return *model;
   std::vector<std::string> names;
   for (const Model* model : all_models()) names.emplace_back(model->name);
-  throw UsageError("'" + name + "' is no model; the nearest is '" + nearest_word(name, names) +
-                   "' (`understudy models` lists them)");
+  throw UsageError(quoted(name) + " is no model" + suggestion(name, names) +
+                   " (`understudy models` lists them)");
 }
 
 int list_models() {
@@ -28,13 +30,13 @@ int describe_model(const DescribeArguments& arguments) {
   const Model& model = demand_model(arguments.model);
   const auto format = parse_sheet_format(arguments.format);
   if (!format)
-    throw UsageError("--format: '" + arguments.format +
-                     "' is unknown; expected table, csv, json or markdown");
+    throw UsageError("--format: " + quoted(arguments.format) +
+                     " is unknown; expected table, csv, json or markdown");
   const auto sheet = describe(model, arguments.what, *format);
   if (!sheet) {
     throw UsageError(
-        "'" + arguments.what +
-        "' cannot be described; expected registers, parameters, instructions, commands or choices");
+        quoted(arguments.what) +
+        " cannot be described; expected registers, parameters, instructions, commands or choices");
   }
   // As Markdown the choices are a page of the documentation, whole.
   const bool page = arguments.what == "choices" && *format == SheetFormat::markdown;

@@ -13,6 +13,7 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
+#include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/edge/child.h"
 #include "emulator/edge/parent_signals.h"
@@ -72,9 +73,9 @@ void demand_variables(const Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
-      throw UsageError("exec: the lines '" + bench.lines[j].name + "' and '" + bench.lines[i].name +
-                       "' would both be " + variable_of(bench.lines[i].name) +
-                       "; expected names that differ more");
+      throw UsageError("exec: the lines " + emulator::quoted(bench.lines[j].name) + " and " +
+                       emulator::quoted(bench.lines[i].name) + " would both be " +
+                       variable_of(bench.lines[i].name) + "; expected names that differ more");
     }
   }
 }
@@ -105,7 +106,8 @@ std::optional<WallTime> timeout_of(const ExecArguments& arguments) {
   if (arguments.timeout.empty()) return std::nullopt;
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout <= SimTime{0}) {
-    throw UsageError("--timeout: '" + arguments.timeout + "' is no time to wait; expected one such as 30s");
+    throw UsageError("--timeout: " + emulator::quoted(arguments.timeout) +
+                     " is no time to wait; expected one such as 30s");
   }
   return *timeout;
 }
@@ -184,6 +186,21 @@ int play(const ExecArguments& arguments, const Serving& serving, const std::opti
   return child->exit_code() != 0 ? child->exit_code() : scenario_code;
 }
 
+/// The scenario reads and writes files of its own while the bench's are written.
+void demand_apart(const Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
+  FileClaims of_scenario;
+  of_scenario.add(scenario.files);
+  const auto demand = [&](const char* flag, const std::string& path) {
+    demand_output(of_scenario, flag, path);
+  };
+  demand("--capture", serve.capture);
+  if (!serve.record.empty()) demand("--record", serve.record + kOlderPart);
+  demand("--record", serve.record);
+  demand("--trace", serve.trace);
+  for (const std::string& path : scenario.saved) demand_output(files, "--with: save", path);
+  files.add(scenario.files);
+}
+
 }  // namespace
 
 int execute(const ExecArguments& arguments) {
@@ -194,7 +211,10 @@ int execute(const ExecArguments& arguments) {
   Serving serving = make_serving(arguments.serve, "exec");
   demand_variables(serving.bench);
   std::optional<Scenario> scenario;
-  if (!arguments.with.empty()) scenario = load_companion(arguments.with, serving.bench);
+  if (!arguments.with.empty()) {
+    scenario = load_companion(arguments.with, serving.bench);
+    demand_apart(*scenario, arguments.serve, serving.options.files);
+  }
   PrivateFolder folder;
   use_private_places(serving, arguments, folder);
   serving.options.watch_signals = false;

@@ -10,6 +10,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/model.h"
 #include "emulator/one_line.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -176,8 +177,9 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->add_option("--report", run.report, "Write a page about all of it to this file, as HTML")
         ->check(kNotEmpty);
-    command->add_option("--record", run.record,
-                        "Folder for the recordings of all scenarios [those of failures, below /tmp]")
+    command
+        ->add_option("--record", run.record,
+                     "Folder for the recordings of all scenarios [those of failures, below /tmp]")
         ->check(kNotEmpty);
     command->add_flag("--lint", run.lint, kLintHelp);
     command->add_flag("--hash", run.hash,
@@ -308,7 +310,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv, int firs
     const std::string word = argv[i];
     if (word.starts_with("-")) {
       const CLI::Option* const flag = app.get_option_no_throw(word.substr(0, word.find('=')));
-      if (flag == nullptr) return "'" + word + "' is no flag here";
+      if (flag == nullptr) return emulator::quoted(word) + " is no flag here";
       if (flag->get_items_expected_max() > 0 && word.find('=') == std::string::npos) ++i;  // its value
       continue;
     }
@@ -318,7 +320,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv, int firs
       if (word != command->get_name()) continue;
       return command->get_subcommands(nullptr).empty() ? "" : unknown_command(*command, argc, argv, i + 1);
     }
-    return "'" + word + "' is no command; the nearest is '" + nearest_word(word, names) + "'";
+    return emulator::quoted(word) + " is no command" + suggestion(word, names);
   }
   return "";
 }

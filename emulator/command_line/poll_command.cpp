@@ -34,8 +34,8 @@ struct Item {
 
 std::int64_t demand_integer(std::string_view text, const std::string& item) {
   if (const auto value = parse_integer(text)) return *value;
-  throw UsageError("poll: '" + item +
-                   "' is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
+  throw UsageError("poll: " + quoted(item) +
+                   " is not understood; expected NAME, ADDRESS or ADDRESS:COUNT, or one of them =VALUE");
 }
 
 Type demand_type(const std::string& name) {
@@ -43,7 +43,7 @@ Type demand_type(const std::string& name) {
   if (name == "s16") return Type::s16;
   if (name == "u32") return Type::u32;
   if (name == "s32") return Type::s32;
-  throw UsageError("--type: '" + name + "' is unknown; expected u16, s16, u32 or s32");
+  throw UsageError("--type: " + quoted(name) + " is unknown; expected u16, s16, u32 or s32");
 }
 
 Item parse_item(const std::string& text, const PollArguments& arguments) {
@@ -64,7 +64,8 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
     item.type = demand_type(arguments.type);
     if (colon != std::string::npos) {
       const std::int64_t count = demand_integer(std::string_view(what).substr(colon + 1), text);
-      if (item.write) throw UsageError("poll: '" + text + "' writes a range; expected one ADDRESS=VALUE");
+      if (item.write)
+        throw UsageError("poll: " + quoted(text) + " writes a range; expected one ADDRESS=VALUE");
       const int most = is_32_bit(item.type) ? 62 : 125;
       if (count < 1 || count > most)
         throw UsageError("poll: count of " + what + " is out of range; expected 1 to " +
@@ -74,7 +75,8 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
     return item;
   }
   if (arguments.model.empty())
-    throw UsageError("poll: '" + what + "' is a name; expected --model MODEL to look it up, or an address");
+    throw UsageError("poll: " + quoted(what) +
+                     " is a name; expected --model MODEL to look it up, or an address");
   const Model& model = demand_model(arguments.model);
   const auto found = model.registers.find(what, model.firmwares.back());
   if (!found) {
@@ -88,7 +90,7 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
   item.address = static_cast<std::uint16_t>(place.address() + (second ? 1 : 0));
   item.bit = found->bit;
   if (item.write && item.bit >= 0)
-    throw UsageError("poll: '" + text + "' writes a bit; expected a whole register");
+    throw UsageError("poll: " + quoted(text) + " writes a bit; expected a whole register");
   return item;
 }
 
@@ -111,10 +113,10 @@ Context connect(const PollArguments& arguments) {
                       : arguments.parity == "none" ? 'N'
                                                    : '?';
   if (parity == '?')
-    throw UsageError("--parity: '" + arguments.parity + "' is unknown; expected even, odd or none");
+    throw UsageError("--parity: " + quoted(arguments.parity) + " is unknown; expected even, odd or none");
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
-    throw UsageError("--timeout: '" + arguments.timeout + "' is no duration; expected one like 500ms");
+    throw UsageError("--timeout: " + quoted(arguments.timeout) + " is no duration; expected one like 500ms");
   // Checked here, because libmodbus prints complaints of its own.
   if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
     throw UsageError("--baud: " + std::to_string(arguments.baud) +
@@ -206,7 +208,7 @@ int poll_port(const PollArguments& arguments) {
   if (!arguments.every.empty()) {
     const auto parsed = parse_duration(arguments.every);
     if (!parsed)
-      throw UsageError("--every: '" + arguments.every + "' is no duration; expected one like 500ms");
+      throw UsageError("--every: " + quoted(arguments.every) + " is no duration; expected one like 500ms");
     every = *parsed;
   }
   const Context context = connect(arguments);

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/one_line.h"
 #include "emulator/text_file.h"
 #include "interpreter/simple2/listing.h"
 
@@ -65,7 +66,7 @@ int disassemble_program(const std::string& file) {
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), cells[found]);
       if (error != std::errc{} || end != word.data() + word.size() || cells[found] < 0 ||
           cells[found] > 255) {
-        return refuse(file, number, "'" + word + "' is no cell; expected 0 to 255");
+        return refuse(file, number, quoted(word) + " is no cell; expected 0 to 255");
       }
     }
     if (found == 0) continue;

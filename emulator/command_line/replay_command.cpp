@@ -9,6 +9,7 @@
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/edge/daemon.h"
+#include "emulator/one_line.h"
 #include "emulator/recording/replay.h"
 #include "emulator/text_file.h"
 #include "emulator/world/snapshot.h"
@@ -18,7 +19,8 @@ namespace understudy::emulator {
 namespace {
 
 /// The recorded world as it was then, with a clock that stands, until a signal ends it.
-int serve_from(const Replayed& replayed, const WorldState& state, const std::string& control) {
+int serve_from(const Replayed& replayed, const WorldState& state, const std::string& recording,
+               const std::string& control) {
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
   Bench bench = replayed.bench;
   for (LineSetup& line : bench.lines) line.link.clear();  // where it was recorded, somebody else may be at it
@@ -28,6 +30,7 @@ int serve_from(const Replayed& replayed, const WorldState& state, const std::str
   options.patience = replayed.header.options.patience;
   options.enforce_settings = replayed.header.options.enforce_settings;
   options.control_path = control;
+  options.files.add({recording, "the recording itself"});
   Daemon daemon(bench, options, log_line);
   daemon.restore(state);
   say_ready(daemon);
@@ -45,7 +48,7 @@ int replay_recording(const ReplayArguments& arguments) {
   if (!arguments.until.empty()) {
     until = parse_duration(arguments.until);
     if (!until)
-      throw UsageError("--until: '" + arguments.until + "' is no duration; expected one such as 2.5s");
+      throw UsageError("--until: " + quoted(arguments.until) + " is no duration; expected one such as 2.5s");
   }
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
@@ -71,7 +74,7 @@ int replay_recording(const ReplayArguments& arguments) {
               static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
               seconds, result.has_end || until ? "" : "; it breaks off before its end");
   if (result.verdict != ReplayResult::Verdict::stopped) return kExitWell;
-  return serve_from(replayed, *state, arguments.control);
+  return serve_from(replayed, *state, arguments.recording, arguments.control);
 }
 
 }  // namespace understudy::emulator

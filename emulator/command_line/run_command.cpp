@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/run_recordings.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
@@ -47,15 +48,36 @@ std::vector<Scenario> choose_some(std::vector<Scenario> scenarios, const RunArgu
   if (!arguments.shard.empty()) {
     const auto parsed = parse_shard(arguments.shard);
     if (!parsed) {
-      throw UsageError("--shard: '" + arguments.shard + "' is no part; expected I/N such as 1/4, I up to N");
+      throw UsageError("--shard: " + emulator::quoted(arguments.shard) +
+                       " is no part; expected I/N such as 1/4, I up to N");
     }
     shard = *parsed;
   }
   if (!arguments.filter.empty() && choose(scenarios, arguments.filter, {}).empty()) {
-    throw UsageError("--filter: '" + arguments.filter +
-                     "' fits no scenario's name; expected a pattern such as '*move*'");
+    throw UsageError("--filter: " + emulator::quoted(arguments.filter) +
+                     " fits no scenario's name; expected a pattern such as '*move*'");
   }
   return choose(std::move(scenarios), arguments.filter, shard);
+}
+
+/// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
+void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
+                      const RunArguments& arguments) {
+  for (const Scenario& scenario : scenarios) {
+    for (const std::string& path : scenario.saved) {
+      if (const std::string why = claims.objection_to(path); !why.empty()) {
+        throw UsageError(scenario.file + ": save: " + path + " " + why);
+      }
+    }
+    for (const std::string& path : scenario.saved) claims.add({path, "what " + scenario.file + " saves"});
+  }
+  demand_output(claims, "--junit", arguments.junit);
+  demand_output(claims, "--report", arguments.report);
+  if (arguments.record.empty()) return;
+  if (const std::string why = claims.objection_to_folder(arguments.record, RunRecordings::file_endings());
+      !why.empty()) {
+    throw UsageError("--record: " + arguments.record + ": " + why);
+  }
 }
 
 // In real time a scenario mostly waits.
@@ -117,7 +139,10 @@ int run_scenarios(const RunArguments& arguments) {
   }
   auto loaded = load_all(arguments);
   if (!loaded) return kExitBadInput;
+  FileClaims claims;  // also by those that are not chosen
+  for (const Scenario& scenario : *loaded) claims.add(scenario.files);
   const std::vector<Scenario> scenarios = choose_some(std::move(*loaded), arguments);
+  demand_own_files(std::move(claims), scenarios, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
   RunRecordings recordings(arguments.record, arguments.real_time, arguments.version);

@@ -5,10 +5,12 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "emulator/edge/private_folder.h"
 #include "emulator/scenario/onlooker.h"
 #include "emulator/scenario/scenario.h"
+#include "pty/descriptor.h"
 
 namespace understudy::emulator {
 
@@ -26,6 +28,8 @@ class RunRecordings {
   /// Keeps the recording, under the result's name, or removes it; ScenarioResult::recording says where it is.
   /// To be called in the order of the results, which decides between equal names.
   void settle(ScenarioResult& result);
+  /// What the names of the files in the folder end in.
+  static std::vector<std::string> file_endings();
 
  private:
   std::string free_name(const std::string& name);
@@ -34,7 +38,8 @@ class RunRecordings {
   bool real_time_;
   std::string version_;
   PrivateFolder private_folder_;
-  std::string spool_;  // a folder in that one
+  pty::Descriptor lock_;  // on the spool: it has an owner who lives
+  std::string spool_;     // a folder in that one
   std::atomic<int> count_ = 0;
   std::set<std::string> names_;  // that are taken
 };

@@ -2,10 +2,10 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
 
 #include "emulator/bench/bench_file.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/command_line/output_paths.h"
 #include "emulator/device.h"
 #include "emulator/edge/nv_keeper.h"
 #include "emulator/edge/port_group.h"
@@ -19,7 +19,17 @@ namespace {
 pty::Timing demand_timing(const std::string& timing) {
   if (timing == "wire") return pty::Timing::wire;
   if (timing == "instant") return pty::Timing::instant;
-  throw UsageError("--timing: '" + timing + "' is unknown; expected wire or instant");
+  throw UsageError("--timing: " + emulator::quoted(timing) + " is unknown; expected wire or instant");
+}
+
+/// What the model says of a setting is said of its flag.
+void demand_possible(const DeviceSetup& device) {
+  try {
+    make_device(*device.model, device.settings);
+  } catch (const SettingError& error) {
+    const std::string flag = error.setting == "address" ? "--station" : "--" + error.setting;
+    throw UsageError(flag + std::string(error.what()).substr(error.setting.size()));
+  }
 }
 
 /// One line with one device, from flags.
@@ -34,11 +44,16 @@ Bench bench_of_one(const ServeArguments& arguments) {
   if (!arguments.firmware.empty()) {
     device.settings.firmware = parse_firmware(arguments.firmware);
     if (device.settings.firmware == 0) {
-      throw UsageError("--firmware: '" + arguments.firmware + "' is no version; expected one like 1.52");
+      throw UsageError("--firmware: " + emulator::quoted(arguments.firmware) +
+                       " is no version; expected one like 1.52");
     }
   }
   bench.devices.push_back(device);
+  demand_possible(device);
   std::string link = arguments.link;
+  if (one_line(link) != link) {
+    throw UsageError("--link: " + link + ": has a control character; expected a path without");
+  }
   if (!link.empty()) link = (std::filesystem::path(arguments.links) / link).string();
   bench.lines.push_back({.name = "line", .link = link, .baud = device.settings.baud, .stations = {0}});
   return bench;
@@ -67,25 +82,26 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   return bench;
 }
 
-/// A file to write: never the bench.
-std::string demand_path(const ServeArguments& arguments, const char* flag, const std::string& path) {
-  std::error_code no_such_file;
-  if (!arguments.bench.empty() && std::filesystem::equivalent(path, arguments.bench, no_such_file)) {
-    throw UsageError(std::string(flag) + ": " + path + ": is the bench itself; expected a path of its own");
+/// What the bench is made of, and the memories, which are written as well.
+FileClaims claims_of(const Bench& bench) {
+  FileClaims claims;
+  claims.add(bench.files);
+  for (const DeviceSetup& device : bench.devices) {
+    claims.add({device.nv_path, "the memory of " + emulator::quoted(device.settings.name)});
   }
-  return path;
+  return claims;
 }
 
-std::string demand_capture(const ServeArguments& arguments) {
+const std::string& demand_capture(const ServeArguments& arguments, FileClaims& claims) {
   const std::string& path = arguments.capture;
   if (path.ends_with(".pcap")) {
     throw UsageError("--capture: " + path +
                      ": this old format is not written; expected .pcapng, or another ending for a text log");
   }
-  return demand_path(arguments, "--capture", path);
+  return demand_output(claims, "--capture", path);
 }
 
-std::string demand_trace(const ServeArguments& arguments, const Bench& bench) {
+const std::string& demand_trace(const ServeArguments& arguments, const Bench& bench, FileClaims& claims) {
   const std::string& path = arguments.trace;
   if (path.empty()) {
     if (arguments.trace_also.empty()) return path;
@@ -101,13 +117,20 @@ std::string demand_trace(const ServeArguments& arguments, const Bench& bench) {
       throw UsageError(std::string("--trace-also: ") + error.what());
     }
   }
-  return demand_path(arguments, "--trace", path);
+  return demand_output(claims, "--trace", path);
+}
+
+/// And the file beside it, where its older part goes once it has grown large.
+const std::string& demand_recording(const std::string& path, FileClaims& claims) {
+  if (!path.empty()) demand_output(claims, "--record", path + kOlderPart);
+  return demand_output(claims, "--record", path);
 }
 
 std::optional<gid_t> demand_group(const std::string& name) {
   if (name.empty()) return std::nullopt;
   const auto group = find_group(name);
-  if (!group) throw UsageError("--group: '" + name + "' is unknown; expected a group such as dialout");
+  if (!group)
+    throw UsageError("--group: " + emulator::quoted(name) + " is unknown; expected a group such as dialout");
   return group;
 }
 
@@ -121,15 +144,16 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
-  options.capture_path = demand_capture(arguments);
-  options.record_path = demand_path(arguments, "--record", arguments.record);
-  options.trace_path = demand_trace(arguments, serving.bench);
+  options.files = claims_of(serving.bench);
+  options.capture_path = demand_capture(arguments, options.files);
+  options.record_path = demand_recording(arguments.record, options.files);
+  options.trace_path = demand_trace(arguments, serving.bench, options.files);
   options.trace_also = arguments.trace_also;
   options.version = arguments.version;
   const auto speed = parse_speed(arguments.speed);
   if (!speed) {
-    throw UsageError("--speed: '" + arguments.speed +
-                     "' is unknown; expected real, free, manual or a factor such as 10x");
+    throw UsageError("--speed: " + emulator::quoted(arguments.speed) +
+                     " is unknown; expected real, free, manual or a factor such as 10x");
   }
   options.speed = *speed;
   serving.group = demand_group(arguments.group);

@@ -12,6 +12,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/control/server.h"
 #include "emulator/control/watch_table.h"
+#include "emulator/one_line.h"
 #include "emulator/simulated_time.h"
 
 namespace understudy::emulator {
@@ -67,7 +68,7 @@ void watch_for_the_end() {
 int watch(const WatchArguments& arguments) {
   const auto every = parse_duration(arguments.every);
   if (!every || *every < std::chrono::milliseconds(10)) {
-    throw UsageError("ctl watch: --every: '" + arguments.every + "' is no time; expected 10ms or more");
+    throw UsageError("ctl watch: --every: " + quoted(arguments.every) + " is no time; expected 10ms or more");
   }
   if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (without end) or more");
   const std::string path = socket_path(arguments.socket);

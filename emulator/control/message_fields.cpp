@@ -1,5 +1,7 @@
 #include "emulator/control/message_fields.h"
 
+#include "emulator/one_line.h"
+
 #include <algorithm>
 
 namespace understudy::emulator {
@@ -7,13 +9,13 @@ namespace understudy::emulator {
 void demand_keys(const Json& message, std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : message.items()) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw MessageError("'" + key + "' is no key of this message");
+      throw MessageError(emulator::quoted(key) + " is no key of this message");
     }
   }
 }
 
 const Json& demand(const Json& message, const char* key) {
-  if (!message.contains(key)) throw MessageError("'" + std::string(key) + "' is missing");
+  if (!message.contains(key)) throw MessageError(emulator::quoted(key) + " is missing");
   return message[key];
 }
 

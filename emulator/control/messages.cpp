@@ -123,7 +123,7 @@ void handle_message(Daemon& daemon, const std::string& line,
     if (verb == "run-until") return run_until_message(daemon, message, reply);
     std::string names = "advance, run-until";
     for (const Verb& known : kVerbs) names += ", " + std::string(known.name);
-    throw MessageError("'" + verb + "' is nothing to do; expected one of " + names);
+    throw MessageError(emulator::quoted(verb) + " is nothing to do; expected one of " + names);
   } catch (const Json::exception&) {
     reply(R"({"ok":false,"error":"the message is not JSON; expected one object on one line"})");
   } catch (const std::exception& error) {

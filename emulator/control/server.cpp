@@ -1,5 +1,7 @@
 #include "emulator/control/server.h"
 
+#include "emulator/one_line.h"
+
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -23,7 +25,7 @@ sockaddr_un address_of(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.empty() || path.size() >= sizeof(address.sun_path)) {
-    throw ControlError("'" + path + "': is no path for a socket; expected 1 to " +
+    throw ControlError(quoted(path) + ": is no path for a socket; expected 1 to " +
                        std::to_string(sizeof(address.sun_path) - 1) + " characters");
   }
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);

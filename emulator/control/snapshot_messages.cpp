@@ -30,6 +30,9 @@ Json reply_of(const Daemon& daemon) {
 
 Json snapshot_message(Daemon& daemon, const Json& message) {
   const std::string path = demand_file(message);
+  if (const std::string why = daemon.files().objection_to(path); !why.empty()) {
+    throw MessageError(path + ": file: " + why);
+  }
   daemon.catch_up();
   if (const int error = replace_text_file(path, to_text(save(daemon.world()), daemon.bench_hash()))) {
     throw MessageError(path + ": file: cannot be written (" + std::strerror(error) +

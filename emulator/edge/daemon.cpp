@@ -42,6 +42,7 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
     : log_(std::move(log)),
       world_(bench, world_options(options), log_),
       bench_hash_(emulator::bench_hash(bench)),
+      files_(options.files),
       pacer_(options.speed, wall_now()) {
   if (options.watch_signals) watch_signals();
   watch_posts();
@@ -318,7 +319,8 @@ void Daemon::run() {
     memories_->look(now);
     if (recording_) recording_->look();
   }
-  // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something did.
+  // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something
+  // did.
   if (!advance_done_) catch_up();
 }
 

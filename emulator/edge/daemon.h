@@ -16,6 +16,7 @@
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
+#include "emulator/file_claims.h"
 #include "emulator/growing_file.h"
 #include "emulator/recording/recording_spool.h"
 #include "emulator/trace/trace.h"
@@ -40,6 +41,7 @@ struct DaemonOptions {
   std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
   std::string version;  // of the program, for the recording
+  FileClaims files{};   // that no snapshot may overwrite
 };
 
 class Daemon {
@@ -82,6 +84,8 @@ class Daemon {
 
   /// Of the bench that the world is of, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
+  /// What it reads and writes besides them.
+  const FileClaims& files() const { return files_; }
   /// Why the world cannot be put into another state now; empty if it can.
   std::string_view why_no_restore() const;
   /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
@@ -109,6 +113,7 @@ class Daemon {
   std::function<void(const std::string&)> log_;
   World world_;
   std::uint64_t bench_hash_;
+  FileClaims files_;
   std::unique_ptr<pty::CaptureFile> capture_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
   std::unique_ptr<NvKeeper> memories_;

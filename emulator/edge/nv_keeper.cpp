@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 namespace understudy::emulator {
 
@@ -25,10 +26,19 @@ void demand_own_files(const Bench& bench) {
   }
 }
 
+void make_folder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::is_directory(folder)) return;
+  if (std::filesystem::exists(folder)) throw NvError("--nv: " + folder + " is no folder; expected one");
+  throw std::system_error(error, "--nv: " + folder + " cannot be made");
+}
+
 }  // namespace
 
 void read_memories(Bench& bench, const std::string& folder) {
-  if (!folder.empty()) std::filesystem::create_directories(folder);
+  make_folder(folder);
   for (DeviceSetup& device : bench.devices) {
     if (device.nv_path.empty() && !folder.empty()) {
       device.nv_path = folder + "/" + device.settings.name + ".json";

@@ -15,7 +15,7 @@ PrivateFolder::~PrivateFolder() {
 
 const std::string& PrivateFolder::path() {
   if (path_.empty()) {
-    std::string folder = "/tmp/understudy-XXXXXX";
+    std::string folder = std::string(kPrivateFolders) + "XXXXXX";
     if (mkdtemp(folder.data()) == nullptr) {
       throw pty::PortError(folder + ": cannot be made; expected a writable /tmp");
     }

@@ -4,6 +4,9 @@
 
 namespace understudy::emulator {
 
+/// What its path begins with.
+inline constexpr const char* kPrivateFolders = "/tmp/understudy-";
+
 /// A folder of its own below /tmp, made when it is first asked for and removed (empty) at the end.
 class PrivateFolder {
  public:

@@ -6,6 +6,7 @@
 
 #include "emulator/one_line.h"
 #include "emulator/register_map/register_map.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -237,8 +238,7 @@ Term ExpressionParser::call(const std::string& function, std::size_t offset) {
   if (row == kFunctions.end()) {
     std::vector<std::string> known;
     for (const FunctionRow& candidate : kFunctions) known.emplace_back(candidate.name);
-    fail(offset, "no function is called " + quoted(function) + "; the nearest is '" +
-                     nearest_word(function, known) + "'");
+    fail(offset, "no function is called " + quoted(function) + suggestion(function, known));
   }
   expect("(");
   Term term = expression();

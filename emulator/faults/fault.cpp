@@ -9,6 +9,7 @@
 #include "emulator/faults/trigger_text.h"
 #include "emulator/one_line.h"
 #include "emulator/register_map/register_map.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -25,7 +26,7 @@ const FaultKindRow& row_of(const std::string& name) {
     if (row.name == name) return row;
     names.emplace_back(row.name);
   }
-  throw NameError(quoted(name) + " is no fault; the nearest is '" + nearest_word(name, names) + "'");
+  throw NameError(quoted(name) + " is no fault" + suggestion(name, names));
 }
 
 /// The first device of a line; devices.size() if there is no such line.
@@ -151,8 +152,7 @@ void set_fields(const KnownDevices& devices, const FaultKindRow& kind, const Fau
     } else if (!set_trigger_field(fault.trigger, name, value)) {
       std::vector<std::string> known = trigger_fields();
       for (const FaultFieldRow& field : kind.fields) known.emplace_back(field.name);
-      throw NameError(one_line(name) + ": is nothing it has; the nearest is '" + nearest_word(name, known) +
-                      "'");
+      throw NameError(one_line(name) + ": is nothing it has" + suggestion(name, known));
     }
   }
   for (const FaultFieldRow& row : kind.fields) {

@@ -5,6 +5,7 @@
 #include "emulator/bench/names.h"
 #include "emulator/one_line.h"
 #include "emulator/register_map/access.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -56,8 +57,8 @@ bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
     probe.place = axis;
     return true;
   }
-  throw NameError("axis " + std::string(axis_name) + " has no " + quoted(what_name) + "; the nearest is '" +
-                  nearest_word(what_name, known) + "'");
+  throw NameError("axis " + std::string(axis_name) + " has no " + quoted(what_name) +
+                  suggestion(what_name, known));
 }
 
 Probes::Probe Probes::find(std::string_view name) const {

@@ -34,7 +34,7 @@ void RecordingSpool::begin() {
 void RecordingSpool::look() {
   if (!recorder_ || bytes_ < cap_bytes_) return;
   recorder_.reset();  // it says that it ends here
-  const std::string kept = path_ + ".1";
+  const std::string kept = path_ + kOlderPart;
   if (std::rename(path_.c_str(), kept.c_str()) != 0) {
     log_(path_ + ": the recording ends here: it cannot be put aside as " + kept + " (" +
          std::strerror(errno) + ")");

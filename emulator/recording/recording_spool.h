@@ -13,6 +13,8 @@
 namespace understudy::emulator {
 
 inline constexpr std::size_t kRecordingCapBytes = std::size_t{64} << 20;
+/// What the name of the one before it ends in.
+inline constexpr const char* kOlderPart = ".1";
 
 class RecordingSpool {
  public:

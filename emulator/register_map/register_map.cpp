@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <stdexcept>
 
 #include "emulator/one_line.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -120,37 +120,7 @@ std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const
            quoted(name.substr(std::min(base.size() + 1, name.size()))) + "; expected 0 to " +
            (whole_32 ? "31" : "15");
   }
-  return "no register is called " + quoted(name) + "; the nearest is '" + nearest_name(name) + "'";
-}
-
-std::string RegisterMap::nearest_name(std::string_view name) const {
-  return nearest_word(name.substr(0, name.rfind('.')), names_in_order_);
-}
-
-std::string nearest_word(std::string_view word, std::span<const std::string> candidates) {
-  word = word.substr(0, 64);  // no name is longer, and the work grows with it
-  std::string best;
-  std::size_t best_distance = SIZE_MAX;
-  std::vector<std::size_t> row;
-  for (const std::string& candidate : candidates) {
-    // Levenshtein, one row at a time.
-    row.resize(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i + 1;
-      for (std::size_t j = 0; j < candidate.size(); ++j) {
-        const std::size_t substituted = diagonal + (word[i] == candidate[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
-      }
-    }
-    if (row.back() < best_distance) {
-      best_distance = row.back();
-      best = candidate;
-    }
-  }
-  return best;
+  return "no register is called " + quoted(name) + suggestion(base, names_in_order_);
 }
 
 }  // namespace understudy::emulator

@@ -55,7 +55,6 @@ class RegisterMap {
   /// Why find() found nothing, as one line: no such name (and the nearest), no such bit, a newer firmware.
   std::string why_not(std::string_view name, Firmware firmware) const;
   /// The known name that is most like it, for messages.
-  std::string nearest_name(std::string_view name) const;
 
   /// "MAIN_LINE" + number + "_CMD": the name of a row's register.
   static std::string name_of(const RegisterRow& row, int index);
@@ -86,8 +85,5 @@ class RegisterMap {
 
 /// 152 as "1.52".
 std::string version_text(Firmware firmware);
-
-/// The candidate with the smallest edit distance to `word`; empty if there are no candidates.
-std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
 
 }  // namespace understudy::emulator

@@ -161,6 +161,10 @@ std::string scene_text(const ScenarioResult& result, const Scene& scene, std::si
 std::string body_of(const ScenarioResult& result) {
   std::string text;
   if (result.failure) text += failure_text(*result.failure);
+  if (!result.recording.empty()) {
+    text += "<p>to run this again: " + in("code", xml_escaped("understudy replay " + result.recording)) +
+            "</p>\n";
+  }
   if (!result.footage || result.footage->scenes.empty()) {
     text += steps_text(result.steps, 1, nullptr);
   } else {

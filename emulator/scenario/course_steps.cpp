@@ -3,6 +3,7 @@
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -33,8 +34,7 @@ void read_restore(StepsReader& reader, const YamlFields& step, const YamlFields&
   if (it == snapshots.end()) {
     std::vector<std::string> names;
     for (const auto& [known, moment] : snapshots) names.push_back(known);
-    value.fail("no snapshot taken before is called " + quoted(name) +
-               nearest_of(name, names, "there is none"));
+    value.fail("no snapshot taken before is called " + quoted(name) + suggestion(name, names));
   }
   static_cast<StoryMoment&>(reader.story()) = StoryMoment(it->second);
   reader.add(step, "restore " + name, RestoreStep{name});

@@ -7,6 +7,7 @@
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"
+#include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 
 namespace understudy::emulator {
@@ -70,8 +71,7 @@ void read_clear(StepsReader& reader, const YamlFields& step, const YamlFields& v
     return;
   }
   if (std::find(in_force.begin(), in_force.end(), name) == in_force.end()) {
-    value.fail("no fault in force here is called " + emulator::quoted(name) +
-               nearest_of(name, in_force, "there is none"));
+    value.fail("no fault in force here is called " + emulator::quoted(name) + suggestion(name, in_force));
   }
   std::erase(in_force, name);
   reader.add(step, "clear " + name, ClearStep{name});
@@ -107,6 +107,7 @@ void read_program(StepsReader& reader, const YamlFields& step, const YamlFields&
       const auto text = read_text_file(program.file);
       if (!text) field.fail(program.file + " " + text.why + "; expected a listing");
       program.text = *text;
+      reader.add_file(program.file, "a program that a step loads");
     }
     reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
     reader.add(step, "program " + name + (is_inline ? "" : " " + field.text()), std::move(program));
@@ -122,6 +123,7 @@ void read_memory(StepsReader& reader, const YamlFields& step, const YamlFields& 
         const auto image = read_nv_file(memory.file);
         if (!image) field.fail(memory.file + " cannot be read; expected an NV image");
         reader.trial().demand_memory(field, memory.device, *image);
+        reader.add_file(memory.file, "a memory that a step compares with");
       } catch (const NvError& error) {
         field.fail(error.what());
       }
@@ -139,6 +141,7 @@ void read_save(StepsReader& reader, const YamlFields& step, const YamlFields& va
       field.fail(folder + " is no folder; expected one to write in");
     }
     reader.story().saved.insert(memory.file);
+    reader.add_saved(memory.file, field);
     reader.add(step, "save " + name + " " + field.text(), std::move(memory));
   }
 }

@@ -2,6 +2,7 @@
 
 #include "emulator/bench/names.h"
 #include "emulator/expression/parser.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -40,7 +41,7 @@ class Numbers final : public NameResolver, public ValueSource {
     const std::string* const text = parameters_.find(name);
     if (text == nullptr) {
       throw NameError("no parameter is called " + quoted(name) +
-                      nearest_of(name, parameters_.names(), "there are none"));
+                      suggestion(name, parameters_.names(), "there are none"));
     }
     try {
       const Quantity quantity = evaluated_with(*text, NoNames(), NoValues());
@@ -77,11 +78,6 @@ bool is_name(const std::string& name) {
 }
 
 }  // namespace
-
-std::string nearest_of(std::string_view word, const std::vector<std::string>& known,
-                       const std::string& none) {
-  return known.empty() ? "; " + none : "; the nearest is '" + nearest_word(word, known) + "'";
-}
 
 void Parameters::define(const std::string& name, const std::string& value) {
   if (!is_name(name)) {

@@ -37,7 +37,4 @@ class Parameters final : public ScalarRule {
   mutable std::set<std::string, std::less<>> used_;
 };
 
-/// The nearest of them as the end of a complaint: "; the nearest is 'speed'", or that there are none.
-std::string nearest_of(std::string_view word, const std::vector<std::string>& known, const std::string& none);
-
 }  // namespace understudy::emulator

@@ -14,14 +14,17 @@ bool is_whole_32(const Target& target) {
          target.place->place.part == Place::Part::whole;
 }
 
-struct Limits {
-  Value low = 0;
-  Value high = 0;
-};
+std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first) {
+  if (words.size() == 1) return words[0];
+  const std::uint32_t first = words[0];
+  const std::uint32_t second = words[1];
+  return low_word_first ? first | second << 16 : second | first << 16;
+}
 
-/// Of what fits the words. A word by its number may be meant signed or unsigned.
+}  // namespace
+
 Limits limits_of(const Target& target) {
-  if (!target.place) return {INT16_MIN, UINT16_MAX};
+  if (!target.place) return {0, UINT16_MAX};
   if (target.place->bit >= 0) return {0, 1};
   if (target.place->place.part != Place::Part::whole) return {0, UINT16_MAX};
   switch (target.place->place.row->type) {
@@ -32,15 +35,6 @@ Limits limits_of(const Target& target) {
   }
   return {};
 }
-
-std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first) {
-  if (words.size() == 1) return words[0];
-  const std::uint32_t first = words[0];
-  const std::uint32_t second = words[1];
-  return low_word_first ? first | second << 16 : second | first << 16;
-}
-
-}  // namespace
 
 Words words_of(const Target& target, bool low_word_first) {
   if (!target.place) return {target.device, target.address, 1};

@@ -37,6 +37,13 @@ std::vector<Request> read_requests(std::span<const Words> entries);
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone);
 
+/// What can be sent to a target, and what can come back from it. A word by its number has no sign.
+struct Limits {
+  Value low = 0;
+  Value high = 0;
+};
+Limits limits_of(const Target& target);
+
 /// What the words of a target say.
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first);
 /// The words that bring a value to a target, one bit of it where a bit is meant: `present` is what they hold

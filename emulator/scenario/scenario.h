@@ -166,6 +166,8 @@ struct Scenario {
   SimTime gap{0};  // between two requests of the host, beyond t3.5
   std::uint64_t seed = 0;
   Steps steps;
+  std::vector<FileClaim> files{};    // that it is read from, the bench's as well
+  std::vector<std::string> saved{};  // paths that its steps write
 };
 
 }  // namespace understudy::emulator

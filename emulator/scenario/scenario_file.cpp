@@ -6,8 +6,10 @@
 
 #include "emulator/bench/bench_file.h"
 #include "emulator/edge/nv_keeper.h"
+#include "emulator/one_line.h"
 #include "emulator/scenario/scenario_form.h"
 #include "emulator/scenario/steps_reader.h"
+#include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 
 namespace understudy::emulator {
@@ -69,7 +71,7 @@ class ScenarioReader {
         // The first row may bring names of its own; every other row has the same ones.
         const bool is_known = std::find(known.begin(), known.end(), name) != known.end();
         if (!is_known && cases.size() > 1) {
-          value.fail("is no parameter, nor in the first case" + nearest_of(name, known, "there is none"));
+          value.fail("is no parameter, nor in the first case" + suggestion(name, known));
         }
         if (!is_known) known.push_back(name);
         cases.back().values.emplace_back(name, value.text());
@@ -139,13 +141,14 @@ class ScenarioReader {
       if (device.settings.name == name) return device;
       names.push_back(device.settings.name);
     }
-    field.fail("no device is called " + emulator::quoted(name) + nearest_of(name, names, "there is none"));
+    field.fail("no device is called " + emulator::quoted(name) + suggestion(name, names));
   }
 
   static void read_firmwares(const YamlFields& fields, Bench& bench) {
     const auto read = [](const YamlFields& field) {
       const Firmware firmware = parse_firmware(field.text());
-      if (firmware == 0) field.fail("'" + field.text() + "' is no version; expected one like \"1.52\"");
+      if (firmware == 0)
+        field.fail(emulator::quoted(field.text()) + " is no version; expected one like \"1.52\"");
       return firmware;
     };
     if (!fields.is_map()) {
@@ -177,23 +180,47 @@ class ScenarioReader {
       scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
     }
     scenario.seed = scenario.bench.seed;
+    for (const DeviceSetup& device : scenario.bench.devices) {
+      if (device.nv_path.empty()) continue;
+      scenario.files.push_back(
+          {device.nv_path, "the memory that " + emulator::quoted(device.settings.name) + " begins with"});
+    }
     const Trial trial = make_trial(root, scenario.bench);
     StepsReader steps(trial, file_, path_);
     scenario.steps = steps.read(root.at("steps"), parameters);
     demand_all_used(row, parameters);
+    scenario.files.push_back({path_, "the scenario itself"});
+    for (const auto& files : {scenario.bench.files, steps.files()}) {
+      scenario.files.insert(scenario.files.end(), files.begin(), files.end());
+    }
+    demand_own_paths(steps, scenario);
     return scenario;
+  }
+
+  /// What is saved may be saved again, but by the same case: several may be played at a time.
+  void demand_own_paths(const StepsReader& steps, Scenario& scenario) {
+    FileClaims claims;
+    claims.add(scenario.files);
+    claims.add(saved_before_);
+    for (const auto& [path, field] : steps.saved()) {
+      if (const std::string why = claims.objection_to(path); !why.empty()) field.fail(path + " " + why);
+      scenario.saved.push_back(path);
+      saved_before_.push_back({path, "what another case saves"});
+    }
   }
 
   /// The bench by itself has been checked, but a memory may not suit it, and another firmware may know less.
   static Trial make_trial(const YamlFields& root, Bench& bench) {
-    const YamlFields field = root.has("firmware") ? root.at("firmware") : root.at("bench");
+    const std::string key = root.has("firmware") ? "firmware" : "bench";
+    const YamlFields field = root.at(key);
     try {
       read_memories(bench, "");
       // What is played leaves the files as they are; `save` writes them.
       for (DeviceSetup& device : bench.devices) device.nv_path.clear();
       return Trial(bench);
     } catch (const SettingError& error) {
-      field.fail(error.what());
+      const std::string what = error.what();
+      field.fail(error.setting == key ? what.substr(key.size() + 2) : what);
     } catch (const NvError& error) {
       throw FileError(error.what());
     } catch (const ProgramError& error) {
@@ -204,12 +231,17 @@ class ScenarioReader {
   YamlFields root_;
   std::string path_;
   FileReading file_;
+  std::vector<FileClaim> saved_before_;  // by the cases so far
 };
 
 }  // namespace
 
 std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path) {
   const YamlFields root = YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
+  if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
+    throw FileError(path +
+                    ":1: scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
+  }
   return ScenarioReader(root, path).read();
 }
 

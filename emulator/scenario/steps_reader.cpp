@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "emulator/scenario/step_rows.h"
+#include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 
 namespace understudy::emulator {
@@ -24,7 +25,7 @@ const StepRow* find_row(std::string_view key) {
   std::vector<std::string> names;
   for (const StepRow& row : step_rows()) names.emplace_back(row.key.key);
   const std::string& key = entries.front().first;
-  entries.front().second.fail("is no step; the nearest is '" + nearest_word(key, names) + "'");
+  entries.front().second.fail("is no step" + suggestion(key, names));
 }
 
 /// However it is spelled.
@@ -90,6 +91,7 @@ void StepsReader::read_included(const YamlFields& field) {
     root.at("understudy").integer(kVersionForm);
     it = file_.included.emplace(path, root.at("steps")).first;
   }
+  add_file(field.path(), "a file of steps that is included");
   paths_.push_back(path);
   read_here(it->second, *parameters_);
   paths_.pop_back();

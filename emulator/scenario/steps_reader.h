@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "emulator/bench/yaml_fields.h"
@@ -32,6 +33,12 @@ class StepsReader {
   const Trial& trial() const { return trial_; }
   const Parameters& parameters() const { return *parameters_; }
   Story& story() { return story_; }
+  /// A file that a step is read from.
+  void add_file(const std::string& path, const std::string& what) { files_.push_back({path, what}); }
+  const std::vector<FileClaim>& files() const { return files_; }
+  /// A file that a step writes when it is played, and where that is said.
+  void add_saved(const std::string& path, const YamlFields& field) { saved_.emplace_back(path, field); }
+  const std::vector<std::pair<std::string, YamlFields>>& saved() const { return saved_; }
   /// One step more; `text` says what it does.
   template <typename What>
   void add(const YamlFields& where, const std::string& text, What what) {
@@ -54,6 +61,8 @@ class StepsReader {
   const Parameters* parameters_ = nullptr;
   Story story_;
   Steps* into_ = nullptr;
+  std::vector<FileClaim> files_;
+  std::vector<std::pair<std::string, YamlFields>> saved_;
   std::vector<std::string> paths_;  // of the files that include each other here
   int depth_ = 0;
 };

@@ -3,30 +3,12 @@
 #include "emulator/bench/machine_fields.h"
 #include "emulator/expression/parser.h"
 #include "emulator/parse_integer.h"
-#include "emulator/scenario/parameters.h"
+#include "emulator/scenario/requests.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
 namespace {
-
-struct Limits {
-  std::int64_t low = 0;
-  std::int64_t high = 0;
-};
-
-/// What can be sent to the target, and what can come back from it.
-Limits limits_of(const Target& target) {
-  if (!target.place) return {0, UINT16_MAX};
-  if (target.place->bit >= 0) return {0, 1};
-  if (target.place->place.part != Place::Part::whole) return {0, UINT16_MAX};
-  switch (target.place->place.row->type) {
-    case Type::u16: return {0, UINT16_MAX};
-    case Type::s16: return {INT16_MIN, INT16_MAX};
-    case Type::u32: return {0, UINT32_MAX};
-    case Type::s32: return {INT32_MIN, INT32_MAX};
-  }
-  return {};
-}
 
 std::string to_text(const Limits& limits) {
   return std::to_string(limits.low) + " to " + std::to_string(limits.high);
@@ -63,7 +45,7 @@ std::size_t Trial::line(const YamlFields& field, const std::string& name) const 
     if (bench_.lines[i].name == name) return i;
     names.push_back(bench_.lines[i].name);
   }
-  field.fail("no line is called " + quoted(name) + nearest_of(name, names, "there is none"));
+  field.fail("no line is called " + quoted(name) + suggestion(name, names));
 }
 
 Target Trial::target(const YamlFields& field, const std::string& written) const {

@@ -4,6 +4,7 @@
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -93,8 +94,7 @@ void read_end(StepsReader& reader, const YamlFields& step, const YamlFields& val
   auto& open = reader.story().spans;
   const auto it = std::find(open.begin(), open.end(), name);
   if (it == open.end()) {
-    value.fail("no `always` or `never` that holds here is called " + quoted(name) +
-               nearest_of(name, open, "there is none"));
+    value.fail("no `always` or `never` that holds here is called " + quoted(name) + suggestion(name, open));
   }
   open.erase(it);
   reader.add(step, "end " + name, EndSpanStep{name});

@@ -7,6 +7,7 @@
 #include "emulator/register_map/register_map.h"
 #include "emulator/report/axis_scale.h"
 #include "emulator/report/envelope.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -78,8 +79,7 @@ std::vector<Panel> panels_of(const TraceTable& table, std::span<const std::strin
   for (const std::string& wanted : also) {
     const auto found = std::find(table.names.begin(), table.names.end(), wanted);
     if (found == table.names.end()) {
-      throw FileError(name + ": no column is called " + quoted(wanted) + "; the nearest is " +
-                      quoted(nearest_word(wanted, table.names)));
+      throw FileError(name + ": no column is called " + quoted(wanted) + suggestion(wanted, table.names));
     }
     panels.push_back({.label = wanted,
                       .height = kPanelHeight,

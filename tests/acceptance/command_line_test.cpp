@@ -29,12 +29,16 @@ const std::vector<BadUsage> kBadUsages = {
     {"BothBenchAndModel", {"serve", "{}/good.yaml", "--model", "simple2-r3"}, "bench"},
     {"StationWithABench", {"serve", "{}/good.yaml", "--station", "2"}, "--station"},
     {"StationNoNumber", {"serve", "--model", "simple2-r3", "--station", "x"}, "--station"},
-    {"StationTooHigh", {"serve", "--model", "simple2-r3", "--station", "16"}, "0 to 15"},
+    {"StationTooHigh", {"serve", "--model", "simple2-r3", "--station", "16"}, "--station: 16 is no station"},
     {"StationNegative", {"serve", "--model", "simple2-r3", "--station", "-1"}, "0 to 15"},
-    {"BaudUnknownToTheModel", {"serve", "--model", "simple2-r3", "--baud", "9600"}, "115200"},
+    {"BaudUnknownToTheModel",
+     {"serve", "--model", "simple2-r3", "--baud", "9600"},
+     "--baud: 9600 is no speed"},
     {"BaudZero", {"serve", "--model", "simple2-r3", "--baud", "0"}, "115200"},
     {"BaudNegative", {"serve", "--model", "simple2-r3", "--baud", "-19200"}, "115200"},
-    {"FirmwareUnknown", {"serve", "--model", "simple2-r3", "--firmware", "9.99"}, "1.52"},
+    {"FirmwareUnknown",
+     {"serve", "--model", "simple2-r3", "--firmware", "9.99"},
+     "--firmware: '9.99' is unknown"},
     {"FirmwareNoVersion", {"serve", "--model", "simple2-r3", "--firmware", "new"}, "1.52"},
     {"SpeedUnknown", {"serve", "--model", "simple2-r3", "--speed", "fast"}, "manual"},
     {"SpeedZero", {"serve", "--model", "simple2-r3", "--speed", "0"}, "manual"},
@@ -44,6 +48,13 @@ const std::vector<BadUsage> kBadUsages = {
     {"LinksFolderMissing", {"serve", "--model", "simple2-r3", "--links", "{}/none"}, "existing", 3},
     {"TimingUnknown", {"serve", "--model", "simple2-r3", "--timing", "slow"}, "instant"},
     {"ControlPathTooLong", {"serve", "--model", "simple2-r3", "--control", "{}/{120}"}, "characters", 3},
+    {"LinkOfTwoLines", {"serve", "--model", "simple2-r3", "--link", "a\nb"}, "--link: a\\nb: has a control"},
+    {"NvIsNoFolder",
+     {"serve", "{}/good.yaml", "--nv", "/dev/null"},
+     "--nv: /dev/null is no folder; expected one"},
+    {"ScenarioToServe", {"serve", "{}/play.yaml"}, "play.yaml:1: bench: is a scenario; expected a bench"},
+    {"BenchToRun", {"run", "{}/good.yaml"}, "good.yaml:1: scenario: is a bench; expected a scenario"},
+    {"VeryLongValue", {"serve", "{}/good.yaml", "--timing", "{120}"}, "xxx...' is unknown; expected wire or"},
     {"BenchMissing", {"serve", "{}/missing.yaml"}, "missing.yaml"},
     {"BenchIsAFolder", {"serve", "{}"}, "bench"},
     {"BenchWithUnknownKey", {"serve", "{}/unknown-key.yaml"}, "unknown-key.yaml:4: "},
@@ -97,6 +108,7 @@ lines:
 
 void write_benches(const PrivateFolder& folder) {
   folder.write("good.yaml", kGoodBench);
+  folder.write("play.yaml", "understudy: 1\nbench: good.yaml\nsteps: [ advance: 1ms ]\n");
   folder.write("unknown-key.yaml", "understudy: 1\nlines:\n  bus:\n    baudrate: 19200\n    stations: []\n");
   folder.write("unknown-model.yaml",
                "understudy: 1\nlines:\n  bus:\n    stations:\n      - { name: a, model: simple2-r4 }\n");

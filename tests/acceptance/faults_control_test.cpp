@@ -75,7 +75,7 @@ TEST(ControlFaults, AreInjectedListedAndCleared) {
 TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   expect_refused(daemon, {"inject", "jam", "A"},
-                 "inject: 'jam' is no fault; the nearest is 'alarm'");
+                 "inject: 'jam' is no fault; expected one such as 'stall'");
   expect_refused(daemon, {"inject", "stall", "C"},
                  "inject: no axis of device is called 'C'; expected one of A, B");
   expect_refused(daemon, {"inject", "lost_steps", "A"},
@@ -155,7 +155,8 @@ TEST(ControlPower, ThatIsWrongIsRefusedWithOneLine) {
                  "power: to: 'down' is unknown; expected on, off or cycle");
   expect_refused(*daemon, {"power", "feedr", "off"},
                  "power: no device is called 'feedr'; the nearest is 'feeder'");
-  expect_refused(*daemon, {"power", "off"}, "power: no device is called ''; the nearest is 'feeder'");
+  expect_refused(*daemon, {"power", "off"},
+                 "power: no device is called ''; expected one of feeder, turner");
   EXPECT_EQ(obeyed(*daemon, {"get", "feeder.HW_Code"}), "feeder.HW_Code 49153\n");
 }
 

@@ -44,7 +44,8 @@ TEST(Choices, OptionsAreSeparatedByBars) {
 TEST(Choices, AnUnknownIdIsRefusedWithTheNearestOne) {
   EXPECT_EQ(error_of({{"loop_cuont", "passes"}}),
             "no choice is called 'loop_cuont'; the nearest is 'loop_count'");
-  EXPECT_EQ(error_of({{"", "passes"}}), "no choice is called ''; the nearest is 'servo'");
+  EXPECT_EQ(error_of({{"", "passes"}}),
+            "no choice is called ''; expected one of loop_count, only_one, servo");
   EXPECT_EQ(error_of({{"Servo", "on"}}), "no choice is called 'Servo'; the nearest is 'servo'");
 }
 

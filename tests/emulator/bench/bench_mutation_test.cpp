@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/emulator/bench/bench_texts.h"
+#include "tests/emulator/bench/mutated_text.h"
 
 namespace understudy::emulator {
 namespace {
@@ -28,27 +29,20 @@ bool is_handled(const std::string& text) {
 
 const std::string& any_seed(std::mt19937& random) { return random() % 2 == 0 ? kFullBench : kDisturbedBench; }
 
+const TryText kTryText = [](const std::string& text, const std::string& how) {
+  EXPECT_TRUE(is_handled(text)) << how << ":\n" << text;
+};
+
 TEST(BenchMutation, EveryBeginningOfAFileIsHandled) {
-  for (const std::string& seed : {kFullBench, kDisturbedBench}) {
-    ASSERT_EQ(complaint(seed), "");
-    for (std::size_t size = 0; size <= seed.size(); ++size) {
-      EXPECT_TRUE(is_handled(seed.substr(0, size))) << "the first " << size << " bytes of\n" << seed;
-    }
+  for (const std::string& whole : {kFullBench, kDisturbedBench}) {
+    ASSERT_EQ(complaint(whole), "");
+    try_every_beginning(whole, kTryText);
   }
 }
 
 TEST(BenchMutation, EveryByteMayBeAnyOther) {
   std::mt19937 random(4711);
-  const std::string bytes("\0\n\t:-[}\"|&*!#\x80\xFF", 15);
-  for (const std::string& seed : {kFullBench, kDisturbedBench}) {
-    for (std::size_t i = 0; i < seed.size(); ++i) {
-      std::string text = seed;
-      for (int times = 0; times < 4; ++times) {
-        text[i] = bytes[random() % bytes.size()];
-        EXPECT_TRUE(is_handled(text)) << "byte " << i << " is " << static_cast<int>(text[i]);
-      }
-    }
-  }
+  for (const std::string& whole : {kFullBench, kDisturbedBench}) try_every_byte(whole, random, 4, kTryText);
 }
 
 TEST(BenchMutation, PiecesMayBeMovedRepeatedAndLost) {
@@ -84,21 +78,7 @@ TEST(BenchMutation, PiecesMayBeMovedRepeatedAndLost) {
                                "->",
                                "."};
   for (int round = 0; round < 2000; ++round) {
-    std::string text = any_seed(random);
-    const int changes = 1 + static_cast<int>(random() % 4);
-    for (int change = 0; change < changes; ++change) {
-      const std::size_t from = random() % text.size();
-      const std::size_t length = random() % 40;
-      const std::size_t to = random() % text.size();
-      switch (random() % 4) {
-        case 0: text.erase(from, length); break;
-        case 1: text.insert(to, text.substr(from, length)); break;
-        case 2: text.replace(to, length, text.substr(from, length)); break;
-        default: text.insert(to, words[random() % std::size(words)]); break;
-      }
-      if (text.empty()) text = "x";
-    }
-    EXPECT_TRUE(is_handled(text)) << "round " << round << ":\n" << text;
+    kTryText(with_pieces_moved(any_seed(random), random, words), "round " + std::to_string(round));
   }
 }
 

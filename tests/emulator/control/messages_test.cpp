@@ -130,7 +130,7 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
        "'' is nothing to do; expected one of advance, run-until, status, get, set, input, "
        "power, program, inject, clear, list"},
       {"{\"do\":\"jump\"}", "'jump' is nothing to do; expected "},
-      {"{\"do\":\"a\\nb\"}", "'a\nb' is nothing to do; expected "},
+      {"{\"do\":\"a\\nb\"}", "'a\\nb' is nothing to do; expected "},
       {"{\"do\":\"status\",\"x\":1}", "'x' is no key of this message"},
       {"{\"do\":\"pause\",\"values\":{}}", "'values' is no key of this message"},
       {"{\"do\":\"resume\",\"by\":\"1s\"}", "'by' is no key of this message"},

@@ -135,7 +135,12 @@ TEST(ReadMemories, OfAFolderThatCannotBeMadeIsAnError) {
   const TestFolder folder;
   put(folder.path + "/file", "");
   Bench bench = bench_of(folder);
-  EXPECT_THROW(read_memories(bench, folder.path + "/file"), std::system_error);
+  try {
+    read_memories(bench, folder.path + "/file");
+    ADD_FAILURE() << "was not refused";
+  } catch (const NvError& error) {
+    EXPECT_EQ(error.what(), "--nv: " + folder.path + "/file is no folder; expected one");
+  }
   EXPECT_THROW(read_memories(bench, folder.path + "/file/nv"), std::system_error);
 }
 

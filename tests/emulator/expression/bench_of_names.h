@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "emulator/expression/expression.h"
-#include "emulator/register_map/register_map.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -27,8 +27,7 @@ class BenchOfNames : public NameResolver, public ValueSource {
       if (rows_[i].name == name) return {handle_of(i), rows_[i].unit};
       known.push_back(rows_[i].name);
     }
-    throw std::runtime_error("'" + std::string(name) + "' is not known; the nearest is '" +
-                             nearest_word(name, known) + "'");
+    throw std::runtime_error("'" + std::string(name) + "' is not known" + suggestion(name, known));
   }
 
   Number value(std::int32_t handle) const override {

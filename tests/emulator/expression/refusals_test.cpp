@@ -37,7 +37,7 @@ TEST(ExpressionRefusals, an_unknown_name_comes_with_the_nearest) {
        "'feeder.Logic Position Y' is not known; the nearest is 'feeder.Logic Position X'"},
       {"tme > 3s", 1, "'tme' is not known; the nearest is 'time'"},
       {"mim(1, 2)", 1, "no function is called 'mim'; the nearest is 'min'"},
-      {"feeder.A(1)", 1, "no function is called 'feeder.A'; the nearest is 'abs'"},
+      {"feeder.A(1)", 1, "no function is called 'feeder.A'; expected one of abs, max, min"},
   });
 }
 

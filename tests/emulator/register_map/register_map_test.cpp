@@ -211,29 +211,16 @@ TEST(RegisterMap, NumbersNamesFromTheRowsFirstNumberOn) {
   EXPECT_EQ(RegisterMap::name_of(row, 2, "plain"), "plain");
 }
 
-TEST(NearestName, IsTheOneWithTheFewestChangedLetters) {
-  struct Case {
-    std::string word;
-    std::vector<std::string> candidates;
-    std::string nearest;
-  };
-  const std::vector<Case> cases = {
-      {"Aaxis_Sped", {"Aaxis_Pulse", "Aaxis_Speed", "Baxis_Speed"}, "Aaxis_Speed"},
-      {"kitten", {"smitten", "sitting", "mitten"}, "mitten"},
-      {"exact", {"exacts", "exact", "exac"}, "exact"},
-      {"", {"longest", "ab", "abc"}, "ab"},
-      {"anything", {}, ""},
-      {"tie", {"tia", "tib"}, "tia"},  // the first of equals
-  };
-  for (const Case& c : cases) EXPECT_EQ(nearest_word(c.word, c.candidates), c.nearest) << c.word;
-}
-
-TEST(NearestName, OfARegisterLeavesTheBitOut) {
+TEST(RegisterMap, SuggestsANameWithoutItsBit) {
   const Toy toy(kToyRows);
-  EXPECT_EQ(toy.map.nearest_name("Spedd"), "Speed");
-  EXPECT_EQ(toy.map.nearest_name("Spedd.12"), "Speed");
-  EXPECT_EQ(toy.map.nearest_name("Targt_L"), "Target_L");
-  EXPECT_EQ(toy.map.nearest_name("Goall"), "Goal");
+  const auto end = [&](const char* name) {
+    const std::string complaint = toy.map.why_not(name, 100);
+    return complaint.substr(complaint.find(';'));
+  };
+  EXPECT_EQ(end("Spedd"), "; the nearest is 'Speed'");
+  EXPECT_EQ(end("Spedd.12"), "; the nearest is 'Speed'");
+  EXPECT_EQ(end("Targt_L"), "; the nearest is 'Target_L'");
+  EXPECT_EQ(end("Goall"), "; the nearest is 'Goal'");
 }
 
 }  // namespace

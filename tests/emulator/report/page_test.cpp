@@ -112,6 +112,16 @@ TEST(ReportPage, MarksTheFailingMoment) {
   EXPECT_EQ(well.find("failed at "), std::string::npos);
 }
 
+TEST(ReportPage, NamesTheRecordingThatWasKept) {
+  std::vector<ScenarioResult> results = play(scenario_of("  - assert: feeder.DIN_10 == 1\n"), filmed());
+  EXPECT_EQ(report_page(results, "1.2.3").find("understudy replay"), std::string::npos);
+  results.at(0).recording = "/tmp/a&b.jsonl";
+  const std::string page = report_page(results, "1.2.3");
+  EXPECT_NE(page.find("<p>to run this again: <code>understudy replay /tmp/a&amp;b.jsonl</code></p>"),
+            std::string::npos);
+  EXPECT_EQ(complaints_of_a_parser(page), "");
+}
+
 TEST(ReportPage, DrawsWhatMovedWithItsData) {
   const std::string page = page_of(kServoOn + kExampleMove + "  - advance: 3200ms\n");
   // By hand: the library's regular expressions recurse once a character, and sanitizers give them no room for

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "tests/emulator/bench/mutated_text.h"
 #include "tests/emulator/scenario/scenario_folder.h"
 
 namespace understudy::emulator {
@@ -59,25 +60,19 @@ class ScenarioMutation : public testing::Test {
     return true;
   }
 
+  const TryText try_text_ = [this](const std::string& text, const std::string& how) {
+    EXPECT_TRUE(is_handled(text)) << how << ":\n" << text;
+  };
   ScenarioFolder folder_;
 };
 
 TEST_F(ScenarioMutation, TheWholeIsGood) { EXPECT_EQ(folder_.complaint(kFull), ""); }
 
-TEST_F(ScenarioMutation, EveryBeginningOfAFileIsHandled) {
-  for (std::size_t size = 0; size <= kFull.size(); ++size) {
-    EXPECT_TRUE(is_handled(kFull.substr(0, size))) << "the first " << size << " bytes";
-  }
-}
+TEST_F(ScenarioMutation, EveryBeginningOfAFileIsHandled) { try_every_beginning(kFull, try_text_); }
 
 TEST_F(ScenarioMutation, EveryByteMayBeAnyOther) {
   std::mt19937 random(815);
-  const std::string bytes("\0\n\t:-[}\"|&*!#$\x80\xFF", 16);
-  for (std::size_t i = 0; i < kFull.size(); ++i) {
-    std::string text = kFull;
-    text[i] = bytes[random() % bytes.size()];
-    EXPECT_TRUE(is_handled(text)) << "byte " << i << " is " << static_cast<int>(text[i]);
-  }
+  try_every_byte(kFull, random, 1, try_text_);
 }
 
 TEST_F(ScenarioMutation, PiecesMayBeMovedRepeatedAndLost) {
@@ -87,21 +82,7 @@ TEST_F(ScenarioMutation, PiecesMayBeMovedRepeatedAndLost) {
       "&a ",    "*a",   "<<: ",     "? ",           "| \n",    "~",  "${",  "}",       "$${", "${speed}",
       "${1/0}", "1e99", "\xFF\xFE", "times: 99999", "steps: ", "..", "+- ", "feeder.", "0x",  "-1"};
   for (int round = 0; round < 1500; ++round) {
-    std::string text = kFull;
-    const int changes = 1 + static_cast<int>(random() % 4);
-    for (int change = 0; change < changes; ++change) {
-      const std::size_t from = random() % text.size();
-      const std::size_t length = random() % 40;
-      const std::size_t to = random() % text.size();
-      switch (random() % 4) {
-        case 0: text.erase(from, length); break;
-        case 1: text.insert(to, text.substr(from, length)); break;
-        case 2: text.replace(to, length, text.substr(from, length)); break;
-        default: text.insert(to, words[random() % std::size(words)]); break;
-      }
-      if (text.empty()) text = "x";
-    }
-    EXPECT_TRUE(is_handled(text)) << "round " << round << ":\n" << text;
+    try_text_(with_pieces_moved(kFull, random, words), "round " + std::to_string(round));
   }
 }
 

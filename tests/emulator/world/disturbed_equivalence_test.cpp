@@ -4,21 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <functional>
 #include <iostream>
 #include <random>
+#include <utility>
 
-#include "tests/emulator/world/two_devices.h"
+#include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator {
 namespace {
 
 using namespace std::chrono_literals;
 
-std::uint64_t seed() {
-  const char* given = std::getenv("UNDERSTUDY_SEED");
-  return given != nullptr ? std::strtoull(given, nullptr, 10) : 88'001;
-}
+std::uint64_t seed() { return seed_or(88'001); }
 
 World make_disturbed_world(const std::string& timing) {
   const std::string drives =
@@ -203,29 +200,6 @@ void apply(World& world, const Event& event) {
   }
 }
 
-testing::AssertionResult same(World& one, World& other) {
-  const auto differ = [](const std::string& what) {
-    return testing::AssertionFailure() << what << " differs";
-  };
-  if (one.now() != other.now()) return differ("the time");
-  if (one.next_due() != other.next_due()) return differ("what is due");
-  if (one.faults() != other.faults()) return differ("what is broken");
-  for (std::size_t d = 0; d < 2; ++d) {
-    if (one.device(d).powered() != other.device(d).powered()) return differ("the power");
-    if (!one.device(d).same_state(other.device(d))) return differ(one.device(d).name());
-    for (int i = 0; i < static_cast<int>(one.device(d).model().terminals.size()); ++i) {
-      if (one.device(d).input(i) != other.device(d).input(i)) return differ("an input");
-      if (one.device(d).output(i) != other.device(d).output(i)) return differ("an output");
-      if (one.external_input(d, i) != other.external_input(d, i)) return differ("an external input");
-    }
-    for (int axis = 0; axis < 2; ++axis) {
-      if (!one.plant(d, axis).same_state(other.plant(d, axis))) return differ("a machine");
-    }
-  }
-  if (take_output(one) != take_output(other)) return differ("what the line says");
-  return testing::AssertionSuccess();
-}
-
 /// The sequences are worth something only if much happens in them.
 struct Lively {
   std::uint64_t crossed = 0;
@@ -238,41 +212,31 @@ struct Lively {
   int dark = 0;
 };
 
-using Step = std::function<void(World&, SimTime)>;
-
-void compare(std::uint64_t seed_value, const std::string& timing, const Step& step, Lively& sum) {
+void compare(std::uint64_t seed_value, const std::string& timing, const Stepping& stepping, Lively& sum) {
   World plain = make_disturbed_world(timing);
   World twin = make_disturbed_world(timing);
   RandomEvents random(seed_value, plain.device(0).model());
-  const std::vector<Event> events = random.make(300);
-  const auto both_to = [&](SimTime time, const std::string& where) {
-    const std::int64_t before = plain.plant(0, 0).position_pulses();
-    plain.advance_to(time);
-    step(twin, time);
-    sum.moved += std::abs(plain.plant(0, 0).position_pulses() - before);
-    ASSERT_TRUE(same(plain, twin)) << "seed " << seed_value << " " << timing << " " << where << " at "
-                                   << format_duration(time);
-  };
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    ASSERT_NO_FATAL_FAILURE(both_to(events[i].at, "before event " + std::to_string(i)));
-    apply(plain, events[i]);
-    apply(twin, events[i]);
+  std::int64_t before = plain.plant(0, 0).position_pulses();
+  const auto look = [&] {
+    const std::int64_t now = plain.plant(0, 0).position_pulses();
+    sum.moved += std::abs(now - std::exchange(before, now));
     sum.ready += plain.plant(0, 0).ready() || plain.plant(1, 1).ready();
     sum.alarms += plain.plant(0, 0).in_alarm();
     sum.dark += !plain.device(0).powered() || !plain.device(1).powered();
-  }
-  ASSERT_NO_FATAL_FAILURE(both_to(events.back().at + 40s, "at the end"));
+  };
+  ASSERT_NO_FATAL_FAILURE(play_both(plain, twin, random.make(300), stepping,
+                                    "seed " + std::to_string(seed_value) + " " + timing, look));
   sum.crossed += plain.ticks_crossed();
   sum.run += plain.ticks_run();
   sum.lost += plain.plant(0, 0).lost_pulses();
   for (const auto& station : plain.line(0).stations) sum.replies += station->counters().replies;
 }
 
-void compare_all(std::uint64_t first_seed, const Step& step) {
+void compare_all(std::uint64_t first_seed, const Stepping& stepping) {
   std::cout << "seed " << first_seed << "\n";
   Lively sum;
   for (std::uint64_t i = 0; i < 12; ++i) {
-    ASSERT_NO_FATAL_FAILURE(compare(first_seed + i, i % 2 == 0 ? "wire" : "instant", step, sum));
+    ASSERT_NO_FATAL_FAILURE(compare(first_seed + i, i % 2 == 0 ? "wire" : "instant", stepping, sum));
   }
   EXPECT_GT(sum.crossed, 100'000u);
   EXPECT_GT(sum.run, 10'000u);
@@ -284,37 +248,10 @@ void compare_all(std::uint64_t first_seed, const Step& step) {
   EXPECT_GT(sum.dark, 100);
 }
 
-TEST(DisturbedEquivalence, BulkTicksAreSingleTicksBitForBit) {
-  compare_all(seed(), [](World& world, SimTime to) {
-    world.set_bulk_ticks(false);
-    world.advance_to(to);
-    EXPECT_EQ(world.ticks_crossed(), 0u);
-  });
-}
-
-TEST(DisturbedEquivalence, OddStepsAreOneBigStep) {
-  std::mt19937_64 steps(seed());
-  compare_all(seed() + 1000, [&](World& world, SimTime to) {
-    while (world.now() < to) {
-      constexpr SimTime kSteps[] = {1ns, 333'333ns, 1ms, 7ms - 1ns, 17'001'003ns, 500ms};
-      world.advance_to(std::min(to, world.now() + kSteps[steps() % std::size(kSteps)]));
-    }
-    world.advance_to(to);
-  });
-}
-
+TEST(DisturbedEquivalence, BulkTicksAreSingleTicksBitForBit) { compare_all(seed(), by_single_ticks); }
+TEST(DisturbedEquivalence, OddStepsAreOneBigStep) { compare_all(seed() + 1000, by_odd_steps(seed())); }
 TEST(DisturbedEquivalence, WakingOnlyWhenSomethingIsDueMissesNothing) {
-  compare_all(seed() + 2000, [](World& world, SimTime to) {
-    int idle_turns = 0;
-    while (const auto due = world.next_due()) {
-      if (*due > to) break;
-      const SimTime before = world.now();
-      world.advance_to(*due);
-      idle_turns = world.now() == before ? idle_turns + 1 : 0;
-      ASSERT_LT(idle_turns, 10) << "due again and again at " << format_duration(*due);
-    }
-    world.advance_to(to);
-  });
+  compare_all(seed() + 2000, by_what_is_due);
 }
 
 }  // namespace
