@@ -1,6 +1,7 @@
 #include "emulator/device.h"
 
 #include "emulator/one_line.h"
+#include "emulator/prefetch.h"
 
 namespace understudy::emulator {
 
@@ -10,6 +11,12 @@ Device::Device(const Model& model, DeviceSettings settings)
       choices_(resolve_choices(model.choices, settings_.choices)),
       inputs_(model.terminals.size(), 0),
       mentioned_(model.registers.rows().size(), false) {}
+
+void Device::prefetch(Tick /*tick*/) const {
+  emulator::prefetch(*this);
+  emulator::prefetch(choices_.data(), choices_.size());
+  emulator::prefetch(inputs_.data(), inputs_.size() * sizeof inputs_[0]);
+}
 
 void Device::switch_power(bool on) {
   if (on == powered_) return;

@@ -38,7 +38,7 @@ class Device {
   // --- registers -----------------------------------------------------------------------------
   const RegisterMap& registers() const { return model_.registers; }
   /// The map's, or what this device makes of it.
-  virtual MapPolicy map_policy() const { return registers().policy(); }
+  virtual const MapPolicy& map_policy() const { return registers().policy(); }
   /// One slot for each register, as the map numbers them.
   virtual std::span<std::uint32_t> image() = 0;
   virtual std::span<const std::uint32_t> image() const = 0;
@@ -84,6 +84,8 @@ class Device {
   /// The first tick after `done` at which anything may change without help from outside; kNever if
   /// none. The ticks before it may be left out: the state is then the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const = 0;
+  /// Asks the processor for the memory that `tick` will need (emulator/prefetch.h).
+  virtual void prefetch(Tick tick) const;
   /// Whether it equals another device of the same model, bit for bit.
   virtual bool same_state(const Device& other) const = 0;
 

@@ -29,9 +29,20 @@ Line::Line(std::string name, LineOptions options, std::function<void(const std::
   output_.reserve(2 * kOutputCapacity);
 }
 
-void Line::remove_observer(LineObserver& observer) { std::erase(observers_, &observer); }
+void Line::add_observer(LineObserver& observer) {
+  observers_.push_back(&observer);
+  due_changed();
+}
 
-void Line::attach(Station& station) { members_.emplace_back().station = &station; }
+void Line::remove_observer(LineObserver& observer) {
+  std::erase(observers_, &observer);
+  due_changed();
+}
+
+void Line::attach(Station& station) {
+  members_.emplace_back().station = &station;
+  due_changed();
+}
 
 void Line::set_settings(const LineSettings& settings) {
   if (settings == options_.settings) return;
@@ -51,6 +62,7 @@ void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) { take(byte
 void Line::receive_departed(std::span<const std::uint8_t> bytes, SimTime now) { take(bytes, now, true); }
 
 void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed) {
+  due_changed();
   bytes = bytes.first(std::min(bytes.size(), room()));
   counters_.bytes_in += bytes.size();
   for (LineObserver* observer : observers_) observer->on_receive(bytes, is_departed);
@@ -65,6 +77,7 @@ void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_depart
 }
 
 void Line::nothing_more(SimTime now) {
+  due_changed();
   if (input_count_ > 0) return;  // the rest is still on the wire
   for (const Member& member : members_) member.station->hear_nothing_more();
   for (LineObserver* observer : observers_) observer->on_nothing_more();
@@ -72,6 +85,7 @@ void Line::nothing_more(SimTime now) {
 }
 
 void Line::host_opened() {
+  due_changed();
   for (LineObserver* observer : observers_) observer->on_host_opened();
   is_host_open_ = true;
   host_settings_.reset();
@@ -79,11 +93,13 @@ void Line::host_opened() {
 }
 
 void Line::host_settings(std::optional<HostSettings> settings) {
+  due_changed();
   for (LineObserver* observer : observers_) observer->on_host_settings(settings);
   host_settings_ = settings;
 }
 
 void Line::host_closed() {
+  due_changed();
   for (LineObserver* observer : observers_) observer->on_host_closed();
   is_host_open_ = false;
   departed_settings_ = host_settings_;
@@ -106,7 +122,12 @@ void Line::take_output(std::size_t count) {
 
 // --- time --------------------------------------------------------------------------------------
 
-Line::Event Line::next_event() const {
+const Line::Event& Line::next_event() const {
+  if (!next_) next_ = find_next_event();
+  return *next_;
+}
+
+Line::Event Line::find_next_event() const {
   Event next;
   const auto offer = [&next](What what, SimTime at, std::size_t member) {
     if (next.what == What::nothing || at < next.at) next = {what, at, member};
@@ -133,7 +154,7 @@ Line::Event Line::next_event() const {
 }
 
 std::optional<SimTime> Line::due() const {
-  const Event next = next_event();
+  const Event& next = next_event();
   if (next.what == What::nothing) return std::nullopt;
   return next.at;
 }
@@ -141,6 +162,7 @@ std::optional<SimTime> Line::due() const {
 void Line::run(SimTime now) {
   for (Event next = next_event(); next.what != What::nothing && next.at <= now; next = next_event()) {
     clock_ = std::max(clock_, next.at);
+    due_changed();
     handle(next);
   }
 }
@@ -292,6 +314,7 @@ void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
 }
 
 void Line::hush(const Station& station, SimTime now) {
+  due_changed();
   for (std::size_t i = 0; i < members_.size(); ++i) {
     Member& member = members_[i];
     if (member.station != &station) continue;

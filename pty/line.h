@@ -62,7 +62,7 @@ class Line {
   void set_settings(const LineSettings& settings);
   /// Tells `observer` what goes over the wire, until it is taken away. Several are told in the order in which
   /// they came.
-  void add_observer(LineObserver& observer) { observers_.push_back(&observer); }
+  void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
 
   // --- the host's side -----------------------------------------------------------------------
@@ -95,6 +95,8 @@ class Line {
 
   // --- time ----------------------------------------------------------------------------------
   std::optional<SimTime> due() const;
+  /// A station or an observer has come to another due() by itself: not by what the line, or run(), told it.
+  void due_changed() { next_.reset(); }
   /// Does everything that is due at `now` or earlier, in the order of time. At equal times: characters
   /// that arrive, the observer, stations in the order of attaching, characters that leave. With
   /// Timing::instant the stations come before the next character, so that requests in one lump are served one
@@ -159,7 +161,8 @@ class Line {
   };
 
   bool is_instant() const { return options_.timing == Timing::instant; }
-  Event next_event() const;
+  const Event& next_event() const;
+  Event find_next_event() const;
   void handle(const Event& event);
   void take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed);
   TimedByte place(Burst& burst, std::uint8_t value, SimTime now) const;
@@ -180,6 +183,8 @@ class Line {
   std::vector<Member> members_;
   std::vector<LineObserver*> observers_;
   SimTime clock_{0};  // of the last event
+  // Stations that wait for nothing are many, and asked in every tick.
+  mutable std::optional<Event> next_{};
 
   bool is_host_open_ = true;
   std::optional<HostSettings> host_settings_;

@@ -9,7 +9,7 @@
 namespace understudy::pty {
 
 Line::State Line::save() const {
-  const auto& [name, options, warn, counters, members, observers, clock, is_host_open, host_settings,
+  const auto& [name, options, warn, counters, members, observers, clock, next, is_host_open, host_settings,
                departed_settings, last_departed, last_received, has_warned_deaf, has_warned_no_speed,
                has_warned_collision, input, input_first, input_count, arriving, is_heard, leaving,
                leaving_first, notices, output, output_first] = *this;
@@ -71,6 +71,7 @@ void Line::check(const State& state) const {
 }
 
 void Line::restore(const State& state) {
+  due_changed();
   check(state);
   options_.settings = state.settings;
   for (std::size_t i = 0; i < members_.size(); ++i) {

@@ -94,11 +94,25 @@ Refusal with_room_for(std::size_t words, Act act) {
   return act(changes);
 }
 
+/// Whether a register may be written what a request makes of it; what the policy lets in is brought into
+/// range.
+Refusal judge(Change& change, const MapPolicy& policy) {
+  if (!complete(change)) {
+    if (policy.halves == MapPolicy::Halves::come_whole) return Refusal::no_register;
+    // Half a value cannot be judged.
+    if (policy.halves == MapPolicy::Halves::may_be_written_alone) return Refusal::none;
+  }
+  if (in_range(change)) return Refusal::none;
+  if (policy.out_of_range == MapPolicy::OutOfRange::refused) return Refusal::bad_value;
+  bring_into_range(change);
+  return Refusal::none;
+}
+
 /// What each register would hold, and whether that may be. Addresses are judged before values.
 Refusal gather(const Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words,
                Changes& changes) {
   const RegisterMap& map = device.registers();
-  const MapPolicy policy = device.map_policy();
+  const MapPolicy& policy = device.map_policy();
   if (first + words.size() > 65536 || words.size() > kMostChanges) return Refusal::no_register;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Place place =
@@ -119,15 +133,7 @@ Refusal gather(const Device& device, Table table, std::uint16_t first, std::span
     if (place.part == Place::Part::high) change.high = true;
   }
   for (std::size_t i = 0; i < changes.count; ++i) {
-    Change& change = changes.all[i];
-    if (!complete(change)) {
-      if (policy.halves == MapPolicy::Halves::come_whole) return Refusal::no_register;
-      if (policy.halves == MapPolicy::Halves::may_be_written_alone)
-        continue;  // half a value cannot be judged
-    }
-    if (in_range(change)) continue;
-    if (policy.out_of_range == MapPolicy::OutOfRange::refused) return Refusal::bad_value;
-    bring_into_range(change);
+    if (const Refusal refusal = judge(changes.all[i], policy); refusal != Refusal::none) return refusal;
   }
   return Refusal::none;
 }
@@ -199,7 +205,7 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Pr
 
 Refusal read_words(const Device& device, Table table, std::uint16_t first, std::span<std::uint16_t> words) {
   const RegisterMap& map = device.registers();
-  const MapPolicy policy = device.map_policy();
+  const MapPolicy& policy = device.map_policy();
   if (first + words.size() > 65536) return Refusal::no_register;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Place place =
@@ -254,9 +260,28 @@ Refusal write_prepared(Device& device, const PreparedWrite& write) {
   return write_words(device, write.table, write.first, std::span(write.words).first(write.count));
 }
 
-Refusal write_value(Device& device, const NamedPlace& place, Value value) {
+Refusal write_value(Device& device, const NamedPlace& named, Value value) {
+  const Place& place = named.place;
+  const RegisterRow& row = *place.row;
+  if (named.bit < 0 && place.part == Place::Part::whole) {
+    // What its words would come to when they are looked up again: programs write like this all the time.
+    if (row.access == Access::read) return Refusal::no_register;
+    const auto [lowest, highest] = limits_of(row.type);
+    if (value < lowest || value > highest) return Refusal::bad_value;
+    if (device.firmware() < row.since) {
+      return device.map_policy().unmapped == MapPolicy::Unmapped::refused ? Refusal::no_register
+                                                                          : Refusal::none;
+    }
+    std::array<Change, 1> one = {
+        Change{.place = place, .bits = static_cast<std::uint32_t>(value), .low = true, .high = true}};
+    const Refusal refusal = judge(one[0], device.map_policy());
+    if (refusal != Refusal::none) return refusal;
+    Changes changes{.all = one, .count = 1};
+    carry_out(device, changes);
+    return Refusal::none;
+  }
   PreparedWrite write;
-  const Refusal refusal = prepare_value(device, place, value, write);
+  const Refusal refusal = prepare_value(device, named, value, write);
   return refusal == Refusal::none ? write_prepared(device, write) : refusal;
 }
 

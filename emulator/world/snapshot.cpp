@@ -259,6 +259,7 @@ void restore(World& world, const WorldState& state) {
     World::OneLine& line = world.line(i);
     line.line.restore(lines[i]);
     for (std::size_t j = 0; j < stations[i].size(); ++j) line.stations[j]->restore(stations[i][j]);
+    line.line.due_changed();
   }
 }
 

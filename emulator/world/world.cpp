@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "emulator/prefetch.h"
 #include "emulator/world/check_fault.h"
 #include "emulator/world/fault_watch.h"
 
@@ -132,9 +133,23 @@ void World::run_tick() {
   ++done_;
   // Devices meet by their wires alone, which are latched when all are done. So one after another runs all its
   // phases, while its state is in the processor's cache.
-  for (std::size_t d = 0; d < devices_.size(); ++d) run_device(d);
+  for (std::size_t d = 0; d < devices_.size(); ++d) {
+    prefetch_device(d + 2);
+    run_device(d);
+  }
   latch_wires();
   ++ticks_run_;
+}
+
+/// What run_device() needs, and the first memory of the device two later, which tells where the rest of it
+/// is.
+void World::prefetch_device(std::size_t number) const {
+  if (number >= devices_.size()) return;
+  if (number + 2 < devices_.size()) __builtin_prefetch(devices_[number + 2].get());
+  devices_[number]->prefetch(done_);
+  prefetch(plants_[number].data(), plants_[number].size() * sizeof(PlantAxis));
+  prefetch(inputs_[number].data(), inputs_[number].size() * sizeof(Input));
+  prefetch(sent_pulses_[number].data(), sent_pulses_[number].size() * sizeof(std::int64_t));
 }
 
 void World::run_device(std::size_t number) {

@@ -137,6 +137,7 @@ class World {
   Tick next_active_tick() const;
   SimTime next_line_time() const;
   void run_device(std::size_t number);
+  void prefetch_device(std::size_t number) const;
   void step_plant(std::size_t number);
   void latch_wires();
   void apply_input(std::size_t device, int terminal);

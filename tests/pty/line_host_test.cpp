@@ -142,6 +142,9 @@ TEST(LineHost, KeepsTheOldestOutputOfAHostThatDoesNotRead) {
     rig.line.take_output(10);
     EXPECT_EQ(rig.line.output().size(), 4086u);
     talker.says[200s] = {Bytes(20, 0xEE)};
+    EXPECT_EQ(rig.line.due(), std::nullopt);  // it came by itself to say more: the line is told
+    rig.line.due_changed();
+    EXPECT_EQ(rig.line.due(), 200s);
     rig.line.run(300s);
     EXPECT_EQ(rig.line.output().size(), 4096u);
     EXPECT_EQ(rig.line.output().back(), 0xEE);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "emulator/prefetch.h"
+
 namespace understudy::emulator::simple2_r3 {
 
 namespace {
@@ -62,6 +64,15 @@ std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tic
 void remember_encoder(AxisState& axis, Tick tick) {
   if (axis.encoder_history[ring_place(tick - 1)] != axis.encoder_counts) axis.encoder_changed = tick;
   axis.encoder_history[ring_place(tick)] = axis.encoder_counts;
+}
+
+void prefetch(const AxisState& axis, Tick tick) {
+  emulator::prefetch(&axis.motor, 128);  // all that the middle of a move needs
+  emulator::prefetch(axis.motor.task);
+  emulator::prefetch(axis.signals);
+  emulator::prefetch(&axis.mode, 128);
+  emulator::prefetch(axis.encoder_history[ring_place(tick)]);
+  emulator::prefetch(axis.encoder_changed);
 }
 
 motion::Cause run_velocity(AxisState& axis, std::int64_t target_mrpm) {

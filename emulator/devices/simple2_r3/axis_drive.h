@@ -65,6 +65,8 @@ std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tic
 
 /// The encoder's count at the end of a tick, for its speed.
 void remember_encoder(AxisState& axis, Tick tick);
+/// Asks for the memory that a tick needs.
+void prefetch(const AxisState& axis, Tick tick);
 
 /// Velocity mode towards `target_mrpm`, from the present speed if it runs already.
 /// What it is refused for, nothing has changed then.

@@ -5,6 +5,7 @@
 #include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/model.h"
 #include "emulator/devices/simple2_r3/program_machine.h"
+#include "emulator/prefetch.h"
 #include "motion/homing_tables.h"
 
 namespace understudy::emulator::simple2_r3 {
@@ -239,6 +240,28 @@ Tick Simple2R3::next_active_tick(Tick done) const {
   // Last, because it takes longest, and what moves need not be asked.
   if (next > done + 1 && sees_something_new()) return done + 1;
   return next;
+}
+
+void Simple2R3::prefetch(Tick tick) const {
+  Device::prefetch(tick);
+  emulator::prefetch(dialect_);
+  for (int number = 0; number < 2; ++number) {
+    const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(number)];
+    for (const std::size_t slot :
+         {slots.resolution, slots.velocity_acceleration, slots.encoder_polarity, slots.direction_polarity}) {
+      emulator::prefetch(state_.image[slot]);
+    }
+    simple2_r3::prefetch(axis, tick);
+  }
+  if (tick % interpreter::simple2::kSlotMs == 0) {
+    emulator::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
+    emulator::prefetch(state_.image[slot("Counter1_Value")]);
+    emulator::prefetch(&state_.program, 256);
+  }
+  emulator::prefetch(state_.execution);
+  emulator::prefetch(state_.eeprom);
+  emulator::prefetch(state_.touched);
 }
 
 bool Simple2R3::same_state(const Device& other) const {

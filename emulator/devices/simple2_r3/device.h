@@ -96,7 +96,7 @@ class Simple2R3 final : public Device {
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
-  MapPolicy map_policy() const override { return map_policy_; }
+  const MapPolicy& map_policy() const override { return map_policy_; }
   bool answers_refusals() const override { return !chose(kRefusalsNotAnswered); }
   void register_written(const RegisterRow& row, std::size_t slot) override;
   void registers_written() override {
@@ -119,6 +119,7 @@ class Simple2R3 final : public Device {
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
+  void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override;
 
   bool output(int terminal) const override;

@@ -70,6 +70,7 @@ Eeprom Simple2R3::factory_memory() const {
 }
 
 void Simple2R3::register_written(const RegisterRow& row, std::size_t slot) {
+  if (!keeps(row)) return;
   if (!was_saving_) was_saving_ = state_.eeprom.writing();
   if (*was_saving_ && chose(kNotSavedWhileSaving)) return;
   const Tick ticks_per_word = chose(kEeprom1msAWord) ? 1 : 5;
