@@ -50,4 +50,23 @@ consteval std::size_t choice_number(const ChoiceRow (&rows)[N], std::string_view
   throw "no such choice";
 }
 
+/// One option of one row, as a model's code asks for it.
+struct Option {
+  std::size_t choice = 0;  // its row
+  std::uint8_t number = 0;
+};
+
+/// A compile error for a row or an option that there is not.
+template <std::size_t N>
+consteval Option option_of(const ChoiceRow (&rows)[N], std::string_view id, std::string_view name) {
+  const std::size_t row = choice_number(rows, id);
+  std::string_view rest = rows[row].options;
+  for (std::uint8_t number = 0;; ++number) {
+    const std::size_t bar = rest.find('|');
+    if (rest.substr(0, bar) == name) return {row, number};
+    if (bar == std::string_view::npos) throw "the choice has no such option";
+    rest.remove_prefix(bar + 1);
+  }
+}
+
 }  // namespace understudy::emulator

@@ -34,6 +34,7 @@ class Device {
   Firmware firmware() const { return settings_.firmware; }
   const DeviceSettings& settings() const { return settings_; }
   std::uint8_t choice(std::size_t number) const { return choices_[number]; }
+  bool chose(const Option& option) const { return choice(option.choice) == option.number; }
 
   // --- registers -----------------------------------------------------------------------------
   const RegisterMap& registers() const { return model_.registers; }

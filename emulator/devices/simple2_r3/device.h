@@ -131,7 +131,6 @@ class Simple2R3 final : public Device {
   // --- for effects.cpp ---------------------------------------------------------------------
   State& state() { return state_; }
   const State& state() const { return state_; }
-  bool chose(const Option& option) const { return choice(option.choice) == option.number; }
 
   /// Whether the register at `assignment_slot` (0x0A00 to 0x0A0D) gives its pin a function.
   bool assigned(std::size_t assignment_slot) const;

@@ -7,21 +7,7 @@
 
 namespace understudy::emulator::simple2_r3 {
 
-struct Option {
-  std::size_t choice = 0;  // its row
-  std::uint8_t number = 0;
-};
-
-consteval Option option(std::string_view id, std::string_view name) {
-  const std::size_t row = choice_number(kChoices, id);
-  std::string_view rest = kChoices[row].options;
-  for (std::uint8_t number = 0;; ++number) {
-    const std::size_t bar = rest.find('|');
-    if (rest.substr(0, bar) == name) return {row, number};
-    if (bar == std::string_view::npos) throw "the choice has no such option";
-    rest.remove_prefix(bar + 1);
-  }
-}
+consteval Option option(std::string_view id, std::string_view name) { return option_of(kChoices, id, name); }
 
 // --- the wire ---
 inline constexpr Option kStation0Ignored = option("station_0_request", "ignored");
