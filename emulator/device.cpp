@@ -28,8 +28,25 @@ void Device::switch_power(bool on) {
   }
 }
 
+std::optional<std::string> Device::assign(std::string_view /*name*/, double /*value*/) {
+  return "cannot be set; expected a name of the device";
+}
+
 NvImage Device::nv_image() const {
-  NvImage image{.model = std::string(model_.name), .firmware = version_text(firmware()), .registers = {}};
+  NvImage image{.model = std::string(model_.name), .firmware = version_text(firmware())};
+  write_memory(image);
+  return image;
+}
+
+void Device::load_nv(const NvImage& image) {
+  if (image.model != model_.name) {
+    throw NvError("model: is the memory of a " + quoted(image.model) + "; expected one of " +
+                  std::string(model_.name));
+  }
+  read_memory(image);
+}
+
+void Device::write_memory(NvImage& image) const {
   const std::span<const std::uint32_t> kept = kept_image();
   std::size_t slot = 0;
   for (const RegisterRow& row : registers().rows()) {
@@ -38,13 +55,14 @@ NvImage Device::nv_image() const {
       image.registers.emplace_back(RegisterMap::name_of(row, i), value_of(kept[slot], row.type));
     }
   }
-  return image;
 }
 
-void Device::load_nv(const NvImage& image) {
-  if (image.model != model_.name) {
-    throw NvError("model: is the memory of a " + quoted(image.model) + "; expected one of " +
-                  std::string(model_.name));
+void Device::read_memory(const NvImage& image) {
+  for (const auto& [key, is_there] :
+       {std::pair("reals", !image.reals.empty()), std::pair("program", !image.program.empty())}) {
+    if (!is_there) continue;
+    throw NvError(std::string(key) + ": is no part of the memory of " + std::string(model_.name) +
+                  "; expected none");
   }
   std::vector<std::pair<std::size_t, std::uint32_t>> wanted;
   for (const auto& [name, value] : image.registers) {

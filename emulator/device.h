@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/memory/nv_image.h"
@@ -18,6 +20,7 @@ namespace understudy::emulator {
 
 class StateReader;
 class StateWriter;
+class TextSpeaker;
 
 /// What a station does with a frame that carries some address.
 enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
@@ -49,7 +52,21 @@ class Device {
   /// Called after a write request has been stored and all its effects have run.
   virtual void registers_written() {}
 
+  // --- values without a register ---------------------------------------------------------------
+  // What a device without registers has by name (T2PE, R3), for scenarios, traces and the control socket:
+  // past the line, so they cost no time and leave no trace in its dialogue.
+  /// Nothing if it has none of that name.
+  virtual std::optional<double> value_named(std::string_view /*name*/) const { return std::nullopt; }
+  /// Gives it a value as a command over the line would. Nothing, or why not: "is out of range; expected 0 to
+  /// 8", and then nothing has changed.
+  virtual std::optional<std::string> assign(std::string_view name, double value);
+  /// Those that people meet most, for messages that suggest one.
+  virtual std::vector<std::string> names() const { return {}; }
+
   // --- the wire ------------------------------------------------------------------------------
+  /// Of a device that is spoken to in lines of text (emulator/text/); null: it is not.
+  virtual TextSpeaker* speaker() { return nullptr; }
+  virtual const TextSpeaker* speaker() const { return nullptr; }
   virtual Addressing addressing(std::uint8_t address) const = 0;
   /// Whether a request that it refuses gets an exception, or no answer.
   virtual bool answers_refusals() const { return true; }
@@ -136,6 +153,11 @@ class Device {
   virtual std::function<void()> read_own_state(StateReader& reader) = 0;
   /// A kept value from outside, without power.
   virtual void put_kept(std::size_t slot, std::uint32_t bits) = 0;
+  /// All that is kept, into an image that has the model and the firmware already; the registers without more.
+  virtual void write_memory(NvImage& image) const;
+  /// The same back, without power: what the image does not name has the factory's value. Throws NvError for
+  /// what it cannot hold; nothing has changed then.
+  virtual void read_memory(const NvImage& image);
 
  private:
   struct CommonFields;  // device_state.cpp

@@ -16,9 +16,24 @@ std::span<const Model* const> all_models() {
   return models;
 }
 
+namespace {
+
+std::vector<const Model*>& own_models() {
+  static std::vector<const Model*> models;
+  return models;
+}
+
+}  // namespace
+
+OwnModel::OwnModel(const Model& model) : model_(model) { own_models().push_back(&model); }
+OwnModel::~OwnModel() { std::erase(own_models(), &model_); }
+
 const Model* find_model(std::string_view name) {
-  for (const Model* model : all_models()) {
-    if (model->name == name) return model;
+  for (const std::span<const Model* const> models :
+       {all_models(), std::span<const Model* const>(own_models())}) {
+    for (const Model* model : models) {
+      if (model->name == name) return model;
+    }
   }
   return nullptr;
 }
@@ -50,13 +65,22 @@ void check(const Model& model, const DeviceSettings& settings) {
                                        std::string(model.name) + "; expected one of " +
                                        list_of(firmwares, version_text));
   }
-  if (settings.address < model.rtu.lowest_address || settings.address > model.rtu.highest_address) {
+  if (settings.modules != 0 && (settings.modules < 1 || settings.modules > model.most_modules)) {
+    throw SettingError(
+        "modules",
+        std::to_string(settings.modules) + " is not possible: " + std::string(model.name) +
+            (model.most_modules == 0 ? " has no modules; expected none"
+                                     : " has 1 to " + std::to_string(model.most_modules) + " of them"));
+  }
+  const bool has_address = model.protocol() == Protocol::modbus_rtu;
+  if (has_address &&
+      (settings.address < model.rtu.lowest_address || settings.address > model.rtu.highest_address)) {
     throw SettingError("address", std::to_string(settings.address) + " is no station number of " +
                                       std::string(model.name) + "; expected " +
                                       std::to_string(model.rtu.lowest_address) + " to " +
                                       std::to_string(model.rtu.highest_address));
   }
-  const auto& bauds = model.rtu.bauds;
+  const auto bauds = model.bauds();
   if (settings.baud != 0 && std::find(bauds.begin(), bauds.end(), settings.baud) == bauds.end()) {
     throw SettingError("baud", std::to_string(settings.baud) + " is no speed of " + std::string(model.name) +
                                    "; expected one of " +
@@ -82,7 +106,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   check(model, given);
   DeviceSettings settings = given;
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
-  if (settings.baud == 0) settings.baud = model.rtu.bauds.front();
+  if (settings.baud == 0) settings.baud = model.bauds().front();
 
   std::unique_ptr<Device> device;
   try {
@@ -113,6 +137,10 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
             "set", std::to_string(value) + " is out of range for " + name + "; expected " + range_text(row));
       }
     }
+  }
+  for (const auto& [name, value] : settings.assignments) {
+    if (const auto complaint = device->assign(name, value))
+      throw SettingError("set", name + ": " + *complaint);
   }
   device->settle_memory();
   return device;

@@ -37,6 +37,13 @@ struct InstructionRow {
   std::string_view data2;
 };
 
+/// A row of a model's table of text commands.
+struct CommandRow {
+  std::string_view command;  // the word that it is known by: "MA"
+  std::string_view syntax;   // "MA x"
+  std::string_view meaning;
+};
+
 /// A point where the device meets the outside, as its manual names it.
 struct TerminalRow {
   enum class Kind : std::uint8_t {
@@ -75,18 +82,31 @@ struct RtuRules {
   int highest_address = 247;
 };
 
+/// What a line carries between hosts and a model.
+enum class Protocol : std::uint8_t { modbus_rtu, text };
+
+inline constexpr int kTextBauds[] = {9600};
+
+/// How the model listens on a line of text. Such a device is alone on its line.
+struct TextPort {
+  std::span<const int> bauds = kTextBauds;  // the speeds it can be set to, the factory's first
+  pty::LineSettings settings{.baud = 9600, .data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1};
+};
+
 /// What makes one device of a model.
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                           // 0: the model's default
   int address = 1;                                 // its station number
   int baud = 0;                                    // 0: the factory's
+  int modules = 0;                                 // of a chain; 0: as many as the model has without it
   std::map<std::string, std::string> choices;      // overrides
   std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
   std::optional<NvImage> nv;                       // what its memory holds; the factory's without one
   std::string program;                             // text, loaded when it is made
   std::string program_name;                        // the file it is from, for messages
   std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
+  std::vector<std::pair<std::string, double>> assignments{};  // the same for a model without registers
 };
 
 struct Model {
@@ -96,20 +116,39 @@ struct Model {
   const RegisterMap& registers;
   std::span<const ParameterRow> parameters;
   std::span<const InstructionRow> instructions;
+  std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const TerminalRow> terminals;
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that tell best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
-  RtuRules rtu;
+  RtuRules rtu{};
+  std::optional<TextPort> text{};  // it speaks text, and no Modbus
+  int most_modules = 0;            // that one device can consist of; 0: it is no chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
+
+  Protocol protocol() const { return text ? Protocol::text : Protocol::modbus_rtu; }
+  std::span<const int> bauds() const { return text ? text->bauds : rtu.bauds; }
 };
 
 /// All models, in the order of `understudy models`.
 std::span<const Model* const> all_models();
 /// Null if there is none of that name.
 const Model* find_model(std::string_view name);
+
+/// A model of a program's own (a test's) that benches may name as long as this lives. Not in all_models().
+class OwnModel {
+ public:
+  /// The model must outlive it.
+  explicit OwnModel(const Model& model);
+  ~OwnModel();
+  OwnModel(const OwnModel&) = delete;
+  OwnModel& operator=(const OwnModel&) = delete;
+
+ private:
+  const Model& model_;
+};
 
 /// What is wrong with a device's settings: which of them, and what was expected.
 struct SettingError : std::runtime_error {

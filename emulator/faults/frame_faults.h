@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "emulator/model.h"
 #include "pty/line_settings.h"
 #include "pty/wire_fault.h"
 
@@ -18,6 +19,8 @@ struct HeardFrame {
   std::uint64_t last_character = 0;
   bool is_for_device = false;  // broadcasts as well
   pty::SimTime now{0};
+  Protocol protocol =
+      Protocol::modbus_rtu;  // text: the line without its end, or with it where the wire is asked
 };
 
 class FrameFaults {

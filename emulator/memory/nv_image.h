@@ -1,5 +1,6 @@
 // NV images: a device's non-volatile memory as a value, and as a file: JSON that people read and compare. It
-// names what differs from the factory's values, in the order of the model's table.
+// names what differs from the factory's values, in the order of the model's table. Real numbers and a stored
+// program are there for models whose memory has such.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,9 @@ namespace understudy::emulator {
 struct NvImage {
   std::string model;
   std::string firmware;                                         // of the device that wrote it; for people
-  std::vector<std::pair<std::string, std::int64_t>> registers;  // by the manual's names
+  std::vector<std::pair<std::string, std::int64_t>> registers{};  // by the manual's names
+  std::vector<std::pair<std::string, double>> reals{};            // finite
+  std::vector<std::string> program{};                             // its lines
 
   bool operator==(const NvImage&) const = default;
 };

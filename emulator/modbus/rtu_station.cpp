@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "emulator/modbus/server.h"
+#include "emulator/station_fields.h"
 #include "pty/rtu_crc.h"
 #include "pty/state_reach.h"
 
@@ -145,8 +146,7 @@ void RtuStation::run_late(pty::SimTime now, pty::Transmitter& out) {
 // --- its state -----------------------------------------------------------------------------------
 
 RtuStation::State RtuStation::save() const {
-  const auto& [device, framer, counters, faults, device_number, late, is_early] = *this;
-  return {.framer = framer.save(), .counters = counters, .late = late};
+  return {.framer = framer_.save(), .counters = counters_, .late = late_};
 }
 
 void RtuStation::check(const State& state) const {
@@ -167,5 +167,9 @@ void RtuStation::restore(const State& state) {
   counters_ = state.counters;
   late_ = state.late;
 }
+
+void RtuStation::write_state(StateWriter& writer) const { writer.write<StationFields>(save()); }
+
+std::function<void()> RtuStation::read_state(StateReader& reader) { return read_state_of(*this, reader); }
 
 }  // namespace understudy::emulator

@@ -2,27 +2,19 @@
 // whether the address is meant for it, and answers.
 #pragma once
 
-#include "emulator/device.h"
-#include "emulator/faults/frame_faults.h"
+#include "emulator/line_station.h"
 #include "pty/rtu_framer.h"
 #include "pty/station.h"
 
 namespace understudy::emulator {
 
-struct StationCounters {
-  std::uint64_t requests = 0;  // frames for this station, broadcasts included
-  std::uint64_t replies = 0;
-  std::uint64_t exceptions = 0;  // of the replies
-};
-
-class RtuStation final : public pty::Station {
+class RtuStation final : public LineStation {
  public:
   /// Requests and replies that are late; what is more is lost.
   static constexpr std::size_t kMostLate = 256;
 
-  RtuStation(Device& device, pty::RtuFraming framing) : device_(device), framer_(framing) {}
+  RtuStation(Device& device, pty::RtuFraming framing) : LineStation(device), framer_(framing) {}
 
-  pty::LineSettings settings() const override { return device_.line_settings(); }
   // Without power it hears nothing.
   void hear_start_bit(pty::SimTime at) override {
     if (device_.powered()) framer_.start_bit(at);
@@ -40,19 +32,10 @@ class RtuStation final : public pty::Station {
   std::optional<pty::SimTime> due() const override;
   void run(pty::SimTime now, pty::Transmitter& out) override;
 
-  /// What it was hearing, and what it has still to say, is forgotten.
-  void reset();
-
-  /// Where something is broken that frames meet; null: nothing is. The device's number is told with each
-  /// frame.
-  void set_faults(FrameFaults* faults, std::size_t device) {
-    faults_ = faults;
-    device_number_ = device;
-  }
-
-  const Device& device() const { return device_; }
-  const StationCounters& counters() const { return counters_; }
-  std::uint64_t dropped_bytes() const { return framer_.dropped_bytes(); }
+  void reset() override;
+  std::uint64_t dropped_bytes() const override { return framer_.dropped_bytes(); }
+  void write_state(StateWriter& writer) const override;
+  std::function<void()> read_state(StateReader& reader) override;
 
   /// A message that a fault has made late.
   struct Late {
@@ -83,11 +66,7 @@ class RtuStation final : public pty::Station {
   void keep_late(Late message);
   void run_late(pty::SimTime now, pty::Transmitter& out);
 
-  Device& device_;
   pty::RtuFramer framer_;
-  StationCounters counters_;
-  FrameFaults* faults_ = nullptr;
-  std::size_t device_number_ = 0;
   std::vector<Late> late_;
   bool is_early_ = false;  // what the framer holds is served at once: within the event that brought it
 };

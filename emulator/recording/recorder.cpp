@@ -97,6 +97,10 @@ void Recorder::on_write(std::size_t device, const PreparedWrite& write) {
   take({.what = What::write, .where = device, .write = write});
 }
 
+void Recorder::on_assign(std::size_t device, std::string_view name, double value) {
+  take({.what = What::assign, .where = device, .text = std::string(name), .real = value});
+}
+
 void Recorder::on_program(std::size_t device, std::string_view text) {
   take({.what = What::program, .where = device, .text = std::string(text)});
 }

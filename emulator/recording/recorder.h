@@ -31,6 +31,7 @@ class Recorder final : private OutsideListener {
   void on_inject(const Fault& fault) override;
   void on_clear_fault(std::size_t number) override;
   void on_write(std::size_t device, const PreparedWrite& write) override;
+  void on_assign(std::size_t device, std::string_view name, double value) override;
   void on_program(std::size_t device, std::string_view text) override;
 
   World& world_;

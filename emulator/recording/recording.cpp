@@ -17,7 +17,7 @@ using What = RecordedEvent::What;
 constexpr const char* kKind = "recording";
 constexpr int kFormat = 1;
 
-constexpr std::array<std::pair<What, std::string_view>, 14> kWords{{
+constexpr std::array<std::pair<What, std::string_view>, 15> kWords{{
     {What::opened, "open"},
     {What::closed, "close"},
     {What::settings, "settings"},
@@ -30,6 +30,7 @@ constexpr std::array<std::pair<What, std::string_view>, 14> kWords{{
     {What::inject, "inject"},
     {What::clear, "clear"},
     {What::write, "write"},
+    {What::assign, "assign"},
     {What::program, "program"},
     {What::end, "end"},
 }};
@@ -43,7 +44,8 @@ constexpr std::string_view word_of(What what) {
 
 bool is_of_a_line(What what) { return what <= What::said; }
 bool is_of_a_device(What what) {
-  return what == What::input || what == What::power || what == What::write || what == What::program;
+  return what == What::input || what == What::power || what == What::write || what == What::assign ||
+         what == What::program;
 }
 
 std::string hex_of(const std::vector<std::uint8_t>& bytes) {
@@ -257,6 +259,10 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       line.number("first", event.write.first);
       line.hexadecimal("words", bytes_of_words(event.write));
       break;
+    case What::assign:
+      line.json("name", Json(event.text));
+      line.json("value", Json(event.real));
+      break;
     case What::program: line.json("text", Json(event.text)); break;
     case What::opened:
     case What::closed:
@@ -307,6 +313,11 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     case What::inject: event.fault = fault_at(line, devices); break;
     case What::clear: event.value = number_at(line, "number", 0, INT64_MAX); break;
     case What::write: event.write = write_at(line); break;
+    case What::assign:
+      event.text = text_at(line, "name");
+      if (!demand(line, "value").is_number()) throw RecordingError("value: is no number; expected one");
+      event.real = line["value"].get<double>();
+      break;
     case What::program: event.text = text_at(line, "text"); break;
     case What::opened:
     case What::closed:
@@ -331,6 +342,7 @@ void apply(World& world, const RecordedEvent& event) {
     case What::inject: world.inject(event.fault); break;
     case What::clear: world.clear_fault(static_cast<std::size_t>(event.value)); break;
     case What::write: world.write(event.where, event.write); break;
+    case What::assign: world.assign(event.where, event.text, event.real); break;
     case What::program: world.load_program(event.where, event.text); break;
     case What::said:
     case What::end: break;

@@ -40,6 +40,7 @@ struct RecordedEvent {
     inject,   // `fault`
     clear,    // fault number `value`
     write,    // `write`, past the line
+    assign,   // the value `real` by the name `text`, to one without registers
     program,  // the device was given the program `text`
     end,      // the recording ends here
   } what = What::end;
@@ -50,6 +51,7 @@ struct RecordedEvent {
   std::optional<pty::HostSettings> host{};
   std::vector<std::uint8_t> bytes{};
   std::string text{};
+  double real = 0;
   Fault fault{};
   PreparedWrite write{};
 };

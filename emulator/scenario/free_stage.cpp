@@ -68,7 +68,7 @@ class FreeStage::Host final : public pty::LineObserver {
 
  private:
   pty::Line& line_;
-  const std::vector<std::unique_ptr<RtuStation>>& stations_;
+  const std::vector<std::unique_ptr<LineStation>>& stations_;
   pty::LineSettings settings_;  // as the line has it in the beginning; a host does not follow a DIP switch
   static constexpr SimTime kEver = SimTime::min() / 2;
   SimTime quiet_since_ = kEver;

@@ -38,6 +38,7 @@ void demand_value(const Probes& probes, const Expression::Name& name) {
 
 /// Which registers a request is about.
 FrameFacts facts_of(const HeardFrame& frame) {
+  if (frame.protocol == Protocol::text) return {.at = frame.now};  // neither station nor function
   FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
   const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };
   switch (facts.function) {

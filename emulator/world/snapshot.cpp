@@ -13,7 +13,6 @@ namespace {
 
 using Machines = std::vector<std::vector<PlantAxis::State>>;
 using LineStates = std::vector<pty::Line::State>;
-using StationStates = std::vector<std::vector<RtuStation::State>>;
 
 /// The world's own fields, as values.
 auto values_of(const World& world) {
@@ -48,7 +47,7 @@ WorldState::Part line_part(const World::OneLine& line) {
   writer.write<WorldFields>(hearing_of(line).is_strict);
   writer.write<WorldFields>(hearing_of(line).enforces_settings);
   writer.write<WorldFields>(line.line.save());
-  for (const auto& station : line.stations) writer.write<WorldFields>(station->save());
+  for (const auto& station : line.stations) station->write_state(writer);
   return {"line " + line.line.name(), writer.take()};
 }
 
@@ -215,18 +214,14 @@ void restore(World& world, const WorldState& state) {
                    [&](std::span<const std::byte> bytes) { return world.device(i).read_state(bytes); }));
   }
   LineStates lines(world.line_count());
-  StationStates stations(world.line_count());
+  std::vector<std::function<void()>> put_stations;
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     const World::OneLine& line = world.line(i);
     parts.read("line " + line.line.name(), [&](std::span<const std::byte> bytes) {
       StateReader reader(bytes);
       read_hearing(line, reader);
       reader.read<WorldFields>(lines[i]);
-      stations[i].resize(line.stations.size());
-      for (std::size_t j = 0; j < stations[i].size(); ++j) {
-        reader.read<WorldFields>(stations[i][j]);
-        line.stations[j]->check(stations[i][j]);
-      }
+      for (const auto& station : line.stations) put_stations.push_back(station->read_state(reader));
       reader.demand_end();
     });
   }
@@ -255,11 +250,10 @@ void restore(World& world, const WorldState& state) {
     put_devices[i]();
     world.device(i).set_now(tick_at(world.now()));
   }
+  for (const auto& put_station : put_stations) put_station();
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    World::OneLine& line = world.line(i);
-    line.line.restore(lines[i]);
-    for (std::size_t j = 0; j < stations[i].size(); ++j) line.stations[j]->restore(stations[i][j]);
-    line.line.due_changed();
+    world.line(i).line.restore(lines[i]);
+    world.line(i).line.due_changed();
   }
 }
 

@@ -7,13 +7,14 @@
 
 namespace understudy::emulator {
 
-/// A world, its machines and lines; devices have a list of their own.
+/// A world, its machines and lines; devices and stations have lists of their own.
 struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
     // What it is made of, and who looks at it, is no state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
-    auto& [known, devices, lines, plants, sent_pulses, inputs, supplies, wires, watchers, listener, faults,
-           next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
+    auto& [known, devices, lines, text_lines, plants, sent_pulses, inputs, supplies, wires, watchers,
+           listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed,
+           bulk_ticks] = world;
     return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
   }
   static auto& plants(Like<World> auto& world) { return world.plants_; }
@@ -48,16 +49,6 @@ struct WorldFields {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, output, counters, clock] = v;
     visit(a, b, c, d, e, f, g, h, i, j, k, l);
   }
-  static void of(Like<pty::RtuFramer::State::Character> auto& v, auto visit) {
-    auto& [a, b, c] = v; visit(a, b, c);
-  }
-  static void of(Like<pty::RtuFramer::State::Frame> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<pty::RtuFramer::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
-  }
-  static void of(Like<StationCounters> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<RtuStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<RtuStation::State> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
   // clang-format on
 
   static void rearm(World& world) { world.arm_faults(); }
@@ -72,8 +63,9 @@ struct WorldFields {
 /// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
-    auto& [known, devices, lines, plants, sent_pulses, inputs, supplies, wires, watchers, listener, faults,
-           next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed, bulk_ticks] = world;
+    auto& [known, devices, lines, text_lines, plants, sent_pulses, inputs, supplies, wires, watchers,
+           listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed,
+           bulk_ticks] = world;
     return visit(ticks_run, ticks_crossed);
   }
   static void of(Like<pty::Line::State> auto& v, auto visit) {

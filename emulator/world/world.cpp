@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "emulator/modbus/rtu_station.h"
 #include "emulator/prefetch.h"
+#include "emulator/text/text_station.h"
 #include "emulator/world/check_fault.h"
 #include "emulator/world/fault_watch.h"
 
@@ -31,6 +33,15 @@ World::World(const Bench& bench, const WorldOptions& options,
     lines_.push_back(std::make_unique<OneLine>(OneLine{pty::Line(setup.name, line_options, log), {}, {}}));
     OneLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {
+      known_[number].line = setup.name;
+      if (devices_[number]->model().protocol() == Protocol::text) {
+        const bool is_instant = setup.timing == pty::Timing::instant;
+        line.stations.push_back(std::make_unique<TextStation>(*devices_[number], is_instant));
+        line.line.attach(*line.stations.back());
+        line.protocol = Protocol::text;
+        text_lines_.push_back(&line);
+        continue;
+      }
       // Without wire time there is no silence to wait for, unless silence alone ends a frame.
       const bool no_silence = setup.timing == pty::Timing::instant && !options.strict_framing;
       const pty::RtuFraming framing{
@@ -40,7 +51,6 @@ World::World(const Bench& bench, const WorldOptions& options,
       if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
       line.stations.push_back(std::make_unique<RtuStation>(*devices_[number], framing));
       line.line.attach(*line.stations.back());
-      known_[number].line = setup.name;
     }
   }
   for (const InputSetup& setup : bench.inputs) {
@@ -49,6 +59,7 @@ World::World(const Bench& bench, const WorldOptions& options,
   for (const Fault& fault : bench.faults) inject(fault);
   // A machine may stand on a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) step_plant(d);
+  look_for_speech();
 }
 
 World::~World() = default;
@@ -58,7 +69,8 @@ const PlantAxis& World::plant(std::size_t device, int axis) const {
 }
 
 void World::advance_to(SimTime time) {
-  SimTime line_time = next_line_time();  // ticks leave the lines alone, watchers do not
+  // Ticks leave the lines alone, but for devices that speak unasked; watchers do not.
+  SimTime line_time = next_line_time();
   while (true) {
     const SimTime tick_time = time_of(done_ + 1);
     if (std::min(line_time, tick_time) > time) break;
@@ -80,6 +92,11 @@ void World::advance_to(SimTime time) {
     } else {
       run_tick();
       if (fault_watch_) look_at_faults();
+      if (!text_lines_.empty()) {
+        now_ = std::max(now_, time_of(done_));
+        look_for_speech();
+        line_time = next_line_time();
+      }
     }
     now_ = std::max(now_, time_of(done_));
     if (watchers_.empty()) continue;
@@ -126,6 +143,15 @@ void World::run_lines(SimTime time) {
   }
   for (const auto& line : lines_) line->line.run(time);
   if (fault_watch_) settle_faults();
+}
+
+/// A tick, or an act from outside, may have given a device something to say; its line sends it from now on.
+void World::look_for_speech() {
+  for (OneLine* line : text_lines_) {
+    for (const auto& station : line->stations) {
+      if (station->look_for_speech(now_)) line->line.due_changed();
+    }
+  }
 }
 
 void World::run_tick() {
@@ -239,10 +265,19 @@ Refusal World::write(std::size_t device, const PreparedWrite& write) {
   return write_prepared(*devices_[device], write);
 }
 
+std::optional<std::string> World::assign(std::size_t device, const std::string& name, double value) {
+  begin_act();
+  if (auto complaint = devices_[device]->assign(name, value)) return complaint;
+  if (listener_ != nullptr) listener_->on_assign(device, name, value);
+  look_for_speech();
+  return std::nullopt;
+}
+
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
   devices_[device]->load_program(text);  // throws before anything has changed
   if (listener_ != nullptr) listener_->on_program(device, text);
+  look_for_speech();
 }
 
 void World::switch_power(std::size_t device, bool on) {
@@ -274,6 +309,7 @@ void World::settle_power(std::size_t device) {
                                      [](const auto& station) { return station->device().powered(); });
     if (speaks != line->stations.end()) line->line.set_settings((*speaks)->settings());
   }
+  look_for_speech();
 }
 
 std::size_t World::inject(const Fault& fault) {

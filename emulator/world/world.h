@@ -18,11 +18,12 @@
 #include "emulator/bench/names.h"
 #include "emulator/device.h"
 #include "emulator/faults/fault.h"
-#include "emulator/modbus/rtu_station.h"
+#include "emulator/line_station.h"
 #include "emulator/plant/plant.h"
 #include "emulator/simulated_time.h"
 #include "emulator/world/outside.h"
 #include "pty/line.h"
+#include "pty/rtu_framer.h"
 
 namespace understudy::emulator {
 
@@ -74,8 +75,9 @@ class World {
   // --- lines ---------------------------------------------------------------------------------
   struct OneLine {
     pty::Line line;
-    std::vector<std::unique_ptr<RtuStation>> stations;
+    std::vector<std::unique_ptr<LineStation>> stations;
     pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
+    Protocol protocol = Protocol::modbus_rtu;
   };
   std::size_t line_count() const { return lines_.size(); }
   OneLine& line(std::size_t number) { return *lines_[number]; }
@@ -99,6 +101,8 @@ class World {
   std::int32_t external_input(std::size_t device, int terminal) const;
   /// Writes a register past the line.
   Refusal write(std::size_t device, const PreparedWrite& write);
+  /// Gives a value of that name to a device without registers. Nothing, or why not; nothing has changed then.
+  std::optional<std::string> assign(std::size_t device, const std::string& name, double value);
   /// Throws ProgramError.
   void load_program(std::size_t device, std::string_view text);
   /// Between two ticks. What a device without power was saying ends at once. One whose power is cut has none
@@ -143,6 +147,7 @@ class World {
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
   void settle_power(std::size_t device);
+  void look_for_speech();
   void arm_faults();
   void look_at_faults();
   void settle_faults();
@@ -151,6 +156,7 @@ class World {
   KnownDevices known_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<std::unique_ptr<OneLine>> lines_;
+  std::vector<OneLine*> text_lines_;            // those of them whose devices may speak unasked
   std::vector<std::vector<PlantAxis>> plants_;  // [device][axis]
   std::vector<std::vector<std::int64_t>> sent_pulses_;
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]

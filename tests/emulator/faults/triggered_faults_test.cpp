@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "emulator/modbus/rtu_station.h"
 #include "emulator/probe/probes.h"
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/faults/faulty_line.h"
@@ -320,8 +321,9 @@ TEST(FaultState, IsSavedAndRestoredWithAllThatIsUnderWay) {
   for (SimTime half = 14ms; half < 1400ms; half += 35ms) {
     FaultyLine first(bench);
     auto came = play(first.world(), 7ms, half);
-    late += first.world().line(0).stations[0]->save().late.size() +
-            first.world().line(0).stations[1]->save().late.size();
+    for (const auto& station : first.world().line(0).stations) {
+      late += dynamic_cast<const RtuStation&>(*station).save().late.size();
+    }
     const WorldState state = save(first.world());
     FaultyLine second(bench);
     restore(second.world(), state);

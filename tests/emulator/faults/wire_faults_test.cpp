@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "emulator/modbus/rtu_station.h"
 #include "tests/emulator/faults/faulty_line.h"
 
 namespace understudy::emulator {
@@ -345,7 +346,8 @@ TEST(WireFaults, AtMostSoMuchIsLate) {
   line.inject("duplicate feeder after=2h of=request");
   line.inject("duplicate feeder after=3h of=request");
   for (int i = 0; i < 60; ++i) EXPECT_EQ(line.ask(kAskFeeder).bytes, kFeederSays);
-  EXPECT_EQ(line.world().line(0).stations[0]->save().late.size(), RtuStation::kMostLate);
+  EXPECT_EQ(dynamic_cast<const RtuStation&>(*line.world().line(0).stations[0]).save().late.size(),
+            RtuStation::kMostLate);
 }
 
 }  // namespace

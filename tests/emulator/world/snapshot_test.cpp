@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "emulator/modbus/rtu_station.h"
 #include "emulator/state/state_bytes.h"
 #include "tests/emulator/world/busy_acts.h"
 
@@ -51,7 +52,8 @@ void count(const World& world, Moments& moments) {
   moments.in_request += state.input.empty() ? 0 : 1;
   moments.in_reply += state.leaving.empty() ? 0 : 1;
   for (const auto& station : line.stations) {
-    moments.between_characters_and_service += station->save().framer.ready.empty() ? 0 : 1;
+    moments.between_characters_and_service +=
+        dynamic_cast<const RtuStation&>(*station).save().framer.ready.empty() ? 0 : 1;
   }
   for (const char* device : {"feeder.", "turner."}) {
     if (!world.device(device[0] == 'f' ? 0 : 1).powered()) {

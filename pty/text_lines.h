@@ -1,0 +1,69 @@
+// Where a line of text ends: a value that a station feeds with characters and that gives lines.
+//
+//  * CR ends a line, also an empty one; an LF right behind it is ignored. An LF alone ends a line that is
+//    not empty, so hosts that send CR, LF or both are understood.
+//  * A line that is too long is given as such at its end, without its text.
+//  * Where the device echoes, a person types: BS and DEL take the last character back.
+//  * ESC is told at once, and what of a line came before it is forgotten.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pty/station.h"
+
+namespace understudy::pty {
+
+struct TextLineRules {
+  std::size_t longest = 127;  // characters of a line, its end not counted
+  bool echoes = false;        // each character is sent back, and BS and DEL edit
+};
+
+/// What a character has completed.
+struct HeardText {
+  enum class What : std::uint8_t { line, overlong, escape } what = What::line;
+  std::string text{};                // of a line, without its end
+  SimTime end{0};                    // when its last character was over
+  std::uint64_t last_character = 0;  // its number
+};
+
+class TextLines {
+ public:
+  struct Outcome {
+    std::optional<HeardText> heard{};
+    std::string echo{};  // what a device that echoes sends back for this character
+  };
+  /// The rules may change from one character to the next.
+  Outcome push(const TimedByte& byte, const TextLineRules& rules);
+  /// Forget what of a line has come.
+  void reset();
+
+  /// Characters that were given in no line: of overlong ones, and forgotten for an ESC.
+  std::uint64_t dropped_bytes() const { return dropped_; }
+
+  // --- its state -----------------------------------------------------------------------------
+  /// No line may be longer than this, whatever the rules say.
+  static constexpr std::size_t kLongest = 4096;
+  struct State {
+    std::string text;          // of the line that has begun
+    bool is_overlong = false;  // it was longer than allowed; its text is gone
+    bool was_return = false;   // the last character was a CR
+    std::uint64_t dropped = 0;
+    bool operator==(const State&) const = default;
+  };
+  State save() const;
+  /// Throws std::invalid_argument for what cannot be.
+  static void check(const State& state);
+  /// The same, and nothing has changed then.
+  void restore(const State& state);
+
+ private:
+  std::string text_;
+  bool is_overlong_ = false;
+  bool was_return_ = false;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace understudy::pty

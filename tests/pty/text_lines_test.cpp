@@ -1,0 +1,136 @@
+#include "pty/text_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace understudy::pty {
+namespace {
+
+using What = HeardText::What;
+
+/// What comes of characters, one after another: "[text]" for a line, "<long>", "<esc>"; echoes beside it.
+struct Heard {
+  std::string events;
+  std::string echo;
+  std::uint64_t dropped = 0;
+};
+
+Heard hear(const std::string& characters, const TextLineRules& rules = {}) {
+  TextLines lines;
+  Heard heard;
+  std::uint64_t number = 0;
+  for (const char character : characters) {
+    ++number;
+    const SimTime at{1000 * static_cast<std::int64_t>(number)};
+    const auto outcome = lines.push({at, at, static_cast<std::uint8_t>(character), number}, rules);
+    heard.echo += outcome.echo;
+    if (!outcome.heard) continue;
+    EXPECT_EQ(outcome.heard->last_character, number);
+    EXPECT_EQ(outcome.heard->end, at);
+    switch (outcome.heard->what) {
+      case What::line: heard.events += "[" + outcome.heard->text + "]"; break;
+      case What::overlong: heard.events += "<long>"; break;
+      case What::escape: heard.events += "<esc>"; break;
+    }
+  }
+  heard.dropped = lines.dropped_bytes();
+  return heard;
+}
+
+TEST(TextLines, WhereALineEnds) {
+  struct Case {
+    std::string characters;
+    std::string events;
+  };
+  const std::vector<Case> cases{
+      {"MA 1\r", "[MA 1]"},
+      {"MA 1\r\n?PE\r\n", "[MA 1][?PE]"},
+      {"MA 1\n?PE\n", "[MA 1][?PE]"},
+      {"\r", "[]"},
+      {"\r\r", "[][]"},
+      {"\n", ""},
+      {"\r\n\n", "[]"},
+      {"A\n\r", "[A][]"},  // LF ends A, the CR behind it an empty line
+      {"A", ""},
+      {"A\x1B"
+       "B\r",
+       "<esc>[B]"},
+      {"\x1B\x1B", "<esc><esc>"},
+      {"A\bB\r", "[A\bB]"},  // nothing is edited where nothing is echoed
+      {std::string("A\0B\r", 4), std::string("[A\0B]", 5)},
+      {"\xFF\x80\r", "[\xFF\x80]"},
+  };
+  for (const Case& wanted : cases)
+    EXPECT_EQ(hear(wanted.characters).events, wanted.events) << wanted.characters;
+}
+
+TEST(TextLines, ALineMayBeAsLongAsTheRulesSayAndIsToldAtItsEndWhereItIsLonger) {
+  const TextLineRules five{.longest = 5};
+  EXPECT_EQ(hear("12345\rA\r", five).events, "[12345][A]");
+  EXPECT_EQ(hear("123456", five).events, "");
+  EXPECT_EQ(hear("123456\r\nA\r", five).events, "<long>[A]");
+  EXPECT_EQ(hear("123456789012345\nA\n", five).events, "<long>[A]");
+  EXPECT_EQ(hear("123456789012345\n", five).dropped, 15u);
+  EXPECT_EQ(hear("123456\x1B"
+                 "A\r",
+                 five)
+                .events,
+            "<esc>[A]");
+  EXPECT_EQ(hear(std::string(127, 'x') + "\r").events, "[" + std::string(127, 'x') + "]");
+  EXPECT_EQ(hear(std::string(128, 'x') + "\r").events, "<long>");
+}
+
+TEST(TextLines, WhatIsTypedIsEchoedAndCanBeTakenBack) {
+  const TextLineRules typed{.longest = 5, .echoes = true};
+  const Heard heard = hear("AC\bB\x7F\x7F\x7F\bMA\r\n", typed);
+  EXPECT_EQ(heard.events, "[MA]");
+  // A, C, back over C, B, back over B and over A, and twice nothing is left; LF behind CR is not echoed.
+  EXPECT_EQ(heard.echo, "AC\b \bB\b \b\b \bMA\r\n");
+  EXPECT_EQ(hear("A\n", typed).echo, "A\r\n");
+  EXPECT_EQ(hear("A\x1B", typed).echo, "A");
+}
+
+TEST(TextLines, WhatIsForgottenIsInNoLine) {
+  TextLines lines;
+  lines.push({.value = 'A'}, {});
+  lines.reset();
+  lines.push({.value = 'B'}, {});
+  EXPECT_EQ(lines.push({.value = '\r'}, {}).heard->text, "B");
+}
+
+TEST(TextLines, GoesOnFromItsStateAsItDid) {
+  const std::string characters = "A\r\nBCDEFG\rH\x1BI\bJ\r\n\nK";
+  const TextLineRules rules{.longest = 5, .echoes = true};
+  TextLines lines;
+  for (const char character : characters) {
+    TextLines other;
+    other.restore(lines.save());
+    const TimedByte byte{.value = static_cast<std::uint8_t>(character)};
+    const auto one = lines.push(byte, rules);
+    const auto two = other.push(byte, rules);
+    EXPECT_EQ(one.echo, two.echo);
+    ASSERT_EQ(one.heard.has_value(), two.heard.has_value());
+    if (one.heard) {
+      EXPECT_EQ(one.heard->text, two.heard->text);
+    }
+    EXPECT_EQ(lines.save(), other.save());
+  }
+}
+
+TEST(TextLines, RefusesStatesThatCannotBe) {
+  const std::vector<TextLines::State> states{
+      {.text = "A\r"},
+      {.text = "A", .is_overlong = true},
+      {.text = "A", .was_return = true},
+      {.text = std::string(TextLines::kLongest + 1, 'x')},
+  };
+  for (const auto& state : states) {
+    TextLines lines;
+    EXPECT_THROW(lines.restore(state), std::invalid_argument);
+    EXPECT_EQ(lines.save(), TextLines::State{});
+  }
+}
+
+}  // namespace
+}  // namespace understudy::pty
