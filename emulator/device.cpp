@@ -2,6 +2,7 @@
 
 #include "emulator/one_line.h"
 #include "emulator/prefetch.h"
+#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -30,6 +31,10 @@ void Device::switch_power(bool on) {
 
 std::optional<std::string> Device::assign(std::string_view /*name*/, double /*value*/) {
   return "cannot be set; expected a name of the device";
+}
+
+std::string Device::why_no_value(std::string_view name) const {
+  return "nothing of " + settings_.name + " is called " + quoted(name) + suggestion(name, names());
 }
 
 NvImage Device::nv_image() const {

@@ -62,6 +62,8 @@ class Device {
   virtual std::optional<std::string> assign(std::string_view name, double value);
   /// Those that people meet most, for messages that suggest one.
   virtual std::vector<std::string> names() const { return {}; }
+  /// Why value_named() has nothing, as one line.
+  std::string why_no_value(std::string_view name) const;
 
   // --- the wire ------------------------------------------------------------------------------
   /// Of a device that is spoken to in lines of text (emulator/text/); null: it is not.

@@ -24,10 +24,11 @@ Remark why_dropped(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-CaptureFrames::CaptureFrames(std::size_t line, RtuFraming framing, Sink sink)
-    : line_(line), sink_(std::move(sink)), framer_(framing) {}
+CaptureFrames::CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text)
+    : line_(line), sink_(std::move(sink)), framer_(framing), is_text_(is_text) {}
 
 void CaptureFrames::on_start_bit(SimTime at) {
+  if (is_text_) return;
   framer_.start_bit(at);
   give_what_was_dropped();
 }
@@ -38,6 +39,13 @@ void CaptureFrames::on_character(const TimedByte& character, bool is_heard) {
     is_heard_ = is_heard;
   }
   waiting_.push_back(character);
+  if (is_text_) {
+    constexpr std::uint8_t kEscape = 0x1B;
+    const bool is_behind_return = waiting_.size() == 1 && character.value == '\n';
+    const bool is_end = character.value == '\r' || character.value == '\n' || character.value == kEscape;
+    if ((is_end && !is_behind_return) || waiting_.size() == kLongestNoise) give_text();
+    return;
+  }
   framer_.push(character);
   give_what_was_dropped();
 }
@@ -71,10 +79,16 @@ void CaptureFrames::run(SimTime now) {
 }
 
 void CaptureFrames::finish() {
+  if (is_text_) return give_text();
   framer_.give_up_waiting();
   run(SimTime::max());
   give_dropped(waiting_.size());
   framer_.reset();
+}
+
+/// All that waits, which is a packet's worth at most.
+void CaptureFrames::give_text() {
+  if (!waiting_.empty()) give_packet(waiting_.size(), Remark::none);
 }
 
 /// What the framer has dropped so far, once it is plain that nothing more belongs to it.

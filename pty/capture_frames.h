@@ -17,20 +17,22 @@ class CaptureFrames final : public LineObserver {
  public:
   using Sink = std::function<void(const CapturedPacket&)>;
 
-  /// `framing`: as the line's stations have it; of different silences the shortest.
-  CaptureFrames(std::size_t line, RtuFraming framing, Sink sink);
+  /// `framing`: as the line's stations have it; of different silences the shortest. On a line of text a
+  /// packet is a line (an LF behind its CR begins the next one), and ESC ends one as well.
+  CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
 
   void on_start_bit(SimTime at) override;
   void on_character(const TimedByte& character, bool is_heard) override;
   void on_nothing_more() override;
   void on_speech(const Speech& speech) override;
-  std::optional<SimTime> due() const override { return framer_.due(); }
+  std::optional<SimTime> due() const override { return framer_.due(); }  // none on a line of text
   void run(SimTime now) override;
 
   /// Nothing more will come: what waits for its end is a packet now.
   void finish();
 
  private:
+  void give_text();
   void give_packet(std::size_t count, Remark remark);
   void give_dropped(std::size_t count);
   void give_what_was_dropped();
@@ -38,6 +40,7 @@ class CaptureFrames final : public LineObserver {
   std::size_t line_;
   Sink sink_;
   RtuFramer framer_;
+  bool is_text_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
   bool is_heard_ = true;            // all of them
 };

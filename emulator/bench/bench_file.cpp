@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "emulator/bench/bench_form.h"
 #include "emulator/bench/machine_fields.h"
@@ -10,6 +11,7 @@
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/device.h"
 #include "emulator/one_line.h"
+#include "emulator/parse_real.h"
 #include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 #include "emulator/world/world.h"
@@ -64,9 +66,16 @@ class BenchReader {
       if (device.settings.firmware == 0)
         firmware.fail(emulator::quoted(firmware.text()) + " is no version; expected one like \"1.52\"");
     }
+    if (fields.has("modules")) {
+      device.settings.modules = static_cast<int>(fields.at("modules").integer(kModulesForm));
+    }
     if (fields.has("set")) {
       fields.at("set").demand_map();
       for (const auto& [register_name, value] : fields.at("set").entries()) {
+        if (device.model->protocol() == Protocol::text) {
+          device.settings.assignments.emplace_back(register_name, demand_real(value));
+          continue;
+        }
         device.settings.set.emplace_back(register_name, value.integer(kRegisterValueForm));
       }
     }
@@ -89,6 +98,11 @@ class BenchReader {
     return bench_.devices.size() - 1;
   }
 
+  static double demand_real(const YamlFields& field) {
+    if (const auto value = parse_real(field.text())) return *value;
+    field.fail(emulator::quoted(field.text()) + " is no number; expected one");
+  }
+
   static std::string path_in(const std::string& folder, const YamlFields& field) {
     if (field.text().empty()) field.fail("is empty; expected a path");
     return (std::filesystem::path(folder) / field.text()).lexically_normal().string();
@@ -109,6 +123,19 @@ class BenchReader {
     bench_.files.push_back({path, "the program of " + emulator::quoted(settings.name)});
   }
 
+  /// Of a model without registers: a whole number, a real one (it has a point), or the program.
+  static void read_value_of_memory(const std::string& name, const YamlFields& value, NvImage& image) {
+    const std::string text = value.text();
+    if (name == "program") {
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);) image.program.push_back(line);
+    } else if (text.find_first_of(".eE") == std::string::npos) {
+      image.registers.emplace_back(name, value.integer(kRegisterValueForm));
+    } else {
+      image.reals.emplace_back(name, demand_real(value));
+    }
+  }
+
   /// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
   /// the run.
   void read_nv(const YamlFields& field, DeviceSetup& device) const {
@@ -116,6 +143,10 @@ class BenchReader {
       NvImage image{.model = std::string(device.model->name), .firmware = {}, .registers = {}};
       field.demand_map();
       for (const auto& [register_name, value] : field.entries()) {
+        if (device.model->protocol() == Protocol::text) {
+          read_value_of_memory(register_name, value, image);
+          continue;
+        }
         image.registers.emplace_back(register_name, value.integer(kRegisterValueForm));
       }
       device.settings.nv = std::move(image);
@@ -206,6 +237,18 @@ class BenchReader {
     DeviceSetup& setup = bench_.devices[device];
     setup.settings.baud = line.baud;
     setup.settings.address = 1;
+    const bool is_alone = setup.model->protocol() == Protocol::text;
+    const auto is_text = [&](std::size_t other) {
+      return bench_.devices[other].model->protocol() == Protocol::text;
+    };
+    if (!line.stations.empty() && (is_alone || is_text(line.stations.front()))) {
+      const std::size_t speaker = is_alone ? device : line.stations.front();
+      station.fail(emulator::quoted(bench_.devices[speaker].settings.name) +
+                   " speaks text and must be alone on its line; expected no other station on it");
+    }
+    if (is_alone && station.has("address")) {
+      station.at("address").fail(std::string(setup.model->name) + " has no station number; expected none");
+    }
     if (station.has("address")) {
       const YamlFields address = station.at("address");
       setup.settings.address = static_cast<int>(
@@ -325,8 +368,9 @@ class BenchReader {
 
   /// What faults wait for, in a world without them.
   void check_faults(const std::vector<YamlFields>& fields) const {
-    const auto is_simple = [](const Fault& fault) {
-      return fault.trigger.when.empty() && fault.kind != Fault::Kind::encoder_noise;
+    const auto is_simple = [this](const Fault& fault) {
+      return bench_.devices[fault.device].model->protocol() == Protocol::modbus_rtu &&
+             fault.trigger.when.empty() && fault.kind != Fault::Kind::encoder_noise;
     };
     if (std::all_of(bench_.faults.begin(), bench_.faults.end(), is_simple)) return;
     Bench whole = bench_;

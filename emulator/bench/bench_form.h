@@ -15,8 +15,10 @@ inline constexpr KeyRow kVersionKey{"understudy", "The version of the format.", 
 
 // --- devices -------------------------------------------------------------------------------------
 inline constexpr Form kRegisterValueForm = integer_form(INT32_MIN, UINT32_MAX);
-inline constexpr Form kRegisterValuesForm = names_form(kRegisterValueForm);
-inline constexpr std::array<const Form*, 2> kNvWays{&kText, &kRegisterValuesForm};
+inline constexpr std::array<const Form*, 2> kNvValueWays{&kRegisterValueForm, &kText};
+inline constexpr Form kNvValueForm = either_form(kNvValueWays);  // text: a real number, or the program
+inline constexpr Form kNvValuesForm = names_form(kNvValueForm);
+inline constexpr std::array<const Form*, 2> kNvWays{&kText, &kNvValuesForm};
 inline constexpr Form kNvForm = either_form(kNvWays);
 inline constexpr Form kAddressForm = integer_form(0, 255);
 
@@ -25,17 +27,24 @@ inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, di
 inline constexpr KeyRow kModelKey{"model", "A model, as `understudy models` lists them.", &kText, true};
 inline constexpr KeyRow kAddressKey{"address", "The station number (1 without it).", &kAddressForm};
 inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version; the newest without it.", &kText};
-inline constexpr KeyRow kSetKey{"set", "Registers written at power-up, in this order.", &kRegisterValuesForm};
+inline constexpr Form kModulesForm = integer_form(1, 255);
+inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, where it is a chain.",
+                                    &kModulesForm};
+inline constexpr std::array<const Form*, 2> kSetValueWays{&kRegisterValueForm, &kText};
+inline constexpr Form kSetValueForm = either_form(kSetValueWays);  // text: a real number
+inline constexpr Form kSetForm = names_form(kSetValueForm);
+inline constexpr KeyRow kSetKey{"set", "Registers (or values, by name) written at power-up, in this order.",
+                                &kSetForm};
 inline constexpr KeyRow kChoicesKey{"choices", "What to do where the manual leaves it open.", &kTextByName};
 inline constexpr KeyRow kDipKey{"dip", "The switches on its housing.", &kLevelByName};
 inline constexpr KeyRow kProgramKey{"program", "The path of a listing, or the listing itself.", &kText};
 inline constexpr KeyRow kNvKey{"nv", "The file of its non-volatile memory, or what it holds at first.",
                                &kNvForm};
 
-inline constexpr std::array kDeviceKeys{kModelKey, kFirmwareKey, kSetKey, kChoicesKey,
-                                        kDipKey,   kProgramKey,  kNvKey};
-inline constexpr std::array kStationKeys{kNameKey,    kModelKey, kAddressKey, kFirmwareKey, kSetKey,
-                                         kChoicesKey, kDipKey,   kProgramKey, kNvKey};
+inline constexpr std::array kDeviceKeys{kModelKey,   kFirmwareKey, kModulesKey, kSetKey,
+                                        kChoicesKey, kDipKey,      kProgramKey, kNvKey};
+inline constexpr std::array kStationKeys{kNameKey, kModelKey,   kAddressKey, kFirmwareKey, kModulesKey,
+                                         kSetKey,  kChoicesKey, kDipKey,     kProgramKey,  kNvKey};
 inline constexpr std::array kPlacedStationKeys{
     KeyRow{"device", "The name of a device declared under `devices`.", &kText, true}, kAddressKey};
 

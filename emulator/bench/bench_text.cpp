@@ -25,10 +25,15 @@ Json device_text(const DeviceSetup& device) {
   const DeviceSettings& settings = device.settings;
   Json text{{"model", device.model->name}};
   if (settings.firmware != 0) text["firmware"] = version_text(settings.firmware);
+  if (settings.modules != 0) text["modules"] = settings.modules;
   for (const auto& [name, on] : settings.dip) text["dip"][name] = on ? "on" : "off";
   if (settings.nv) {
     text["nv"] = Json::object();
     for (const auto& [name, value] : settings.nv->registers) text["nv"][name] = value;
+    for (const auto& [name, value] : settings.nv->reals) text["nv"][name] = value;
+    std::string program;
+    for (const std::string& line : settings.nv->program) program += line + "\n";
+    if (!program.empty()) text["nv"]["program"] = program;
   }
   if (!settings.program.empty()) {
     // With a line's end it is known for a text and not a path.
@@ -37,6 +42,7 @@ Json device_text(const DeviceSetup& device) {
   }
   for (const auto& [id, option] : settings.choices) text["choices"][id] = option;
   for (const auto& [name, value] : settings.set) text["set"][name] = value;
+  for (const auto& [name, value] : settings.assignments) text["set"][name] = value;
   return text;
 }
 
@@ -45,7 +51,10 @@ Json line_text(const Bench& bench, const LineSetup& line) {
   if (line.baud != 0) text["baud"] = line.baud;
   for (const std::size_t device : line.stations) {
     const DeviceSettings& settings = bench.devices[device].settings;
-    text["stations"].push_back(Json{{"device", settings.name}, {"address", settings.address}});
+    Json station{{"device", settings.name}};
+    if (bench.devices[device].model->protocol() == Protocol::modbus_rtu)
+      station["address"] = settings.address;
+    text["stations"].push_back(std::move(station));
   }
   return text;
 }

@@ -45,6 +45,12 @@ RegisterName find_register(const KnownDevices& devices, std::string_view name) {
   throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
 }
 
+std::optional<ValueName> find_value(const KnownDevices& devices, std::string_view name) {
+  const auto [number, rest] = split(devices, name);
+  if (devices[number].model->protocol() != Protocol::text) return std::nullopt;
+  return ValueName{number, std::string(rest)};
+}
+
 InputName find_input(const KnownDevices& devices, std::string_view name) {
   const auto [number, rest] = split(devices, name);
   const Model& model = *devices[number].model;

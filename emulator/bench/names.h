@@ -2,6 +2,7 @@
 // be left out where there is only one.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -32,6 +33,14 @@ struct RegisterName {
   NamedPlace place;
 };
 RegisterName find_register(const KnownDevices& devices, std::string_view name);
+
+/// A value of a device without registers (Device::value_named), "robot.T2PE"; nothing where the device has
+/// registers. Whether it has such a value only the device knows.
+struct ValueName {
+  std::size_t device = 0;
+  std::string name;
+};
+std::optional<ValueName> find_value(const KnownDevices& devices, std::string_view name);
 
 struct InputName {
   std::size_t device = 0;

@@ -35,6 +35,7 @@ struct ServeArguments {
   std::string bench;  // a file; or else `model` and what belongs to it
   std::string model;
   std::optional<int> station;
+  std::optional<int> modules;
   std::string firmware;
   std::optional<int> baud;
   std::string link;

@@ -8,6 +8,7 @@
 #include "emulator/control/server.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
+#include "emulator/parse_real.h"
 #include "emulator/simulated_time.h"
 #include "emulator/text_file.h"
 
@@ -23,16 +24,16 @@ Json assignments(const ControlArguments& arguments) {
   for (const std::string& operand : arguments.operands) {
     const std::size_t equals = operand.find('=');
     const std::string name = operand.substr(0, equals);
-    const auto value = equals == std::string::npos
-                           ? std::nullopt
-                           : parse_integer(std::string_view(operand).substr(equals + 1));
-    if (!value || name.empty())
+    const std::string text = equals == std::string::npos ? std::string() : operand.substr(equals + 1);
+    const auto whole = parse_integer(text);
+    const auto real = parse_real(text);
+    if ((!whole && !real) || name.empty())
       throw UsageError("ctl " + arguments.verb + ": " + emulator::quoted(operand) +
                        " is not understood; expected NAME=VALUE");
     if (values.contains(name))
       throw UsageError("ctl " + arguments.verb + ": " + emulator::quoted(name) +
                        " is given twice; expected it once");
-    values[name] = *value;
+    values[name] = whole ? Json(*whole) : Json(*real);
   }
   if (values.empty()) throw UsageError("ctl " + arguments.verb + ": nothing to do; expected NAME=VALUE");
   return values;
@@ -226,7 +227,7 @@ int control(const ControlArguments& arguments) {
       print_status(reply.at("status"));
     } else if (reply.contains("values")) {
       for (const auto& [name, value] : reply.at("values").items()) {
-        std::printf("%s %lld\n", name.c_str(), value.get<long long>());
+        std::printf("%s %s\n", name.c_str(), value.dump().c_str());
       }
     } else if (reply.contains("text")) {
       std::printf("%s", reply.at("text").get<std::string>().c_str());

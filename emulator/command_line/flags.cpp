@@ -80,6 +80,7 @@ struct CommandLine {
     command.add_option("BENCH", serving.bench, "A bench file; or else --model");
     command.add_option("--model", serving.model, "One device of this model on one line")->check(kNotEmpty);
     command.add_option("--station", serving.station, "Its station number (with --model) [1]");
+    command.add_option("--modules", serving.modules, "How many modules it has, of a chain (with --model)");
     command.add_option("--firmware", serving.firmware, "Its firmware version (with --model) [newest]")
         ->check(kNotEmpty);
     command.add_option("--baud", serving.baud, "Its line speed (with --model) [the factory's]");

@@ -38,6 +38,12 @@ Bench bench_of_one(const ServeArguments& arguments) {
   DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station.value_or(1);
+  if (arguments.station && device.model->protocol() == Protocol::text) {
+    throw UsageError("--station: " + std::string(device.model->name) +
+                     " has no station number; expected none");
+  }
+  device.settings.modules = arguments.modules.value_or(0);
+  if (arguments.modules == 0) throw UsageError("--modules: 0 are none; expected 1 or more");
   if (arguments.baud == 0)
     throw UsageError("--baud: 0 is no speed; expected one of the model's, such as 19200 or 115200");
   device.settings.baud = arguments.baud.value_or(0);
@@ -63,12 +69,12 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   if (arguments.bench.empty() == arguments.model.empty()) {
     throw UsageError(command + ": expected either a bench file or --model MODEL");
   }
-  const bool flags_of_one =
-      arguments.station || arguments.baud || !arguments.firmware.empty() || !arguments.link.empty();
+  const bool flags_of_one = arguments.station || arguments.modules || arguments.baud ||
+                            !arguments.firmware.empty() || !arguments.link.empty();
   if (!arguments.bench.empty() && flags_of_one) {
-    throw UsageError(
-        command +
-        ": --station, --firmware, --baud and --link belong to --model; a bench file says them itself");
+    throw UsageError(command +
+                     ": --station, --modules, --firmware, --baud and --link belong to --model; a bench file "
+                     "says them itself");
   }
   Bench bench =
       arguments.bench.empty() ? bench_of_one(arguments) : load_bench(arguments.bench, arguments.links);

@@ -3,6 +3,7 @@
 #include "emulator/one_line.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace understudy::emulator {
 
@@ -17,6 +18,12 @@ void demand_keys(const Json& message, std::initializer_list<std::string_view> kn
 const Json& demand(const Json& message, const char* key) {
   if (!message.contains(key)) throw MessageError(emulator::quoted(key) + " is missing");
   return message[key];
+}
+
+Json json_of(double value) {
+  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  if (std::abs(value) > kLargest || std::floor(value) != value) return value;
+  return static_cast<std::int64_t>(value);
 }
 
 std::string demand_text(const Json& message, const char* key) {

@@ -23,6 +23,8 @@ struct MessageError : std::runtime_error {
 /// All of these throw MessageError.
 void demand_keys(const Json& message, std::initializer_list<std::string_view> known);
 const Json& demand(const Json& message, const char* key);
+/// A whole number as such, else the real one.
+Json json_of(double value);
 std::string demand_text(const Json& message, const char* key);
 
 }  // namespace understudy::emulator

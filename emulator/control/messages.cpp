@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "emulator/bench/names.h"
@@ -16,17 +18,29 @@ namespace understudy::emulator {
 
 namespace {
 
-/// The object under "values": names with whole numbers.
-std::vector<std::pair<std::string, std::int64_t>> named_values(const Json& message) {
+/// What `set` wants: of registers, and of devices without them.
+struct WantedValues {
+  std::vector<std::pair<std::string, std::int64_t>> registers;
+  std::vector<std::pair<ValueName, double>> values;
+};
+
+/// The object under "values": names with numbers, whole ones for registers.
+WantedValues named_values(const Json& message, const KnownDevices& known) {
   demand_keys(message, {"do", "values"});
   const Json& values = demand(message, "values");
   if (!values.is_object() || values.empty())
     throw MessageError("values: expected an object of names and whole numbers");
-  std::vector<std::pair<std::string, std::int64_t>> all;
+  WantedValues all;
   for (const auto& [name, value] : values.items()) {
+    if (value.is_number()) {
+      if (auto found = find_value(known, name)) {
+        all.values.emplace_back(std::move(*found), value.get<double>());
+        continue;
+      }
+    }
     const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
     if (!value.is_number_integer() || huge) throw MessageError(name + ": expected a whole number");
-    all.emplace_back(name, value.get<std::int64_t>());
+    all.registers.emplace_back(name, value.get<std::int64_t>());
   }
   return all;
 }
@@ -43,6 +57,14 @@ Json get(Daemon& daemon, const Json& message) {
   Json values = Json::object();
   for (const Json& name : names) {
     if (!name.is_string()) throw MessageError("names: expected a list of register names");
+    if (const auto value = find_value(daemon.world().known(), name.get<std::string>())) {
+      const Device& device = daemon.world().device(value->device);
+      demand_power(device);
+      const auto present = device.value_named(value->name);
+      if (!present) throw MessageError(device.why_no_value(value->name));
+      values[name.get<std::string>()] = json_of(*present);
+      continue;
+    }
     const RegisterName found = find_register(daemon.world().known(), name.get<std::string>());
     const Device& device = daemon.world().device(found.device);
     demand_power(device);
@@ -61,10 +83,29 @@ void demand_accepted(Refusal refusal, const std::string& name, std::int64_t valu
   }
 }
 
+/// Each is tried on a device that is made alike, so that all are given or none.
+void demand_possible(const World& world, const std::vector<std::pair<ValueName, double>>& wanted) {
+  std::map<std::size_t, std::unique_ptr<Device>> trials;
+  for (const auto& [place, value] : wanted) {
+    const Device& device = world.device(place.device);
+    demand_power(device);
+    auto& trial = trials[place.device];
+    if (!trial) {
+      trial = make_device(device.model(), device.settings());
+      trial->restore_state(device.save_state());
+    }
+    if (!device.value_named(place.name)) throw MessageError(device.why_no_value(place.name));
+    if (const auto complaint = trial->assign(place.name, value)) {
+      throw MessageError(place.name + ": " + *complaint);
+    }
+  }
+}
+
 Json set(Daemon& daemon, const Json& message) {
   daemon.catch_up();
   World& world = daemon.world();
-  const auto wanted = named_values(message);
+  const auto [wanted, values] = named_values(message, world.known());
+  demand_possible(world, values);
   std::vector<RegisterName> places;
   std::vector<PreparedWrite> writes(wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -82,6 +123,7 @@ Json set(Daemon& daemon, const Json& message) {
                     *place.place.place.row);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) world.write(places[i].device, writes[i]);
+  for (const auto& [place, value] : values) world.assign(place.device, place.name, value);
   return Json{{"ok", true}};
 }
 

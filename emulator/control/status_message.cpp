@@ -26,12 +26,13 @@ Json line_status(const Daemon& daemon, const Port& port) {
   status["collisions"] = counters.collisions;
   status["stations"] = Json::array();
   for (const auto& station : line.stations) {
-    status["stations"].push_back(Json{{"device", station->device().name()},
-                                      {"address", station->device().settings().address},
-                                      {"requests", station->counters().requests},
-                                      {"replies", station->counters().replies},
-                                      {"exceptions", station->counters().exceptions},
-                                      {"bytes_dropped", station->dropped_bytes()}});
+    Json entry{{"device", station->device().name()}};
+    if (line.protocol == Protocol::modbus_rtu) entry["address"] = station->device().settings().address;
+    entry["requests"] = station->counters().requests;
+    entry["replies"] = station->counters().replies;
+    entry["exceptions"] = station->counters().exceptions;
+    entry["bytes_dropped"] = station->dropped_bytes();
+    status["stations"].push_back(std::move(entry));
   }
   return status;
 }
@@ -41,7 +42,11 @@ Json telling_registers(const Device& device) {
   Json values = Json::object();
   for (const std::string_view name : device.model().state_registers) {
     const auto place = device.registers().find(name, device.firmware());
-    if (place) values[std::string(name)] = read_value(device, *place);
+    if (place) {
+      values[std::string(name)] = read_value(device, *place);
+    } else if (const auto value = device.value_named(name)) {
+      values[std::string(name)] = json_of(*value);
+    }
   }
   return values;
 }

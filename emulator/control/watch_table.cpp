@@ -93,7 +93,7 @@ void add_device(const Json& device, std::vector<std::string>& lines) {
   if (device.contains("registers")) {
     Words words("registers");
     for (const auto& [name, value] : device.at("registers").items()) {
-      words.add(name + " " + std::to_string(value.get<std::int64_t>()));
+      words.add(name + " " + value.dump());
     }
     words.finish(lines);
   }

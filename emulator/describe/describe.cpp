@@ -91,6 +91,14 @@ Sheet instructions(const Model& model) {
   return sheet;
 }
 
+Sheet commands(const Model& model) {
+  Sheet sheet{.columns = {"command", "syntax", "meaning"}, .rows = {}};
+  for (const CommandRow& row : model.commands) {
+    sheet.rows.push_back({std::string(row.command), std::string(row.syntax), std::string(row.meaning)});
+  }
+  return sheet;
+}
+
 Sheet choices(const Model& model) {
   Sheet sheet{.columns = {"id", "section", "question", "chosen", "alternatives", "confidence", "why"},
               .rows = {}};
@@ -112,7 +120,7 @@ std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFo
   if (what == "registers") return registers(model, format);
   if (what == "parameters") return parameters(model);
   if (what == "instructions") return instructions(model);
-  if (what == "commands") return Sheet{.columns = {"command", "syntax", "meaning"}, .rows = {}};
+  if (what == "commands") return commands(model);
   if (what == "choices") return choices(model);
   return std::nullopt;
 }

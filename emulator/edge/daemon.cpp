@@ -155,7 +155,8 @@ void Daemon::start_capture(const std::string& path) {
   for (std::size_t i = 0; i < ports_.size(); ++i) {
     World::OneLine& line = world_.line(ports_[i]->line_number());
     captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); }));
+        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); },
+        line.protocol == Protocol::text));
     line.line.add_observer(*captured_lines_.back());
   }
 }

@@ -35,6 +35,7 @@ LineManners::LineManners(World& world, std::size_t line)
       // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
       framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
   World::OneLine& watched = world_.line(line);
+  if (watched.protocol == Protocol::text) return;  // whatever a host does there, the device hears it
   if (has_time()) {
     longest_gap_ = one_and_a_half_characters(options_.settings);
     for (const auto& station : watched.stations) {

@@ -37,7 +37,9 @@ std::string line_of(const std::string& text, std::size_t byte) {
 
 struct Parsed {
   Json file;
-  std::vector<std::string> registers;  // their names as they follow each other, which `file` forgets
+  // Their names as they follow each other, which `file` forgets.
+  std::vector<std::string> registers{};
+  std::vector<std::string> reals{};
 };
 
 /// nlohmann keeps the last of two equal keys without a word; this one refuses them.
@@ -55,6 +57,7 @@ Parsed parse_strictly(const std::string& text) {
     }
     if (depth == 1) outermost = key;
     if (depth == 2 && outermost == "registers") parsed.registers.push_back(key);
+    if (depth == 2 && outermost == "reals") parsed.reals.push_back(key);
     return true;
   };
   try {
@@ -67,17 +70,39 @@ Parsed parse_strictly(const std::string& text) {
   }
 }
 
+void read_reals(const Json& reals, const std::vector<std::string>& names, NvImage& image) {
+  if (!reals.is_object()) throw NvError("reals: is no object; expected names and values");
+  for (const std::string& name : names) {
+    if (!reals[name].is_number()) {
+      throw NvError("reals: " + emulator::quoted(name) + ": is no number; expected one");
+    }
+    image.reals.emplace_back(name, reals[name].get<double>());
+  }
+}
+
+void read_program(const Json& program, NvImage& image) {
+  const auto is_line = [](const Json& line) { return line.is_string(); };
+  if (!program.is_array() || !std::all_of(program.begin(), program.end(), is_line)) {
+    throw NvError("program: is no list of lines; expected one");
+  }
+  for (const Json& line : program) image.program.push_back(line.get<std::string>());
+}
+
 }  // namespace
 
 std::string to_json(const NvImage& image) {
   OrderedJson::object_t registers;
   for (const auto& [name, value] : image.registers) registers.push_back({name, value});
-  const OrderedJson file{{"understudy", kFormat},
-                         {"kind", kKind},
-                         {"model", image.model},
-                         {"firmware", image.firmware},
-                         {"registers", std::move(registers)}};
-  return file.dump(2) + "\n";
+  OrderedJson file{{"understudy", kFormat},
+                   {"kind", kKind},
+                   {"model", image.model},
+                   {"firmware", image.firmware},
+                   {"registers", std::move(registers)}};
+  OrderedJson::object_t reals;
+  for (const auto& [name, value] : image.reals) reals.push_back({name, value});
+  if (!reals.empty()) file["reals"] = std::move(reals);
+  if (!image.program.empty()) file["program"] = image.program;
+  return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 NvImage parse_nv_image(const std::string& text) {
@@ -93,7 +118,8 @@ NvImage parse_nv_image(const std::string& text) {
     throw NvError("kind: is " + emulator::quoted(text_of(file, "kind")) + "; expected " + kKind);
   }
   for (const auto& [key, value] : file.items()) {
-    const std::set<std::string> known{"understudy", "kind", "model", "firmware", "registers"};
+    const std::set<std::string> known{"understudy", "kind",  "model",  "firmware",
+                                      "registers",  "reals", "program"};
     if (!known.contains(key))
       throw NvError(emulator::quoted(key) + ": is no key of an NV image; expected none");
   }
@@ -108,6 +134,8 @@ NvImage parse_nv_image(const std::string& text) {
     }
     image.registers.emplace_back(name, value.get<std::int64_t>());
   }
+  if (file.contains("reals")) read_reals(file["reals"], parsed.reals, image);
+  if (file.contains("program")) read_program(file["program"], image);
   return image;
 }
 

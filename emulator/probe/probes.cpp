@@ -1,6 +1,9 @@
 #include "emulator/probe/probes.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "emulator/bench/names.h"
 #include "emulator/one_line.h"
@@ -16,6 +19,14 @@ std::pair<std::string_view, std::string_view> at_dot(std::string_view name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string_view::npos) return {name, {}};
   return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+/// Whole where it is; a real number of an expression is always finite.
+Number number_of(double value) {
+  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  if (std::isnan(value)) return 0;
+  if (std::abs(value) <= kLargest && std::floor(value) == value) return static_cast<std::int64_t>(value);
+  return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 }
 
 }  // namespace
@@ -116,7 +127,14 @@ Probes::Probe Probes::find(std::string_view name) const {
     if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
     return probe;
   }
-  throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
+  if (device.model->protocol() != Protocol::text) {
+    throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
+  }
+  const Device& speaker = world_.device(probe.device);
+  if (!speaker.value_named(rest)) throw NameError(speaker.why_no_value(rest));
+  probe.what = What::named;
+  probe.value_name = rest;
+  return probe;
 }
 
 std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const {
@@ -148,6 +166,8 @@ Number Probes::value(std::int32_t handle) const {
   const Device& device = world_.device(probe.device);
   switch (probe.what) {
     case What::reg: return device.powered() ? read_value(device, probe.reg) : 0;
+    case What::named:
+      return device.powered() ? number_of(device.value_named(probe.value_name).value_or(0)) : Number(0);
     case What::input: return device.input(probe.place);
     case What::output: return device.output(probe.place) ? 1 : 0;
     case What::power: return device.powered() ? 1 : 0;

@@ -3,6 +3,7 @@
 //
 //   time                       simulated time, a duration
 //   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment
+//   robot.T2PE                 values of devices without registers (Device::value_named)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
 //                              of the same name comes first
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
@@ -41,6 +42,7 @@ class Probes final : public NameResolver, public ValueSource {
   enum class What : std::uint8_t {
     time,
     reg,
+    named,
     input,
     output,
     pulses,
@@ -68,6 +70,7 @@ class Probes final : public NameResolver, public ValueSource {
     std::size_t device = 0;  // or the line
     int place = 0;           // axis or terminal
     NamedPlace reg{};
+    std::string value_name{};
     Unit unit = Unit::none;
     std::string name;
   };

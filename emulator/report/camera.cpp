@@ -52,7 +52,8 @@ void Camera::watch_lines() {
   requests_.assign(world_.line_count(), {});
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     framers_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); }));
+        i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); },
+        world_.line(i).protocol == Protocol::text));
     world_.line(i).line.add_observer(*framers_.back());
   }
 }

@@ -18,6 +18,7 @@ struct Objection {
   const char* operator()(const WriteStep&) const { return kUsesLine; }
   const char* operator()(const ExpectStep&) const { return kUsesLine; }
   const char* operator()(const SendStep&) const { return kUsesLine; }
+  const char* operator()(const TextStep&) const { return kUsesLine; }
   const char* operator()(const WaitStep& step) const { return step.poll ? kUsesLine : nullptr; }
   const char* operator()(const RestoreStep&) const { return kGoesBack; }
   const char* operator()(const ForkStep&) const { return kGoesBack; }

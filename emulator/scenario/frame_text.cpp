@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "emulator/scenario/text_lines_heard.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator {
@@ -86,6 +87,16 @@ class WordsText {
   std::span<const std::uint8_t> values_;
 };
 
+/// Lines of text side by side, each in quotes.
+std::string quoted_text(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kMostCharacters = 200;
+  std::string text(bytes.begin(), bytes.end());
+  const bool is_cut = text.size() > kMostCharacters;
+  if (is_cut) text.resize(kMostCharacters);
+  if (text.starts_with('\n')) text.erase(0, 1);
+  return lines_text(lines_in(text).lines) + (is_cut ? " ..." : "");
+}
+
 bool is_read(std::uint8_t function) { return function == 0x03 || function == 0x04; }
 
 }  // namespace
@@ -115,6 +126,7 @@ std::string exception_text(int exception) {
 }
 
 std::string request_text(const World& world, std::size_t line, std::span<const std::uint8_t> request) {
+  if (world.line(line).protocol == Protocol::text) return quoted_text(request);
   if (request.size() < 8 || !pty::rtu_crc_ok(request)) return hex_text(request);
   const Device* const device = device_at(world, line, request[0]);
   const std::string whom =
@@ -135,6 +147,7 @@ std::string request_text(const World& world, std::size_t line, std::span<const s
 
 std::string reply_text(const World& world, std::size_t line, std::span<const std::uint8_t> request,
                        std::span<const std::uint8_t> reply) {
+  if (world.line(line).protocol == Protocol::text) return quoted_text(reply);
   if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
   if ((reply[1] & kException) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
   const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];

@@ -47,6 +47,11 @@ class FreeStage::Host final : public pty::LineObserver {
     bytes.insert(bytes.end(), came.begin(), came.end());
     line_.take_output(came.size());
   }
+  /// The same as lines of text; it stays there.
+  LinesHeard lines() const {
+    const auto came = line_.output();
+    return lines_in({reinterpret_cast<const char*>(came.data()), came.size()});
+  }
   void discard() { line_.take_output(line_.output().size()); }
 
   /// How many frames were carried out so far.
@@ -170,6 +175,62 @@ std::vector<std::uint8_t> FreeStage::exchange(std::size_t line, std::span<const 
   const bool is_refused = bytes.size() >= 2 && reply.size() >= 2 && reply[1] == (bytes[1] | 0x80);
   if (is_refused) tick_of_last_write_ = written_before;
   return reply;
+}
+
+void FreeStage::say(std::size_t line, const std::string& text) {
+  Host& host = *hosts_[line];
+  const std::uint64_t before = host.requests();
+  send_text(host, text);
+  // A line that is too long, or that a fault swallows, is never carried out.
+  const SimTime limit = host.quiet_since() + options_.timeout;
+  while (host.requests() == before && world_.now() < limit) advance_to_next(limit);
+}
+
+std::vector<std::string> FreeStage::converse(std::size_t line, const std::optional<std::string>& text,
+                                             const LinesWanted& wanted, SimTime within) {
+  Host& host = *hosts_[line];
+  SimTime deadline = world_.now() + within;
+  if (text) {
+    send_text(host, *text);
+    deadline = host.quiet_since() + within;
+  }
+  LinesHeard heard = host.lines();
+  while (!has_come(wanted, heard) && world_.now() < deadline) {
+    advance_to_next(deadline);
+    heard = host.lines();
+  }
+  // What follows an answer at once is part of it, wanted or not: up to a line more.
+  while (text && world_.now() < deadline && heard.finished <= wanted.lines.size()) {
+    const std::size_t before = host.line().output().size();
+    const SimTime rounding{1};  // a character's end is a whole nanosecond
+    world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
+    heard = host.lines();
+    if (host.line().output().size() == before) break;
+  }
+  const std::size_t wanted_lines = wanted.lines.size();
+  if (!text && wanted_lines > 0 && heard.finished >= wanted_lines) {
+    host.line().take_output(heard.ends[wanted_lines - 1]);
+    heard.lines.resize(wanted_lines);
+  } else {
+    host.discard();
+  }
+  return heard.lines;
+}
+
+/// After the gap; on return all of it is on the line, though not over.
+void FreeStage::send_text(Host& host, const std::string& text) {
+  writing_ = nullptr;
+  world_.advance_to(world_.now());  // what an act at this moment has made it say comes first
+  if (options_.gap > SimTime{0} && host.quiet_since() + options_.gap > world_.now()) {
+    world_.advance_to(host.quiet_since() + options_.gap);
+  }
+  host.discard();
+  writing_ = &host;
+  requests_before_ = host.requests();
+  const std::string line = text + '\r';
+  const std::vector<std::uint8_t> bytes(line.begin(), line.end());
+  host.keep_busy(world_.now() + host.duration_of(bytes.size()));
+  host.line().receive(bytes, world_.now());
 }
 
 /// After t3.5 and the gap; on return all of it is on the line, though not over.

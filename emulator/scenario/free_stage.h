@@ -34,6 +34,9 @@ class FreeStage final : public Stage {
                             std::span<const std::uint16_t> words) override;
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override;
+  void say(std::size_t line, const std::string& text) override;
+  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
+                                    const LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(World&)>& act) override;
   bool run_until(const std::function<bool(World&)>& is_there, SimTime deadline) override;
@@ -48,6 +51,7 @@ class FreeStage final : public Stage {
 
   HostReply ask(Host& host, const std::vector<std::uint8_t>& request);
   void send(Host& host, std::span<const std::uint8_t> bytes);
+  void send_text(Host& host, const std::string& text);
   void advance_to_next(SimTime limit);
 
   World world_;

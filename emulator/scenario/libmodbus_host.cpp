@@ -125,12 +125,8 @@ std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, WallTime 
   return static_cast<std::size_t>(size);
 }
 
-std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
-                                                  WallTime sending, WallTime within) {
-  keep_silence();
+void LibmodbusHost::write_all(std::span<const std::uint8_t> bytes) {
   const int port = modbus_get_socket(context_.get());
-  tcflush(port, TCIFLUSH);
-  const WallTime start = wall_now();
   while (!bytes.empty()) {
     const ssize_t size = write(port, bytes.data(), bytes.size());
     if (size > 0) {
@@ -142,6 +138,57 @@ std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> 
     pollfd writable{.fd = port, .events = POLLOUT, .revents = 0};
     ::poll(&writable, 1, 100);
   }
+}
+
+LinesHeard LibmodbusHost::lines_heard() const {
+  return lines_in({reinterpret_cast<const char*>(unread_.data()), unread_.size()});
+}
+
+void LibmodbusHost::say(const std::string& text) {
+  keep_silence();
+  tcflush(modbus_get_socket(context_.get()), TCIFLUSH);
+  unread_.clear();
+  const std::string line = text + '\r';
+  write_all(std::vector<std::uint8_t>(line.begin(), line.end()));
+  quiet_since_ = wall_now();
+}
+
+std::vector<std::string> LibmodbusHost::converse(const std::optional<std::string>& text,
+                                                 const LinesWanted& wanted, WallTime sending,
+                                                 WallTime within) {
+  const WallTime start = wall_now();
+  if (text) say(*text);
+  const WallTime deadline = (text ? std::max(start + sending, wall_now()) : start) + within;
+  LinesHeard heard = lines_heard();
+  while (!has_come(wanted, heard) && wall_now() < deadline) {
+    read_some(unread_, deadline);
+    heard = lines_heard();
+  }
+  // What follows an answer at once is part of it, wanted or not: up to a line more.
+  constexpr WallTime kAtOnce = std::chrono::milliseconds(3);
+  while (text && heard.finished <= wanted.lines.size() && wall_now() < deadline) {
+    if (read_some(unread_, std::min(deadline, wall_now() + kAtOnce)) == 0) break;
+    heard = lines_heard();
+  }
+  const std::size_t wanted_lines = wanted.lines.size();
+  if (!text && wanted_lines > 0 && heard.finished >= wanted_lines) {
+    unread_.erase(unread_.begin(),
+                  unread_.begin() + static_cast<std::ptrdiff_t>(heard.ends[wanted_lines - 1]));
+    heard.lines.resize(wanted_lines);
+  } else {
+    unread_.clear();
+  }
+  if (!heard.lines.empty()) quiet_since_ = wall_now();
+  return heard.lines;
+}
+
+std::vector<std::uint8_t> LibmodbusHost::exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
+                                                  WallTime sending, WallTime within) {
+  keep_silence();
+  const int port = modbus_get_socket(context_.get());
+  tcflush(port, TCIFLUSH);
+  const WallTime start = wall_now();
+  write_all(bytes);
   const WallTime deadline = std::max(start + sending, wall_now()) + within;
   quiet_since_ = start + sending;
   std::vector<std::uint8_t> reply;

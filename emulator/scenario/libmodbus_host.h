@@ -31,7 +31,14 @@ class LibmodbusHost {
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      WallTime sending, WallTime within);
 
+  /// Lines of text, past libmodbus; see Stage::converse().
+  std::vector<std::string> converse(const std::optional<std::string>& text, const LinesWanted& wanted,
+                                    WallTime sending, WallTime within);
+  void say(const std::string& text);
+
  private:
+  void write_all(std::span<const std::uint8_t> bytes);
+  LinesHeard lines_heard() const;
   struct Close {
     void operator()(_modbus* context) const;
   };
@@ -44,6 +51,7 @@ class LibmodbusHost {
   std::unique_ptr<_modbus, Close> context_;
   WallTime silence_;
   WallTime quiet_since_{0};
+  std::vector<std::uint8_t> unread_;  // of lines of text
 };
 
 }  // namespace understudy::emulator

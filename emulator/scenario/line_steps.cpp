@@ -75,6 +75,10 @@ void read_write(StepsReader& reader, const YamlFields& step, const YamlFields& v
   Sentence sentence{"write"};
   for (const auto& [name, field] : demand_registers(value)) {
     Target target = reader.trial().target(field, name);
+    if (target.is_value) {
+      field.fail(name +
+                 " is no register, and is not written over the line so; expected `send: { text: ... }`");
+    }
     std::string what = reader.trial().value_to_write(field, target, write.exception.has_value());
     sentence.add(name + "=" + on_one_line(what));
     write.entries.push_back({.target = std::move(target), .value = std::move(what)});
@@ -89,6 +93,7 @@ void read_expect(StepsReader& reader, const YamlFields& step, const YamlFields& 
   Sentence sentence{"expect"};
   for (const auto& [name, field] : demand_registers(value)) {
     Target target = reader.trial().target(field, name);
+    if (target.is_value && expect.exception) field.fail(name + " is no register; expected no exception");
     Tolerance wanted = reader.trial().value_to_expect(field, target);
     sentence.add(name + ": " + wanted.text);
     expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});
@@ -99,12 +104,12 @@ void read_expect(StepsReader& reader, const YamlFields& step, const YamlFields& 
 
 void read_send(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
   value.demand_keys(kSendKeys);
-  SendStep send;
-  if (value.has("line")) {
-    send.line = reader.trial().line(value.at("line"), value.at("line").text());
-  } else if (reader.trial().bench().lines.size() > 1) {
-    value.fail("'line' is missing, and there are several; expected it here");
+  if (value.has("text")) {
+    if (value.has("bytes")) value.at("bytes").fail("stands beside `text`; expected one of them");
+    return read_send_text(reader, step, value);
   }
+  SendStep send;
+  send.line = read_line_of(reader, value, Protocol::modbus_rtu);
   send.bytes = read_bytes(value.at("bytes"));
   std::string text = "send " + on_one_line(value.at("bytes").text());
   if (value.has("reply")) {

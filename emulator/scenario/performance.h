@@ -89,6 +89,7 @@ class Performance {
   void perform(const WriteStep& step);
   void perform(const ExpectStep& step);
   void perform(const SendStep& step);
+  void perform(const TextStep& step);  // performance_text.cpp
   /// The words of each target, one after the other.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
                                                          std::optional<int> exception);

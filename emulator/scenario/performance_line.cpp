@@ -125,7 +125,9 @@ void Performance::perform(const WriteStep& step) {
 
 void Performance::perform(const ExpectStep& step) {
   std::vector<Target> targets;
-  for (const ExpectStep::Entry& entry : step.entries) targets.push_back(entry.target);
+  for (const ExpectStep::Entry& entry : step.entries) {
+    if (!entry.target.is_value) targets.push_back(entry.target);
+  }
   std::vector<bool> low_word_first;
   words_of_all(targets, low_word_first);
   const auto words = read_over_line(targets, step.exception);
@@ -133,13 +135,20 @@ void Performance::perform(const ExpectStep& step) {
   std::vector<std::string> expected;
   std::vector<std::string> came;
   std::vector<std::string> details;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const Value value = value_in(targets[i], words[i], low_word_first[i]);
-    const Tolerance& wanted = step.entries[i].value;
-    if (wanted.holds(Number(value))) continue;
-    expected.push_back(targets[i].name + " = " + wanted.text);
-    came.push_back(targets[i].name + " = " + std::to_string(value));
-    details.push_back(targets[i].name + " is " + std::to_string(value) + "; expected " + wanted.text);
+  std::size_t next = 0;  // of those that were read
+  for (const auto& [target, wanted] : step.entries) {
+    Number value;
+    if (target.is_value) {
+      stage_->with_world(
+          [&](World&) { value = evaluate(parse_expression(target.name, eyes_->probes), eyes_->probes); });
+    } else {
+      value = Number(value_in(target, words[next], low_word_first[next]));
+      ++next;
+    }
+    if (wanted.holds(value)) continue;
+    expected.push_back(target.name + " = " + wanted.text);
+    came.push_back(target.name + " = " + number_text(value));
+    details.push_back(target.name + " is " + number_text(value) + "; expected " + wanted.text);
   }
   if (details.empty()) return;
   throw StepError(details.front(), joined(expected), joined(came), {details.begin() + 1, details.end()});

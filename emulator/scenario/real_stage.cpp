@@ -68,13 +68,17 @@ class RealStage::Look final : public TickWatcher {
 };
 
 RealStage::RealStage(Daemon& daemon, RealStageOptions options) : daemon_(daemon), options_(options) {
-  with_world([this](World& world) {
-    for (std::size_t i = 0; i < world.line_count(); ++i) lines_.push_back(world.line(i).line.options());
+  std::vector<bool> is_text;
+  with_world([&](World& world) {
+    for (std::size_t i = 0; i < world.line_count(); ++i) {
+      lines_.push_back(world.line(i).line.options());
+      is_text.push_back(world.line(i).protocol == Protocol::text);
+    }
   });
   for (std::size_t i = 0; options_.has_hosts && i < lines_.size(); ++i) {
+    const SimTime silence = is_text[i] ? SimTime{0} : silence_between_frames(lines_[i].settings);
     hosts_.push_back(std::make_unique<LibmodbusHost>(
-        daemon_.ports()[i]->terminal().path(), lines_[i].settings, options_.timeout,
-        silence_between_frames(lines_[i].settings) + options_.gap));
+        daemon_.ports()[i]->terminal().path(), lines_[i].settings, options_.timeout, silence + options_.gap));
   }
   with_world([this](World& world) { writes_ = std::make_unique<WriteClock>(world); });
 }
@@ -210,6 +214,37 @@ std::vector<std::uint8_t> RealStage::exchange(std::size_t line, std::span<const 
                               ? SimTime{0}
                               : options.settings.duration_of(static_cast<std::int64_t>(bytes.size()));
   return on_line.exchange(bytes, wanted, sending, within);
+}
+
+void RealStage::say(std::size_t line, const std::string& text) {
+  LibmodbusHost& on_line = host(line);
+  const auto requests = [&] {
+    std::uint64_t sum = 0;
+    with_world([&](World& world) {
+      for (const auto& station : world.line(line).stations) sum += station->counters().requests;
+    });
+    return sum;
+  };
+  const std::uint64_t before = requests();
+  const SimTime sending = time_to_send(line, text);
+  on_line.say(text);
+  // A line that is too long, or that a fault swallows, is never carried out.
+  const WallTime limit = wall_now() + sending + options_.timeout;
+  while (requests() == before && wall_now() < limit) {
+    throw_if_given_up();
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+std::vector<std::string> RealStage::converse(std::size_t line, const std::optional<std::string>& text,
+                                             const LinesWanted& wanted, SimTime within) {
+  return host(line).converse(text, wanted, text ? time_to_send(line, *text) : SimTime{0}, within);
+}
+
+SimTime RealStage::time_to_send(std::size_t line, const std::string& text) const {
+  const pty::LineOptions& options = lines_[line];
+  if (options.timing == pty::Timing::instant) return SimTime{0};
+  return options.settings.duration_of(static_cast<std::int64_t>(text.size()) + 1);
 }
 
 std::unique_ptr<Stage> make_real_stage(const Scenario& scenario) {

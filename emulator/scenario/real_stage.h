@@ -48,6 +48,9 @@ class RealStage final : public Stage {
                             std::span<const std::uint16_t> words) override;
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override;
+  void say(std::size_t line, const std::string& text) override;
+  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
+                                    const LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(World&)>& act) override;
   bool run_until(const std::function<bool(World&)>& is_there, SimTime deadline) override;
@@ -60,6 +63,7 @@ class RealStage final : public Stage {
   class Look;
 
   LibmodbusHost& host(std::size_t line);
+  SimTime time_to_send(std::size_t line, const std::string& text) const;
   void throw_if_given_up() const;
   /// How long simulated time takes to get to `time`, by the clock on the wall; nothing while it stands.
   std::optional<WallTime> wall_time_until(SimTime time);

@@ -1,5 +1,6 @@
-// A scenario: a bench and the steps of a play on it, checked against each other. Made by scenario_file.h, played
-// by runner.h. Loops, tables of cases, includes and parameters are gone by then: what is left is a list.
+// A scenario: a bench and the steps of a play on it, checked against each other. Made by scenario_file.h,
+// played by runner.h. Loops, tables of cases, includes and parameters are gone by then: what is left is a
+// list.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +27,11 @@ struct Target {
   std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
   std::optional<NamedPlace> place{};
   std::uint16_t address = 0;  // where there is no place; a holding register
+  bool is_value = false;      // of a device without registers: looked at past the line
 };
 
-/// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, and exception: 3 beside it where the device
-/// is to refuse. Over the line, in this order; ascending neighbours share a request.
+/// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, and exception: 3 beside it where the
+/// device is to refuse. Over the line, in this order; ascending neighbours share a request.
 struct WriteStep {
   struct Entry {
     Target target;
@@ -67,8 +69,8 @@ struct AssertStep {
   std::vector<std::string> expressions;
 };
 
-/// always: or never: { what: EXPRESSION, name: NAME }, or the expression alone: holds at every tick from now on,
-/// until end: NAME or the end of the scenario.
+/// always: or never: { what: EXPRESSION, name: NAME }, or the expression alone: holds at every tick from now
+/// on, until end: NAME or the end of the scenario.
 struct SpanStep {
   std::string expression;
   bool never = false;
@@ -108,6 +110,17 @@ struct SendStep {
   SimTime within = std::chrono::milliseconds(500);
 };
 
+/// send: { line: serial, text: "?PE", reply: "100", within: 100ms }: a line of text, without its end; reply:
+/// one line, or a list of them, or nothing, where none may come in that time; without reply the device only
+/// hears it. hear: { line: serial, text: "DONE", within: 2s }: lines that it says unasked, since the last
+/// `send`.
+struct TextStep {
+  std::size_t line = 0;
+  std::optional<std::string> text;                // none: only heard
+  std::optional<std::vector<std::string>> lines;  // empty: nothing may come
+  SimTime within = std::chrono::milliseconds(500);
+};
+
 /// program: { feeder: indexing.lst }
 struct ProgramStep {
   std::size_t device = 0;
@@ -115,7 +128,8 @@ struct ProgramStep {
   std::string file;  // for messages
 };
 
-/// memory: { feeder: after.json }: the device's non-volatile memory as the file has it; save: writes the file.
+/// memory: { feeder: after.json }: the device's non-volatile memory as the file has it; save: writes the
+/// file.
 struct MemoryStep {
   enum class What : std::uint8_t { expect, save } what = What::expect;
   std::size_t device = 0;
@@ -130,8 +144,8 @@ struct RestoreStep {
   std::string name;
 };
 
-/// fork: { NAME: [ steps ], NAME: [ steps ] }: each continuation begins from the state at this moment; the steps
-/// that follow the fork go on from it as well.
+/// fork: { NAME: [ steps ], NAME: [ steps ] }: each continuation begins from the state at this moment; the
+/// steps that follow the fork go on from it as well.
 struct ForkStep {
   struct Branch {
     std::string name;
@@ -153,8 +167,8 @@ struct Step {
   int line = 0;
   std::string text;  // what it does, on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep, InputStep,
-               InjectStep, ClearStep, PowerStep, SendStep, ProgramStep, MemoryStep, SnapshotStep, RestoreStep,
-               ForkStep, ResetPeaksStep, SayStep>
+               InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep, MemoryStep, SnapshotStep,
+               RestoreStep, ForkStep, ResetPeaksStep, SayStep>
       what;
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/scenario/text_lines_heard.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator {
@@ -41,6 +42,16 @@ class Stage {
   /// Bytes as they are; what comes back until `wanted` bytes are there, or `within` is over.
   virtual std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                              std::size_t wanted, SimTime within) = 0;
+
+  // --- the host on a line of text: says a line (its end is added) at once, but for the gap. What came before
+  // is not heard any more.
+  /// Lasts until the device has heard it.
+  virtual void say(std::size_t line, const std::string& text) = 0;
+  /// And hears what it says, or (without `text`) only hears: until that has come, or something else instead,
+  /// or `within` is over. Lines behind that are heard next; an answer is all that comes without a pause. The
+  /// last line may have no end.
+  virtual std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
+                                            const LinesWanted& wanted, SimTime within) = 0;
 
   // --- the world -------------------------------------------------------------------------------------
   /// Acts on the world between two ticks, or looks at it. What it throws comes out here.

@@ -14,6 +14,9 @@ std::string registers_text(const Device& device) {
   std::string text;
   const auto add = [&](const std::string& name) {
     const auto place = device.registers().find(name, device.firmware());
+    if (const auto number = place ? std::nullopt : device.value_named(name)) {
+      text += (text.empty() ? "" : ", ") + name + " " + number_text(Number(*number));
+    }
     if (!place) return;
     const Value value = read_value(device, *place);
     text += (text.empty() ? "" : ", ") + name + " " + std::to_string(value);

@@ -1,6 +1,10 @@
 // The readers of single kinds of steps, for the table of step_rows.cpp.
 #pragma once
 
+#include <cstddef>
+
+#include "emulator/model.h"
+
 namespace understudy::emulator {
 
 class StepsReader;
@@ -10,6 +14,12 @@ class YamlFields;
 void read_write(StepsReader& reader, const YamlFields& step, const YamlFields& value);
 void read_expect(StepsReader& reader, const YamlFields& step, const YamlFields& value);
 void read_send(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+
+// text_steps.cpp
+void read_send_text(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+void read_hear(StepsReader& reader, const YamlFields& step, const YamlFields& value);
+/// The line that a step names, or the only one. Where text is wanted it must carry that.
+std::size_t read_line_of(const StepsReader& reader, const YamlFields& value, Protocol wanted);
 
 // truth_steps.cpp
 void read_wait(StepsReader& reader, const YamlFields& step, const YamlFields& value);

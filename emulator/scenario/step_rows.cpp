@@ -14,7 +14,9 @@ std::span<const StepRow> step_rows() {
       StepRow{{"expect", "Reads registers over the line and compares.", &kTextByName},
               read_expect,
               kExceptionKeys},
-      StepRow{{"send", "Sends bytes as they are, and compares the reply.", &kSendForm}, read_send},
+      StepRow{{"send", "Sends bytes as they are, or a line of text, and compares the reply.", &kSendForm},
+              read_send},
+      StepRow{{"hear", "Hears lines that a device says unasked.", &kHearForm}, read_hear},
       // Time and truth.
       StepRow{{"wait", "Waits until a condition holds.", &kWaitForm}, read_wait},
       StepRow{{"advance", "Lets simulated time go on.", &kDuration}, read_advance},

@@ -60,6 +60,11 @@ Target Trial::target(const YamlFields& field, const std::string& written) const 
       target.device = i;
       rest = name.substr(dot + 1);
     }
+    if (find_value(known(), name)) {
+      probes_.resolve(name);
+      target.is_value = true;
+      return target;
+    }
     if (rest.empty() || rest.front() < '0' || rest.front() > '9') {
       const RegisterName found = find_register(known(), name);
       target.device = found.device;
@@ -139,6 +144,7 @@ std::string Trial::value_to_write(const YamlFields& field, const Target& target,
 Tolerance Trial::value_to_expect(const YamlFields& field, const Target& target) const {
   try {
     Tolerance value = parse_tolerance(field.text());
+    if (target.is_value) return value;
     const Limits limits = limits_of(target);
     if ((value.low && *value.low > Number(limits.high)) || (value.high && *value.high < Number(limits.low))) {
       field.fail(target.name + " is never " + value.text + "; expected something in " + to_text(limits));

@@ -15,7 +15,8 @@ void WriteClock::watch() {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     World::OneLine& line = world_.line(i);
     framers_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this, i](const pty::CapturedPacket& packet) { hear(i, packet); }));
+        i, line.framing, [this, i](const pty::CapturedPacket& packet) { hear(i, packet); },
+        line.protocol == Protocol::text));
     line.line.add_observer(*framers_.back());
   }
 }
@@ -33,6 +34,10 @@ void WriteClock::begin_anew() {
 
 /// A request is heard at the moment at which it is carried out, a reply when it begins.
 void WriteClock::hear(std::size_t line, const pty::CapturedPacket& packet) {
+  if (world_.line(line).protocol == Protocol::text) {
+    if (packet.way == pty::Way::from_host) last_ = tick_at(world_.now()) + 1;
+    return;
+  }
   if (packet.way == pty::Way::to_host) {
     const bool is_refused = packet.bytes.size() >= 2 && (packet.bytes[1] & 0x80) != 0;
     if (std::exchange(unanswered_, unanswered_ == line ? kNone : unanswered_) == line && is_refused)

@@ -83,7 +83,7 @@ concept Foreign = requires(const T& value, T& restored, StateWriter& writer, Sta
 };
 
 template <class T>
-concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+concept Numeric = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
 /// A number as an unsigned one of the same size.
 template <class T>
@@ -110,7 +110,7 @@ class StateWriter {
   template <class Fields, class T>
   void write(const T& value) {
     using namespace state_bytes;
-    if constexpr (Number<T>) {
+    if constexpr (Numeric<T>) {
       put(room_for(sizeof(Bits<T>)), value);
     } else if constexpr (kIsTime<T>) {
       write<Fields>(std::int64_t{value.count()});
@@ -159,7 +159,7 @@ class StateWriter {
   template <class Fields, class Values>
   void write_all(const Values& values) {
     using T = typename Values::value_type;
-    if constexpr (state_bytes::Number<T>) {
+    if constexpr (state_bytes::Numeric<T>) {
       constexpr std::size_t kSize = sizeof(state_bytes::Bits<T>);
       std::byte* to = room_for(values.size() * kSize);
       for (std::size_t i = 0; i < values.size(); ++i) put(to + i * kSize, values[i]);
@@ -180,7 +180,7 @@ class StateReader {
   template <class Fields, class T>
   void read(T& value) {
     using namespace state_bytes;
-    if constexpr (Number<T>) {
+    if constexpr (Numeric<T>) {
       value = get<Fields, T>(take(sizeof(Bits<T>)).data());
     } else if constexpr (kIsTime<T>) {
       std::int64_t count = 0;
@@ -254,7 +254,7 @@ class StateReader {
   template <class Fields, class Values>
   void read_all(Values& values) {
     using T = typename Values::value_type;
-    if constexpr (state_bytes::Number<T>) {
+    if constexpr (state_bytes::Numeric<T>) {
       constexpr std::size_t kSize = sizeof(state_bytes::Bits<T>);
       const std::byte* from = take(values.size() * kSize).data();
       for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<Fields, T>(from + i * kSize);

@@ -31,8 +31,9 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
       signals.push_back(
           {.name = device.name + "." + std::string(row.name), .kind = is_bit ? Kind::bit : Kind::whole});
     }
+    const Kind kind = device.model->protocol() == Protocol::text ? Kind::real : Kind::whole;
     for (const std::string_view name : device.model->state_registers) {
-      signals.push_back({.name = device.name + "." + std::string(name), .kind = Kind::whole});
+      signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
     }
     signals.push_back({.name = device.name + ".power", .kind = Kind::bit});
   }

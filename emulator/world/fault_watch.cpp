@@ -94,6 +94,28 @@ bool is_of_replies(const Fault& fault) {
   return is_of_wire(fault.kind) && fault.kind != Kind::slow && fault.side != Fault::Side::request;
 }
 
+/// Lines of text have no functions, no stations, no checksum and no exceptions.
+void demand_of_protocol(const KnownDevice& device, const Fault& fault) {
+  if (device.model->protocol() != Protocol::text) return;
+  const std::string kind(fault_kind(fault.kind).name);
+  switch (fault.kind) {
+    case Kind::busy:
+    case Kind::exception:
+    case Kind::early_reply:
+    case Kind::corrupt_checksum:
+      throw NameError(kind + ": is a fault of Modbus frames, and " + device.name +
+                      " speaks text; expected another one");
+    default: break;
+  }
+  const FaultTrigger& trigger = fault.trigger;
+  for (const auto& [field, value] :
+       {std::pair("function", trigger.function), std::pair("station", trigger.station),
+        std::pair("address", trigger.first_address)}) {
+    if (value < 0) continue;
+    throw FaultFieldError(kind, field, device.name + " speaks text, which has none; expected none");
+  }
+}
+
 }  // namespace
 
 std::int64_t encoder_noise_counts(const Fault& fault, Tick tick) {
@@ -108,6 +130,7 @@ void check_fault(const World& world, const Fault& fault) {
                     std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
                     " has no encoder; expected one in `plant`");
   }
+  demand_of_protocol(world.known()[fault.device], fault);
   if (fault.trigger.when.empty()) return;
   const Probes probes(world);
   try {

@@ -59,7 +59,8 @@ World::World(const Bench& bench, const WorldOptions& options,
   for (const Fault& fault : bench.faults) inject(fault);
   // A machine may stand on a switch at power-up.
   for (std::size_t d = 0; d < devices_.size(); ++d) step_plant(d);
-  look_for_speech();
+  // What they say at power-up: nobody could have looked on yet, so it begins with the first tick.
+  look_for_speech(kTickLength);
 }
 
 World::~World() = default;
@@ -94,7 +95,7 @@ void World::advance_to(SimTime time) {
       if (fault_watch_) look_at_faults();
       if (!text_lines_.empty()) {
         now_ = std::max(now_, time_of(done_));
-        look_for_speech();
+        look_for_speech(now_);
         line_time = next_line_time();
       }
     }
@@ -146,10 +147,10 @@ void World::run_lines(SimTime time) {
 }
 
 /// A tick, or an act from outside, may have given a device something to say; its line sends it from now on.
-void World::look_for_speech() {
+void World::look_for_speech(SimTime now) {
   for (OneLine* line : text_lines_) {
     for (const auto& station : line->stations) {
-      if (station->look_for_speech(now_)) line->line.due_changed();
+      if (station->look_for_speech(now)) line->line.due_changed();
     }
   }
 }
@@ -269,7 +270,7 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
   begin_act();
   if (auto complaint = devices_[device]->assign(name, value)) return complaint;
   if (listener_ != nullptr) listener_->on_assign(device, name, value);
-  look_for_speech();
+  look_for_speech(now_);
   return std::nullopt;
 }
 
@@ -277,7 +278,7 @@ void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
   devices_[device]->load_program(text);  // throws before anything has changed
   if (listener_ != nullptr) listener_->on_program(device, text);
-  look_for_speech();
+  look_for_speech(now_);
 }
 
 void World::switch_power(std::size_t device, bool on) {
@@ -309,7 +310,7 @@ void World::settle_power(std::size_t device) {
                                      [](const auto& station) { return station->device().powered(); });
     if (speaks != line->stations.end()) line->line.set_settings((*speaks)->settings());
   }
-  look_for_speech();
+  look_for_speech(now_);
 }
 
 std::size_t World::inject(const Fault& fault) {

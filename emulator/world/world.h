@@ -147,7 +147,7 @@ class World {
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
   void settle_power(std::size_t device);
-  void look_for_speech();
+  void look_for_speech(SimTime now);
   void arm_faults();
   void look_at_faults();
   void settle_faults();

@@ -84,7 +84,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {with_line("speed: 1"),
        "3: lines.a.speed: is no key here; expected one of link, baud, timing, stations"},
       {with("adress: 2"),
-       "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, set, "
+       "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, "
+       "modules, set, "
        "choices, dip, program, nv (the nearest is 'address')"},
       {with("model: simple2-r3"), "5: lines.a.stations[0].model: is given twice; expected it once"},
       {with("set: { Aaxis_Speed: 1, Aaxis_Speed: 2 }"),

@@ -30,6 +30,11 @@ class WrittenDown final : public Stage {
     requests_.push_back("exchange " + std::to_string(bytes.size()));
     return stage_->exchange(line, bytes, wanted, within);
   }
+  void say(std::size_t line, const std::string& text) override { stage_->say(line, text); }
+  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
+                                    const LinesWanted& wanted, SimTime within) override {
+    return stage_->converse(line, text, wanted, within);
+  }
   void with_world(const std::function<void(World&)>& act) override { stage_->with_world(act); }
   bool run_until(const std::function<bool(World&)>& is_there, SimTime deadline) override {
     return stage_->run_until(is_there, deadline);
@@ -165,14 +170,12 @@ TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
                                 "29.572917ms rs485 -> read 0x0001 feeder.HW_Code",
                                 "34.90625ms rs485 <- feeder.HW_Code = 49153",
                             }));
-  EXPECT_EQ(
-      failure.state,
-      (std::vector<std::string>{
-          "feeder: STATUS 0 (0x0000), Aaxis_Mode 0, Baxis_Mode 0, Cord_A 0, Cord_B 0, "
-          "PROG_MAIN_RunTime_Status 0, PROG_MAIN_NowLine 0, EEPROM_Writing 0",
-          "feeder.A: pulses 0, speed 0, position 0",
-          "feeder.B: pulses 0, speed 0, position 0",
-      }));
+  EXPECT_EQ(failure.state, (std::vector<std::string>{
+                               "feeder: STATUS 0 (0x0000), Aaxis_Mode 0, Baxis_Mode 0, Cord_A 0, Cord_B 0, "
+                               "PROG_MAIN_RunTime_Status 0, PROG_MAIN_NowLine 0, EEPROM_Writing 0",
+                               "feeder.A: pulses 0, speed 0, position 0",
+                               "feeder.B: pulses 0, speed 0, position 0",
+                           }));
 }
 
 TEST(RunnerOverTheLine, TheLastTenFramesAreTold) {

@@ -6,6 +6,7 @@
 //   LIST N       N lines "line 1" to "line N"
 //   N0=5         nothing, or ERR 2 (-32768 to 32767); also R0 (real), ECHO (0 or 1)
 //   ?N0          its value
+//   (firmware 1.00, at power-up) HELLO
 //   anything else: ERR 1; a line that is too long: LONG; ESC: BREAK
 #pragma once
 
@@ -22,7 +23,7 @@
 
 namespace understudy::emulator {
 
-inline constexpr Firmware kEchoFirmwares[] = {100};
+inline constexpr Firmware kEchoFirmwares[] = {100, 101};
 inline constexpr CommandRow kEchoCommands[] = {
     {"SAY", "SAY WORDS", "says WORDS"},
     {"AT", "AT TICK", "says \"TICK n\" when that tick has come"},
@@ -131,7 +132,9 @@ class EchoBox final : public TextDevice {
   void set_encoder(int, std::int64_t) override {}
 
  protected:
-  void power_up() override { say("HELLO"); }
+  void power_up() override {
+    if (firmware() == 100) say("HELLO");
+  }
   void power_down() override {
     state_.speech.clear();
     state_.speaks_at = kNever;

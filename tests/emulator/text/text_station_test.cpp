@@ -16,9 +16,13 @@ SimTime characters(std::int64_t count) { return SimTime{count * 10 * 1'000'000'0
 
 struct Rig {
   explicit Rig(pty::Timing timing = pty::Timing::wire, DeviceSettings settings = {})
-      : bench(echo_bench(timing, std::move(settings))), world(bench, {}, {}) {
+      : bench(echo_bench(timing, with_greeting(std::move(settings)))), world(bench, {}, {}) {
     world.advance_to(20ms);  // what it says at power-up is over: "HELLO", CR, LF take 7.3 ms
     EXPECT_EQ(heard(), "HELLO\r\n");
+  }
+  static DeviceSettings with_greeting(DeviceSettings settings) {
+    settings.firmware = 100;
+    return settings;
   }
   void say(std::string_view text) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
