@@ -103,11 +103,8 @@ void read_expect(StepsReader& reader, const YamlFields& step, const YamlFields& 
 }
 
 void read_send(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  if (value.is_map() && value.has("text")) return read_send_text(reader, step, value);
   value.demand_keys(kSendKeys);
-  if (value.has("text")) {
-    if (value.has("bytes")) value.at("bytes").fail("stands beside `text`; expected one of them");
-    return read_send_text(reader, step, value);
-  }
   SendStep send;
   send.line = read_line_of(reader, value, Protocol::modbus_rtu);
   send.bytes = read_bytes(value.at("bytes"));

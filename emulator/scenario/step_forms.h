@@ -38,11 +38,18 @@ inline constexpr std::array<const Form*, 2> kReplyLinesWays{&kText, &kTextList};
 inline constexpr Form kReplyLinesForm = either_form(kReplyLinesWays);
 inline constexpr std::array kSendKeys{
     KeyRow{"line", "On which line; the only one without it.", &kText},
-    KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &kText},
-    KeyRow{"text", "Or a line of text, without its end.", &kText},
-    KeyRow{"reply", "The bytes, the line or the lines that must come, or `nothing`.", &kReplyLinesForm},
+    KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &kText, true},
+    KeyRow{"reply", "The bytes that must come, or `nothing`.", &kText},
     KeyRow{"within", "How long to wait for them (500ms).", &kDuration}};
-inline constexpr Form kSendForm = keys_form(kSendKeys);
+inline constexpr std::array kSendTextKeys{
+    KeyRow{"line", "On which line; the only one without it.", &kText},
+    KeyRow{"text", "A line of text, without its end.", &kText, true},
+    KeyRow{"reply", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm},
+    KeyRow{"within", "How long to wait for them (500ms).", &kDuration}};
+inline constexpr Form kSendBytesForm = keys_form(kSendKeys);
+inline constexpr Form kSendTextForm = keys_form(kSendTextKeys);
+inline constexpr std::array<const Form*, 2> kSendWays{&kSendBytesForm, &kSendTextForm};
+inline constexpr Form kSendForm = either_form(kSendWays);
 inline constexpr std::array kHearKeys{
     KeyRow{"line", "On which line; the only one without it.", &kText},
     KeyRow{"text", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm, true},

@@ -63,6 +63,7 @@ std::size_t read_line_of(const StepsReader& reader, const YamlFields& value, Pro
 }
 
 void read_send_text(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
+  value.demand_keys(kSendTextKeys);
   TextStep say;
   say.line = read_line_of(reader, value, Protocol::text);
   say.text = read_text(value.at("text"));

@@ -91,7 +91,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {with("set: { Aaxis_Speed: 1, Aaxis_Speed: 2 }"),
        "5: lines.a.stations[0].set.Aaxis_Speed: is given twice; expected it once"},
       {and_then("devices:\n  x2: { model: simple2-r3, address: 2 }\n"),
-       "7: devices.x2.address: is no key here; expected one of model, firmware, set, choices, dip, program, "
+       "7: devices.x2.address: is no key here; expected one of model, firmware, modules, set, choices, dip, "
+       "program, "
        "nv"},
       {and_then("plant:\n  x.A: { travels: [0, 1] }\n"),
        "7: plant.x.A.travels: is no key here; expected one of travel, home, limits, encoder, drive (the "

@@ -147,7 +147,7 @@ TEST(TextSteps, ForksGoOnFromWhatWasHeard) {
 
 TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
   EXPECT_EQ(refusal("  - send: { text: a, bytes: 01 }\n"),
-            "test.yaml:5: steps[0].send.bytes: stands beside `text`; expected one of them");
+            "test.yaml:5: steps[0].send.bytes: is no key here; expected one of line, text, reply, within");
   EXPECT_EQ(refusal("  - send: { text: \"a\\rb\" }\n"),
             "test.yaml:5: steps[0].send.text: has several lines; expected one, without its end");
   EXPECT_EQ(refusal("  - hear: { within: 1s }\n").substr(0, 28), "test.yaml:5: steps[0].hear: ");
