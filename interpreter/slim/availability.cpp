@@ -1,0 +1,81 @@
+#include "interpreter/slim/availability.h"
+
+#include <cstddef>
+
+namespace understudy::interpreter::slim {
+namespace {
+
+/// For rows without columns: what makes sense in a program only, and what makes sense typed only.
+bool is_for_programs(Verb verb) {
+  switch (verb) {
+    case Verb::jump:
+    case Verb::jump_if:
+    case Verb::jump_if_within:
+    case Verb::call:
+    case Verb::return_:
+    case Verb::wait_input:
+    case Verb::wait_time:
+    case Verb::wait_done: return true;
+    default: return false;
+  }
+}
+
+bool is_for_hosts(const CommandRow& row) {
+  switch (row.verb) {
+    case Verb::run:
+    case Verb::program_new:
+    case Verb::program_append:
+    case Verb::program_list:
+    case Verb::program_edit:
+    case Verb::program_insert:
+    case Verb::program_delete:
+    case Verb::upload:
+    case Verb::download:
+    case Verb::exit:
+    case Verb::list_parameters:
+    case Verb::default_parameters:
+    case Verb::save_data:
+    case Verb::save_parameters:
+    case Verb::save_program:
+    case Verb::reboot: return true;
+    default: return row.is_query();
+  }
+}
+
+/// What a host needs although the column 外部 does not print it: to look, and to get out of a pause.
+bool is_let_through(const CommandRow& row) {
+  switch (row.verb) {
+    case Verb::exit:
+    case Verb::resume_all:
+    case Verb::abandon_all:
+    case Verb::pause:
+    case Verb::redo:
+    case Verb::set_port_now:
+    case Verb::clear_port_now:
+    case Verb::servo_on_now:
+    case Verb::servo_off_now: return true;
+    default: return row.is_query();
+  }
+}
+
+bool is_variable_form(const CommandRow& row) { return row.slots[0] == Slot::real_variable; }
+
+}  // namespace
+
+bool is_allowed(const Command& command, Place place, const Columns& columns) {
+  const CommandRow& row = kCommands[static_cast<std::size_t>(command.row)];
+  switch (place) {
+    case Place::program:
+      return row.program == Printed::nothing ? !is_for_hosts(row) : row.program == Printed::yes;
+    case Place::immediate:
+      if (row.immediate == Printed::nothing) return !is_for_programs(row.verb);
+      if (row.immediate == Printed::yes) return true;
+      return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_form(row);
+    case Place::external:
+      if (row.external == Printed::yes) return true;
+      return columns.external == Columns::External::lenient && is_let_through(row);
+  }
+  return false;
+}
+
+}  // namespace understudy::interpreter::slim

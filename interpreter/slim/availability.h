@@ -1,0 +1,32 @@
+// Which commands may be given where: stored in a program, typed while none runs, or from outside while one
+// runs. The manual prints three columns without explaining them, for its second list only.
+#pragma once
+
+#include <cstdint>
+
+#include "interpreter/slim/command.h"
+
+namespace understudy::interpreter::slim {
+
+enum class Place : std::uint8_t {
+  program,    // 程式
+  immediate,  // 立即: typed while no program runs
+  external,   // 外部: typed while a program runs
+};
+
+/// What the manual leaves open about the columns.
+struct Columns {
+  /// While a program runs: also queries and what a host needs to get out of a pause, or only what is printed.
+  enum class External : std::uint8_t { lenient, strict } external = External::lenient;
+  /// Moves from variables that the column 立即 does not allow.
+  enum class VariableForms : std::uint8_t {
+    as_printed,
+    typed_too
+  } variable_forms = VariableForms::as_printed;
+
+  bool operator==(const Columns&) const = default;
+};
+
+bool is_allowed(const Command& command, Place place, const Columns& columns = {});
+
+}  // namespace understudy::interpreter::slim

@@ -1,0 +1,68 @@
+// What a line says, as values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/slim/commands.h"
+
+namespace understudy::interpreter::slim {
+
+struct Operand {
+  enum class Kind : std::uint8_t {
+    integer,           // number; also inputs, lines, milliseconds
+    real,              // number
+    integer_variable,  // N#: index
+    real_variable,     // R#: index
+    integer_array,     // NS(i): index, or the index of the N variable that holds it
+    real_array,        // RS(i): the same
+    port,              // index 1 to 4
+    label,             // text, in capitals, without the $
+    text,              // text
+    analog,            // AIN
+    clock,             // TM
+    get_integer,       // GETI
+    get_real,          // GETR
+    event,             // index 1 to 8
+    condition,         // index: a Condition
+  };
+  Kind kind = Kind::integer;
+  double number = 0;
+  int index = 0;
+  bool index_is_variable = false;
+  std::string text = {};
+
+  bool operator==(const Operand&) const = default;
+};
+
+struct Command {
+  Verb verb = Verb::home;
+  int row = 0;      // in kCommands; a query with a module has the row of `?Tp`
+  int module = -1;  // of the prefix; -1 without one (then T0 is meant)
+  std::vector<Operand> operands = {};
+  std::string name = {};  // of a parameter, or of what is queried, in capitals
+
+  bool operator==(const Command&) const = default;
+};
+
+/// A line may be empty, and a label may stand alone.
+struct ParsedLine {
+  std::string label = {};  // in capitals, without the $
+  std::optional<Command> command = {};
+
+  bool operator==(const ParsedLine&) const = default;
+};
+
+constexpr bool is_variable(Operand::Kind kind) {
+  return kind >= Operand::Kind::integer_variable && kind <= Operand::Kind::real_array;
+}
+constexpr bool holds_integer(Operand::Kind kind) {
+  return kind == Operand::Kind::integer_variable || kind == Operand::Kind::integer_array;
+}
+constexpr bool is_array(Operand::Kind kind) {
+  return kind == Operand::Kind::integer_array || kind == Operand::Kind::real_array;
+}
+
+}  // namespace understudy::interpreter::slim

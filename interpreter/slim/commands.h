@@ -1,0 +1,30 @@
+// SLIM's commands as data: every syntax form that the manual prints, in its order. Parsing, help and
+// `describe` read these rows; a command is added by adding a row.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/rows_of_one_motor.h"
+#include "interpreter/slim/rows_of_several_motors.h"
+
+namespace understudy::interpreter::slim {
+
+inline constexpr std::array<CommandRow, rows::kOneMotor.size() + rows::kSeveralMotors.size()> kCommands = [] {
+  std::array<CommandRow, rows::kOneMotor.size() + rows::kSeveralMotors.size()> all{};
+  std::ranges::copy(rows::kSeveralMotors, std::ranges::copy(rows::kOneMotor, all.begin()).out);
+  return all;
+}();
+
+/// The number of a row; a compile error if the manual has no such form.
+consteval int row_of(std::string_view syntax) {
+  for (std::size_t i = 0; i < kCommands.size(); ++i) {
+    if (kCommands[i].syntax == syntax) return static_cast<int>(i);
+  }
+  throw "the manual has no such form";
+}
+
+}  // namespace understudy::interpreter::slim

@@ -1,0 +1,139 @@
+#include "interpreter/slim/events.h"
+
+#include <cstddef>
+
+namespace understudy::interpreter::slim {
+namespace {
+
+using Kind = Operand::Kind;
+
+bool is_complete(const Event& event) { return event.has_condition && event.has_address; }
+
+void arm(Event& event, const EventOptions& options) {
+  event.armed = options.at_arming == EventOptions::AtArming::fires;
+  event.pending = false;
+}
+
+Error number_of(Operand operand, const Machine& machine, double& number) {
+  if (const Error error = resolve_index(operand, machine); error != Error::none) return error;
+  const bool is_constant = operand.kind == Kind::integer || operand.kind == Kind::real;
+  number = is_constant ? operand.number : machine.value(operand);
+  return Error::none;
+}
+
+bool compare(Condition condition, double comparand, double variable) {
+  switch (condition) {
+    case Condition::equal: return variable == comparand;
+    case Condition::not_equal: return variable != comparand;
+    case Condition::greater: return variable > comparand;
+    default: return variable <= comparand;
+  }
+}
+
+}  // namespace
+
+Error resolve_index(Operand& operand, const Machine& machine) {
+  if (!operand.index_is_variable) return Error::none;
+  const double index = machine.value({.kind = Kind::integer_variable, .index = operand.index});
+  if (index < 0 || index >= kArrayCount) return Error::range;
+  operand.index = static_cast<int>(index);
+  operand.index_is_variable = false;
+  return Error::none;
+}
+
+Error resolve_indices(Command& command, const Machine& machine) {
+  for (Operand& operand : command.operands) {
+    if (const Error error = resolve_index(operand, machine); error != Error::none) return error;
+  }
+  return Error::none;
+}
+
+Error test_condition(Condition condition, std::span<const Operand> operands, const Machine& machine,
+                     bool& holds) {
+  switch (condition) {
+    case Condition::input_on:
+    case Condition::input_off:
+      holds = machine.input(static_cast<int>(operands[0].number)) == (condition == Condition::input_on);
+      return Error::none;
+    case Condition::zero:
+    case Condition::not_zero: {
+      double number = 0;
+      const Error error = number_of(operands[0], machine, number);
+      holds = (number == 0) == (condition == Condition::zero);
+      return error;
+    }
+    default: break;
+  }
+  double comparand = 0;
+  double variable = 0;
+  if (const Error error = number_of(operands[0], machine, comparand); error != Error::none) return error;
+  if (const Error error = number_of(operands[1], machine, variable); error != Error::none) return error;
+  // A real variable is a float32; so is what it is compared with, or 0.1 would never be equal to R0=0.1.
+  if (!holds_integer(operands[1].kind)) comparand = static_cast<float>(comparand);
+  holds = compare(condition, comparand, variable);
+  return Error::none;
+}
+
+void define_event(Events& events, const Command& command, const EventOptions& options) {
+  Event& event = events[static_cast<std::size_t>(command.operands[0].index - 1)];
+  if (command.verb == Verb::on_event) {
+    event.has_address = true;
+    event.address = command.operands[1];
+  } else {
+    event.has_condition = true;
+    event.condition = static_cast<Condition>(command.operands[1].index);
+    event.operands.assign(command.operands.begin() + 2, command.operands.end());
+  }
+  arm(event, options);
+}
+
+void arm_events(Events& events, const EventOptions& options) {
+  for (Event& event : events) arm(event, options);
+}
+
+Error look_at_events(Events& events, const EventOptions& options, const Machine& machine) {
+  Error first_error = Error::none;
+  for (Event& event : events) {
+    if (!is_complete(event)) continue;
+    bool holds = false;
+    const Error error = test_condition(event.condition, event.operands, machine, holds);
+    if (error != Error::none) {
+      event = {};
+      if (first_error == Error::none) first_error = error;
+      continue;
+    }
+    if (holds && event.armed) {
+      event.armed = false;
+      event.pending = true;
+    }
+    if (!holds) {
+      event.armed = true;
+      if (options.held == EventOptions::Held::is_dropped) event.pending = false;
+    }
+  }
+  return first_error;
+}
+
+std::optional<Operand> take_event(Events& events) {
+  for (Event& event : events) {
+    if (!event.pending) continue;
+    event.pending = false;
+    return event.address;
+  }
+  return std::nullopt;
+}
+
+bool would_change(const Events& events, const Machine& machine) {
+  for (const Event& event : events) {
+    if (!is_complete(event)) continue;
+    bool holds = false;
+    if (test_condition(event.condition, event.operands, machine, holds) != Error::none) return true;
+    if (holds == event.armed) return true;
+    for (const Operand& operand : event.operands) {
+      if (operand.kind == Kind::clock) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace understudy::interpreter::slim

@@ -1,0 +1,298 @@
+#include "interpreter/slim/flow.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace understudy::interpreter::slim {
+namespace {
+
+using Kind = Operand::Kind;
+
+void finish(Execution& execution, Ending ending, Error error = Error::none) {
+  Events events = std::move(execution.events);
+  execution = {.ending = ending, .error = error, .line = execution.line, .events = std::move(events)};
+}
+
+bool asks_host(const Operand& operand) {
+  return operand.kind == Kind::get_integer || operand.kind == Kind::get_real;
+}
+
+/// Whether GETI or GETR stands in the line, and which of them.
+std::optional<Kind> asked_of_host(const Command& command) {
+  if (command.verb == Verb::get_integer) return Kind::get_integer;
+  if (command.verb == Verb::get_real) return Kind::get_real;
+  const auto asking = std::ranges::find_if(command.operands, asks_host);
+  if (asking == command.operands.end()) return std::nullopt;
+  return asking->kind;
+}
+
+bool in_event_routine(const Execution& execution) {
+  return std::ranges::any_of(execution.stack, &Frame::of_event);
+}
+
+/// One line of one tick.
+class LineRun {
+ public:
+  LineRun(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
+          Machine& machine)
+      : execution_(execution), now_ms_(now_ms), program_(program), options_(options), machine_(machine) {}
+
+  Error run() {
+    if (execution_.line >= program_.size()) return end(Ending::past_last_line);
+    const std::optional<Command>& command = program_.line(execution_.line).parsed.command;
+    if (!command) return go_on();
+    const bool has_to_change = asked_of_host(*command) || has_variable_index(*command);
+    const Error error = has_to_change ? run_changed(*command) : run_command(*command);
+    return error == Error::none ? error : fail(error);
+  }
+
+  Error fail(Error error) {
+    execution_.has_number = false;
+    if (options_.failed_line == FlowOptions::FailedLine::is_passed) {
+      go_on();
+    } else {
+      finish(execution_, Ending::failed, error);
+    }
+    return error;
+  }
+
+  Error go_on() { return go_to(execution_.line + 1); }
+
+ private:
+  static bool has_variable_index(const Command& command) {
+    return std::ranges::any_of(command.operands, &Operand::index_is_variable);
+  }
+
+  /// With the host's number and with indices in place of what asks for them.
+  Error run_changed(const Command& asking) {
+    const std::optional<Kind> asked = asked_of_host(asking);
+    if (asked && !execution_.has_number) return hold(Hold::number);
+    Command command = asking;
+    for (Operand& operand : command.operands) {
+      if (!asks_host(operand)) continue;
+      const bool is_integer = operand.kind == Kind::get_integer;
+      operand = {.kind = is_integer ? Kind::integer : Kind::real, .number = execution_.number};
+    }
+    if (const Error error = resolve_indices(command, machine_); error != Error::none) return error;
+    const Error error = run_command(command);
+    if (execution_.hold != Hold::machine) execution_.has_number = false;
+    return error;
+  }
+
+  Error run_command(const Command& command) {
+    const std::span<const Operand> operands = command.operands;
+    switch (command.verb) {
+      case Verb::jump: return jump(operands[0]);
+      case Verb::jump_if: return jump_if(command);
+      case Verb::jump_if_within: return jump_if_within(command);
+      case Verb::call: return call(operands[0]);
+      case Verb::return_: return give_back();
+      case Verb::wait_input: return wait_input(command);
+      case Verb::wait_time:
+        if (operands[0].number == 0) return go_on();
+        return hold(Hold::timer, now_ms_ + static_cast<std::int64_t>(operands[0].number));
+      case Verb::set_event:
+      case Verb::on_event: define_event(execution_.events, original(), options_.events); return go_on();
+      case Verb::get_integer:
+      case Verb::get_real: return go_on();
+      default: break;
+    }
+    const Outcome outcome = machine_.carry_out(command);
+    if (outcome.error != Error::none) return outcome.error;
+    return outcome.waits ? hold(Hold::machine) : go_on();
+  }
+
+  /// An event keeps its variable index: it is read anew at every look.
+  const Command& original() const { return *program_.line(execution_.line).parsed.command; }
+
+  Condition condition_of(const Command& command) const {
+    return static_cast<Condition>(kCommands[static_cast<std::size_t>(command.row)].variant);
+  }
+
+  Error jump(const Operand& address) {
+    const std::optional<int> line = program_.find(address);
+    return line ? go_to(*line) : Error::address;
+  }
+
+  Error jump_if(const Command& command) {
+    bool holds = false;
+    const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
+    if (error != Error::none) return error;
+    return holds ? jump(command.operands.back()) : go_on();
+  }
+
+  Error jump_if_within(const Command& command) {
+    bool holds = false;
+    const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
+    if (error != Error::none) return error;
+    if (holds) return jump(command.operands.back());
+    const auto window_ms = static_cast<std::int64_t>(command.operands[1].number);
+    const std::int64_t until_ms = execution_.hold == Hold::window ? execution_.until_ms : now_ms_ + window_ms;
+    return now_ms_ >= until_ms ? go_on() : hold(Hold::window, until_ms);
+  }
+
+  Error call(const Operand& address) {
+    const auto calls = std::ranges::count(execution_.stack, false, &Frame::of_event);
+    const std::optional<int> line = program_.find(address);
+    if (!line || calls >= options_.call_depth) return Error::address;
+    execution_.stack.push_back({.line = execution_.line + 1});
+    return go_to(*line);
+  }
+
+  Error give_back() {
+    if (execution_.stack.empty()) return end(Ending::returned);
+    const Frame frame = execution_.stack.back();
+    execution_.stack.pop_back();
+    go_to(frame.line);
+    const bool is_timed = frame.hold == Hold::timer || frame.hold == Hold::window;
+    if (is_timed && options_.interrupted_timer == FlowOptions::InterruptedTimer::goes_on) {
+      hold(frame.hold, frame.until_ms);
+    }
+    return Error::none;
+  }
+
+  Error wait_input(const Command& command) {
+    bool holds = false;
+    const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
+    if (error != Error::none) return error;
+    return holds ? go_on() : hold(Hold::input);
+  }
+
+  Error hold(Hold what, std::int64_t until_ms = 0) {
+    execution_.hold = what;
+    execution_.until_ms = until_ms;
+    return Error::none;
+  }
+
+  /// A program ends at once behind its last line.
+  Error go_to(int line) {
+    hold(Hold::nothing);
+    if (line >= program_.size()) return end(Ending::past_last_line);
+    execution_.line = line;
+    return Error::none;
+  }
+
+  Error end(Ending ending) {
+    finish(execution_, ending);
+    return Error::none;
+  }
+
+  Execution& execution_;
+  std::int64_t now_ms_;
+  const Program& program_;
+  const FlowOptions& options_;
+  Machine& machine_;
+};
+
+/// Goes to the routine of the event whose turn it is, if any.
+Error serve_events(Execution& execution, const Program& program, const FlowOptions& options,
+                   const Machine& machine) {
+  const Error error = look_at_events(execution.events, options.events, machine);
+  if (error != Error::none) return error;
+  // A line that has its number from the host is carried out first: the routine would take the number.
+  if (in_event_routine(execution) || execution.has_number) return Error::none;
+  const std::optional<Operand> address = take_event(execution.events);
+  if (!address) return Error::none;
+  const std::optional<int> line = program.find(*address);
+  if (!line) return Error::address;
+  execution.stack.push_back(
+      {.line = execution.line, .of_event = true, .hold = execution.hold, .until_ms = execution.until_ms});
+  execution.line = *line;
+  execution.hold = Hold::nothing;
+  execution.until_ms = 0;
+  return Error::none;
+}
+
+/// A number in a form and range that GETI or GETR takes.
+Error read_number(std::string_view text, Kind asked, double& number) {
+  const std::optional<Operand> read = parse_number(text);
+  if (!read) return Error::syntax;
+  number = read->number;
+  if (asked == Kind::get_integer) {
+    if (read->kind != Kind::integer) return Error::syntax;
+    return number >= kIntegerLeast && number <= kIntegerMost ? Error::none : Error::range;
+  }
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return number >= -kMost && number <= kMost ? Error::none : Error::range;
+}
+
+}  // namespace
+
+Error start(Execution& execution, const Program& program, const Operand* address,
+            const FlowOptions& options) {
+  const Operand first{.kind = Kind::integer, .number = 0};
+  const std::optional<int> line = program.find(address == nullptr ? first : *address);
+  if (!line) return Error::address;
+  Events events = std::move(execution.events);
+  arm_events(events, options.events);
+  execution = {.running = true, .line = *line, .events = std::move(events)};
+  return Error::none;
+}
+
+void stop(Execution& execution) {
+  if (execution.running) finish(execution, Ending::exited);
+}
+
+Error give_number(Execution& execution, const Program& program, std::string_view text) {
+  if (!wants_number(execution) || execution.line >= program.size()) return Error::not_allowed;
+  const std::optional<Command>& command = program.line(execution.line).parsed.command;
+  const std::optional<Kind> asked = command ? asked_of_host(*command) : std::nullopt;
+  if (!asked) return Error::not_allowed;
+  double number = 0;
+  if (const Error error = read_number(text, *asked, number); error != Error::none) return error;
+  execution.has_number = true;
+  execution.number = number;
+  return Error::none;
+}
+
+Error step(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
+           Machine& machine) {
+  if (!execution.running) return Error::none;
+  LineRun line(execution, now_ms, program, options, machine);
+  // A wait that is over is over before an event can make it begin again.
+  if (execution.hold == Hold::timer && now_ms >= execution.until_ms) line.go_on();
+  if (!execution.running) return Error::none;
+  const Error event_error = serve_events(execution, program, options, machine);
+  if (event_error != Error::none && options.failed_line == FlowOptions::FailedLine::ends_program) {
+    return line.fail(event_error);
+  }
+  for (int i = 0; i < options.lines_per_tick && execution.running; ++i) {
+    if (execution.hold == Hold::timer) break;
+    const Error error = line.run();
+    if (error != Error::none) return error;
+    if (execution.hold != Hold::nothing) break;
+  }
+  return event_error;
+}
+
+std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
+                            const Machine& machine) {
+  if (!execution.running) return kNever;
+  const std::int64_t next_ms = done_ms + 1;
+  const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
+  if ((is_pending && !in_event_routine(execution)) || would_change(execution.events, machine)) return next_ms;
+
+  bool input_holds = false;
+  if (execution.hold == Hold::input || execution.hold == Hold::window) {
+    if (execution.line >= program.size()) return next_ms;
+    const std::optional<Command>& command = program.line(execution.line).parsed.command;
+    if (!command) return next_ms;
+    const auto condition = static_cast<Condition>(kCommands[static_cast<std::size_t>(command->row)].variant);
+    if (test_condition(condition, command->operands, machine, input_holds) != Error::none) return next_ms;
+  }
+  switch (execution.hold) {
+    case Hold::nothing: return next_ms;
+    case Hold::timer: return std::max(execution.until_ms, next_ms);
+    case Hold::window: return input_holds ? next_ms : std::max(execution.until_ms, next_ms);
+    case Hold::input: return input_holds ? next_ms : kNever;
+    case Hold::machine: return kNever;
+    case Hold::number: return execution.has_number ? next_ms : kNever;
+  }
+  return next_ms;
+}
+
+}  // namespace understudy::interpreter::slim

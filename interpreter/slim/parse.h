@@ -1,0 +1,41 @@
+// One line of text into a command. Whether a command may be given now is another question: availability.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/error.h"
+
+namespace understudy::interpreter::slim {
+
+/// Longer lines are refused.
+inline constexpr std::size_t kLineLength = 127;
+
+/// What the manual leaves open about the language.
+struct Dialect {
+  /// `T1MA R0`: the manual prints variables for MA and XMA, and "the same function" for TpMA, without a form.
+  enum class ModuleMoveFromVariable : std::uint8_t {
+    refused,
+    accepted
+  } module_move_from_variable = ModuleMoveFromVariable::refused;
+
+  bool operator==(const Dialect&) const = default;
+};
+
+struct ParseResult {
+  Error error = Error::none;  // syntax or range
+  ParsedLine line = {};       // without an error
+
+  bool operator==(const ParseResult&) const = default;
+};
+
+/// Everything that needs no state is checked. An empty line is no error.
+ParseResult parse_line(std::string_view text, const Dialect& dialect = {});
+
+/// A decimal number as a host writes it: sign, digits, point, exponent; nothing for anything else.
+std::optional<Operand> parse_number(std::string_view text);
+
+}  // namespace understudy::interpreter::slim

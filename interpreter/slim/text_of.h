@@ -1,0 +1,16 @@
+// A command as text: what parse_line() reads back to the same value.
+#pragma once
+
+#include <string>
+
+#include "interpreter/slim/command.h"
+
+namespace understudy::interpreter::slim {
+
+/// The shortest text that reads back to the same number.
+std::string text_of(double number);
+std::string text_of(const Operand& operand);
+std::string text_of(const Command& command);
+std::string text_of(const ParsedLine& line);
+
+}  // namespace understudy::interpreter::slim
