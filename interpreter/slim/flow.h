@@ -93,7 +93,8 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
            Machine& machine);
 
 /// The first tick after `done_ms` in which step() may do anything, provided that the program and the machine
-/// stay as they are and the host gives nothing; kNever if none. Ticks before it may be left out.
+/// stay as they are and the host gives nothing; kNever if none. Ticks before it may be left out. While the
+/// machine lets a command wait (Hold::machine), only the machine can tell when it would carry it out.
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
                             const Machine& machine);
 
