@@ -30,7 +30,7 @@ constexpr std::optional<Range> whole_range(Slot slot, int variant) {
     case Slot::input:
     case Slot::maybe_input: return Range{1, kInputCount};
     case Slot::dip_switch: return Range{1, kSwitchCount};
-    case Slot::line: return Range{0, kMost};
+    case Slot::line:
     case Slot::milliseconds: return Range{0, kMost};
     case Slot::pulse_width: return Range{1, 65535};
     case Slot::thrust_level: return Range{1, 20000};

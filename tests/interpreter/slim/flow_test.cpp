@@ -246,5 +246,30 @@ TEST(SlimFlow, NumbersComeFromTheHost) {
   EXPECT_EQ(run.machine.log, (Log{"21 N0=12", "31 R0=-0.25", "42 OUT N0", "52 OUT R0"}));
 }
 
+TEST(SlimFlow, ToldFromWhatNoRunComesTo) {
+  ProgramRun run({"SET EV1 NE,NS(N1),N0", "ON EV1,$A", "JTI 1,50,$A", "WI 2", "$A RET"});
+  run.begin();
+  run.until(10);
+  const Execution sound = run.execution;
+  ASSERT_EQ(sound.hold, Hold::window);
+  const auto still_sound = [&](auto change) {
+    Execution changed = sound;
+    change(changed);
+    return is_sound(changed, run.program, run.options);
+  };
+  EXPECT_TRUE(still_sound([](Execution&) {}));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.line = 5; }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.line = -1; }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.line = 1; }));  // ON EV has no window
+  EXPECT_FALSE(still_sound([](Execution& e) { e.hold = Hold::input; }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.hold = Hold::number; }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.stack.resize(17); }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.stack.assign(2, {.of_event = true}); }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.stack.assign(1, {.line = 6}); }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.events[0].operands.pop_back(); }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.events[0].operands[1].index = 65; }));
+  EXPECT_FALSE(still_sound([](Execution& e) { e.events[0].address.kind = Operand::Kind::port; }));
+}
+
 }  // namespace
 }  // namespace understudy::interpreter::slim

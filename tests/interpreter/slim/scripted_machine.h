@@ -89,6 +89,7 @@ struct ProgramRun {
       ++machine.now_ms;
       const Error error = step(execution, machine.now_ms, program, options, machine);
       if (error != Error::none) errors.push_back(error);
+      EXPECT_TRUE(is_sound(execution, program, options)) << "at " << machine.now_ms;
       if (!is_quiet) continue;
       EXPECT_TRUE(execution == before) << "at " << machine.now_ms;
       EXPECT_EQ(machine.log.size(), done_before) << "at " << machine.now_ms;
