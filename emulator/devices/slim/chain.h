@@ -1,0 +1,252 @@
+// A chain of up to eight SLIM modules, as a value: what its commands do, without any text.
+//
+//   issued ──> FIFO of T0 ──┐
+//         ──> FIFO of T1 ──┤ a command starts at the head of all the FIFOs it is in
+//         ──> ...          ┘
+//                └─> one module: a move, a homing          (motion/axis.h)
+//                └─> a group: a line, an arc, a spiral     (motion/coordinated.h), up to three at a time
+//                └─> at once: outputs, coordinates, motor control
+//
+// What is running stays at the head until it is done. Jogs and thrust are not queued.
+//
+// Coordinates, distances and path speeds are in user units, angles in degrees, modules 0 .. 7, outputs 1 .. 4
+// as the commands have them. All commands come between ticks and answer with Error::none, or refuse and
+// change nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "emulator/devices/slim/chain_options.h"
+#include "emulator/devices/slim/errors.h"
+#include "emulator/devices/slim/module.h"
+#include "emulator/simulated_time.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+
+namespace understudy::emulator::slim {
+
+/// Axis letters.
+enum class Letter : std::uint8_t { x, y, z, w };
+
+/// What assign() takes for "none".
+inline constexpr int kUnassigned = 8;
+/// Modules 0 .. 5 can be coordinated.
+inline constexpr int kMappable = 6;
+
+/// ?MD.
+enum class Mode : std::uint8_t { idle = 0, position = 1, jog = 2, torque = 3, coordinated = 4, analog = 5 };
+
+/// What of ?ST the chain knows.
+struct ModuleStatus {
+  bool servo_on = false;
+  bool moving = false;
+  bool paused = false;  // TAPZ
+  bool homed = false;
+  bool jog = false;
+  bool buffer_not_empty = false;
+  bool in_blend = false;  // part of a path that goes through several commands without stopping
+  Mode mode = Mode::idle;
+
+  bool operator==(const ModuleStatus&) const = default;
+};
+
+/// An arc, a helix (with `height_units`) or a spiral about a centre, in X and Y.
+struct ArcOrder {
+  bool absolute = true;  // centre and height; false: from where it begins
+  double centre_x_units = 0;
+  double centre_y_units = 0;
+  double sweep_deg = 0;  // > 0 counter-clockwise
+  std::optional<double> height_units{};
+};
+
+class Chain {
+ public:
+  /// Module 0 is linked always.
+  explicit Chain(const ChainOptions& options = {});
+  bool operator==(const Chain&) const = default;
+
+  // ---- One module. By number: refused with not_assigned for a module other than 0 that has an axis letter.
+
+  Error move(int module, bool absolute, double units);
+  Error home(int module);
+  /// `way` +1 JGF, -1 JGR, 0 JG0.
+  Error jog(int module, int way);
+  Error thrust(int module, std::int32_t force);  // 1 .. 20000
+  Error set_coordinate(int module, double units);
+  /// XMA, XMR ...: the module that has the letter now.
+  Error move_axis(Letter letter, bool absolute, double units);
+
+  /// HON, HOFF: in their turn. IHON, IHOFF: at once; off discards the module's motion and FIFO.
+  Error set_servo(int module, bool on);
+  Error set_servo_at_once(int module, bool on);
+  /// RESET: stops at once, forgets the FIFO, motor control is as after power-up; the coordinate stays.
+  Error reset(int module);
+
+  // ---- Outputs 1 .. 4 of a module
+
+  Error set_output(int module, int output, bool on);          // SET, CLR: in their turn
+  Error set_output_at_once(int module, int output, bool on);  // ISET, ICLR
+  Error toggle_output(int module, int output);
+  Error pulse_output(int module, int output, std::int32_t width_4ms);  // >= 1
+  Error pwm(int module, int output, double frequency_hz, double duty_percent);
+  Error set_outputs(int module, int mask);  // 0 .. 15
+  /// P1SET, P2SET, P1CLR, P2CLR (`trigger` 1 or 2), armed in their turn.
+  Error arm(int module, int trigger, int output, bool sets, double at_units);
+
+  // ---- Coordinated
+
+  /// TX= ...: 0 .. 5 or kUnassigned.
+  Error assign(Letter letter, int module);
+  int assigned(Letter letter) const;  // kUnassigned: none
+  /// Two to four coordinates: X, Y, Z, W.
+  Error line(std::span<const double> units, bool absolute);
+  Error arc(const ArcOrder& order);
+  Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units_turn);
+  /// CM 0, 1, 2.
+  Error set_continuous_path(int mode);
+
+  // ---- Stopping and going on
+
+  Error pause();    // TAPZ
+  Error resume();   // TAREDO
+  Error discard();  // TAUPZ
+  Error emergency_stop();  // TASTOP
+  Error pause_queues();    // PZ
+  Error resume_queues();   // REDO
+  Error clear_queues();    // CLR BUF
+
+  // ---- Settings. Ranges are those of ModuleSettings.
+
+  void set_linked(int module, bool linked);
+  /// Not while the module moves or has anything to do.
+  Error set_scale(int module, std::int64_t multiplier, std::int64_t divider);
+  Error set_pulses_per_revolution(int module, std::int32_t pulses);
+  Error set_speed_unit(int module, SpeedUnit unit);
+  Error set_working_speed(int module, double speed);  // ends AVM
+  Error set_jog_speed(int module, double speed);
+  Error set_acceleration(int module, double acceleration);
+  Error set_path_speed(int module, double units_s);        // PR3 of one; what runs keeps its speed
+  Error set_tvm(double units_s);                           // of all linked ones, and at once
+  Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: not while anything is coordinated
+  Error set_smooth_corner(int module, double degrees);     // PR7, 0 .. 180
+  Error set_analog_speed(int module);                      // AVM
+  void set_options(const ChainOptions& options);           // FIFOs that are longer than allowed then stay so
+
+  // ---- Inputs, between ticks
+
+  void set_horg(int module, bool on);
+  void set_analog(int module, int value);  // clamped to 0 .. kFullAnalog
+  /// For zones along the travel: edges are met at their pulse. Raise its version when it changes.
+  motion::Surroundings& surroundings(int module) { return surroundings_[at(module)]; }
+
+  // ---- State
+
+  const ModuleSettings& settings(int module) const { return modules_[at(module)].settings; }
+  bool linked(int module) const { return modules_[at(module)].linked; }
+  bool full(int module) const;
+  std::size_t queued(int module) const { return modules_[at(module)].fifo.size(); }
+  /// DN: all earlier commands are completed. A jog or thrust is no matter, unless it is stopping.
+  bool done(int module) const;
+  bool moving(int module) const;
+  bool servo_on(int module) const { return axes_[at(module)].servo_on; }
+  bool paused() const { return paused_; }
+  bool queues_paused() const { return queues_paused_; }
+  bool analog_speed(int module) const { return modules_[at(module)].analog_speed; }
+  ContinuousPath continuous_path() const { return continuous_; }
+  ModuleStatus status(int module) const;
+  double coordinate(int module) const;
+  std::int64_t travel(int module) const { return axes_[at(module)].travel_pulses; }
+  double speed_pps(int module) const;  // signed
+  std::int32_t thrust_of(int module) const { return modules_[at(module)].thrust; }
+  bool output(int module, int number) const;  // its level after the last tick
+  const Output& output_state(int module, int number) const;
+  /// What a queued command was dropped for when its turn came; none once it is taken.
+  Error take_late_error(int module);
+  int groups_running() const;
+  const motion::Axis& axis(int module) const { return axes_[at(module)]; }
+
+  // ---- Time
+
+  /// One tick; ticks may be left out up to next_active_tick().
+  void step(Tick tick);
+  /// The same as stepping all ticks up to `now` where nothing happens: commands then count from `now`.
+  void skip_to(Tick now) { now_ = now; }
+  std::int64_t pulses(int module) const { return modules_[at(module)].pulses; }  // of the last tick
+  /// The first tick after `done` at which anything may happen by itself; kNever.
+  Tick next_active_tick(Tick done) const;
+
+ private:
+  friend struct ChainFields;
+
+  /// A coordinated motion: the heads of its modules' FIFOs are its paths, one after another.
+  struct Group {
+    motion::Coordinated motion;
+    std::uint8_t paths = 0;  // how many of the heads
+    motion::Point end = motion::Point::Zero();  // of the last one
+
+    bool operator==(const Group&) const = default;
+  };
+
+  static std::size_t at(int module) { return static_cast<std::size_t>(module); }
+  bool held() const { return paused_ || queues_paused_; }
+
+  // Commands: chain_commands.cpp, chain_coordinated.cpp, chain_outputs.cpp.
+  Error refusal(int module) const;                       // any command
+  Error refusal_of_motion(int module) const;             // ... that moves
+  Error refusal_by_number(int module) const;             // ... by its number
+  bool mapped(int module) const;
+  bool servo_expected(int module) const;                 // when what is queued is done
+  double end_expected(int module) const;
+  Error enqueue(Job job);                                // in the FIFOs of module_of
+  Error enqueue_move(int module, bool absolute, double units);
+  Error enqueue_output(int module, const OutputOrder& order);
+  Error enqueue_coordinated(Job job, int letters);
+  void begin_jog(int module, int way, Tick begin_at);
+
+  // Queues: chain_queues.cpp.
+  void serve(Tick begin_at);  // starts what can start, with its beginning at that tick
+  bool serve_head(int module, Tick begin_at);
+  void start_move(int module, Tick begin_at);
+  void start_home(int module, Tick begin_at);
+  bool start_group(Tick begin_at, const Job& job);
+  void extend(Group& group);
+  bool at_all_heads(const Job& job, std::size_t place) const;
+  bool free_to_move(int module) const;
+  void carry_out_order(int module, const OutputOrder& order);
+  void place_triggers(int module);
+  void put_coordinate(int module, double units);
+  void drop_job(std::uint64_t number);
+  void drop_with(int module, Error why);  // the head
+
+  // Stopping: chain_stops.cpp.
+  void hold_all();
+  void release_all();
+  void cut(int module, motion::Cause why);  // no pulse more; nothing queued
+  void end_group(Group& group, motion::Cause why);
+  Group* group_of(int module);
+  const Group* group_of(int module) const;
+  void refresh_speed(int module);
+
+  // The tick: chain_step.cpp.
+  void step_groups(Tick tick);
+  void step_axes(Tick tick);
+  void after_motion(int module);
+  void jog_stands(int module, Tick begin_at);
+
+  ChainOptions options_;
+  std::array<Module, kModules> modules_{};
+  std::array<motion::Axis, kModules> axes_{};
+  std::array<motion::Surroundings, kModules> surroundings_{};
+  std::array<Group, kMappable / 2> groups_{};
+  std::array<std::int8_t, kLetters> map_{kNoModule, kNoModule, kNoModule, kNoModule};
+  ContinuousPath continuous_ = ContinuousPath::off;
+  bool paused_ = false;
+  bool queues_paused_ = false;
+  std::uint64_t last_number_ = 0;
+  Tick now_ = 0;
+};
+
+}  // namespace understudy::emulator::slim
