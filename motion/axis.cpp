@@ -309,6 +309,16 @@ void Axis::slow(Instant at, Cause why) {
   attentive = true;
 }
 
+bool Axis::resume(const SpeedLaw& speed, Tick now) {
+  check(speed);
+  const bool runs = task == Task::move || task == Task::endless;
+  if (!runs || !slowing || comes_back || cause != Cause::stopped || homing.active()) return false;
+  slowing = false;
+  cause = Cause::none;
+  go_on_by(speed, {.tick = now});
+  return true;
+}
+
 void Axis::stop(Cause why) {
   if (task != Task::none) end(why, {.tick = 0});
 }

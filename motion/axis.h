@@ -176,6 +176,9 @@ struct Axis {
   /// What follows or is carried ends at once: its speed is another's (motion/coordinated.h slows a path
   /// down).
   void slow_down(Tick now, Cause why = Cause::stopped);
+  /// Takes a slow_down() by command back while the axis still moves: on to the target or the top speed of
+  /// `speed`. False where there is none to take back; homing ends by being slowed down.
+  bool resume(const SpeedLaw& speed, Tick now);
   /// No pulse from now on.
   void stop(Cause why = Cause::stopped);
   void switch_servo(bool on);

@@ -97,6 +97,12 @@ void PathRun::set_speed(const SpeedLaw& speed, Tick now) {
   replan(now);
 }
 
+void PathRun::set_top_speed(double speed_u_s, Tick now) {
+  SpeedLaw speed = law_;
+  speed.top_speed_u_s = speed_u_s;
+  set_speed(speed, now);
+}
+
 void PathRun::set_override(double factor, Tick now) {
   demand_not_negative(factor, "path run", "override");
   if (factor > 10) throw BadMotion(Refusal::out_of_range, "path run", "override must be 0 to 10");
@@ -131,6 +137,18 @@ void PathRun::resume(Tick now) {
   if (!paused_) return;
   paused_ = false;
   replan(now);
+}
+
+std::size_t PathRun::shorten(Tick now) {
+  if (chain_count_ == 0) return count_ = 0;
+  const double stop_u = slow_to_stop(sample(now), effective()).end_position_u;
+  const double still_u = stop_u - 1e-9 * (1 + stop_u);
+  std::size_t kept = 1;
+  while (kept < chain_count_ && piece(kept).begin_u <= std::max(still_u, 0.0)) ++kept;
+  if (kept < chain_count_) chain_end_u_ = piece(kept).begin_u;
+  count_ = chain_count_ = kept;
+  replan(now);
+  return kept;
 }
 
 void PathRun::abandon() {

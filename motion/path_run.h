@@ -56,6 +56,8 @@ class PathRun {
   /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with.
   /// Acceleration may be changed while at rest only: BadMotion(out_of_range) else.
   void set_speed(const SpeedLaw& speed, Tick now);
+  /// Another top speed with the same ramps: at any time.
+  void set_top_speed(double speed_u_s, Tick now);
   /// Scales the top speed by a factor from 0 (holds, on the path) to 10. Throws BadMotion(out_of_range) else,
   /// and for a top speed that would be too small to plan with.
   void set_override(double factor, Tick now);
@@ -71,6 +73,9 @@ class PathRun {
   void pause(Tick now);
   /// Goes on exactly where it was; while still slowing down, speeds up again.
   void resume(Tick now);
+  /// Forgets the paths behind the first one at whose end it can still stop, and stops there. Gives how many
+  /// are left; what has not begun is forgotten altogether.
+  std::size_t shorten(Tick now);
   /// Forgets what is left, at once: also the velocity. To be called at rest, unless it is meant so.
   void abandon();
 

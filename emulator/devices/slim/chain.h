@@ -110,9 +110,9 @@ class Chain {
 
   // ---- Stopping and going on
 
-  Error pause();    // TAPZ
-  Error resume();   // TAREDO
-  Error discard();  // TAUPZ
+  Error pause();           // TAPZ
+  Error resume();          // TAREDO
+  Error discard();         // TAUPZ
   Error emergency_stop();  // TASTOP
   Error pause_queues();    // PZ
   Error resume_queues();   // REDO
@@ -128,12 +128,12 @@ class Chain {
   Error set_working_speed(int module, double speed);  // ends AVM
   Error set_jog_speed(int module, double speed);
   Error set_acceleration(int module, double acceleration);
-  Error set_path_speed(int module, double units_s);        // PR3 of one; what runs keeps its speed
-  Error set_tvm(double units_s);                           // of all linked ones, and at once
+  Error set_path_speed(int module, double units_s);          // PR3 of one; what runs keeps its speed
+  Error set_tvm(double units_s);                             // of all linked ones, and at once
   Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: not while anything is coordinated
-  Error set_smooth_corner(int module, double degrees);     // PR7, 0 .. 180
-  Error set_analog_speed(int module);                      // AVM
-  void set_options(const ChainOptions& options);           // FIFOs that are longer than allowed then stay so
+  Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180
+  Error set_analog_speed(int module);                        // AVM
+  void set_options(const ChainOptions& options);  // FIFOs that are longer than allowed then stay so
 
   // ---- Inputs, between ticks
 
@@ -174,7 +174,7 @@ class Chain {
   void step(Tick tick);
   /// The same as stepping all ticks up to `now` where nothing happens: commands then count from `now`.
   void skip_to(Tick now) { now_ = now; }
-  std::int64_t pulses(int module) const { return modules_[at(module)].pulses; }  // of the last tick
+  std::int64_t pulses(int module) const { return modules_[at(module)].sent_pulses; }  // of the last tick
   /// The first tick after `done` at which anything may happen by itself; kNever.
   Tick next_active_tick(Tick done) const;
 
@@ -184,7 +184,7 @@ class Chain {
   /// A coordinated motion: the heads of its modules' FIFOs are its paths, one after another.
   struct Group {
     motion::Coordinated motion;
-    std::uint8_t paths = 0;  // how many of the heads
+    std::uint8_t paths = 0;                     // how many of the heads
     motion::Point end = motion::Point::Zero();  // of the last one
 
     bool operator==(const Group&) const = default;
@@ -194,38 +194,49 @@ class Chain {
   bool held() const { return paused_ || queues_paused_; }
 
   // Commands: chain_commands.cpp, chain_coordinated.cpp, chain_outputs.cpp.
-  Error refusal(int module) const;                       // any command
-  Error refusal_of_motion(int module) const;             // ... that moves
-  Error refusal_by_number(int module) const;             // ... by its number
+  Error refusal(int module) const;            // any command
+  Error refusal_of_motion(int module) const;  // ... that moves
+  Error refusal_by_number(int module) const;  // ... by its number
   bool mapped(int module) const;
-  bool servo_expected(int module) const;                 // when what is queued is done
+  bool servo_expected(int module) const;  // when what is queued is done
   double end_expected(int module) const;
-  Error enqueue(Job job);                                // in the FIFOs of module_of
+  Error enqueue(Job job);  // in the FIFOs of module_of
   Error enqueue_move(int module, bool absolute, double units);
   Error enqueue_output(int module, const OutputOrder& order);
-  Error enqueue_coordinated(Job job, int letters);
+  Error enqueue_coordinated(Job job);
+  Error replace_jog(int module, int way, std::int32_t force);
   void begin_jog(int module, int way, Tick begin_at);
+  void begin_thrust(int module, std::int32_t force, Tick begin_at);
+  void stop_jog(int module);
 
   // Queues: chain_queues.cpp.
   void serve(Tick begin_at);  // starts what can start, with its beginning at that tick
+  // These four: whether the FIFO has changed.
   bool serve_head(int module, Tick begin_at);
-  void start_move(int module, Tick begin_at);
-  void start_home(int module, Tick begin_at);
-  bool start_group(Tick begin_at, const Job& job);
+  bool start_move(int module, Tick begin_at);
+  bool start_home(int module, Tick begin_at);
+  bool start_group(int module, Tick begin_at);
   void extend(Group& group);
-  bool at_all_heads(const Job& job, std::size_t place) const;
+  void note_ends(const Job& job, std::size_t place, const motion::Point& end);
+  bool at_all_places(const Job& job, std::size_t place) const;
   bool free_to_move(int module) const;
+  bool within_reach(const Job& job, const motion::Path& path) const;
+  motion::Point begin_of(const Job& job) const;
   void carry_out_order(int module, const OutputOrder& order);
   void place_triggers(int module);
   void put_coordinate(int module, double units);
+  void home_found(int module);
   void drop_job(std::uint64_t number);
-  void drop_with(int module, Error why);  // the head
+  void drop_head(int module, Error why);
 
   // Stopping: chain_stops.cpp.
   void hold_all();
   void release_all();
-  void cut(int module, motion::Cause why);  // no pulse more; nothing queued
+  void cut(int module, motion::Cause why);  // no pulse more; what was running is forgotten
+  void forget_queue(int module);
   void end_group(Group& group, motion::Cause why);
+  void release_group(Group& group);
+  void slow_for_discard(int module);
   Group* group_of(int module);
   const Group* group_of(int module) const;
   void refresh_speed(int module);
@@ -233,8 +244,8 @@ class Chain {
   // The tick: chain_step.cpp.
   void step_groups(Tick tick);
   void step_axes(Tick tick);
-  void after_motion(int module);
-  void jog_stands(int module, Tick begin_at);
+  void after_motion(int module, Tick begin_at);
+  void meet_triggers(int module);
 
   ChainOptions options_;
   std::array<Module, kModules> modules_{};

@@ -10,7 +10,16 @@ namespace understudy::emulator::slim {
 template <class T, std::size_t n>
 class Fifo {
  public:
-  bool operator==(const Fifo&) const = default;
+  /// By what is in it: where it lies does not matter.
+  bool operator==(const Fifo& other) const {
+    if (count_ != other.count_) return false;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!((*this)[i] == other[i])) return false;
+    }
+    return true;
+  }
+
+  static constexpr std::size_t capacity() { return n; }
 
   bool empty() const { return count_ == 0; }
   std::size_t size() const { return count_; }
@@ -25,7 +34,7 @@ class Fifo {
     ++count_;
   }
   void pop() {
-    items_[head_] = T{};  // what is gone does not count in comparisons
+    items_[head_] = T{};
     head_ = static_cast<std::uint8_t>((head_ + 1) % n);
     --count_;
   }
@@ -46,10 +55,6 @@ class Fifo {
     }
     truncate(kept);
   }
-
-  static void fields(auto& self, auto visit) { visit(self.items_, self.head_, self.count_); }
-  /// For states from outside.
-  bool plausible() const { return head_ < n && count_ <= n; }
 
  private:
   static_assert(n > 0 && n < 128);

@@ -18,7 +18,7 @@ enum class ContinuousPath : std::uint8_t { off = 0, on = 1, by_angle = 2 };
 
 struct Job {
   enum class Kind : std::uint8_t {
-    move,    // MA, MR, XMA ...: one module
+    move,  // MA, MR, XMA ...: one module
     home,
     line,    // 2MA ... 4MR
     arc,     // AA, AR, and with a third module SAA, SAR
@@ -43,7 +43,7 @@ struct Job {
   ContinuousPath continuous = ContinuousPath::off;
   double smooth_corner_deg = 0;  // PR7
   bool servo_on = false;
-  OutputOrder output;
+  OutputOrder output{};
 
   bool operator==(const Job&) const = default;
 

@@ -26,9 +26,9 @@ struct ModuleSettings {
   motion::UnitScale scale{};  // PN45 pulses are PN46 user units
   std::int32_t pulses_per_revolution = 10'000;
   SpeedUnit speed_unit = SpeedUnit::rpm;
-  double working_speed = 1000;  // VM, > 0
-  double jog_speed = 100;       // VJ; < 0 swaps JGF and JGR; 0: moving, but no pulse
-  double acceleration = 10'000;  // VA, > 0
+  double working_speed = 1000;               // VM, > 0
+  double jog_speed = 100;                    // VJ; < 0 swaps JGF and JGR; 0: moving, but no pulse
+  double acceleration = 10'000;              // VA, > 0
   double path_acceleration_units_s2 = 1000;  // PR2, > 0
   double path_speed_units_s = 100;           // PR3, > 0
   double smooth_corner_deg = 0;              // PR7; module 0's counts
@@ -39,8 +39,8 @@ struct ModuleSettings {
 /// What a module's axis is doing.
 enum class Activity : std::uint8_t {
   idle,
-  move,      // the FIFO's head
-  home,      // the FIFO's head
+  move,  // the FIFO's head
+  home,  // the FIFO's head
   jog,
   thrust,
   group,     // coordinated
@@ -52,15 +52,16 @@ struct Module {
   bool linked = false;
   bool homed = false;
   Activity activity = Activity::idle;
-  std::int8_t jog_way = 0;       // of the jog that runs
-  std::int8_t next_jog_way = 0;  // begins when this one has stopped
-  bool analog_speed = false;     // AVM
-  bool starved = false;          // slowed down because AVM gives no speed
-  std::int16_t analog = 0;       // 0 .. kFullAnalog
-  std::int32_t thrust = 0;       // FT's number, while it pushes
-  std::int64_t zero_pulses = 0;  // travel where the coordinate is 0
-  double place_units = 0;        // at rest: what was commanded, of which travel is the rounding
-  std::int64_t pulses = 0;       // of the last tick, as they come out
+  std::int8_t jog_way = 0;         // of the jog that runs
+  std::int8_t next_jog_way = 0;    // begins when what runs has stopped, or ...
+  std::int32_t next_thrust = 0;    // ... this
+  bool analog_speed = false;       // AVM
+  bool starved = false;            // slowed down because AVM gives no speed
+  std::int16_t analog = 0;         // 0 .. kFullAnalog
+  std::int32_t thrust = 0;         // FT's number, while it pushes
+  std::int64_t zero_pulses = 0;    // travel where the coordinate is 0
+  double place_units = 0;          // at rest: what was commanded, of which travel is the rounding
+  std::int64_t sent_pulses = 0;    // of the last tick, as they come out
   Error late_error = Error::none;  // what a queued command met when its turn came
   std::array<Output, kOutputs> outputs{};
   std::array<PositionTrigger, 2> triggers{};

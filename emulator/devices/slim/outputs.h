@@ -36,8 +36,8 @@ struct Output {
 struct OutputOrder {
   enum class Kind : std::uint8_t { set, clear, toggle, pulse, pwm, all, arm };
   Kind kind = Kind::set;
-  std::uint8_t output = 0;  // 0 is P1
-  std::uint8_t mask = 0;    // all: bit 0 is P1
+  std::uint8_t output = 0;   // 0 is P1
+  std::uint8_t mask = 0;     // all: bit 0 is P1
   std::uint8_t trigger = 0;  // arm: which of the two, 0 or 1
   bool trigger_sets = false;
   Tick width = 0;

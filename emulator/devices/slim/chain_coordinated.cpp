@@ -1,0 +1,108 @@
+// Commands of several modules together.
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/devices/slim/chain.h"
+#include "motion/bad_motion.h"
+
+namespace understudy::emulator::slim {
+
+Error Chain::assign(Letter letter, int module) {
+  if (module != kUnassigned && (module < 0 || module >= kMappable)) return Error::out_of_range;
+  const auto mine = static_cast<std::size_t>(letter);
+  const auto number = module == kUnassigned ? kNoModule : static_cast<std::int8_t>(module);
+  for (std::size_t i = 0; i < map_.size(); ++i) {
+    if (i != mine && number != kNoModule && map_[i] == number) return Error::out_of_range;
+  }
+  map_[mine] = number;
+  return Error::none;
+}
+
+int Chain::assigned(Letter letter) const {
+  const int module = map_[static_cast<std::size_t>(letter)];
+  return module < 0 ? kUnassigned : module;
+}
+
+Error Chain::line(std::span<const double> units, bool absolute) {
+  if (units.size() < 2 || units.size() > map_.size()) return Error::out_of_range;
+  Job job{.kind = Job::Kind::line, .absolute = absolute};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    job.module_of[i] = map_[i];
+    job.units[i] = units[i];
+    if (map_[i] < 0) return Error::not_assigned;
+  }
+  return enqueue_coordinated(job);
+}
+
+Error Chain::arc(const ArcOrder& order) {
+  Job job{.kind = Job::Kind::arc, .absolute = order.absolute, .sweep_deg = order.sweep_deg};
+  job.units = {order.centre_x_units, order.centre_y_units, order.height_units.value_or(0), 0};
+  job.height_absolute = order.absolute || options_.sar_height == ChainOptions::SarHeight::absolute;
+  const std::size_t letters = order.height_units ? 3 : 2;
+  for (std::size_t i = 0; i < letters; ++i) {
+    job.module_of[i] = map_[i];
+    if (map_[i] < 0) return Error::not_assigned;
+  }
+  return enqueue_coordinated(job);
+}
+
+Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_deg,
+                    double growth_units_turn) {
+  Job job{.kind = Job::Kind::spiral, .sweep_deg = sweep_deg, .growth_units_turn = growth_units_turn};
+  job.units = {centre_x_units, centre_y_units, 0, 0};
+  for (std::size_t i = 0; i < 2; ++i) {
+    job.module_of[i] = map_[i];
+    if (map_[i] < 0) return Error::not_assigned;
+  }
+  return enqueue_coordinated(job);
+}
+
+Error Chain::enqueue_coordinated(Job job) {
+  motion::Point begin = motion::Point::Zero();
+  const ModuleSettings& first = modules_[at(job.module_of[0])].settings;
+  for (std::size_t i = 0; i < job.module_of.size(); ++i) {
+    const int module = job.module_of[i];
+    if (module < 0) continue;
+    if (const Error why = refusal_of_motion(module); why != Error::none) return why;
+    const ModuleSettings& mine = modules_[at(module)].settings;
+    const bool equal = mine.path_speed_units_s == first.path_speed_units_s &&
+                       mine.path_acceleration_units_s2 == first.path_acceleration_units_s2;
+    if (!equal && options_.unequal_speeds == ChainOptions::UnequalSpeeds::refused) {
+      return Error::speeds_differ;
+    }
+    begin[static_cast<Eigen::Index>(i)] = end_expected(module);
+  }
+  job.continuous = continuous_;
+  job.smooth_corner_deg = modules_[0].settings.smooth_corner_deg;
+  try {
+    const motion::Path path = path_of(job, begin);
+    if (!within_reach(job, path)) return Error::out_of_range;
+    for (std::size_t i = 0; i < job.ends.size(); ++i) job.ends[i] = path.end[static_cast<Eigen::Index>(i)];
+  } catch (const motion::BadMotion&) {
+    return Error::out_of_range;
+  }
+  return enqueue(job);
+}
+
+/// Of an arc, all that the circle may reach.
+bool Chain::within_reach(const Job& job, const motion::Path& path) const {
+  const bool turns = job.kind != Job::Kind::line;
+  const double end_radius_u = path.begin_radius_u + path.radius_slope_u_rad * std::abs(path.sweep_rad);
+  const double radius_u = turns ? std::max(path.begin_radius_u, end_radius_u) : 0;
+  for (std::size_t i = 0; i < job.module_of.size(); ++i) {
+    if (job.module_of[i] < 0) continue;
+    const Module& mine = modules_[at(job.module_of[i])];
+    const auto axis = static_cast<Eigen::Index>(i);
+    const double farthest = turns ? std::abs(path.centre[axis]) + radius_u : 0;
+    if (!mine.reaches(path.end[axis]) || (i < 2 && !mine.reaches(farthest))) return false;
+  }
+  return true;
+}
+
+Error Chain::set_continuous_path(int mode) {
+  if (mode < 0 || mode > 2) return Error::out_of_range;
+  continuous_ = static_cast<ContinuousPath>(mode);
+  return Error::none;
+}
+
+}  // namespace understudy::emulator::slim

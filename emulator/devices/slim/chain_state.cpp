@@ -1,0 +1,197 @@
+// Settings, inputs and what can be asked.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "emulator/devices/slim/chain.h"
+#include "motion/bad_motion.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+/// Speeds and accelerations outside are no machine's, and may not be plannable.
+constexpr double kLeast = 1e-6;
+constexpr double kMost = 1e9;
+
+bool plannable(double speed) { return speed >= kLeast && speed <= kMost; }
+
+}  // namespace
+
+// ---- Settings
+
+void Chain::set_linked(int module, bool linked) { modules_[at(module)].linked = linked || module == 0; }
+
+Error Chain::set_scale(int module, std::int64_t multiplier, std::int64_t divider) {
+  Module& mine = modules_[at(module)];
+  if (mine.activity != Activity::idle || !mine.fifo.empty()) return Error::not_allowed;
+  try {
+    mine.settings.scale = motion::UnitScale::of(multiplier, divider);
+  } catch (const motion::BadMotion&) {
+    return Error::out_of_range;
+  }
+  mine.place_units = coordinate(module);
+  place_triggers(module);
+  return Error::none;
+}
+
+Error Chain::set_pulses_per_revolution(int module, std::int32_t pulses) {
+  if (pulses < 1) return Error::out_of_range;
+  modules_[at(module)].settings.pulses_per_revolution = pulses;
+  return Error::none;
+}
+
+Error Chain::set_speed_unit(int module, SpeedUnit unit) {
+  modules_[at(module)].settings.speed_unit = unit;
+  return Error::none;
+}
+
+Error Chain::set_working_speed(int module, double speed) {
+  if (!plannable(speed)) return Error::out_of_range;
+  Module& mine = modules_[at(module)];
+  mine.settings.working_speed = speed;
+  mine.analog_speed = false;
+  if (mine.starved || options_.new_speed == ChainOptions::NewSpeed::at_once) refresh_speed(module);
+  serve(now_ + 1);  // a move may have waited for AVM's voltage
+  return Error::none;
+}
+
+Error Chain::set_jog_speed(int module, double speed) {
+  if (speed != 0 && !plannable(std::abs(speed))) return Error::out_of_range;
+  Module& mine = modules_[at(module)];
+  const bool same_sense = speed * mine.settings.jog_speed > 0;
+  mine.settings.jog_speed = speed;
+  const bool at_once = options_.new_speed == ChainOptions::NewSpeed::at_once;
+  // A jog that is to turn round, or to stand, is another one.
+  if (mine.activity == Activity::jog && at_once && same_sense) refresh_speed(module);
+  return Error::none;
+}
+
+Error Chain::set_acceleration(int module, double acceleration) {
+  if (!plannable(acceleration)) return Error::out_of_range;
+  modules_[at(module)].settings.acceleration = acceleration;
+  return Error::none;
+}
+
+Error Chain::set_path_speed(int module, double units_s) {
+  if (!plannable(units_s)) return Error::out_of_range;
+  modules_[at(module)].settings.path_speed_units_s = units_s;
+  return Error::none;
+}
+
+Error Chain::set_tvm(double units_s) {
+  if (!plannable(units_s)) return Error::out_of_range;
+  for (Module& each : modules_) {
+    if (each.linked) each.settings.path_speed_units_s = units_s;
+  }
+  for (Group& group : groups_) {
+    if (group.motion.engaged) group.motion.run.set_top_speed(units_s, now_);
+  }
+  return Error::none;
+}
+
+Error Chain::set_path_acceleration(int module, double units_s2) {
+  if (!plannable(units_s2)) return Error::out_of_range;
+  if (groups_running() > 0) return Error::not_allowed;
+  modules_[at(module)].settings.path_acceleration_units_s2 = units_s2;
+  return Error::none;
+}
+
+Error Chain::set_smooth_corner(int module, double degrees) {
+  if (!(degrees >= 0 && degrees <= 180)) return Error::out_of_range;
+  modules_[at(module)].settings.smooth_corner_deg = degrees;
+  return Error::none;
+}
+
+Error Chain::set_analog_speed(int module) {
+  if (const Error why = refusal(module); why != Error::none) return why;
+  modules_[at(module)].analog_speed = true;
+  refresh_speed(module);
+  return Error::none;
+}
+
+void Chain::set_options(const ChainOptions& options) { options_ = options; }
+
+// ---- Inputs
+
+void Chain::set_horg(int module, bool on) {
+  motion::Surroundings& here = surroundings_[at(module)];
+  if (((here.steady & motion::bit(motion::Signal::home)) != 0) == on) return;
+  here.set_steady(motion::Signal::home, on);
+}
+
+void Chain::set_analog(int module, int value) {
+  Module& mine = modules_[at(module)];
+  const auto clamped = static_cast<std::int16_t>(std::clamp(value, 0, kFullAnalog));
+  if (clamped == mine.analog) return;
+  mine.analog = clamped;
+  if (mine.analog_speed) refresh_speed(module);
+}
+
+// ---- State
+
+bool Chain::moving(int module) const {
+  const Module& mine = modules_[at(module)];
+  if (const Group* group = group_of(module); group != nullptr) {
+    return !group->motion.run.paused() || !group->motion.run.at_rest(now_);
+  }
+  const bool pushes = mine.activity == Activity::thrust && options_.thrust == ChainOptions::Thrust::stands;
+  return !pushes && axes_[at(module)].moving();
+}
+
+bool Chain::done(int module) const {
+  const Module& mine = modules_[at(module)];
+  if (!mine.fifo.empty()) return false;
+  const bool goes_on = mine.activity == Activity::jog || mine.activity == Activity::thrust;
+  return mine.activity == Activity::idle || (goes_on && !axes_[at(module)].slowing);
+}
+
+ModuleStatus Chain::status(int module) const {
+  const Module& mine = modules_[at(module)];
+  const Group* group = group_of(module);
+  ModuleStatus status{.servo_on = axes_[at(module)].servo_on,
+                      .moving = moving(module),
+                      .paused = paused_,
+                      .homed = mine.homed,
+                      .jog = mine.activity == Activity::jog,
+                      .buffer_not_empty = !mine.fifo.empty()};
+  if (group != nullptr && group->motion.run.running()) {
+    const motion::PathRun& run = group->motion.run;
+    status.in_blend = run.chain_length_u() != run.path().length_u;
+  }
+  switch (mine.activity) {
+    case Activity::idle: status.mode = mine.analog_speed ? Mode::analog : Mode::idle; break;
+    case Activity::move:
+    case Activity::home:
+    case Activity::stopping: status.mode = mine.analog_speed ? Mode::analog : Mode::position; break;
+    case Activity::jog: status.mode = mine.analog_speed ? Mode::analog : Mode::jog; break;
+    case Activity::thrust: status.mode = Mode::torque; break;
+    case Activity::group: status.mode = Mode::coordinated; break;
+  }
+  return status;
+}
+
+double Chain::coordinate(int module) const {
+  const Module& mine = modules_[at(module)];
+  return mine.units_of(axes_[at(module)].travel_pulses - mine.zero_pulses);
+}
+
+double Chain::speed_pps(int module) const {
+  const motion::Axis& axis = axes_[at(module)];
+  if (modules_[at(module)].activity == Activity::group) {
+    return static_cast<double>(modules_[at(module)].sent_pulses) * motion::kTicksPerSecond;
+  }
+  if (!axis.moving()) return 0;
+  return axis.sample(now_).speed_u_s * static_cast<double>(axis.drive.direction);
+}
+
+Error Chain::take_late_error(int module) {
+  return std::exchange(modules_[at(module)].late_error, Error::none);
+}
+
+int Chain::groups_running() const {
+  return static_cast<int>(
+      std::count_if(groups_.begin(), groups_.end(), [](const Group& group) { return group.motion.engaged; }));
+}
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,198 @@
+// Pausing, going on, discarding, stopping; and what AVM does to speeds.
+#include <algorithm>
+
+#include "emulator/devices/slim/chain.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+Error in_vain(const ChainOptions& options) {
+  return options.in_vain == ChainOptions::InVain::refused ? Error::not_allowed : Error::none;
+}
+
+/// The one that takes `module`; nothing if none does.
+auto* taking(auto& groups, std::size_t module) {
+  const auto found = std::find_if(groups.begin(), groups.end(),
+                                  [&](const auto& group) { return group.motion.takes(module); });
+  return found == groups.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Chain::Group* Chain::group_of(int module) { return taking(groups_, at(module)); }
+const Chain::Group* Chain::group_of(int module) const { return taking(groups_, at(module)); }
+
+Error Chain::pause() {
+  paused_ = true;
+  hold_all();
+  return Error::none;
+}
+
+Error Chain::pause_queues() {
+  queues_paused_ = true;
+  hold_all();
+  return Error::none;
+}
+
+Error Chain::resume() {
+  if (!paused_) return in_vain(options_);
+  paused_ = false;
+  release_all();
+  return Error::none;
+}
+
+Error Chain::resume_queues() {
+  if (!queues_paused_) return in_vain(options_);
+  queues_paused_ = false;
+  release_all();
+  return Error::none;
+}
+
+void Chain::hold_all() {
+  for (Group& group : groups_) {
+    if (group.motion.engaged) group.motion.run.pause(now_);
+  }
+  for (int module = 0; module < kModules; ++module) {
+    const Activity activity = modules_[at(module)].activity;
+    stop_jog(module);  // it is not queued: nothing to go on with
+    if (activity != Activity::move && activity != Activity::home) continue;
+    axes_[at(module)].slow_down(now_);
+    after_motion(module, now_ + 1);
+  }
+  serve(now_ + 1);  // outputs that waited for a jog's end
+}
+
+void Chain::release_all() {
+  if (held()) return;
+  for (Group& group : groups_) {
+    const bool goes_on = group.motion.engaged && group.motion.slowing_for == motion::Cause::none;
+    if (goes_on) group.motion.run.resume(now_);
+  }
+  for (int module = 0; module < kModules; ++module) {
+    Module& mine = modules_[at(module)];
+    if (mine.activity != Activity::move) continue;
+    const motion::SpeedLaw law = mine.working_law();
+    if (law.top_speed_u_s > 0) axes_[at(module)].resume(law, now_);
+  }
+  serve(now_ + 1);
+}
+
+Error Chain::discard() {
+  if (!paused_) return in_vain(options_);
+  paused_ = queues_paused_ = false;
+  for (int module = 0; module < kModules; ++module) slow_for_discard(module);
+  for (Module& each : modules_) each.fifo.truncate(0);
+  return Error::none;
+}
+
+/// Everything queued is about to go; what moves has begun to slow down.
+void Chain::slow_for_discard(int module) {
+  Module& mine = modules_[at(module)];
+  if (Group* group = group_of(module); group != nullptr) {
+    if (group->motion.run.at_rest(now_)) {
+      end_group(*group, motion::Cause::stopped);
+    } else {
+      group->paths = 0;
+      group->motion.slow_down(now_);
+    }
+  } else if (mine.activity == Activity::move || mine.activity == Activity::home) {
+    mine.activity = Activity::stopping;
+    mine.starved = false;
+    axes_[at(module)].slow_down(now_);
+    after_motion(module, now_ + 1);
+  }
+}
+
+Error Chain::clear_queues() {
+  if (held()) {
+    queues_paused_ = false;
+    for (int module = 0; module < kModules; ++module) slow_for_discard(module);
+    for (Module& each : modules_) each.fifo.truncate(0);
+    return Error::none;
+  }
+  for (Group& group : groups_) {
+    if (!group.motion.engaged || group.paths == 0) continue;
+    group.paths = static_cast<std::uint8_t>(group.motion.run.shorten(now_));
+    const Job& last = modules_[at(group.motion.axis_of[0])].fifo[group.paths - 1U];
+    for (std::size_t i = 0; i < last.ends.size(); ++i) {
+      group.end[static_cast<Eigen::Index>(i)] = last.ends[i];
+    }
+  }
+  for (int module = 0; module < kModules; ++module) {
+    Module& mine = modules_[at(module)];
+    const Group* group = group_of(module);
+    const bool head_runs = mine.activity == Activity::move || mine.activity == Activity::home;
+    mine.fifo.truncate(group != nullptr ? group->paths : head_runs ? 1 : 0);
+  }
+  return Error::none;
+}
+
+Error Chain::emergency_stop() {
+  paused_ = queues_paused_ = false;
+  for (int module = 0; module < kModules; ++module) cut(module, motion::Cause::stopped);
+  for (Module& each : modules_) each.fifo.truncate(0);
+  return Error::none;
+}
+
+void Chain::cut(int module, motion::Cause why) {
+  if (Group* group = group_of(module); group != nullptr) end_group(*group, why);
+  Module& mine = modules_[at(module)];
+  axes_[at(module)].stop(why);
+  if (mine.activity == Activity::move || mine.activity == Activity::home) mine.fifo.pop();
+  if (mine.activity != Activity::idle) mine.place_units = coordinate(module);
+  mine.activity = Activity::idle;
+  mine.jog_way = mine.next_jog_way = 0;
+  mine.thrust = mine.next_thrust = 0;
+  mine.starved = false;
+}
+
+void Chain::forget_queue(int module) {
+  auto& fifo = modules_[at(module)].fifo;
+  while (!fifo.empty()) drop_job(fifo[0].number);
+}
+
+void Chain::end_group(Group& group, motion::Cause why) {
+  group.motion.stop(axes_, why);
+  release_group(group);
+}
+
+/// Lets the modules of a group that has ended go, with what is left of its commands.
+void Chain::release_group(Group& group) {
+  for (const std::int8_t member : group.motion.axis_of) {
+    if (member < 0) continue;
+    Module& mine = modules_[at(member)];
+    for (int i = 0; i < group.paths; ++i) mine.fifo.pop();
+    if (group.motion.cause != motion::Cause::arrived) mine.place_units = coordinate(member);
+    mine.activity = Activity::idle;
+  }
+  group = {};
+}
+
+// ---- Speeds that change on the way
+
+void Chain::refresh_speed(int module) {
+  Module& mine = modules_[at(module)];
+  motion::Axis& axis = axes_[at(module)];
+  const bool is_move = mine.activity == Activity::move;
+  if (is_move || mine.activity == Activity::jog) {
+    const motion::SpeedLaw law = is_move ? mine.working_law() : mine.jog_law();
+    const bool stands_still = !is_move && mine.settings.jog_speed == 0;
+    const bool stops_anyhow = held() || mine.next_jog_way != 0 || mine.next_thrust != 0;
+    if (stops_anyhow || (stands_still && axis.task == motion::Task::hanging)) return;
+    if (law.top_speed_u_s == 0) {
+      mine.starved = true;
+      axis.slow_down(now_);
+      after_motion(module, now_ + 1);
+    } else if (!mine.starved) {
+      axis.change_speed(law, now_);
+    } else {
+      mine.starved = false;
+      const bool stands = !axis.resume(law, now_) && !axis.moving();
+      if (stands && !is_move) begin_jog(module, mine.jog_way, now_ + 1);
+    }
+  }
+  serve(now_ + 1);
+}
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,55 @@
+#include "emulator/devices/slim/module.h"
+
+#include <cmath>
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+/// Beyond this a double does not hold every pulse, and sums of two might not either.
+constexpr double kFarthest_pulses = 4'503'599'627'370'496.0;  // 2^52
+
+double pulses_a_second(const ModuleSettings& settings, double speed) {
+  const double rps = settings.speed_unit == SpeedUnit::rps ? speed : speed / 60;
+  return rps * settings.pulses_per_revolution;
+}
+
+motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed) {
+  const auto ramp = motion::RampLaw::by_slope(pulses_a_second(settings, settings.acceleration));
+  return {.top_speed_u_s = pulses_a_second(settings, speed), .up = ramp, .down = ramp};
+}
+
+}  // namespace
+
+std::int64_t Module::pulses_of(double units) const {
+  // In the order that coordinated motion reckons in: both must come to the same pulse.
+  const double pulses =
+      units * static_cast<double>(settings.scale.multiplier) / static_cast<double>(settings.scale.divider);
+  return std::llround(pulses);
+}
+
+double Module::units_of(std::int64_t pulses) const {
+  return static_cast<double>(pulses) * static_cast<double>(settings.scale.divider) /
+         static_cast<double>(settings.scale.multiplier);
+}
+
+bool Module::reaches(double units) const {
+  // The path's own bound, and the pulses'.
+  constexpr double kFarthest_units = 1e12;
+  return std::abs(units) <= kFarthest_units &&
+         std::abs(units) * settings.scale.pulses_per_unit() <= kFarthest_pulses;
+}
+
+double Module::analog_factor() const {
+  return analog_speed ? static_cast<double>(analog) / kFullAnalog : 1.0;
+}
+
+motion::SpeedLaw Module::working_law() const {
+  return trapezoid(settings, settings.working_speed * analog_factor());
+}
+
+motion::SpeedLaw Module::jog_law() const {
+  return trapezoid(settings, std::abs(settings.jog_speed) * analog_factor());
+}
+
+}  // namespace understudy::emulator::slim
