@@ -1,0 +1,514 @@
+// One module: moves, jogs, thrust, motor control, homing, and which of them a mapped module refuses.
+#include <gtest/gtest.h>
+
+#include "tests/emulator/devices/slim/one_chain.h"
+
+namespace understudy::emulator::slim {
+namespace {
+
+TEST(SlimMove, TakesTheTimeOfATrapezoid) {
+  struct Row {
+    double distance, pps, pps2;
+    Tick ms;
+  };
+  // L/v + v/a, or 2 sqrt(L/a) where L < v^2/a.
+  for (const Row& row : {Row{10'000, 10'000, 100'000, 1100}, Row{-10'000, 10'000, 100'000, 1100},
+                         Row{1000, 10'000, 100'000, 200}, Row{250, 10'000, 100'000, 100}, Row{1, 10'000, 100'000, 7},
+                         Row{1'000'000, 500'000, 5'000'000, 2100}}) {
+    OneChain bench;
+    bench.speeds(3, row.pps, row.pps2);
+    ASSERT_EQ(bench.chain.move(3, true, row.distance), Error::none);
+    EXPECT_EQ(bench.chain.status(3).mode, Mode::position);
+    EXPECT_EQ(bench.finish() - 1, row.ms) << row.distance;
+    EXPECT_EQ(bench.travel(3), static_cast<std::int64_t>(row.distance));
+    EXPECT_EQ(bench.sent[3], bench.travel(3));
+    EXPECT_EQ(bench.chain.status(3).mode, Mode::idle);
+  }
+}
+
+TEST(SlimMove, SpeedsAreRevolutionsByTheUnitThatFuGives) {
+  // 1000 rpm at 10000 pulses a revolution is 166666.7 pps, VA 10000 rpm/s ten times that: 0.1 s of ramp.
+  OneChain bench;
+  ASSERT_EQ(bench.chain.move(0, true, 1'000'000), Error::none);
+  EXPECT_EQ(bench.finish() - 1, 6100);  // 6 s + 0.1 s
+  bench.chain.set_speed_unit(0, SpeedUnit::rps);
+  bench.chain.set_working_speed(0, 10);
+  bench.chain.set_acceleration(0, 100);
+  const Tick began = bench.tick;
+  bench.chain.move(0, true, 0);
+  EXPECT_EQ(bench.finish() - began - 1, 10'100);
+  bench.chain.set_pulses_per_revolution(0, 20'000);
+  const Tick again = bench.tick;
+  bench.chain.move(0, false, 1'000'000);
+  EXPECT_EQ(bench.finish() - again - 1, 5100);
+}
+
+TEST(SlimMove, RelativeMovesCountFromTheEndOfTheQueueAndNoTickIsLostBetween) {
+  OneChain bench;
+  bench.speeds(0, 10'000, 100'000);
+  bench.chain.move(0, false, 1000);
+  bench.chain.move(0, false, 1000);
+  bench.chain.move(0, true, 500);
+  bench.chain.move(0, false, 500);
+  EXPECT_EQ(bench.finish() - 1, 200 + 200 + 250 + 142);  // 1500/10000 + 0.1; 2 sqrt(500/100000) = 0.1414
+  EXPECT_EQ(bench.travel(0), 1000);
+}
+
+TEST(SlimMove, UserUnitsAreByPn45AndPn46) {
+  OneChain bench;
+  ASSERT_EQ(bench.chain.set_scale(0, 10'000, 360), Error::none);  // degrees
+  for (int i = 0; i < 9; ++i) ASSERT_EQ(bench.chain.move(0, false, 40), Error::none);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 10'000);
+  EXPECT_EQ(bench.chain.coordinate(0), 360);
+  bench.chain.move(0, true, 1);
+  bench.chain.set_coordinate(0, 100);
+  EXPECT_EQ(bench.chain.set_scale(0, 1, 1), Error::not_allowed);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 28);  // 27.8
+  EXPECT_NEAR(bench.chain.coordinate(0), 100, 0.018);
+  EXPECT_EQ(bench.chain.set_scale(0, 0, 1), Error::out_of_range);
+}
+
+TEST(SlimMove, ACoordinateIsSetInItsTurn) {
+  OneChain bench;
+  bench.chain.move(0, true, 100);
+  bench.chain.set_coordinate(0, 7);
+  bench.chain.move(0, true, 10);
+  bench.chain.move(0, false, 5);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 108);
+  EXPECT_EQ(bench.chain.coordinate(0), 15);
+}
+
+TEST(SlimMove, AFullFifoRefusesAndLeavesThingsAsTheyAre) {
+  OneChain bench;
+  for (int i = 0; i < 32; ++i) {
+    EXPECT_FALSE(bench.chain.full(0));
+    ASSERT_EQ(bench.chain.move(0, false, 1000), Error::none) << i;
+  }
+  EXPECT_TRUE(bench.chain.full(0));
+  const Chain before = bench.chain;
+  EXPECT_EQ(bench.chain.move(0, false, 1), Error::buffer_full);
+  EXPECT_EQ(bench.chain.set_output(0, 1, true), Error::buffer_full);
+  EXPECT_EQ(bench.chain.set_servo(0, false), Error::buffer_full);
+  EXPECT_EQ(bench.chain.home(0), Error::buffer_full);
+  bench.map({1, 0});
+  EXPECT_EQ(bench.line({1, 1}), Error::buffer_full);
+  EXPECT_EQ(bench.chain.queued(1), 0U);
+  bench.map({});
+  EXPECT_EQ(bench.chain, before);
+  // What bypasses it does so.
+  EXPECT_EQ(bench.chain.set_output_at_once(0, 1, true), Error::none);
+  EXPECT_TRUE(bench.chain.output(0, 1));
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 32'000);
+}
+
+TEST(SlimMove, VmWhileMovingByChoice) {
+  for (const bool at_once : {false, true}) {
+    ChainOptions options;
+    if (at_once) options.new_speed = ChainOptions::NewSpeed::at_once;
+    OneChain bench(options);
+    bench.speeds(0, 1000, 10'000);
+    bench.chain.move(0, true, 2000);
+    bench.steps(1 + 1000);  // 950 done
+    bench.chain.set_working_speed(0, 0.2);
+    bench.finish();
+    // 2000/1000 + 0.1; or 100 ms up to 2000 (150), 200 ms down (200), the 700 between at 2000.
+    EXPECT_EQ(bench.tick - 1, at_once ? 1000 + 100 + 350 + 200 : 2100);
+  }
+}
+
+// ---- Analog speed
+
+TEST(SlimAvm, TheSpeedIsThatPartOfVmAtEveryMoment) {
+  OneChain bench;
+  bench.speeds(0, 1000, 10'000);
+  bench.chain.set_analog(0, 500);
+  ASSERT_EQ(bench.chain.set_analog_speed(0), Error::none);
+  EXPECT_EQ(bench.chain.status(0).mode, Mode::analog);
+  bench.chain.move(0, true, 1000);
+  bench.steps(1 + 1000);  // at 500: 500 * 1 - 12.5 = 487.5 done
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 500);
+  bench.chain.set_analog(0, 0);
+  bench.steps(200);  // 12.5 further, and stands
+  EXPECT_EQ(bench.travel(0), 500);
+  EXPECT_FALSE(bench.chain.moving(0));
+  EXPECT_FALSE(bench.chain.done(0));
+  EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
+  bench.chain.set_analog(0, 1000);
+  const Tick again = bench.tick;
+  bench.finish();
+  EXPECT_EQ(bench.tick - again - 1, 600);  // 500/1000 + 0.1
+}
+
+TEST(SlimAvm, AJogFollowsItAndVmEndsIt) {
+  OneChain bench;
+  bench.speeds(0, 1000, 10'000);
+  bench.jog_speed(0, 1000);
+  ASSERT_EQ(bench.chain.set_analog_speed(0), Error::none);
+  ASSERT_EQ(bench.chain.jog(0, +1), Error::none);
+  bench.steps(100);
+  EXPECT_EQ(bench.travel(0), 0);
+  bench.chain.set_analog(0, 250);
+  bench.steps(200);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 250);
+  bench.chain.set_analog(0, 2000);  // as far as it goes
+  bench.steps(200);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
+  bench.chain.set_analog(0, 0);
+  bench.steps(200);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 0);
+  EXPECT_EQ(bench.chain.set_working_speed(0, 0.1), Error::none);
+  EXPECT_FALSE(bench.chain.analog_speed(0));
+  bench.steps(200);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
+}
+
+// ---- Jogs and thrust
+
+OneChain jogging() {
+  OneChain bench;
+  bench.speeds(0, 10'000, 10'000);
+  bench.jog_speed(0, 1000);
+  return bench;
+}
+
+TEST(SlimJog, RunsAtVjAndStopsWithItsRamp) {
+  OneChain bench = jogging();
+  ASSERT_EQ(bench.chain.jog(0, +1), Error::none);
+  bench.steps(1 + 1000);
+  EXPECT_EQ(bench.travel(0), 950);  // 0.1 s of ramp
+  EXPECT_TRUE(bench.chain.done(0));  // it is not queued
+  EXPECT_TRUE(bench.chain.status(0).jog);
+  EXPECT_EQ(bench.chain.status(0).mode, Mode::jog);
+  bench.chain.jog(0, 0);
+  EXPECT_FALSE(bench.chain.done(0));
+  bench.steps(100);
+  EXPECT_EQ(bench.travel(0), 1000);
+  EXPECT_FALSE(bench.chain.moving(0));
+  EXPECT_FALSE(bench.chain.status(0).jog);
+}
+
+TEST(SlimJog, TheOtherWayReplacesItAfterItHasStopped) {
+  OneChain bench = jogging();
+  bench.chain.jog(0, +1);
+  bench.steps(1 + 1000);
+  bench.chain.jog(0, -1);
+  bench.steps(100 + 1000);
+  EXPECT_EQ(bench.travel(0), 1000 - 950);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), -1000);
+}
+
+TEST(SlimJog, TheSameWayWhileItStopsSpeedsUpAgain) {
+  OneChain bench = jogging();
+  bench.chain.jog(0, +1);
+  bench.steps(1001);
+  bench.chain.jog(0, 0);
+  bench.steps(50);
+  bench.chain.jog(0, +1);
+  bench.steps(50);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
+  EXPECT_EQ(bench.travel(0), 950 + 75);
+}
+
+TEST(SlimJog, ANegativeVjSwapsTheWaysAndZeroOnlySeemsToMove) {
+  OneChain bench = jogging();
+  bench.jog_speed(0, -1000);
+  bench.chain.jog(0, +1);
+  bench.steps(1001);
+  EXPECT_EQ(bench.travel(0), -950);
+  bench.chain.emergency_stop();
+  bench.jog_speed(0, 0);
+  bench.chain.jog(0, +1);
+  bench.steps(100);
+  EXPECT_EQ(bench.travel(0), -950);
+  EXPECT_TRUE(bench.chain.moving(0));
+  EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
+  bench.chain.jog(0, 0);
+  EXPECT_FALSE(bench.chain.moving(0));
+}
+
+TEST(SlimJog, IsRefusedWhileAQueuedMoveRuns) {
+  OneChain bench = jogging();
+  bench.chain.move(0, true, 1000);
+  EXPECT_EQ(bench.chain.jog(0, +1), Error::not_allowed);
+  EXPECT_EQ(bench.chain.thrust(0, 1), Error::not_allowed);
+  EXPECT_EQ(bench.chain.jog(0, 0), Error::none);  // no jog to stop
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 1000);
+}
+
+TEST(SlimJog, AMoveGivenMeanwhileWaitsAndOutputsDoNot) {
+  OneChain bench = jogging();
+  bench.chain.jog(0, +1);
+  bench.steps(1001);
+  EXPECT_EQ(bench.chain.set_output(0, 1, true), Error::none);
+  EXPECT_TRUE(bench.chain.output(0, 1));
+  EXPECT_EQ(bench.chain.move(0, false, 500), Error::none);
+  EXPECT_EQ(bench.chain.set_output(0, 2, true), Error::none);
+  bench.steps(1000);
+  EXPECT_EQ(bench.chain.queued(0), 2U);
+  EXPECT_FALSE(bench.chain.output(0, 2));
+  bench.chain.jog(0, 0);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 2000 + 500);
+  EXPECT_TRUE(bench.chain.output(0, 2));
+}
+
+TEST(SlimThrust, PushesUntilItIsStopped) {
+  OneChain bench = jogging();
+  EXPECT_EQ(bench.chain.thrust(0, 0), Error::out_of_range);
+  EXPECT_EQ(bench.chain.thrust(0, 20'001), Error::out_of_range);
+  ASSERT_EQ(bench.chain.thrust(0, 20'000), Error::none);
+  bench.steps(10);
+  EXPECT_EQ(bench.chain.status(0).mode, Mode::torque);
+  EXPECT_EQ(bench.chain.thrust_of(0), 20'000);
+  bench.chain.move(0, false, 100);
+  bench.steps(100);
+  EXPECT_EQ(bench.travel(0), 0);
+  bench.chain.thrust(0, 5);
+  EXPECT_EQ(bench.chain.thrust_of(0), 5);
+  bench.chain.jog(0, 0);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 100);
+  EXPECT_EQ(bench.chain.thrust_of(0), 0);
+  // From a jog: when that has stopped.
+  bench.chain.jog(0, +1);
+  bench.steps(1001);
+  bench.chain.thrust(0, 9);
+  bench.steps(100);
+  EXPECT_EQ(bench.travel(0), 100 + 1000);
+  EXPECT_EQ(bench.chain.status(0).mode, Mode::torque);
+  // And a jog after that.
+  bench.chain.jog(0, -1);
+  bench.steps(1001);
+  EXPECT_EQ(bench.travel(0), 1100 - 950);
+}
+
+TEST(SlimThrust, MayRunByChoice) {
+  ChainOptions options;
+  options.thrust = ChainOptions::Thrust::runs_at_vj;
+  OneChain bench(options);
+  bench.speeds(0, 10'000, 10'000);
+  bench.jog_speed(0, 1000);
+  bench.chain.thrust(0, 9);
+  bench.steps(1001);
+  EXPECT_EQ(bench.travel(0), 950);
+  EXPECT_EQ(bench.chain.status(0).mode, Mode::torque);
+  bench.chain.jog(0, 0);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 1000);
+  EXPECT_EQ(bench.chain.thrust_of(0), 0);
+}
+
+// ---- Motor control
+
+TEST(SlimServo, OffAtOnceDiscardsMotionAndFifo) {
+  OneChain bench;
+  bench.speeds(0, 1000, 10'000);
+  bench.chain.move(0, true, 1000);
+  bench.chain.set_output(0, 1, true);
+  bench.steps(501);
+  const std::int64_t at = bench.travel(0);
+  ASSERT_EQ(bench.chain.set_servo_at_once(0, false), Error::none);
+  EXPECT_TRUE(bench.all_done());
+  EXPECT_EQ(bench.chain.move(0, true, 5), Error::servo_off);
+  EXPECT_EQ(bench.chain.jog(0, 1), Error::servo_off);
+  EXPECT_EQ(bench.chain.home(0), Error::servo_off);
+  EXPECT_EQ(bench.chain.thrust(0, 1), Error::servo_off);
+  bench.steps(100);
+  EXPECT_EQ(bench.travel(0), at);
+  EXPECT_FALSE(bench.chain.output(0, 1));
+  EXPECT_EQ(bench.chain.set_servo_at_once(0, true), Error::none);
+  bench.chain.move(0, true, 0);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 0);
+}
+
+TEST(SlimServo, InItsTurnItWaitsForTheMotionBeforeIt) {
+  OneChain bench;
+  bench.chain.move(0, true, 1000);
+  ASSERT_EQ(bench.chain.set_servo(0, false), Error::none);
+  EXPECT_EQ(bench.chain.move(0, true, 2000), Error::servo_off);  // it will be off by then
+  ASSERT_EQ(bench.chain.set_servo(0, true), Error::none);
+  ASSERT_EQ(bench.chain.move(0, true, 3000), Error::none);
+  ASSERT_EQ(bench.chain.set_servo(0, false), Error::none);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 3000);
+  EXPECT_FALSE(bench.chain.servo_on(0));
+}
+
+TEST(SlimServo, OffEndsAJogAndWhatWaitsForItIsDroppedWithItsError) {
+  OneChain bench = jogging();
+  bench.chain.jog(0, +1);
+  bench.steps(501);
+  bench.chain.move(0, true, 5);
+  bench.chain.jog(0, 0);
+  bench.chain.jog(0, +1);
+  const std::int64_t at = bench.travel(0);
+  // Behind the waiting move: its turn does not come.
+  bench.chain.set_servo(0, false);
+  bench.step();
+  EXPECT_TRUE(bench.chain.servo_on(0));
+  bench.chain.set_servo_at_once(0, false);
+  bench.steps(100);
+  EXPECT_LE(bench.travel(0), at + 1);
+  EXPECT_FALSE(bench.chain.status(0).jog);
+  EXPECT_EQ(bench.chain.queued(0), 0U);
+}
+
+TEST(SlimServo, OffOfOneStopsItsGroupAndItsCommandsOnly) {
+  OneChain bench;
+  bench.map({0, 1});
+  bench.line({100, 100});
+  bench.line({100, 100});
+  bench.chain.move(0, true, 0);
+  bench.chain.move(5, true, 100);
+  bench.steps(300);
+  const std::int64_t at = bench.travel(1);
+  bench.chain.set_servo_at_once(1, false);
+  EXPECT_EQ(bench.chain.groups_running(), 0);
+  EXPECT_EQ(bench.line({1, 1}), Error::servo_off);
+  bench.finish();
+  EXPECT_EQ(bench.travel(1), at);
+  EXPECT_EQ(bench.travel(0), 0);  // its own move was carried out
+  EXPECT_EQ(bench.travel(5), 100);
+}
+
+TEST(SlimServo, ResetClearsTheQueueAndKeepsTheCoordinate) {
+  OneChain bench;
+  bench.speeds(0, 1000, 10'000);
+  bench.chain.set_coordinate(0, 50);
+  bench.chain.move(0, false, 1000);
+  bench.chain.set_servo(0, false);
+  bench.steps(501);
+  const double x = bench.chain.coordinate(0);
+  ASSERT_GT(x, 100);
+  EXPECT_EQ(bench.chain.reset(0), Error::none);
+  bench.steps(500);
+  EXPECT_EQ(bench.chain.coordinate(0), x);
+  EXPECT_TRUE(bench.chain.servo_on(0));
+  EXPECT_TRUE(bench.all_done());
+}
+
+TEST(SlimServo, AtPowerUpByChoice) {
+  ChainOptions options;
+  options.servo_at_power_up = false;
+  OneChain bench(options);
+  EXPECT_EQ(bench.chain.move(0, true, 1), Error::servo_off);
+  EXPECT_EQ(bench.chain.set_servo(0, true), Error::none);
+  EXPECT_EQ(bench.chain.move(0, true, 1), Error::none);
+}
+
+// ---- Homing
+
+TEST(SlimHome, GoesAtMinusVjUntilHorgAndIsZeroWhereItStops) {
+  OneChain bench = jogging();
+  bench.chain.surroundings(0).add(motion::Signal::home, -5000, -2000);
+  bench.chain.set_coordinate(0, 777);
+  ASSERT_EQ(bench.chain.home(0), Error::none);
+  bench.chain.move(0, true, 100);
+  EXPECT_FALSE(bench.chain.status(0).homed);
+  while (bench.chain.queued(0) == 2) bench.step();
+  // 2000 pulses to the edge, and 1000^2 / 20000 to stop.
+  EXPECT_EQ(bench.travel(0), -2050);
+  EXPECT_EQ(bench.chain.coordinate(0), 0);
+  EXPECT_TRUE(bench.chain.status(0).homed);
+  EXPECT_EQ(bench.tick - 1, 2050 + 100);  // 50 at the beginning, 1950 at speed, 50: 100 + 1950 + 100
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), -1950);
+  EXPECT_EQ(bench.chain.coordinate(0), 100);
+}
+
+TEST(SlimHome, OnHorgItIsThereAlready) {
+  OneChain bench = jogging();
+  bench.chain.move(0, true, 300);
+  bench.finish();
+  bench.chain.set_horg(0, true);
+  ASSERT_EQ(bench.chain.home(0), Error::none);
+  EXPECT_TRUE(bench.all_done());
+  EXPECT_EQ(bench.chain.coordinate(0), 0);
+  EXPECT_TRUE(bench.chain.status(0).homed);
+}
+
+TEST(SlimHome, ByAnInputAndWithANegativeVjTheOtherWay) {
+  OneChain bench = jogging();
+  bench.jog_speed(0, -1000);
+  ASSERT_EQ(bench.chain.home(0), Error::none);
+  bench.steps(1001);
+  EXPECT_EQ(bench.travel(0), 950);
+  bench.chain.set_horg(0, true);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 1000);
+  EXPECT_EQ(bench.chain.coordinate(0), 0);
+}
+
+TEST(SlimHome, PausedItBeginsAnew) {
+  OneChain bench = jogging();
+  bench.chain.surroundings(0).add(motion::Signal::home, -5000, -2000);
+  bench.chain.home(0);
+  bench.steps(501);
+  bench.chain.pause();
+  bench.steps(500);
+  EXPECT_FALSE(bench.chain.moving(0));
+  EXPECT_FALSE(bench.chain.status(0).homed);
+  bench.chain.resume();
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), -2050);
+  EXPECT_TRUE(bench.chain.status(0).homed);
+}
+
+// ---- Mapped and unlinked modules
+
+TEST(SlimMapped, AModuleWithALetterIsNoLongerMovedByItsNumberButForT0) {
+  OneChain bench = jogging();
+  bench.map({1, 0});
+  EXPECT_EQ(bench.chain.move(1, true, 5), Error::not_assigned);
+  EXPECT_EQ(bench.chain.jog(1, +1), Error::not_assigned);
+  EXPECT_EQ(bench.chain.home(1), Error::not_assigned);
+  EXPECT_EQ(bench.chain.thrust(1, 5), Error::not_assigned);
+  EXPECT_EQ(bench.chain.jog(1, 0), Error::none);
+  EXPECT_EQ(bench.chain.set_servo(1, true), Error::none);
+  EXPECT_EQ(bench.chain.set_coordinate(1, 5), Error::none);
+  EXPECT_EQ(bench.chain.set_output(1, 1, true), Error::none);
+  EXPECT_EQ(bench.chain.move(0, true, 50), Error::none);
+  EXPECT_EQ(bench.chain.move_axis(Letter::x, true, 15), Error::none);
+  EXPECT_EQ(bench.chain.move_axis(Letter::z, true, 15), Error::not_assigned);
+  bench.finish();
+  EXPECT_EQ(bench.chain.coordinate(1), 15);
+  EXPECT_EQ(bench.travel(0), 50);
+  bench.chain.assign(Letter::x, kUnassigned);
+  EXPECT_EQ(bench.chain.move(1, true, 5), Error::none);
+}
+
+TEST(SlimMapped, OnlyModules0To5AndEachOnce) {
+  OneChain bench;
+  for (const int bad : {-1, 6, 7, 9, 100}) {
+    EXPECT_EQ(bench.chain.assign(Letter::x, bad), Error::out_of_range) << bad;
+  }
+  EXPECT_EQ(bench.chain.assign(Letter::x, 5), Error::none);
+  EXPECT_EQ(bench.chain.assign(Letter::y, 5), Error::out_of_range);
+  EXPECT_EQ(bench.chain.assign(Letter::x, 5), Error::none);
+  EXPECT_EQ(bench.chain.assigned(Letter::x), 5);
+  EXPECT_EQ(bench.chain.assigned(Letter::y), kUnassigned);
+}
+
+TEST(SlimMapped, AnUnlinkedModuleTakesNothing) {
+  Chain chain;  // only the host module
+  EXPECT_EQ(chain.move(0, true, 1), Error::none);
+  for (const int module : {1, 7, 8, -1}) {
+    EXPECT_EQ(chain.move(module, true, 1), Error::not_linked);
+    EXPECT_EQ(chain.jog(module, 0), Error::not_linked);
+    EXPECT_EQ(chain.set_output(module, 1, true), Error::not_linked);
+    EXPECT_EQ(chain.set_output_at_once(module, 1, true), Error::not_linked);
+    EXPECT_EQ(chain.set_servo_at_once(module, false), Error::not_linked);
+    EXPECT_EQ(chain.reset(module), Error::not_linked);
+    EXPECT_EQ(chain.set_coordinate(module, 1), Error::not_linked);
+    EXPECT_EQ(chain.arm(module, 1, 1, true, 1), Error::not_linked);
+  }
+}
+
+}  // namespace
+}  // namespace understudy::emulator::slim
