@@ -31,8 +31,8 @@ struct ChainFields {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m);
   }
   static void of(Like<Module> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   }
   static void of(Like<Chain> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);

@@ -75,7 +75,14 @@ bool Chain::start_move(int module, Tick begin_at) {
   }
   const motion::SpeedLaw law = mine.working_law();
   if (law.top_speed_u_s == 0) return false;  // AVM, and no voltage: when there is some
-  if (axis.move(distance, law, begin_at - 1) != motion::Cause::none) {
+  motion::Cause refused = motion::Cause::none;
+  try {
+    refused = axis.move(distance, law, begin_at - 1);
+  } catch (const motion::BadMotion&) {
+    drop_head(module, Error::out_of_range);  // farther than pulses can be counted
+    return true;
+  }
+  if (refused != motion::Cause::none) {
     drop_head(module, Error::not_allowed);
     return true;
   }

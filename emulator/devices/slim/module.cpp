@@ -1,5 +1,6 @@
 #include "emulator/devices/slim/module.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace understudy::emulator::slim {
@@ -9,9 +10,12 @@ namespace {
 /// Beyond this a double does not hold every pulse, and sums of two might not either.
 constexpr double kFarthest_pulses = 4'503'599'627'370'496.0;  // 2^52
 
+/// No module is that fast; faster, and a century of jogging could not be counted.
+constexpr double kFastest_pps = 1e9;
+
 double pulses_a_second(const ModuleSettings& settings, double speed) {
   const double rps = settings.speed_unit == SpeedUnit::rps ? speed : speed / 60;
-  return rps * settings.pulses_per_revolution;
+  return std::min(rps * settings.pulses_per_revolution, kFastest_pps);
 }
 
 motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed) {

@@ -30,8 +30,8 @@ TEST(SlimJoints, TheOctagonsTime) {
     double pr7;
     Tick ms;  // eight sides of 10: each 2 sqrt(10/1000) s from rest to rest, or 80/100 + 0.1 s in all
   };
-  for (const Row& row : {Row{0, 0, 1600}, Row{1, 0, 900}, Row{2, 45, 900}, Row{2, 60, 900}, Row{2, 44.9, 1600},
-                         Row{2, 0, 1600}}) {
+  for (const Row& row : {Row{0, 0, 1600}, Row{1, 0, 900}, Row{2, 45, 900}, Row{2, 60, 900},
+                         Row{2, 44.9, 1600}, Row{2, 0, 1600}}) {
     OneChain bench = at_origin();
     ASSERT_EQ(bench.chain.set_continuous_path(row.mode), Error::none);
     ASSERT_EQ(bench.chain.set_smooth_corner(0, row.pr7), Error::none);

@@ -44,8 +44,8 @@ OnPath on_path(const OneChain& bench) {
 const double kHalfEach = std::sqrt(0.5) + 1e-6;
 
 TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
-  // Within the first command; so late in it that the stop lies beyond its end (from 45 on, 5 units are needed);
-  // within the second; while it speeds up; while it slows down for the end.
+  // Within the first command; so late in it that the stop lies beyond its end (from 45 on, 5 units are
+  // needed); within the second; while it speeds up; while it slows down for the end.
   for (const Tick pause_at : std::initializer_list<Tick>{50, 300, 520, 545, 900, 2100}) {
     SCOPED_TRACE(pause_at);
     OneChain bench = at_origin();
@@ -67,9 +67,8 @@ TEST(SlimPause, SlowsDownOnThePathAndGoesOnExactlyThere) {
     EXPECT_FALSE(bench.chain.moving(0));
     EXPECT_NEAR(on_path(bench).along, stop, 1e-3);
     EXPECT_TRUE(bench.chain.status(0).paused);
-    EXPECT_EQ(bench.chain.next_active_tick(bench.tick), bench.chain.pulses(0) + bench.chain.pulses(1) == 0
-                                                            ? kNever
-                                                            : bench.tick + 1);
+    EXPECT_EQ(bench.chain.next_active_tick(bench.tick),
+              bench.chain.pulses(0) + bench.chain.pulses(1) == 0 ? kNever : bench.tick + 1);
     bench.steps(777);
     EXPECT_NEAR(on_path(bench).along, stop, 1e-3);
     ASSERT_EQ(bench.chain.resume(), Error::none);
@@ -106,7 +105,7 @@ TEST(SlimPause, GoingOnBeforeItStandsSpeedsUpAgain) {
   bench.line({100, 0});
   bench.steps(501);  // at 100 units/s, 45 units done
   bench.chain.pause();
-  bench.steps(50);   // at 50, 3.75 further
+  bench.steps(50);  // at 50, 3.75 further
   bench.chain.resume();
   bench.finish();
   // Up again in 50 ms and 3.75, then 100 - 45 - 7.5 - 5 = 42.5 at speed, 100 ms down.
@@ -118,7 +117,7 @@ TEST(SlimPause, SingleMovesPauseAndGoOnAsWell) {
   OneChain bench = at_origin();
   bench.speeds(5, 1000, 1000);  // 1 unit/s
   bench.chain.move(5, true, 4);
-  bench.steps(2001);            // 0.5 + 1 units
+  bench.steps(2001);  // 0.5 + 1 units
   bench.chain.pause();
   EXPECT_EQ(bench.chain.move(6, true, 4), Error::paused);
   bench.steps(1500);
