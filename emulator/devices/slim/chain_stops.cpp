@@ -73,7 +73,7 @@ void Chain::release_all() {
     Module& mine = modules_[at(module)];
     if (mine.activity != Activity::move) continue;
     const motion::SpeedLaw law = mine.working_law();
-    if (law.top_speed_u_s > 0) axes_[at(module)].resume(law, now_);
+    if (law.top_speed_u_s > 0 && axes_[at(module)].resume(law, now_)) mine.starved = false;
   }
   serve(now_ + 1);
 }
@@ -114,6 +114,7 @@ Error Chain::clear_queues() {
   for (Group& group : groups_) {
     if (!group.motion.engaged || group.paths == 0) continue;
     group.paths = static_cast<std::uint8_t>(group.motion.run.shorten(now_));
+    if (group.paths == 0) continue;
     const Job& last = modules_[at(group.motion.axis_of[0])].fifo[group.paths - 1U];
     for (std::size_t i = 0; i < last.ends.size(); ++i) {
       group.end[static_cast<Eigen::Index>(i)] = last.ends[i];

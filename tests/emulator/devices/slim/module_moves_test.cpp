@@ -143,6 +143,37 @@ TEST(SlimAvm, TheSpeedIsThatPartOfVmAtEveryMoment) {
   EXPECT_EQ(bench.tick - again - 1, 600);  // 500/1000 + 0.1
 }
 
+TEST(SlimAvm, AndPauseTogether) {
+  OneChain bench;
+  bench.speeds(0, 1000, 1000);
+  bench.chain.set_analog(0, 1000);
+  bench.chain.set_analog_speed(0);
+  bench.chain.move(0, true, 4000);
+  bench.steps(2001);  // 1500 done, at 1000
+  bench.chain.set_analog(0, 0);
+  bench.steps(200);
+  bench.chain.pause();
+  bench.chain.set_analog(0, 500);
+  bench.steps(200);  // slows down all the time: 320 further, at 600
+  bench.chain.resume();
+  bench.steps(100);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 500);
+  bench.chain.set_analog(0, 800);
+  bench.steps(300);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 800);
+  // Paused, and no voltage when it goes on: it stays.
+  bench.chain.pause();
+  bench.chain.set_analog(0, 0);
+  bench.steps(100);
+  bench.chain.resume();
+  bench.steps(2000);
+  EXPECT_FALSE(bench.chain.moving(0));
+  EXPECT_FALSE(bench.chain.done(0));
+  bench.chain.set_analog(0, 1000);
+  bench.finish();
+  EXPECT_EQ(bench.travel(0), 4000);
+}
+
 TEST(SlimAvm, AJogFollowsItAndVmEndsIt) {
   OneChain bench;
   bench.speeds(0, 1000, 10'000);
