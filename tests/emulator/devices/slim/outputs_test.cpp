@@ -121,8 +121,9 @@ TEST(SlimTriggers, FireAtTheirCoordinateFromEitherSideOnceInTheTickThatPassesIt)
       EXPECT_EQ(bench.chain.output(0, 3), bench.travel(0) * way >= 12'345) << bench.tick;
       EXPECT_EQ(bench.chain.output(0, 4), bench.travel(0) * way < 20'000) << bench.tick;
     }
-    // Once.
+    // Once, also where the coordinate is set again.
     bench.chain.set_outputs(0, 0b1000);
+    bench.chain.set_coordinate(0, way * 30'000);
     bench.chain.move(0, true, 0);
     bench.finish();
     EXPECT_EQ(levels(bench.chain, 0), 0b1000);
