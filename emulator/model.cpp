@@ -5,6 +5,7 @@
 
 #include "emulator/device.h"
 #include "emulator/devices/simple2_r3/model.h"
+#include "emulator/devices/slim/model.h"
 #include "emulator/one_line.h"
 #include "emulator/register_map/access.h"
 #include "emulator/suggestion.h"
@@ -12,7 +13,7 @@
 namespace understudy::emulator {
 
 std::span<const Model* const> all_models() {
-  static const std::array<const Model*, 1> models{&simple2_r3::model()};
+  static const std::array<const Model*, 2> models{&simple2_r3::model(), &slim::model()};
   return models;
 }
 

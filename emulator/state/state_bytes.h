@@ -90,6 +90,8 @@ template <class T>
 auto as_bits(T value) {
   if constexpr (std::is_same_v<T, double>) {
     return std::bit_cast<std::uint64_t>(value);
+  } else if constexpr (std::is_same_v<T, float>) {
+    return std::bit_cast<std::uint32_t>(value);
   } else if constexpr (std::is_same_v<T, bool>) {
     return static_cast<std::uint8_t>(value);
   } else if constexpr (std::is_enum_v<T>) {
@@ -241,8 +243,8 @@ class StateReader {
       bits = static_cast<Bits<T>>(bits | static_cast<Bits<T>>(std::to_integer<std::uint8_t>(from[i]))
                                              << (8 * i));
     }
-    if constexpr (std::is_same_v<T, double>) {
-      return std::bit_cast<double>(bits);
+    if constexpr (std::is_floating_point_v<T>) {
+      return std::bit_cast<T>(bits);
     } else if constexpr (std::is_same_v<T, bool>) {
       demand_state(bits <= 1, "a yes or no must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {

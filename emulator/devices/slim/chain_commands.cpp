@@ -38,7 +38,7 @@ bool Chain::mapped(int module) const {
 
 Error Chain::refusal_by_number(int module) const {
   if (const Error why = refusal(module); why != Error::none) return why;
-  if (module != 0 && mapped(module)) return Error::not_assigned;
+  if (module != 0 && mapped(module)) return Error::axis;
   return refusal_of_motion(module);
 }
 
@@ -79,7 +79,7 @@ Error Chain::enqueue_move(int module, bool absolute, double units) {
   job.module_of[0] = static_cast<std::int8_t>(module);
   job.units[0] = units;
   job.ends[0] = absolute ? units : end_expected(module) + units;
-  if (!modules_[at(module)].reaches(job.ends[0])) return Error::out_of_range;
+  if (!modules_[at(module)].reaches(job.ends[0])) return Error::range;
   return enqueue(job);
 }
 
@@ -90,7 +90,7 @@ Error Chain::move(int module, bool absolute, double units) {
 
 Error Chain::move_axis(Letter letter, bool absolute, double units) {
   const int module = map_[static_cast<std::size_t>(letter)];
-  if (module < 0) return Error::not_assigned;
+  if (module < 0) return Error::axis;
   if (const Error why = refusal_of_motion(module); why != Error::none) return why;
   return enqueue_move(module, absolute, units);
 }
@@ -104,7 +104,7 @@ Error Chain::home(int module) {
 
 Error Chain::set_coordinate(int module, double units) {
   if (const Error why = refusal(module); why != Error::none) return why;
-  if (!modules_[at(module)].reaches(units)) return Error::out_of_range;
+  if (!modules_[at(module)].reaches(units)) return Error::range;
   Job job{.kind = Job::Kind::set_coordinate};
   job.module_of[0] = static_cast<std::int8_t>(module);
   job.units[0] = job.ends[0] = units;
@@ -124,7 +124,7 @@ Error Chain::jog(int module, int way) {
 }
 
 Error Chain::thrust(int module, std::int32_t force) {
-  if (force < 1 || force > kMostThrust) return Error::out_of_range;
+  if (force < 1 || force > kMostThrust) return Error::range;
   return replace_jog(module, 0, force);
 }
 

@@ -8,11 +8,11 @@
 namespace understudy::emulator::slim {
 
 Error Chain::assign(Letter letter, int module) {
-  if (module != kUnassigned && (module < 0 || module >= kMappable)) return Error::out_of_range;
+  if (module != kUnassigned && (module < 0 || module >= kMappable)) return Error::range;
   const auto mine = static_cast<std::size_t>(letter);
   const auto number = module == kUnassigned ? kNoModule : static_cast<std::int8_t>(module);
   for (std::size_t i = 0; i < map_.size(); ++i) {
-    if (i != mine && number != kNoModule && map_[i] == number) return Error::out_of_range;
+    if (i != mine && number != kNoModule && map_[i] == number) return Error::range;
   }
   map_[mine] = number;
   return Error::none;
@@ -24,12 +24,12 @@ int Chain::assigned(Letter letter) const {
 }
 
 Error Chain::line(std::span<const double> units, bool absolute) {
-  if (units.size() < 2 || units.size() > map_.size()) return Error::out_of_range;
+  if (units.size() < 2 || units.size() > map_.size()) return Error::range;
   Job job{.kind = Job::Kind::line, .absolute = absolute};
   for (std::size_t i = 0; i < units.size(); ++i) {
     job.module_of[i] = map_[i];
     job.units[i] = units[i];
-    if (map_[i] < 0) return Error::not_assigned;
+    if (map_[i] < 0) return Error::axis;
   }
   return enqueue_coordinated(job);
 }
@@ -41,7 +41,7 @@ Error Chain::arc(const ArcOrder& order) {
   const std::size_t letters = order.height_units ? 3 : 2;
   for (std::size_t i = 0; i < letters; ++i) {
     job.module_of[i] = map_[i];
-    if (map_[i] < 0) return Error::not_assigned;
+    if (map_[i] < 0) return Error::axis;
   }
   return enqueue_coordinated(job);
 }
@@ -52,7 +52,7 @@ Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_d
   job.units = {centre_x_units, centre_y_units, 0, 0};
   for (std::size_t i = 0; i < 2; ++i) {
     job.module_of[i] = map_[i];
-    if (map_[i] < 0) return Error::not_assigned;
+    if (map_[i] < 0) return Error::axis;
   }
   return enqueue_coordinated(job);
 }
@@ -68,7 +68,7 @@ Error Chain::enqueue_coordinated(Job job) {
     const bool equal = mine.path_speed_units_s == first.path_speed_units_s &&
                        mine.path_acceleration_units_s2 == first.path_acceleration_units_s2;
     if (!equal && options_.unequal_speeds == ChainOptions::UnequalSpeeds::refused) {
-      return Error::speeds_differ;
+      return Error::unequal_speeds;
     }
     begin[static_cast<Eigen::Index>(i)] = end_expected(module);
   }
@@ -76,10 +76,10 @@ Error Chain::enqueue_coordinated(Job job) {
   job.smooth_corner_deg = modules_[0].settings.smooth_corner_deg;
   try {
     const motion::Path path = path_of(job, begin);
-    if (!within_reach(job, path)) return Error::out_of_range;
+    if (!within_reach(job, path)) return Error::range;
     for (std::size_t i = 0; i < job.ends.size(); ++i) job.ends[i] = path.end[static_cast<Eigen::Index>(i)];
   } catch (const motion::BadMotion&) {
-    return Error::out_of_range;
+    return Error::range;
   }
   return enqueue(job);
 }
@@ -100,7 +100,7 @@ bool Chain::within_reach(const Job& job, const motion::Path& path) const {
 }
 
 Error Chain::set_continuous_path(int mode) {
-  if (mode < 0 || mode > 2) return Error::out_of_range;
+  if (mode < 0 || mode > 2) return Error::range;
   continuous_ = static_cast<ContinuousPath>(mode);
   return Error::none;
 }

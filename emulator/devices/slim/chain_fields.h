@@ -58,7 +58,7 @@ struct ChainFields {
   static constexpr Job::Kind last(Job::Kind) { return Job::Kind::output; }
   static constexpr ContinuousPath last(ContinuousPath) { return ContinuousPath::by_angle; }
   static constexpr Activity last(Activity) { return Activity::stopping; }
-  static constexpr Error last(Error) { return Error::bad_address; }
+  static constexpr Error last(Error) { return Error::address; }
 
   // Of motion/, and what is saved only as far as it is there.
   static void write(const motion::Axis& axis, StateWriter& writer);

@@ -24,25 +24,25 @@ Error Chain::enqueue_output(int module, const OutputOrder& order) {
 }
 
 Error Chain::set_output(int module, int output, bool on) {
-  if (!is_output(output)) return Error::out_of_range;
+  if (!is_output(output)) return Error::range;
   return enqueue_output(
       module, {.kind = on ? OutputOrder::Kind::set : OutputOrder::Kind::clear, .output = index_of(output)});
 }
 
 Error Chain::set_output_at_once(int module, int output, bool on) {
   if (const Error why = refusal(module); why != Error::none) return why;
-  if (!is_output(output)) return Error::out_of_range;
+  if (!is_output(output)) return Error::range;
   modules_[at(module)].outputs[index_of(output)] = {.on = on};
   return Error::none;
 }
 
 Error Chain::toggle_output(int module, int output) {
-  if (!is_output(output)) return Error::out_of_range;
+  if (!is_output(output)) return Error::range;
   return enqueue_output(module, {.kind = OutputOrder::Kind::toggle, .output = index_of(output)});
 }
 
 Error Chain::pulse_output(int module, int output, std::int32_t width_4ms) {
-  if (!is_output(output) || width_4ms < 1 || width_4ms > kLongestPulse) return Error::out_of_range;
+  if (!is_output(output) || width_4ms < 1 || width_4ms > kLongestPulse) return Error::range;
   return enqueue_output(
       module,
       {.kind = OutputOrder::Kind::pulse, .output = index_of(output), .width = width_4ms * kPulseUnit});
@@ -51,7 +51,7 @@ Error Chain::pulse_output(int module, int output, std::int32_t width_4ms) {
 Error Chain::pwm(int module, int output, double frequency_hz, double duty_percent) {
   const bool fits =
       frequency_hz >= 0.001 && frequency_hz <= kFastestPwm_hz && duty_percent >= 0 && duty_percent <= 100;
-  if (!is_output(output) || !fits) return Error::out_of_range;
+  if (!is_output(output) || !fits) return Error::range;
   return enqueue_output(module, {.kind = OutputOrder::Kind::pwm,
                                  .output = index_of(output),
                                  .frequency_hz = frequency_hz,
@@ -59,14 +59,14 @@ Error Chain::pwm(int module, int output, double frequency_hz, double duty_percen
 }
 
 Error Chain::set_outputs(int module, int mask) {
-  if (mask < 0 || mask >= 1 << kOutputs) return Error::out_of_range;
+  if (mask < 0 || mask >= 1 << kOutputs) return Error::range;
   return enqueue_output(module, {.kind = OutputOrder::Kind::all, .mask = static_cast<std::uint8_t>(mask)});
 }
 
 Error Chain::arm(int module, int trigger, int output, bool sets, double at_units) {
   if (const Error why = refusal(module); why != Error::none) return why;
   const bool fits = is_output(output) && (trigger == 1 || trigger == 2);
-  if (!fits || !modules_[at(module)].reaches(at_units)) return Error::out_of_range;
+  if (!fits || !modules_[at(module)].reaches(at_units)) return Error::range;
   return enqueue_output(module, {.kind = OutputOrder::Kind::arm,
                                  .output = index_of(output),
                                  .trigger = static_cast<std::uint8_t>(trigger - 1),

@@ -64,7 +64,7 @@ bool Chain::start_move(int module, Tick begin_at) {
     return true;
   }
   if (!mine.reaches(job.units[0])) {
-    drop_head(module, Error::out_of_range);
+    drop_head(module, Error::range);
     return true;
   }
   const std::int64_t distance = mine.zero_pulses + mine.pulses_of(job.units[0]) - axis.travel_pulses;
@@ -79,7 +79,7 @@ bool Chain::start_move(int module, Tick begin_at) {
   try {
     refused = axis.move(distance, law, begin_at - 1);
   } catch (const motion::BadMotion&) {
-    drop_head(module, Error::out_of_range);  // farther than pulses can be counted
+    drop_head(module, Error::range);  // farther than pulses can be counted
     return true;
   }
   if (refused != motion::Cause::none) {
@@ -181,11 +181,11 @@ bool Chain::start_group(int module, Tick begin_at) {
   try {
     path = path_of(job, begin);
   } catch (const motion::BadMotion&) {
-    drop_head(module, Error::out_of_range);
+    drop_head(module, Error::range);
     return true;
   }
   if (!within_reach(job, path)) {
-    drop_head(module, Error::out_of_range);
+    drop_head(module, Error::range);
     return true;
   }
   note_ends(job, 0, path.end);

@@ -28,7 +28,7 @@ Error Chain::set_scale(int module, std::int64_t multiplier, std::int64_t divider
   try {
     mine.settings.scale = motion::UnitScale::of(multiplier, divider);
   } catch (const motion::BadMotion&) {
-    return Error::out_of_range;
+    return Error::range;
   }
   mine.place_units = coordinate(module);
   place_triggers(module);
@@ -36,7 +36,7 @@ Error Chain::set_scale(int module, std::int64_t multiplier, std::int64_t divider
 }
 
 Error Chain::set_pulses_per_revolution(int module, std::int32_t pulses) {
-  if (pulses < 1) return Error::out_of_range;
+  if (pulses < 1) return Error::range;
   modules_[at(module)].settings.pulses_per_revolution = pulses;
   return Error::none;
 }
@@ -47,7 +47,7 @@ Error Chain::set_speed_unit(int module, SpeedUnit unit) {
 }
 
 Error Chain::set_working_speed(int module, double speed) {
-  if (!plannable(speed)) return Error::out_of_range;
+  if (!plannable(speed)) return Error::range;
   Module& mine = modules_[at(module)];
   mine.settings.working_speed = speed;
   mine.analog_speed = false;
@@ -57,7 +57,7 @@ Error Chain::set_working_speed(int module, double speed) {
 }
 
 Error Chain::set_jog_speed(int module, double speed) {
-  if (speed != 0 && !plannable(std::abs(speed))) return Error::out_of_range;
+  if (speed != 0 && !plannable(std::abs(speed))) return Error::range;
   Module& mine = modules_[at(module)];
   const bool same_sense = speed * mine.settings.jog_speed > 0;
   mine.settings.jog_speed = speed;
@@ -68,19 +68,19 @@ Error Chain::set_jog_speed(int module, double speed) {
 }
 
 Error Chain::set_acceleration(int module, double acceleration) {
-  if (!plannable(acceleration)) return Error::out_of_range;
+  if (!plannable(acceleration)) return Error::range;
   modules_[at(module)].settings.acceleration = acceleration;
   return Error::none;
 }
 
 Error Chain::set_path_speed(int module, double units_s) {
-  if (!plannable(units_s)) return Error::out_of_range;
+  if (!plannable(units_s)) return Error::range;
   modules_[at(module)].settings.path_speed_units_s = units_s;
   return Error::none;
 }
 
 Error Chain::set_tvm(double units_s) {
-  if (!plannable(units_s)) return Error::out_of_range;
+  if (!plannable(units_s)) return Error::range;
   for (Module& each : modules_) {
     if (each.linked) each.settings.path_speed_units_s = units_s;
   }
@@ -91,14 +91,14 @@ Error Chain::set_tvm(double units_s) {
 }
 
 Error Chain::set_path_acceleration(int module, double units_s2) {
-  if (!plannable(units_s2)) return Error::out_of_range;
+  if (!plannable(units_s2)) return Error::range;
   if (groups_running() > 0) return Error::not_allowed;
   modules_[at(module)].settings.path_acceleration_units_s2 = units_s2;
   return Error::none;
 }
 
 Error Chain::set_smooth_corner(int module, double degrees) {
-  if (!(degrees >= 0 && degrees <= 180)) return Error::out_of_range;
+  if (!(degrees >= 0 && degrees <= 180)) return Error::range;
   modules_[at(module)].settings.smooth_corner_deg = degrees;
   return Error::none;
 }

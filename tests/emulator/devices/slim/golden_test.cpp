@@ -172,21 +172,21 @@ TEST(SlimGolden, WhatCannotBeIsRefusedAndChangesNothing) {
   OneChain bench;
   bench.map({0, 1});
   const OneChain before = bench;
-  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::out_of_range);  // no radius
-  EXPECT_EQ(bench.chain.arc(about(1e300, 0, 90)), Error::out_of_range);
-  EXPECT_EQ(bench.chain.arc(about(10, 0, std::nan(""))), Error::out_of_range);
-  EXPECT_EQ(bench.chain.spiral(10, 0, 3600, -5), Error::out_of_range);  // a radius below 0
-  EXPECT_EQ(bench.line({1e13, 0}), Error::out_of_range);
-  EXPECT_EQ(bench.line({1, 2, 3}), Error::not_assigned);
+  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::range);  // no radius
+  EXPECT_EQ(bench.chain.arc(about(1e300, 0, 90)), Error::range);
+  EXPECT_EQ(bench.chain.arc(about(10, 0, std::nan(""))), Error::range);
+  EXPECT_EQ(bench.chain.spiral(10, 0, 3600, -5), Error::range);  // a radius below 0
+  EXPECT_EQ(bench.line({1e13, 0}), Error::range);
+  EXPECT_EQ(bench.line({1, 2, 3}), Error::axis);
   bench.chain.set_linked(1, false);
   EXPECT_EQ(bench.line({1, 2}), Error::not_linked);
   bench.chain.set_linked(1, true);
   EXPECT_EQ(bench.chain, before.chain);
   EXPECT_EQ(bench.chain.set_path_speed(1, 200), Error::none);
-  EXPECT_EQ(bench.line({1, 2}), Error::speeds_differ);
+  EXPECT_EQ(bench.line({1, 2}), Error::unequal_speeds);
   EXPECT_EQ(bench.chain.set_path_speed(1, 100), Error::none);
   EXPECT_EQ(bench.chain.set_path_acceleration(1, 2000), Error::none);
-  EXPECT_EQ(bench.line({1, 2}), Error::speeds_differ);
+  EXPECT_EQ(bench.line({1, 2}), Error::unequal_speeds);
   EXPECT_TRUE(bench.all_done());
 }
 

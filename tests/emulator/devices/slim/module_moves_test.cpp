@@ -67,7 +67,7 @@ TEST(SlimMove, UserUnitsAreByPn45AndPn46) {
   bench.finish();
   EXPECT_EQ(bench.travel(0), 28);  // 27.8
   EXPECT_NEAR(bench.chain.coordinate(0), 100, 0.018);
-  EXPECT_EQ(bench.chain.set_scale(0, 0, 1), Error::out_of_range);
+  EXPECT_EQ(bench.chain.set_scale(0, 0, 1), Error::range);
 }
 
 TEST(SlimMove, ACoordinateIsSetInItsTurn) {
@@ -202,17 +202,17 @@ TEST(SlimAvm, AJogFollowsItAndVmEndsIt) {
 TEST(SlimMapped, AModuleWithALetterIsNoLongerMovedByItsNumberButForT0) {
   OneChain bench;
   bench.map({1, 0});
-  EXPECT_EQ(bench.chain.move(1, true, 5), Error::not_assigned);
-  EXPECT_EQ(bench.chain.jog(1, +1), Error::not_assigned);
-  EXPECT_EQ(bench.chain.home(1), Error::not_assigned);
-  EXPECT_EQ(bench.chain.thrust(1, 5), Error::not_assigned);
+  EXPECT_EQ(bench.chain.move(1, true, 5), Error::axis);
+  EXPECT_EQ(bench.chain.jog(1, +1), Error::axis);
+  EXPECT_EQ(bench.chain.home(1), Error::axis);
+  EXPECT_EQ(bench.chain.thrust(1, 5), Error::axis);
   EXPECT_EQ(bench.chain.jog(1, 0), Error::none);
   EXPECT_EQ(bench.chain.set_servo(1, true), Error::none);
   EXPECT_EQ(bench.chain.set_coordinate(1, 5), Error::none);
   EXPECT_EQ(bench.chain.set_output(1, 1, true), Error::none);
   EXPECT_EQ(bench.chain.move(0, true, 50), Error::none);
   EXPECT_EQ(bench.chain.move_axis(Letter::x, true, 15), Error::none);
-  EXPECT_EQ(bench.chain.move_axis(Letter::z, true, 15), Error::not_assigned);
+  EXPECT_EQ(bench.chain.move_axis(Letter::z, true, 15), Error::axis);
   bench.finish();
   EXPECT_EQ(bench.chain.coordinate(1), 15);
   EXPECT_EQ(bench.travel(0), 50);
@@ -223,10 +223,10 @@ TEST(SlimMapped, AModuleWithALetterIsNoLongerMovedByItsNumberButForT0) {
 TEST(SlimMapped, OnlyModules0To5AndEachOnce) {
   OneChain bench;
   for (const int bad : {-1, 6, 7, 9, 100}) {
-    EXPECT_EQ(bench.chain.assign(Letter::x, bad), Error::out_of_range) << bad;
+    EXPECT_EQ(bench.chain.assign(Letter::x, bad), Error::range) << bad;
   }
   EXPECT_EQ(bench.chain.assign(Letter::x, 5), Error::none);
-  EXPECT_EQ(bench.chain.assign(Letter::y, 5), Error::out_of_range);
+  EXPECT_EQ(bench.chain.assign(Letter::y, 5), Error::range);
   EXPECT_EQ(bench.chain.assign(Letter::x, 5), Error::none);
   EXPECT_EQ(bench.chain.assigned(Letter::x), 5);
   EXPECT_EQ(bench.chain.assigned(Letter::y), kUnassigned);

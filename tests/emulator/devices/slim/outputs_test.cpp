@@ -29,15 +29,15 @@ TEST(SlimOutputs, SetClearToggleAndAllFour) {
   }
   EXPECT_EQ(levels(bench.chain, 2), 0);
   for (const int bad : {0, 5, -1}) {
-    EXPECT_EQ(bench.chain.set_output(3, bad, true), Error::out_of_range);
-    EXPECT_EQ(bench.chain.set_output_at_once(3, bad, true), Error::out_of_range);
-    EXPECT_EQ(bench.chain.toggle_output(3, bad), Error::out_of_range);
-    EXPECT_EQ(bench.chain.pulse_output(3, bad, 1), Error::out_of_range);
-    EXPECT_EQ(bench.chain.pwm(3, bad, 1, 1), Error::out_of_range);
-    EXPECT_EQ(bench.chain.arm(3, 1, bad, true, 1), Error::out_of_range);
+    EXPECT_EQ(bench.chain.set_output(3, bad, true), Error::range);
+    EXPECT_EQ(bench.chain.set_output_at_once(3, bad, true), Error::range);
+    EXPECT_EQ(bench.chain.toggle_output(3, bad), Error::range);
+    EXPECT_EQ(bench.chain.pulse_output(3, bad, 1), Error::range);
+    EXPECT_EQ(bench.chain.pwm(3, bad, 1, 1), Error::range);
+    EXPECT_EQ(bench.chain.arm(3, 1, bad, true, 1), Error::range);
   }
-  EXPECT_EQ(bench.chain.set_outputs(3, 16), Error::out_of_range);
-  EXPECT_EQ(bench.chain.set_outputs(3, -1), Error::out_of_range);
+  EXPECT_EQ(bench.chain.set_outputs(3, 16), Error::range);
+  EXPECT_EQ(bench.chain.set_outputs(3, -1), Error::range);
 }
 
 TEST(SlimOutputs, QueuedOnesWaitForTheMotionBeforeThemAndImmediateOnesDoNot) {
@@ -71,7 +71,7 @@ TEST(SlimOutputs, APulseLastsFourMillisecondsAUnit) {
     EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
   }
   OneChain bench;
-  EXPECT_EQ(bench.chain.pulse_output(0, 2, 0), Error::out_of_range);
+  EXPECT_EQ(bench.chain.pulse_output(0, 2, 0), Error::range);
 }
 
 TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
@@ -100,7 +100,7 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
   OneChain bench;
   for (const auto& [hz, duty] :
        {std::pair{0.0, 50.0}, {-1.0, 50.0}, {10.0, 100.1}, {10.0, -1.0}, {1e9, 5.0}}) {
-    EXPECT_EQ(bench.chain.pwm(0, 1, hz, duty), Error::out_of_range);
+    EXPECT_EQ(bench.chain.pwm(0, 1, hz, duty), Error::range);
   }
   bench.chain.pwm(0, 1, 10, 50);
   bench.chain.toggle_output(0, 1);  // it is on at its beginning
@@ -161,7 +161,7 @@ TEST(SlimTriggers, FollowTheCoordinateAndWorkInCoordinatedMotion) {
   bench.line({0, -100});
   bench.finish();
   EXPECT_EQ(levels(bench.chain, 1), 0b101);
-  EXPECT_EQ(bench.chain.arm(1, 3, 1, true, 1), Error::out_of_range);
+  EXPECT_EQ(bench.chain.arm(1, 3, 1, true, 1), Error::range);
 }
 
 }  // namespace

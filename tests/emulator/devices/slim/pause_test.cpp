@@ -333,7 +333,7 @@ TEST(SlimTvm, OneByOneDoesNotTouchWhatRunsAndSpoilsWhatComes) {
   bench.steps(500);
   EXPECT_EQ(bench.chain.set_path_speed(1, 20), Error::none);
   EXPECT_EQ(bench.finish() - 1, 1100);
-  EXPECT_EQ(bench.line({100, 0}), Error::speeds_differ);
+  EXPECT_EQ(bench.line({100, 0}), Error::unequal_speeds);
   ChainOptions options;
   options.unequal_speeds = ChainOptions::UnequalSpeeds::by_module_0;
   bench.chain.set_options(options);
@@ -359,9 +359,9 @@ TEST(SlimTvm, TvaIsRefusedWhileAnythingIsCoordinated) {
 TEST(SlimTvm, NeitherMayBeZeroOrLess) {
   OneChain bench = at_origin();
   for (const double bad : {0.0, -1.0, std::nan(""), 1e300, 1e-300}) {
-    EXPECT_EQ(bench.chain.set_tvm(bad), Error::out_of_range);
-    EXPECT_EQ(bench.chain.set_path_speed(0, bad), Error::out_of_range);
-    EXPECT_EQ(bench.chain.set_path_acceleration(0, bad), Error::out_of_range);
+    EXPECT_EQ(bench.chain.set_tvm(bad), Error::range);
+    EXPECT_EQ(bench.chain.set_path_speed(0, bad), Error::range);
+    EXPECT_EQ(bench.chain.set_path_acceleration(0, bad), Error::range);
   }
 }
 

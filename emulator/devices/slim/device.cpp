@@ -1,0 +1,188 @@
+#include "emulator/devices/slim/device.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "emulator/devices/slim/model.h"
+
+namespace understudy::emulator::slim {
+
+Slim::Slim(const DeviceSettings& settings)
+    : TextDevice(model(), settings), modules_(std::max(settings.modules, 1)) {
+  flow_options_ = flow_options();
+  state_.kept = factory();
+  state_.ram = state_.kept;
+}
+
+ChainOptions Slim::chain_options() const {
+  ChainOptions options;
+  if (chose(kSpeedsOfT0)) options.unequal_speeds = ChainOptions::UnequalSpeeds::by_module_0;
+  if (chose(kIneffectivePauseRefused)) options.in_vain = ChainOptions::InVain::refused;
+  if (chose(kThrustRuns)) options.thrust = ChainOptions::Thrust::runs_at_vj;
+  if (chose(kNewSpeedAtOnce)) options.new_speed = ChainOptions::NewSpeed::at_once;
+  if (chose(kSarHeightAbsolute)) options.sar_height = ChainOptions::SarHeight::absolute;
+  options.servo_at_power_up = !chose(kServoOffAtPowerUp);
+  return options;
+}
+
+lang::FlowOptions Slim::flow_options() const {
+  lang::FlowOptions options;
+  if (chose(kFailedLinePassed)) options.failed_line = lang::FlowOptions::FailedLine::is_passed;
+  if (chose(kWaitsHaveGoneOn)) options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
+  if (chose(kEventsWaitForChange)) options.events.at_arming = lang::EventOptions::AtArming::waits_for_change;
+  if (chose(kHeldEventDropped)) options.events.held = lang::EventOptions::Held::is_dropped;
+  return options;
+}
+
+Memory Slim::factory() const { return factory_memory(modules_); }
+
+// --- power and memory ------------------------------------------------------------------------------
+
+void Slim::power_up() {
+  state_.ram = state_.kept;
+  state_.chain = Chain(chain_options());
+  state_.chain.skip_to(now());
+  state_.program.clear();
+  state_.program.set_texts(state_.kept_program);
+  state_.powered_at = now();
+  state_.clock_zero = now();
+  state_.touched = true;
+  for (int m = 0; m < kModules; ++m) state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
+  apply_all_parameters();
+  const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
+  for (int letter = 0; letter < kLetters; ++letter) {
+    state_.chain.assign(static_cast<Letter>(letter), (map >> (4 * letter)) & 0xF);
+  }
+}
+
+void Slim::power_down() {
+  State blank;
+  blank.kept = std::move(state_.kept);
+  blank.ram = blank.kept;
+  blank.kept_program = std::move(state_.kept_program);
+  blank.kept_revision = state_.kept_revision;
+  blank.chain.skip_to(now());
+  state_ = std::move(blank);
+}
+
+/// RESET H.
+void Slim::reboot() {
+  power_down();
+  power_up();
+}
+
+/// What was set when the device was made is kept, as if saved.
+void Slim::settle_memory() {
+  state_.kept = state_.ram;
+  keep_program();
+}
+
+void Slim::write_memory(NvImage& image) const {
+  write_image(state_.kept, factory(), image);
+  image.program = state_.kept_program;
+}
+
+void Slim::read_memory(const NvImage& image) {
+  Memory memory = read_image(image, factory());
+  lang::Program program;
+  if (!program.set_texts(image.program)) {
+    throw NvError("program: holds a line that is no command of a program; expected lines as PL shows them");
+  }
+  state_.kept = std::move(memory);
+  state_.kept_program = image.program;
+  ++state_.kept_revision;
+}
+
+void Slim::load_program(std::string_view text) {
+  wake();
+  lang::Program program;
+  std::istringstream lines{std::string(text)};
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::size_t first = line.find_first_not_of(" \t");
+    // What a file has for people: empty lines and remarks.
+    if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
+    const Error error = program.insert(program.size(), line);
+    if (error == Error::none) continue;
+    const char* const what = error == Error::buffer_full ? "the program is full; expected at most 1000 lines"
+                             : error == Error::range     ? "has a value out of range"
+                             : error == Error::not_allowed ? "may not stand in a program"
+                                                           : "is no command; expected one of `understudy "
+                                                             "describe slim commands`";
+    throw ProgramError(number, what);
+  }
+  stop(state_.execution);
+  state_.program = std::move(program);
+}
+
+std::string Slim::program_text() const {
+  std::string text;
+  for (const std::string& line : state_.program.texts()) text += line + "\n";
+  return text;
+}
+
+// --- a tick ----------------------------------------------------------------------------------------
+
+std::uint8_t Slim::input_levels(int module) const {
+  unsigned levels = 0;
+  for (int i = 0; i < kInputs; ++i) levels |= (level(module, i) ? 1U : 0U) << i;
+  return static_cast<std::uint8_t>(levels);
+}
+
+void Slim::sample_inputs(Tick tick) {
+  state_.chain.skip_to(tick - 1);
+  for (int m = 0; m < kModules; ++m) {
+    state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
+    state_.chain.set_horg(m, level(m, kHorg));
+    state_.chain.set_analog(m, emulator::Device::input(terminal(m, kAnalog)));
+  }
+  state_.touched = false;
+}
+
+void Slim::run_interpreters(Tick tick) {
+  const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
+  // What carry_out() has refused is remembered already, of its module.
+  if (error != Error::none && state_.errors[0].present != error) remember(0, error);
+}
+
+void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
+
+void Slim::update_outputs(Tick) {
+  for (int m = 0; m < kModules; ++m) {
+    const Error late = state_.chain.take_late_error(m);
+    if (late != Error::none) remember(m, late);
+  }
+}
+
+Tick Slim::next_active_tick(Tick done) const {
+  if (state_.touched) return done + 1;
+  for (int m = 0; m < kModules; ++m) {
+    if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return done + 1;
+  }
+  return std::min(state_.chain.next_active_tick(done),
+                  next_active_ms(state_.execution, done, state_.program, *this));
+}
+
+State Slim::settled() const {
+  State state = state_;
+  state.chain.skip_to(now());
+  return state;
+}
+
+bool Slim::same_state(const Device& other) const {
+  const auto* that = dynamic_cast<const Slim*>(&other);
+  return that != nullptr && that->now() == now() && that->settled() == settled();
+}
+
+// --- terminals and axes ----------------------------------------------------------------------------
+
+bool Slim::output(int number) const {
+  const int module = number / kTerminalsOfModule;
+  const int which = number % kTerminalsOfModule;
+  return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
+}
+
+void Slim::set_encoder(int, std::int64_t) {}  // its loop is closed inside; see the model's gaps
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,111 @@
+#include "emulator/devices/slim/memory.h"
+
+#include <cmath>
+#include <map>
+
+#include "emulator/one_line.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+using interpreter::slim::kIntegerLeast;
+using interpreter::slim::kIntegerMost;
+
+bool is_integer(const ParameterDefinition& row) { return row.type == ParameterDefinition::Type::integer; }
+
+/// Calls `visit(name, value, definition)` for everything that has a name, in the order of the lists. The
+/// definition is null for variables.
+void for_each_name(auto& memory, auto visit) {
+  for (int m = 0; m < kModules; ++m) {
+    for (std::size_t i = 0; i < kParameterCount; ++i) {
+      if (m > 0 && kParameters[i].host_only) continue;
+      visit(parameter_name(m, kParameters[i]), memory.parameters[static_cast<std::size_t>(m)][i],
+            &kParameters[i]);
+    }
+  }
+  const ParameterDefinition* const none = nullptr;
+  for (std::size_t i = 0; i < memory.integers.size(); ++i)
+    visit("N" + std::to_string(i), memory.integers[i], none);
+  for (std::size_t i = 0; i < memory.reals.size(); ++i) visit("R" + std::to_string(i), memory.reals[i], none);
+  for (std::size_t i = 0; i < memory.integer_array.size(); ++i) {
+    visit("NS(" + std::to_string(i) + ")", memory.integer_array[i], none);
+  }
+  for (std::size_t i = 0; i < memory.real_array.size(); ++i) {
+    visit("RS(" + std::to_string(i) + ")", memory.real_array[i], none);
+  }
+}
+
+}  // namespace
+
+Memory factory_memory(int modules) {
+  Memory memory;
+  memory.parameters.fill(factory_parameters());
+  memory.parameters[0][parameter("PN50")] = (1 << modules) - 1;
+  return memory;
+}
+
+std::string parameter_name(int module, const ParameterDefinition& row) {
+  return (module == 0 ? "" : "T" + std::to_string(module)) + std::string(row.name);
+}
+
+void write_image(const Memory& memory, const Memory& factory, NvImage& image) {
+  std::vector<double> before;
+  for_each_name(factory, [&](const std::string&, const auto& value, const ParameterDefinition*) {
+    before.push_back(value);
+  });
+  std::size_t next = 0;
+  for_each_name(memory, [&](const std::string& name, const auto& value, const ParameterDefinition* row) {
+    if (value == before[next++]) return;
+    if (std::is_same_v<std::decay_t<decltype(value)>, std::int16_t> || (row != nullptr && is_integer(*row))) {
+      image.registers.emplace_back(name, static_cast<std::int64_t>(value));
+    } else {
+      image.reals.emplace_back(name, value);
+    }
+  });
+}
+
+Memory read_image(const NvImage& image, const Memory& factory) {
+  std::map<std::string, double> integers;
+  std::map<std::string, double> reals;
+  for (const auto& [name, value] : image.registers) integers.emplace(name, static_cast<double>(value));
+  for (const auto& [name, value] : image.reals) reals.emplace(name, value);
+  Memory memory = factory;
+  const auto take = [](std::map<std::string, double>& from, const std::string& name) {
+    const auto node = from.extract(name);
+    return node.empty() ? std::nullopt : std::optional(node.mapped());
+  };
+  const auto does_not_fit = [](const char* where, const std::string& name, double value) {
+    return NvError(std::string(where) + ": " + quoted(name) + ": " + std::to_string(value) +
+                   " does not fit; expected a value in its range");
+  };
+  for_each_name(memory, [&](const std::string& name, auto& value, const ParameterDefinition* row) {
+    using T = std::decay_t<decltype(value)>;
+    const bool whole = std::is_same_v<T, std::int16_t> || (row != nullptr && is_integer(*row));
+    const auto given = take(whole ? integers : reals, name);
+    if (!given) return;
+    const char* const where = whole ? "registers" : "reals";
+    if (row != nullptr) {
+      const auto fits = fitted(*row, *given);
+      if (!fits) throw does_not_fit(where, name, *given);
+      value = static_cast<T>(*fits);
+    } else if (std::is_same_v<T, std::int16_t>) {
+      if (*given < kIntegerLeast || *given > kIntegerMost) throw does_not_fit(where, name, *given);
+      value = static_cast<T>(*given);
+    } else {
+      if (std::abs(*given) > kMaxReal) throw does_not_fit(where, name, *given);
+      value = static_cast<T>(*given);
+    }
+  });
+  if (!integers.empty()) {
+    throw NvError("registers: there is no " + quoted(integers.begin()->first) +
+                  "; expected a parameter or variable");
+  }
+  if (!reals.empty()) {
+    throw NvError("reals: there is no " + quoted(reals.begin()->first) +
+                  "; expected a parameter or variable");
+  }
+  return memory;
+}
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,37 @@
+// What a SLIM holds in numbers: parameters of its modules, variables, arrays. In RAM, and as it is kept.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "emulator/devices/slim/module.h"
+#include "emulator/devices/slim/parameters.h"
+#include "emulator/memory/nv_image.h"
+#include "interpreter/slim/commands.h"
+
+namespace understudy::emulator::slim {
+
+struct Memory {
+  std::array<Parameters, kModules> parameters{};
+  std::array<std::int16_t, interpreter::slim::kVariableCount> integers{};    // N#
+  std::array<float, interpreter::slim::kVariableCount> reals{};              // R#
+  std::array<std::int16_t, interpreter::slim::kArrayCount> integer_array{};  // NS()
+  std::array<float, interpreter::slim::kArrayCount> real_array{};            // RS()
+
+  bool operator==(const Memory&) const = default;
+};
+
+/// As it leaves the factory; the first `modules` are linked.
+Memory factory_memory(int modules);
+
+/// "T1PR3"; of the host without a prefix, as commands name it.
+std::string parameter_name(int module, const ParameterDefinition& row);
+
+/// What differs from `factory`, by name, into an image; and back into a memory that is `factory` otherwise.
+/// The latter throws NvError for names and values that there are not.
+void write_image(const Memory& memory, const Memory& factory, NvImage& image);
+Memory read_image(const NvImage& image, const Memory& factory);
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,94 @@
+// SLIM: the parameters that its command list names (part 1 "參數", part 2 parameter table), as data.
+// Assignments, queries, range checks, the memory, ULC, describe and docs read these rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+namespace understudy::emulator::slim {
+
+struct ParameterDefinition {
+  std::string_view name;
+  std::string_view alias;  // a second name of the manual; empty if there is none
+  enum class Type : std::uint8_t { integer, real } type = Type::real;
+  double lowest = 0;
+  double highest = 0;
+  bool above_lowest = false;  // the lowest itself is not allowed
+  double factory = 0;
+  std::string_view unit;
+  bool host_only = false;  // one for the chain, T0's
+  std::string_view meaning;
+};
+
+inline constexpr double kMaxReal = 3.402823466e38;  // float32
+
+/// In the order in which ULC lists them.
+inline constexpr ParameterDefinition kParameters[] = {
+    {"PN10", "VM", ParameterDefinition::Type::real, 0, 1e6, true, 1000, "RPM or RPS, by FU", false,
+     "working speed"},
+    {"PN14", "VJ", ParameterDefinition::Type::real, 0, 1e6, true, 100, "RPM or RPS, by FU", false,
+     "jog speed"},
+    {"FU", "", ParameterDefinition::Type::integer, 0, 1, false, 0, "", false,
+     "unit of PN10 and PN14: 0 RPM, 1 RPS"},
+    {"VA", "", ParameterDefinition::Type::real, 0, 1e9, true, 10000, "RPM/s or RPS/s, by FU", false,
+     "acceleration of moves of one axis; the name is ours, like TVA"},
+    {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none"},
+    {"EL", "", ParameterDefinition::Type::integer, 0, 2147483647, false, 0, "pulse", false,
+     "position error limit; 0: none"},
+    {"PN37", "", ParameterDefinition::Type::integer, 0, 65535, false, 0x8888, "", true,
+     "module of each axis at power-up, a nibble for x, y, z and w; 8: none"},
+    {"PN44", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "", false,
+     "user coordinate unit"},
+    {"PN45", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "pulse", false,
+     "user coordinate unit: so many pulses ..."},
+    {"PN46", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "unit", false,
+     "... are so many units"},
+    {"PN50", "", ParameterDefinition::Type::integer, 0, 255, false, 1, "", true,
+     "linked modules, bit p for Tp; T0 always"},
+    {"PR2", "TVA", ParameterDefinition::Type::real, 0, kMaxReal, true, 1000, "unit/s2", false,
+     "resultant acceleration of coordinated motion"},
+    {"PR3", "TVM", ParameterDefinition::Type::real, 0, kMaxReal, true, 100, "unit/s", false,
+     "resultant speed of coordinated motion"},
+    {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
+     "largest angle that CM 2 joins"},
+    {"SYN", "", ParameterDefinition::Type::integer, 0, 7, false, 0, "", false,
+     "master of linked axes, of older models"},
+};
+inline constexpr std::size_t kParameterCount = std::size(kParameters);
+
+/// The values of one module. An integer is held exactly.
+using Parameters = std::array<double, kParameterCount>;
+
+/// The number of a row; a compile error for a name that there is not.
+consteval std::size_t parameter(std::string_view name) {
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
+      return i;
+  }
+  throw "no such parameter";
+}
+
+/// By name or alias, in capitals.
+constexpr std::optional<std::size_t> find_parameter(std::string_view name) {
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
+      return i;
+  }
+  return std::nullopt;
+}
+
+constexpr Parameters factory_parameters() {
+  Parameters all{};
+  for (std::size_t i = 0; i < kParameterCount; ++i) all[i] = kParameters[i].factory;
+  return all;
+}
+
+/// The value as the parameter holds it: a real one is rounded to what 32 bits hold. Nothing if it is out of
+/// range.
+std::optional<double> fitted(const ParameterDefinition& row, double value);
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,166 @@
+// What SLIM's queries answer.
+#include <cstdio>
+
+#include "emulator/devices/slim/device.h"
+#include "emulator/devices/slim/numbers.h"
+#include "emulator/parse_integer.h"
+
+namespace understudy::emulator::slim {
+
+using lang::Verb;
+
+namespace {
+
+// ?ST.
+constexpr unsigned kServoOn = 1U << 0;
+constexpr unsigned kMoving = 1U << 1;
+constexpr unsigned kProgramRuns = 1U << 2;
+constexpr unsigned kPaused = 1U << 3;
+constexpr unsigned kHomed = 1U << 4;
+constexpr unsigned kErrorPresent = 1U << 5;
+constexpr unsigned kEditing = 1U << 6;
+constexpr unsigned kJogs = 1U << 7;
+constexpr unsigned kBufferNotEmpty = 1U << 8;
+constexpr unsigned kInBlend = 1U << 9;
+
+std::string history_text(const Errors& errors) {
+  std::string text;
+  for (const std::uint8_t error : errors.history) {
+    if (!text.empty()) text += ',';
+    text += std::to_string(error);
+  }
+  return text.empty() ? "0" : text;
+}
+
+/// "1:02:03".
+std::string time_text(std::int64_t seconds) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%lld:%02d:%02d", static_cast<long long>(seconds / 3600),
+                static_cast<int>(seconds / 60 % 60), static_cast<int>(seconds % 60));
+  return text;
+}
+
+}  // namespace
+
+std::uint16_t Slim::status_bits(int module) const {
+  const ModuleStatus status = state_.chain.status(module);
+  unsigned bits = 0;
+  const auto add = [&](unsigned bit, bool on) {
+    if (on) bits |= bit;
+  };
+  add(kServoOn, status.servo_on);
+  add(kMoving, status.moving);
+  add(kProgramRuns, state_.execution.running);
+  add(kPaused, status.paused);
+  add(kHomed, status.homed);
+  add(kErrorPresent, state_.errors[static_cast<std::size_t>(module)].present != Error::none);
+  add(kEditing, is_editing(state_.editor));
+  add(kJogs, status.jog);
+  add(kBufferNotEmpty, status.buffer_not_empty);
+  add(kInBlend, status.in_blend);
+  return static_cast<std::uint16_t>(bits);
+}
+
+/// The command's indices are resolved.
+Error Slim::query(const lang::Command& command, Answer& answer) const {
+  const int module = command.module < 0 ? 0 : command.module;
+  if (const Error error = linked(module); error != Error::none) return error;
+  answer.name = (command.module > 0 ? "T" + std::to_string(module) : "") + command.name;
+  const auto whole = [&](double value) {
+    answer.number = value;
+    answer.text = text_of_integer(value);
+    return Error::none;
+  };
+  const auto real = [&](double value) {
+    answer.number = value;
+    answer.text = text_of_real(value);
+    return Error::none;
+  };
+  const auto words = [&](std::string text) {
+    answer.text = std::move(text);
+    return Error::none;
+  };
+  const auto number = [&] { return static_cast<int>(command.operands.front().number); };
+  const Errors& errors = state_.errors[static_cast<std::size_t>(module)];
+  switch (command.verb) {
+    case Verb::query_input: {
+      const std::uint8_t levels = input_levels(module);
+      return whole(command.operands.empty() ? levels : (levels >> (number() - 1)) & 1);
+    }
+    case Verb::query_analog: return whole(emulator::Device::input(terminal(module, kAnalog)));
+    case Verb::query_switch: return whole(level(module, kFirstSwitch + number() - 1) ? 1 : 0);
+    case Verb::query_status: return whole(status_bits(module));
+    case Verb::query_version: return words(version_text(firmware()));
+    case Verb::query_variable: {
+      const lang::Operand& variable = command.operands.front();
+      return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
+    }
+    case Verb::query_coordinate: return real(state_.chain.coordinate(module));
+    case Verb::query_mode: return whole(static_cast<double>(state_.chain.status(module).mode));
+    case Verb::query_error: return whole(static_cast<double>(errors.present));
+    case Verb::query_error_history: return words(history_text(errors));
+    case Verb::query_time: return words(time_text((now() - state_.powered_at) / 1000));
+    case Verb::query_motor_version: return words("1");
+    // Not modelled; kGaps says so.
+    case Verb::query_voltage: return whole(24);
+    case Verb::query_temperature: return whole(25);
+    case Verb::query_peak_current:
+    case Verb::query_mean_current:
+    case Verb::query_peak_following_error: return whole(0);
+    default: break;
+  }
+  if (command.name == "TM") return whole(static_cast<double>(clock_s()));
+  const auto found = find_parameter(command.name);
+  if (!found || (kParameters[*found].host_only && module != 0)) return Error::syntax;
+  const double held = state_.ram.parameters[static_cast<std::size_t>(module)][*found];
+  return kParameters[*found].type == ParameterDefinition::Type::integer ? whole(held) : real(held);
+}
+
+// --- past the line: scenarios, traces, the control socket ----------------------------------------
+
+std::optional<double> Slim::value_named(std::string_view name) const {
+  if (!powered()) return std::nullopt;
+  lang::ParseResult parsed = lang::parse_line("?" + std::string(name));
+  if (parsed.error != Error::none || !parsed.line.command) return std::nullopt;
+  lang::Command& command = *parsed.line.command;
+  if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) return std::nullopt;
+  Answer answer;
+  if (resolve_indices(command, *this) != Error::none) return std::nullopt;
+  if (query(command, answer) != Error::none) return std::nullopt;
+  return answer.number;
+}
+
+std::optional<std::string> Slim::assign(std::string_view name, double value) {
+  if (!powered()) return "it has no power";
+  wake();
+  const bool is_whole = value == static_cast<double>(static_cast<std::int64_t>(value));
+  lang::ParseResult parsed =
+      lang::parse_line(std::string(name) + "=" + (is_whole ? text_of_integer(value) : text_of_real(value)));
+  if (parsed.error == Error::none && parsed.line.command) {
+    lang::Command& command = *parsed.line.command;
+    if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_assignment()) {
+      return "is no parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
+    }
+    parsed.error = resolve_indices(command, *this);
+    if (parsed.error == Error::none) parsed.error = execute(command);
+  }
+  switch (parsed.error) {
+    case Error::none: return std::nullopt;
+    case Error::syntax: return "is no parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
+    case Error::range: return "is out of range";
+    case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
+    default: return "is refused with ERR " + std::to_string(static_cast<int>(parsed.error));
+  }
+}
+
+std::vector<std::string> Slim::names() const {
+  std::vector<std::string> all{"PE", "ST", "MD", "ERR", "IN", "AIN", "TM", "N0", "R0"};
+  for (const ParameterDefinition& row : kParameters)
+    all.emplace_back(row.alias.empty() ? row.name : row.alias);
+  for (int m = 1; m < kModules; ++m) {
+    if (state_.chain.linked(m)) all.push_back("T" + std::to_string(m) + "PE");
+  }
+  return all;
+}
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,112 @@
+// SLIM's state as bytes, and back.
+#include <cmath>
+#include <memory>
+
+#include "emulator/devices/slim/chain_fields.h"
+#include "emulator/devices/slim/device.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+struct Fields {
+  // clang-format off
+  static void of(Like<lang::Operand> auto& v, auto visit) {
+    auto& [a, b, c, d, e] = v; visit(a, b, c, d, e);
+  }
+  static void of(Like<lang::Frame> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
+  static void of(Like<lang::Event> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
+  }
+  static void of(Like<lang::Execution> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
+  }
+  static void of(Like<lang::Editor> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
+  static void of(Like<Errors> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
+  static void of(Like<Memory> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
+  static void of(Like<State> auto& v, auto visit) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  }
+  // clang-format on
+
+  static constexpr lang::Operand::Kind last(lang::Operand::Kind) { return lang::Operand::Kind::condition; }
+  static constexpr lang::Hold last(lang::Hold) { return lang::Hold::number; }
+  static constexpr lang::Ending last(lang::Ending) { return lang::Ending::failed; }
+  static constexpr lang::Error last(lang::Error) { return lang::Error::address; }
+  static constexpr lang::Condition last(lang::Condition) { return lang::Condition::not_greater; }
+  static constexpr lang::Editor::Mode last(lang::Editor::Mode) { return lang::Editor::Mode::download; }
+
+  // Of other rooms.
+  static void write(const Chain& chain, StateWriter& writer) { writer.write<ChainFields>(chain); }
+  static void read(Chain& chain, StateReader& reader) { reader.read<ChainFields>(chain); }
+  static void write(const lang::Program& program, StateWriter& writer) {
+    writer.write<Fields>(program.texts());
+  }
+  static void read(lang::Program& program, StateReader& reader) {
+    std::vector<std::string> texts;
+    reader.read<Fields>(texts);
+    demand_state(program.set_texts(texts), "a line is no command of a program");
+  }
+
+  static void check(const lang::Operand& operand) {
+    using Kind = lang::Operand::Kind;
+    demand_state(std::isfinite(operand.number), "a number is not finite");
+    const bool of_array = is_array(operand.kind) && !operand.index_is_variable;
+    const bool of_variables = is_variable(operand.kind) && !of_array;
+    const int most = of_array                          ? lang::kArrayCount - 1
+                     : of_variables                    ? lang::kVariableCount - 1
+                     : operand.kind == Kind::condition ? static_cast<int>(lang::Condition::not_greater)
+                                                       : 8;
+    demand_within(operand.index, 0, most);
+  }
+  static void check(const lang::Frame& frame) {
+    demand_within(frame.line, 0, lang::kProgramCapacity);
+    demand_reach(frame.until_ms);
+  }
+  static void check(const lang::Event& event) {
+    // As many operands as its condition looks at.
+    const bool compares = event.condition >= lang::Condition::equal;
+    demand_state(!event.has_condition || event.operands.size() == (compares ? 2U : 1U),
+                 "an event looks at something else");
+  }
+  static void check(const lang::Execution& execution) {
+    demand_within(execution.line, 0, lang::kProgramCapacity);
+    demand_reach(execution.until_ms);
+    demand_state(execution.stack.size() <= 1000, "a program is nested too deep");
+    demand_state(std::isfinite(execution.number), "a number is not finite");
+  }
+  static void check(const lang::Editor& editor) { demand_within(editor.line, 0, lang::kProgramCapacity); }
+  static void check(const Errors& errors) {
+    demand_state(errors.history.size() <= kHistoryLength, "too many errors are remembered");
+  }
+  static void check(const Memory& memory) {
+    for (const Parameters& all : memory.parameters) {
+      for (std::size_t i = 0; i < kParameterCount; ++i) {
+        demand_state(fitted(kParameters[i], all[i]) == all[i], "a parameter is out of range");
+      }
+    }
+    for (const float real : memory.reals) demand_state(std::isfinite(real), "a variable is not finite");
+    for (const float real : memory.real_array) demand_state(std::isfinite(real), "a variable is not finite");
+  }
+  static void check(const State& state) {
+    demand_reach(state.powered_at);
+    demand_reach(state.clock_zero);
+    lang::Program kept;
+    demand_state(kept.set_texts(state.kept_program), "a kept line is no command of a program");
+    demand_state(is_sound(state.execution, state.program, lang::FlowOptions{}),
+                 "the program does what no program can");
+  }
+  static void check(const auto&) {}
+};
+
+}  // namespace
+
+void Slim::write_own_state(StateWriter& writer) const { writer.write<Fields>(settled()); }
+
+std::function<void()> Slim::read_own_state(StateReader& reader) {
+  const auto restored = std::make_shared<State>();
+  reader.read<Fields>(*restored);
+  return [this, restored] { state_ = std::move(*restored); };
+}
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,438 @@
+// What SLIM says to what is typed: queries, parameters, memory, errors, editing, options.
+#include "tests/emulator/devices/slim/dialogue_script.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+TEST(SlimDialogue, AnswersQueriesWithTheBareValue) {
+  DialogueScript script;
+  script.play(R"(
+> ?PE
+< 0
+> ?pe
+< 0
+> ?t0err
+< 0
+> ?N0
+< 0
+> ?R64
+< 0
+> ?IN
+< 0
+IN1 = 1
+IN8 = 1
+@ 1
+> ?IN
+< 129
+> ?IN 8
+< 1
+> ?IN2
+< 0
+AIN = 640
+> ?AIN
+< 640
+SW3 = 1
+> ?SW 3
+< 1
+> ?SW 4
+< 0
+> ?VER
+< 1.00
+> ?ST
+< 1
+> ?MD
+< 0
+> ?VM
+< 1000
+> ?PR3
+< 100
+> ?TVM
+< 100
+> ?CMA
+< 0
+> ?ERC
+< 0
+@ 3725000
+> ?time
+< 1:02:05
+> ?TM
+< 3725
+> TM=0
+> ?TM
+< 0
+@ 2000
+> ?TM
+< 2
+)");
+}
+
+TEST(SlimDialogue, SaysOnlyWhatItIsAskedFor) {
+  DialogueScript script;
+  script.play(R"(
+> MR 100
+> N0=5
+
+> SET P1
+@ 2000
+> ?N0
+< 5
+)");
+}
+
+TEST(SlimDialogue, RefusesWithANumberAndRemembersIt) {
+  DialogueScript script(2);
+  // By the table of codes: syntax, range, mode, axis, not linked.
+  script.play(R"(
+> NONSENSE
+< ERR 1
+> ?ERR
+< 1
+> N0=40000
+< ERR 2
+> OUTP 16
+< ERR 2
+> N65=1
+< ERR 2
+> JP 3
+< ERR 3
+> 2MA 10,20
+< ERR 4
+> T2MA 100
+< ERR 5
+> ?T2PE
+< ERR 5
+> TX=9
+< ERR 2
+> T12MA 3,4
+< ERR 1
+> $LABEL
+< ERR 1
+> G $NOWHERE
+< ERR 13
+> ?ERC
+< 13,1,1,2,5,4,3,2,2,2,1
+> ?N0
+< 0
+> RESET
+> ?ERR
+< 0
+)");
+}
+
+TEST(SlimDialogue, KeepsTheLastSixteenErrors) {
+  DialogueScript script;
+  for (int i = 0; i < 20; ++i) script.ask("NONSENSE");
+  EXPECT_EQ(script.ask("?ERC"), "1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1");
+}
+
+TEST(SlimDialogue, LosesWhatWasNotSaved) {
+  DialogueScript script(2);
+  script.play(R"(
+> N3=7
+> R3=1.5
+> NS(2000)=-12
+> RS(5)=0.25
+> VM=500
+> T1PR3=55.5
+> PG
+> MA 5
+>
+off
+on
+> ?N3
+< 0
+> ?R3
+< 0
+> ?VM
+< 1000
+> ?T1PR3
+< 100
+> PL
+# the arrays are in the flash
+> ?NS(2000)
+< -12
+> ?RS(5)
+< 0.25
+> N3=7
+> R3=1.5
+> VM=500
+> T1PR3=55.5
+> PG
+> MA 5
+>
+> SAVE D
+> SAVE C
+> SAVE P
+off
+on
+> ?N3
+< 7
+> ?R3
+< 1.5
+> ?VM
+< 500
+> ?T1PR3
+< 55.5
+> ?PR3
+< 100
+> PL
+< 0: MA 5
+> DF
+> ?VM
+< 1000
+> RESET H
+> ?VM
+< 500
+)");
+}
+
+TEST(SlimDialogue, TakesParametersByNameAndAlias) {
+  DialogueScript script(3);
+  script.play(R"(
+> PR3=12.5
+> ?TVM
+< 12.5
+> ?T2PR3
+< 100
+> TVM=30
+> ?T2PR3
+< 30
+> ?T1TVM
+< 30
+> T2PR3=200
+> ?PR3
+< 30
+> ?T2PR3
+< 200
+> PR2=0
+< ERR 2
+> FU=2
+< ERR 2
+> FU=1
+> ?FU
+< 1
+> VJ=0.01
+> ?VJ
+< 0.01
+> T0SYN=2
+> ?T0SYN
+< 2
+> PN50=255
+> ?T7PE
+< 0
+> PN50=0
+> ?PN50
+< 1
+> PN37=34952
+> PN37=63
+< ERR 2
+> FOO=1
+< ERR 1
+> T1PN50=3
+< ERR 5
+> PN50=3
+> T1PN50=3
+< ERR 1
+)");
+}
+
+TEST(SlimDialogue, MovesNumbersBetweenVariables) {
+  DialogueScript script;
+  script.play(R"(
+> N0=12
+> N1=N0
+> ?N1
+< 12
+> R0=N0
+> ?R0
+< 12
+> R1=2.75
+> N2=R1
+< ERR 1
+> N4=100
+> NS(N4)=5
+> ?NS(100)
+< 5
+> ?NS(N4)
+< 5
+> NS(2001)=1
+< ERR 2
+> DATA N7,9
+> ?N7
+< 9
+> DATA R7,0.5
+> ?R7
+< 0.5
+AIN = 321
+@ 1
+> AIN=N9
+> ?N9
+< 321
+> N10=AIN
+> ?N10
+< 321
+> TM=N0
+> ?TM
+< 12
+> N11=TM
+> ?N11
+< 12
+)");
+}
+
+TEST(SlimDialogue, EditsAProgram) {
+  DialogueScript script;
+  script.play(R"(
+> PG
+> MA 10
+> ma 20
+> nonsense
+< ERR 1
+> $END
+>
+> PL
+< 0: MA 10
+< 1: ma 20
+< 2: $END
+> PI 1
+> WT 100
+> PE 0
+> MR -5
+> PD 3
+> PA
+> RET
+> EXIT
+> ULP
+< MR -5
+< WT 100
+< ma 20
+< RET
+< END
+> PD 9
+< ERR 2
+> DLP
+> MA 1
+> END
+> PL
+< 0: MA 1
+)");
+}
+
+TEST(SlimDialogue, ListsItsParametersAsAssignments) {
+  DialogueScript script(2);
+  script.type("ULC");
+  std::map<std::string, std::string> listed;
+  for (std::string line = script.next(); line != "(nothing)"; line = script.next()) {
+    const std::size_t equals = line.find('=');
+    ASSERT_NE(equals, std::string::npos) << line;
+    listed[line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  EXPECT_EQ(listed.size(), 15u + 13u);  // of T1 without PN37 and PN50
+  EXPECT_EQ(listed["PN10"], "1000");
+  EXPECT_EQ(listed["PN50"], "3");
+  EXPECT_EQ(listed["PN37"], "34952");  // 8 in each nibble
+  EXPECT_EQ(listed["T1PR2"], "1000");
+  // What it lists it takes.
+  for (const auto& [name, value] : listed) EXPECT_EQ(script.ask(name + "=" + value), "(nothing)") << name;
+}
+
+TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
+  const auto all_said = [](DialogueScript& script, const std::string& line) {
+    script.send(line + "\r");
+    std::string said;
+    for (std::string next = script.next(); next != "(nothing)"; next = script.next()) said += next + "|";
+    return said;
+  };
+  {
+    DialogueScript script(2, {{"query_reply", "name_and_value"}, {"acknowledgement", "ok"}});
+    EXPECT_EQ(all_said(script, "?PE"), "PE=0|");
+    EXPECT_EQ(all_said(script, "?T1VM"), "T1VM=1000|");
+    EXPECT_EQ(all_said(script, "N0=3"), "OK|");
+    EXPECT_EQ(all_said(script, "?N0"), "N0=3|");
+    EXPECT_EQ(all_said(script, "nonsense"), "ERR 1|");
+  }
+  {
+    DialogueScript script(1, {{"error_reply", "nothing"}});
+    EXPECT_EQ(all_said(script, "nonsense"), "");
+    EXPECT_EQ(all_said(script, "?ERR"), "1|");
+  }
+  {
+    DialogueScript script(1, {{"immediate_column", "taken"}});
+    EXPECT_EQ(all_said(script, "XMA R0"), "ERR 4|");  // allowed, but no module is X
+  }
+  {
+    DialogueScript script(1, {{"power_up_servo", "off"}});
+    EXPECT_EQ(all_said(script, "?ST"), "0|");
+    EXPECT_EQ(all_said(script, "MA 5"), "ERR 9|");
+  }
+  {
+    DialogueScript script(1, {{"ineffective_pause", "error_3"}});
+    EXPECT_EQ(all_said(script, "TAREDO"), "ERR 3|");
+  }
+}
+
+TEST(SlimDialogue, ToleratesWhatTerminalsDo) {
+  DialogueScript script;
+  script.send("?PE\r\n?PE\n\r\n\r\r?pe\r");  // LF after CR, LF alone, empty lines
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(script.next(), "0");
+  EXPECT_EQ(script.next(), "(nothing)");
+  script.send("?P");  // half a line
+  EXPECT_EQ(script.next(), "(nothing)");
+  script.send("E\r");
+  EXPECT_EQ(script.next(), "0");
+  script.send(std::string(128, 'X') + "\r?PE\r");
+  EXPECT_EQ(script.next(), "ERR 1");
+  EXPECT_EQ(script.next(), "0");
+  script.send("\x00\x01\xFF\xFE garbage \x7F\r");
+  script.send("?PE\r");
+  while (true) {
+    const std::string line = script.next();
+    ASSERT_NE(line, "(nothing)");
+    if (line == "0") break;
+    EXPECT_EQ(line, "ERR 1");
+  }
+}
+
+TEST(SlimDialogue, IsKeptInAnImage) {
+  DialogueScript script(2);
+  script.play(R"(
+> N3=7
+> RS(0)=0.5
+> T1VM=77
+> PG
+> MA 5
+>
+> SAVE D
+> SAVE C
+> SAVE P
+)");
+  const NvImage image = script.device().nv_image();
+  EXPECT_EQ(image.registers, (std::vector<std::pair<std::string, std::int64_t>>{{"N3", 7}}));
+  EXPECT_EQ(image.reals, (std::vector<std::pair<std::string, double>>{{"T1PN10", 77}, {"RS(0)", 0.5}}));
+  EXPECT_EQ(image.program, (std::vector<std::string>{"MA 5"}));
+
+  Bench bench = slim_bench(2);
+  bench.devices[0].settings.nv = parse_nv_image(to_json(image));
+  World world(bench, WorldOptions{}, [](const std::string&) {});
+  EXPECT_EQ(world.device(0).nv_image(), image);
+  EXPECT_EQ(world.device(0).value_named("N3"), 7);
+  EXPECT_EQ(world.device(0).value_named("T1VM"), 77);
+}
+
+TEST(SlimDialogue, IsReadAndWrittenByNamePastTheLine) {
+  DialogueScript script(2);
+  Slim& device = script.device();
+  EXPECT_EQ(device.value_named("T1PE"), 0);
+  EXPECT_EQ(device.value_named("NOTHING"), std::nullopt);
+  EXPECT_EQ(device.value_named("T5PE"), std::nullopt);
+  EXPECT_EQ(device.assign("R0", 2.5), std::nullopt);
+  EXPECT_EQ(device.value_named("R0"), 2.5);
+  EXPECT_TRUE(device.assign("N0", 1e6).has_value());
+  EXPECT_TRUE(device.assign("MA", 1).has_value());
+  EXPECT_EQ(script.ask("?R0"), "2.5");
+}
+
+}  // namespace
+
+}  // namespace understudy::emulator::slim

@@ -1,0 +1,458 @@
+// Programs as people write them, run in simulated time with the whole dialogue compared. Times are worked out
+// by hand: a move of L from rest to rest takes L/v + v/a, or 2 sqrt(L/a) where L < v^2/a. For single axes v
+// is 1000 RPM x 10000 / 60 = 166667 pulses/s and a ten times that a second; for coordinated ones 100 and 1000
+// units. A line takes 1 ms; the scripts look a few lines' time before and after each moment.
+#include "tests/emulator/devices/slim/dialogue_script.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+TEST(SlimPrograms, PickAndPlace) {
+  // 10000 pulses: 2 sqrt(10000 / 1666667) = 0.1549 s. Twice, and 50 ms between: 0.360 s and 8 lines.
+  DialogueScript(1).play(R"(
+> PG
+> MA 10000
+> DN
+> SET P1
+> WT 50
+> MA 0
+> DN
+> CLR P1
+> OUT "DONE"
+>
+> G
+@ 150
+> ?ST
+# servo on, moving, program, buffer not empty
+< 263
+@ 30
+> ?PE
+< 10000
+@ 170
+@ 25
+< DONE
+> ?PE
+< 0
+> ?ST
+< 1
+)");
+}
+
+TEST(SlimPrograms, PalletisingWithArcs) {
+  // 100 along x: 1.1 s. Half a circle of radius 50: 157.08, 1.6708 s. Back: 1.1 s. 3.8708 s in all.
+  DialogueScript(2).play(R"(
+> PG
+> TX=0
+> TY=1
+> CS 0
+> 2MA 100,0
+> AA 100,50,180
+> 2MR -100,0
+> XDN
+> SET P2
+> OUT "PALLET"
+>
+> G
+@ 1110
+> ?PE
+< 100
+@ 2755
+@ 30
+< PALLET
+> ?PE
+< 0
+> ?T1PE
+< 100
+)");
+}
+
+TEST(SlimPrograms, AnEventHoldsAndReleases) {
+  // 100000 pulses: 0.7 s. Held from 0.3 s on: it has slowed down at 0.4 s, at 50000. From 1.0 s on the other
+  // 50000 take 0.4 s.
+  DialogueScript(1).play(R"(
+> PG
+> SET EV1 I,1
+> ON EV1,$STOP
+> MR 100000
+> DN
+> OUT "LAP"
+> RET
+> $STOP
+> PZ
+> OUT "HELD"
+> WNI 1
+> REDO
+> OUT "GO"
+> RET
+>
+> G
+@ 303
+IN1 = 1
+@ 10
+< HELD
+@ 110
+> ?PE
+< 50000
+@ 577
+IN1 = 0
+@ 10
+< GO
+@ 380
+@ 25
+< LAP
+> ?PE
+< 100000
+)");
+}
+
+TEST(SlimPrograms, WritesToADisplay) {
+  DialogueScript(1).play(R"(
+> N0=42
+> R1=3.25
+> PG
+> OUT "COUNT"
+> OUT N0
+> OUT "LENGTH"
+> OUT R1
+> R1=-0.5
+> OUT R1
+>
+> G
+@ 3
+< COUNT
+< 42
+< LENGTH
+@ 3
+< 3.25
+< -0.5
+)");
+}
+
+TEST(SlimPrograms, JogsAsFastAsTheAnalogInputSays) {
+  // VJ 100 RPM, half of it: 8333.3 pulses/s. Between start and stop command 1 s: 8333 pulses in all.
+  DialogueScript(1).play(R"(
+AIN = 500
+@ 1
+> AVM
+> JGF
+@ 1000
+> ?MD
+< 5
+> JG0
+@ 50
+> ?PE
+< 8333
+> ?MD
+< 0
+)");
+}
+
+TEST(SlimPrograms, AsksTheHostForNumbers) {
+  // 5000 pulses at 500 RPM: 83333 pulses/s, 5000 / 83333 + 83333 / 1666667 = 0.06 + 0.05 = 0.11 s.
+  DialogueScript(1).play(R"(
+> PG
+> OUT "TARGET"
+> R0=GETR
+> OUT "SPEED"
+> N0=GETI
+> VM=N0
+> MA R0
+> DN
+> OUT R0
+>
+> G
+@ 100
+< TARGET
+> abc
+< ERR 1
+> 5000.0
+@ 100
+< SPEED
+> 2.5
+< ERR 1
+> 500
+@ 112
+@ 12
+< 5000
+> ?VM
+< 500
+> ?PE
+< 5000
+)");
+}
+
+TEST(SlimPrograms, HomesAndSetsItsCoordinate) {
+  DialogueScript script(1);
+  script.play(R"(
+> PG
+> H
+> DN
+> CS 250
+> DN
+> OUT "READY"
+>
+> G
+@ 500
+HORG = 1
+@ 100
+HORG = 0
+< READY
+> ?PE
+< 250
+# servo on, homed
+> ?ST
+< 17
+)");
+}
+
+TEST(SlimPrograms, AnOctagonWithoutStopping) {
+  // Eight sides of 10: each by itself takes 0.2 s, all in one 80 / 100 + 0.1 = 0.9 s.
+  DialogueScript(2).play(R"(
+> PG
+> TX=0
+> TY=1
+> CM 1
+> 2MR 10,0
+> 2MR 7.0710678,7.0710678
+> 2MR 0,10
+> 2MR -7.0710678,7.0710678
+> 2MR -10,0
+> 2MR -7.0710678,-7.0710678
+> 2MR 0,-10
+> 2MR 7.0710678,-7.0710678
+> XDN
+> OUT "ROUND"
+>
+> G
+@ 900
+@ 20
+< ROUND
+> ?PE
+< 0
+> ?T1PE
+< 0
+)");
+}
+
+TEST(SlimPrograms, TwoGroupsAtATime) {
+  // 100 in 1.1 s, 200 in 2.1 s, at the same time.
+  DialogueScript(4).play(R"(
+> PG
+> TX=0
+> TY=1
+> 2MR 100,0
+> TX=2
+> TY=3
+> 2MR 0,200
+> T0DN
+> OUT "FIRST"
+> T3DN
+> OUT "SECOND"
+>
+> G
+@ 1095
+@ 20
+< FIRST
+> ?PE
+< 100
+@ 980
+@ 20
+< SECOND
+> ?T3PE
+< 200
+)");
+}
+
+TEST(SlimPrograms, ASubroutineForEitherAxis) {
+  // The same two moves by whatever X is: 0.1549 s each.
+  DialogueScript(3).play(R"(
+> PG
+> TX=1
+> CALL $STROKE
+> TX=2
+> CALL $STROKE
+> OUT "BOTH"
+> RET
+> $STROKE
+> XMA 10000
+> XDN
+> XMR -4000
+> XDN
+> RET
+>
+> G
+# 4000: 2 sqrt(4000 / 1666667) = 0.0980 s
+@ 500
+@ 30
+< BOTH
+> ?T1PE
+< 6000
+> ?T2PE
+< 6000
+> ?PE
+< 0
+)");
+}
+
+TEST(SlimPrograms, OutputsOnTheWay) {
+  // P3 comes on at 5000, half way: at 77 ms. PLS: 5 x 4 ms.
+  DialogueScript script(1);
+  script.play(R"(
+> PG
+> P1SET P3,5000
+> PLS P1,5
+> MA 10000
+> DN
+> OUTP 2
+> OUT "END"
+>
+> G
+)");
+  const auto level = [&](int number) { return script.device().output(kFirstOutput + number - 1); };
+  script.pass(10);
+  EXPECT_TRUE(level(1));
+  EXPECT_FALSE(level(3));
+  script.pass(20);
+  EXPECT_FALSE(level(1));
+  script.pass(40);
+  EXPECT_FALSE(level(3)) << "70 ms";
+  script.pass(20);
+  EXPECT_TRUE(level(3)) << "90 ms";
+  script.play(R"(
+@ 90
+< END
+)");
+  EXPECT_TRUE(level(2));
+  EXPECT_FALSE(level(3)) << "OUTP sets all four";
+}
+
+TEST(SlimPrograms, SortsByInputs) {
+  DialogueScript(1).play(R"(
+> PG
+> $NEXT
+> WI 1
+> JI 2,$LARGE
+> JE 3,N0,$BYPASS
+> OUT "SMALL"
+> JP $GONE
+> $LARGE
+> OUT "LARGE"
+> JP $GONE
+> $BYPASS
+> OUT "BYPASS"
+> $GONE
+> JNTI 1,50,$NEXT
+> OUT "JAM"
+> RET
+>
+> G
+@ 20
+IN1 = 1
+@ 10
+< SMALL
+IN1 = 0
+@ 10
+IN2 = 1
+IN1 = 1
+@ 10
+< LARGE
+IN1 = 0
+@ 10
+IN2 = 0
+IN1 = 1
+> N0=3
+< ERR 3
+@ 20
+< SMALL
+@ 60
+< JAM
+> ?ST
+# the error typed above is remembered
+< 33
+)");
+}
+
+TEST(SlimPrograms, AHelix) {
+  // A circle of radius 10 while z rises by 5: 63.03 long, 0.7303 s.
+  DialogueScript(3).play(R"(
+> PG
+> TX=0
+> TY=1
+> TZ=2
+> SAA 10,0,360,5
+> XDN
+> OUT "BORED"
+>
+> G
+@ 730
+@ 15
+< BORED
+> ?T2PE
+< 5
+> ?PE
+< 0
+)");
+}
+
+TEST(SlimPrograms, APausedProgramGoesOnOnItsPath) {
+  // 100 along x, 1.1 s. Slowing down from 100 at 1000 takes 0.1 s and 5 units; so does speeding up again.
+  DialogueScript(2).play(R"(
+> PG
+> TX=0
+> TY=1
+> 2MA 100,0
+> XDN
+> 2MA 100,100
+> XDN
+> OUT "CORNER"
+>
+> G
+@ 503
+> TAPZ
+@ 150
+> MA 5
+< ERR 3
+> ?ST
+# servo on, program, pause, error present, buffer not empty
+< 301
+@ 1000
+> TAREDO
+@ 640
+@ 1100
+@ 25
+< CORNER
+> ?PE
+< 100
+> ?T1PE
+< 100
+)");
+}
+
+TEST(SlimPrograms, AnEmergencyStopLeavesNothing) {
+  DialogueScript script(2);
+  script.play(R"(
+> PG
+> MR 100000
+> T1MR 50000
+> DN
+> OUT "END"
+>
+> G
+@ 200
+> TASTOP
+@ 20
+< END
+> ?ST
+< 1
+)");
+  const double stopped = *script.device().value_named("PE");
+  EXPECT_GT(stopped, 0);
+  EXPECT_LT(stopped, 100000);
+  script.pass(500);
+  EXPECT_EQ(script.device().value_named("PE"), stopped);
+}
+
+}  // namespace
+
+}  // namespace understudy::emulator::slim
