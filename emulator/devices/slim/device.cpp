@@ -8,7 +8,7 @@
 namespace understudy::emulator::slim {
 
 Slim::Slim(const DeviceSettings& settings)
-    : TextDevice(model(), settings), modules_(std::max(settings.modules, 1)) {
+    : TextDevice(slim::model(), settings), modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();
   state_.kept = factory();
   state_.ram = state_.kept;
@@ -160,6 +160,8 @@ Tick Slim::next_active_tick(Tick done) const {
   for (int m = 0; m < kModules; ++m) {
     if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return done + 1;
   }
+  // A program that waits for the chain asks in every tick.
+  if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
   return std::min(state_.chain.next_active_tick(done),
                   next_active_ms(state_.execution, done, state_.program, *this));
 }

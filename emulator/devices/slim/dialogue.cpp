@@ -20,7 +20,9 @@ void Slim::say(std::string_view text) {
   state_.speech += "\r\n";
 }
 
+/// Of a module that is not linked nobody could ask: the host has it.
 void Slim::remember(int module, Error error) {
+  if (!state_.chain.linked(module)) module = 0;
   Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   errors.present = error;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));

@@ -3,7 +3,7 @@
 
 #include "emulator/devices/slim/device.h"
 #include "emulator/devices/slim/numbers.h"
-#include "emulator/parse_integer.h"
+#include "interpreter/slim/text_of.h"
 
 namespace understudy::emulator::slim {
 
@@ -93,6 +93,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     case Verb::query_version: return words(version_text(firmware()));
     case Verb::query_variable: {
       const lang::Operand& variable = command.operands.front();
+      answer.name = lang::text_of(variable);
       return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
     }
     case Verb::query_coordinate: return real(state_.chain.coordinate(module));

@@ -27,7 +27,7 @@ IN8 = 1
 < 129
 > ?IN 8
 < 1
-> ?IN2
+> ?IN 2
 < 0
 AIN = 640
 > ?AIN
@@ -111,7 +111,7 @@ TEST(SlimDialogue, RefusesWithANumberAndRemembersIt) {
 > G $NOWHERE
 < ERR 13
 > ?ERC
-< 13,1,1,2,5,4,3,2,2,2,1
+< 13,1,1,2,5,5,4,3,2,2,2,1
 > ?N0
 < 0
 > RESET

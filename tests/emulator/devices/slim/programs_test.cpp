@@ -87,7 +87,7 @@ TEST(SlimPrograms, AnEventHoldsAndReleases) {
 > RET
 >
 > G
-@ 303
+@ 302
 IN1 = 1
 @ 10
 < HELD
@@ -130,7 +130,8 @@ TEST(SlimPrograms, WritesToADisplay) {
 }
 
 TEST(SlimPrograms, JogsAsFastAsTheAnalogInputSays) {
-  // VJ 100 RPM, half of it: 8333.3 pulses/s. Between start and stop command 1 s: 8333 pulses in all.
+  // VJ 100 RPM, half of it: 8333.3 pulses/s. The jog is at its beginning one tick after the command, and slows
+  // down from the moment of the other one: 0.999 s between them, 8325 pulses in all, as both ramps are alike.
   DialogueScript(1).play(R"(
 AIN = 500
 @ 1
@@ -142,7 +143,9 @@ AIN = 500
 > JG0
 @ 50
 > ?PE
-< 8333
+< 8325
+# VM= takes the speed back
+> VM=1000
 > ?MD
 < 0
 )");
