@@ -24,12 +24,12 @@ std::string fidelity_page(const Model& model) {
   for (const auto& row : registers.rows) {
     if (!row.back().empty()) missing.rows.push_back({row[1], row[2], row.back()});
   }
+  page += "\n## Not modelled yet\n\n";
+  for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
+  if (model.protocol() == Protocol::text) return page;
   page +=
-      "\n## Not modelled yet\n\n"
       "These registers exist, with the manual's access and range, and the daemon says so once when one is "
       "used.\n\n";
-  for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
-  if (!model.gaps.empty()) page += "\n";
   page += missing.rows.empty() ? "Nothing: every register does what the manual says.\n"
                                : format_sheet(missing, SheetFormat::markdown);
   return page;
