@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 const std::string kFolder = PROJECT_FOLDER "/scenarios";
 const std::string kOfModel = kFolder + "/simple2-r3";
+const std::string kOfSlim = kFolder + "/slim";
 const std::string kLineFaults = kOfModel + "/line_faults";
 
 /// The .yaml files of one folder, in order.
@@ -38,7 +39,7 @@ Words operator+(Words some, const Words& more) {
 }
 
 const Words& all() {
-  static const Words files = files_in(kOfModel) + files_in(kLineFaults);
+  static const Words files = files_in(kOfModel) + files_in(kLineFaults) + files_in(kOfSlim);
   return files;
 }
 
@@ -187,7 +188,7 @@ double simulated_seconds(const std::string& output) {
 
 TEST(ShippedScenarios, HaveTheSameVerdictsInRealTime) {
   const PrivateFolder folder;
-  const Words files = files_in(kOfModel);
+  const Words files = files_in(kOfModel) + files_in(kOfSlim);
   const Finished free = understudy(Words{"run"} + files);
   const auto expected = verdicts_of(free.output);
   EXPECT_GE(expected.size(), files.size());

@@ -39,7 +39,7 @@ TEST(Documentation, the_bench_in_the_bench_page_is_valid) {
 }
 
 TEST(Documentation, the_shipped_benches_are_valid) {
-  for (const char* name : {"quickstart.yaml", "two_stations.yaml"}) {
+  for (const char* name : {"quickstart.yaml", "two_stations.yaml", "slim_quickstart.yaml"}) {
     EXPECT_NO_THROW(load_bench(std::string(PROJECT_FOLDER) + "/scenarios/" + name)) << name;
   }
 }
