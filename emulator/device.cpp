@@ -112,6 +112,11 @@ void Device::mention_unmodelled(const RegisterRow& row) const {
   log_(name() + ": " + std::string(row.name) + " is not modelled: " + std::string(row.unmodelled));
 }
 
+void Device::mention_unmodelled(std::string_view what, std::string_view why) const {
+  if (!log_ || !mentioned_names_.emplace(what).second) return;
+  log_(name() + ": " + std::string(what) + " is not modelled: " + std::string(why));
+}
+
 std::string range_text(const RegisterRow& row) {
   if (row.stored_bits < 0xFFFF) return "0 to " + std::to_string(row.stored_bits);
   if (row.ranged) return std::to_string(row.min) + " to " + std::to_string(row.max);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -142,6 +143,8 @@ class Device {
   // --- log -----------------------------------------------------------------------------------
   /// Tells the user, once for each row, that something is not modelled.
   void mention_unmodelled(const RegisterRow& row) const;
+  /// The same for what is no register: a command, a parameter.
+  void mention_unmodelled(std::string_view what, std::string_view why) const;
   void set_log(std::function<void(const std::string&)> log) { log_ = std::move(log); }
 
  protected:
@@ -171,7 +174,8 @@ class Device {
   bool powered_ = false;
   Tick now_ = 0;
   std::function<void(const std::string&)> log_;
-  mutable std::vector<bool> mentioned_;  // rows; of the log, not of the model
+  mutable std::vector<bool> mentioned_;            // rows; of the log, not of the model
+  mutable std::set<std::string> mentioned_names_;  // likewise
 };
 
 /// "0 to 3000", or what the width allows where the manual gives no range.

@@ -10,7 +10,7 @@ namespace understudy::emulator {
 struct Device::CommonFields {
   /// Model, settings and choices are what it was made from; the log is its user's.
   static auto of(Like<Device> auto& device, auto visit) {
-    auto& [model, settings, choices, inputs, powered, now, log, mentioned] = device;
+    auto& [model, settings, choices, inputs, powered, now, log, mentioned, names] = device;
     return visit(inputs, powered, now);
   }
 };

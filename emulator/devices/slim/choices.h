@@ -66,6 +66,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "no acceleration is named; VA is by analogy with TVA and TVM"},
     {"homing", "H", "how H homes", "at_vj_backwards_to_horg_then_0", kProposal, "only \"in horg\" is said"},
     {"analog_speed", "AVM", "whether AVM starts a motion", "sets_the_speed_only", kProposal, "not said"},
+    {"pulses_per_revolution", "VM", "pulses of a revolution of the motor", "10000|4000|2000|1000", kProposal,
+     "not said; speeds are in revolutions"},
     {"pwm_units", "PWM", "units of PWM", "hz_and_percent", kProposal, "not said"},
     // --- modules and numbers ---
     {"unlinked_module", "PN50", "a command for a module that is not linked", "error_5", kProposal,

@@ -133,7 +133,9 @@ Error Slim::move_one(const lang::Command& command, int module) {
     case Verb::jog_forward: return chain.jog(module, +1);
     case Verb::jog_reverse: return chain.jog(module, -1);
     case Verb::jog_stop: return chain.jog(module, 0);
-    case Verb::thrust: return chain.thrust(module, static_cast<std::int32_t>(amount(command, 0)));
+    case Verb::thrust:
+      mention_unmodelled("FT", "it pushes without a load");
+      return chain.thrust(module, static_cast<std::int32_t>(amount(command, 0)));
     case Verb::home: return chain.home(module);
     case Verb::set_coordinate: return chain.set_coordinate(module, amount(command, 0));
     case Verb::servo_on: return chain.set_servo(module, true);

@@ -48,6 +48,11 @@ void Slim::power_up() {
   state_.clock_zero = now();
   state_.touched = true;
   for (int m = 0; m < kModules; ++m) state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
+  const int pulses_per_revolution = chose(k4000PulsesARevolution)   ? 4000
+                                    : chose(k2000PulsesARevolution) ? 2000
+                                    : chose(k1000PulsesARevolution) ? 1000
+                                                                    : 10'000;
+  for (int m = 0; m < kModules; ++m) state_.chain.set_pulses_per_revolution(m, pulses_per_revolution);
   apply_all_parameters();
   const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
   for (int letter = 0; letter < kLetters; ++letter) {

@@ -24,6 +24,9 @@ inline constexpr Option kHeldEventDropped = option("held_event", "is_dropped");
 inline constexpr Option kWaitsHaveGoneOn = option("interrupted_wait", "have_gone_on");
 inline constexpr Option kThrustRuns = option("thrust", "runs_at_vj");
 inline constexpr Option kNewSpeedAtOnce = option("new_speed", "at_once");
+inline constexpr Option k4000PulsesARevolution = option("pulses_per_revolution", "4000");
+inline constexpr Option k2000PulsesARevolution = option("pulses_per_revolution", "2000");
+inline constexpr Option k1000PulsesARevolution = option("pulses_per_revolution", "1000");
 inline constexpr Option kSarHeightAbsolute = option("sar_height", "absolute");
 
 }  // namespace understudy::emulator::slim

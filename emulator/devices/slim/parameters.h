@@ -22,6 +22,7 @@ struct ParameterDefinition {
   std::string_view unit;
   bool host_only = false;  // one for the chain, T0's
   std::string_view meaning;
+  std::string_view unmodelled{};  // what is missing, if it is only stored
 };
 
 inline constexpr double kMaxReal = 3.402823466e38;  // float32
@@ -36,13 +37,14 @@ inline constexpr ParameterDefinition kParameters[] = {
      "unit of PN10 and PN14: 0 RPM, 1 RPS"},
     {"VA", "", ParameterDefinition::Type::real, 0, 1e9, true, 10000, "RPM/s or RPS/s, by FU", false,
      "acceleration of moves of one axis; the name is ours, like TVA"},
-    {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none"},
+    {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none",
+     "no load is computed"},
     {"EL", "", ParameterDefinition::Type::integer, 0, 2147483647, false, 0, "pulse", false,
-     "position error limit; 0: none"},
+     "position error limit; 0: none", "the servo follows without error"},
     {"PN37", "", ParameterDefinition::Type::integer, 0, 65535, false, 0x8888, "", true,
      "module of each axis at power-up, a nibble for x, y, z and w; 8: none"},
     {"PN44", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "", false,
-     "user coordinate unit"},
+     "user coordinate unit", "coordinates go by PN45 and PN46"},
     {"PN45", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "pulse", false,
      "user coordinate unit: so many pulses ..."},
     {"PN46", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "unit", false,
@@ -56,7 +58,7 @@ inline constexpr ParameterDefinition kParameters[] = {
     {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
      "largest angle that CM 2 joins"},
     {"SYN", "", ParameterDefinition::Type::integer, 0, 7, false, 0, "", false,
-     "master of linked axes, of older models"},
+     "master of linked axes, of older models", "arcs need no master"},
 };
 inline constexpr std::size_t kParameterCount = std::size(kParameters);
 

@@ -80,6 +80,10 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     answer.text = std::move(text);
     return Error::none;
   };
+  const auto electrical = [&](double value) {
+    mention_unmodelled(command.name, "nothing electrical is; the value is always the same");
+    return whole(value);
+  };
   const auto number = [&] { return static_cast<int>(command.operands.front().number); };
   const Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   switch (command.verb) {
@@ -103,11 +107,13 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     case Verb::query_time: return words(time_text((now() - state_.powered_at) / 1000));
     case Verb::query_motor_version: return words("1");
     // Not modelled; kGaps says so.
-    case Verb::query_voltage: return whole(24);
-    case Verb::query_temperature: return whole(25);
+    case Verb::query_voltage: return electrical(24);
+    case Verb::query_temperature: return electrical(25);
     case Verb::query_peak_current:
-    case Verb::query_mean_current:
-    case Verb::query_peak_following_error: return whole(0);
+    case Verb::query_mean_current: return electrical(0);
+    case Verb::query_peak_following_error:
+      mention_unmodelled(command.name, "the servo follows without error");
+      return whole(0);
     default: break;
   }
   if (command.name == "TM") return whole(static_cast<double>(clock_s()));

@@ -88,6 +88,7 @@ Error Slim::set_parameter(int module, std::string_view name, double value) {
     }
     return Error::none;
   }
+  if (!row.unmodelled.empty()) mention_unmodelled(row.name, row.unmodelled);
   const Error error = apply_parameter(module, *number, *fits);
   if (error == Error::none) state_.ram.parameters[at(module)][*number] = *fits;
   if (error == Error::none && *number == parameter("PN50")) {

@@ -367,9 +367,29 @@ TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
     EXPECT_EQ(all_said(script, "MA 5"), "ERR 9|");
   }
   {
+    DialogueScript script(1, {{"pulses_per_revolution", "1000"}});
+    // A tenth of the pulses a second: 10000 are 0.6 + 0.1 s.
+    EXPECT_EQ(all_said(script, "MA 10000"), "");
+    script.pass(695);
+    EXPECT_EQ(all_said(script, "?MD"), "1|");
+    script.pass(10);
+    EXPECT_EQ(all_said(script, "?MD"), "0|");
+  }
+  {
     DialogueScript script(1, {{"ineffective_pause", "error_3"}});
     EXPECT_EQ(all_said(script, "TAREDO"), "ERR 3|");
   }
+}
+
+TEST(SlimDialogue, TellsOnceWhatIsNotModelled) {
+  std::vector<std::string> told;
+  World world(slim_bench(2), WorldOptions{}, [&](const std::string& text) { told.push_back(text); });
+  auto& device = dynamic_cast<Slim&>(world.device(0));
+  for (const char* line : {"?AC", "?AC", "EL=5", "T1EL=6", "FT 100", "?PE"}) device.hear_line(line);
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_EQ(told[0].rfind("robot: AC is not modelled: ", 0), 0u) << told[0];
+  EXPECT_EQ(told[1].rfind("robot: EL is not modelled: ", 0), 0u) << told[1];
+  EXPECT_EQ(told[2].rfind("robot: FT is not modelled: ", 0), 0u) << told[2];
 }
 
 TEST(SlimDialogue, ToleratesWhatTerminalsDo) {
