@@ -1,0 +1,122 @@
+// What is wrong in a world: faults that are injected, wait for their moment, begin, end and are cleared.
+#include <algorithm>
+
+#include "emulator/world/check_fault.h"
+#include "emulator/world/fault_watch.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator {
+
+std::size_t World::inject(const Fault& fault) {
+  check_fault(*this, fault);
+  begin_act();
+  if (listener_ != nullptr) listener_->on_inject(fault);
+  disturbed_ = true;
+  const std::size_t number = next_fault_++;
+  if (fault.kind == Fault::Kind::slip && !waits(fault)) {
+    plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
+    return number;
+  }
+  ArmedFault armed{.fault = fault};
+  armed.course.in_force = armed.course.is_news = !waits(fault);
+  faults_.emplace(number, armed);
+  arm_faults();
+  settle_faults();
+  return number;
+}
+
+bool World::clear_fault(std::size_t number) {
+  const auto found = faults_.find(number);
+  if (found == faults_.end()) return false;
+  begin_act();
+  if (listener_ != nullptr) listener_->on_clear_fault(number);
+  const std::size_t device = found->second.fault.device;
+  faults_.erase(found);
+  disturbed_ = true;
+  arm_faults();
+  apply_faults(device);
+  settle_power(device);
+  return true;
+}
+
+/// Whoever waits is looked after.
+void World::arm_faults() {
+  const auto needs_watch = [](const auto& entry) {
+    return waits(entry.second.fault) || entry.second.fault.period_ticks != 0;
+  };
+  fault_watch_.reset();
+  if (std::any_of(faults_.begin(), faults_.end(), needs_watch)) {
+    fault_watch_ = std::make_unique<FaultWatch>(*this, faults_, seed_);
+  }
+  for (const auto& line : lines_) {
+    for (const auto& station : line->stations) {
+      const auto is_its = [&](const auto& device) { return device.get() == &station->device(); };
+      const auto device = std::find_if(devices_.begin(), devices_.end(), is_its) - devices_.begin();
+      station->set_faults(fault_watch_.get(), static_cast<std::size_t>(device));
+    }
+  }
+}
+
+Tick World::next_fault_tick() const { return fault_watch_ ? fault_watch_->next_tick(done_) : kNever; }
+
+/// The end of a tick that was run.
+void World::look_at_faults() {
+  now_ = std::max(now_, time_of(done_));
+  fault_watch_->look(now_, true);
+  settle_faults();
+  for (const auto& [number, armed] : faults_) {
+    const Fault& fault = armed.fault;
+    if (fault.kind != Fault::Kind::encoder_noise || !armed.course.in_force) continue;
+    const MachineFaults& faults = plants_[fault.device][static_cast<std::size_t>(fault.place)].faults();
+    if (faults.encoder_noise_counts == encoder_noise_counts(fault, done_)) continue;
+    apply_faults(fault.device);
+    disturbed_ = true;
+  }
+}
+
+/// Does what has begun or ended.
+void World::settle_faults() {
+  for (auto& [number, armed] : faults_) {
+    auto& [fault, course] = armed;
+    if (!course.is_news) continue;
+    course.is_news = false;
+    disturbed_ = true;
+    switch (fault.kind) {
+      case Fault::Kind::slip:
+        plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
+        break;
+      case Fault::Kind::power_cut: settle_power(fault.device); break;
+      default: apply_faults(fault.device); break;
+    }
+  }
+}
+
+/// Of several of one kind at one place the last one counts.
+void World::apply_faults(std::size_t device) {
+  for (PlantAxis& plant : plants_[device]) {
+    plant.set_faults({.slipped_pulses = plant.faults().slipped_pulses});
+  }
+  for (Input& input : inputs_[device]) input.stuck.reset();
+  for (const auto& [number, armed] : faults_) {
+    const Fault& fault = armed.fault;
+    if (fault.device != device || !armed.course.in_force) continue;
+    const auto place = static_cast<std::size_t>(fault.place);
+    switch (fault.kind) {
+      case Fault::Kind::stall: plants_[device][place].faults().stalled = true; break;
+      case Fault::Kind::lost_steps: plants_[device][place].faults().loses_one_in = fault.amount; break;
+      case Fault::Kind::alarm: plants_[device][place].faults().alarm = true; break;
+      case Fault::Kind::stuck: inputs_[device][place].stuck = fault.amount != 0; break;
+      case Fault::Kind::encoder_noise:
+        plants_[device][place].faults().encoder_noise_counts = encoder_noise_counts(fault, done_);
+        break;
+      default: break;
+    }
+  }
+  for (std::size_t a = 0; a < plants_[device].size(); ++a) {
+    const PlantAxis& plant = plants_[device][a];
+    if (plant.has_encoder()) devices_[device]->set_encoder(static_cast<int>(a), plant.encoder_counts());
+  }
+  for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
+}
+
+}  // namespace understudy::emulator
