@@ -114,7 +114,9 @@ Tick Chain::next_active_tick(Tick done) const {
     const bool waits = mine.activity == Activity::idle || mine.activity == Activity::group ||
                        axis.task == motion::Task::hanging || (mine.starved && !axis.moving());
     if (!waits) return done + 1;
-    if (mine.sent_pulses != 0) next = std::min(next, done + 1);  // ... are of the last tick only
+    // What the axis saw and sent is of the last tick only. A path may end without a pulse in its last tick.
+    const bool looks = axis.attentive || surroundings_[at(module)].version != axis.seen_version;
+    if (looks || mine.sent_pulses != 0) next = std::min(next, done + 1);
     for (const Output& output : mine.outputs) next = std::min(next, output.next_change(done));
   }
   return next;
