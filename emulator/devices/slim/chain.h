@@ -154,6 +154,10 @@ class Chain {
   bool servo_on(int module) const { return axes_[at(module)].servo_on; }
   bool paused() const { return paused_; }
   bool queues_paused() const { return queues_paused_; }
+  bool horg(int module) const {
+    return (surroundings_[at(module)].steady & motion::bit(motion::Signal::home)) != 0;
+  }
+  int analog(int module) const { return modules_[at(module)].analog; }
   bool analog_speed(int module) const { return modules_[at(module)].analog_speed; }
   ContinuousPath continuous_path() const { return continuous_; }
   ModuleStatus status(int module) const;
@@ -243,6 +247,7 @@ class Chain {
 
   // The tick: chain_step.cpp.
   void step_groups(Tick tick);
+  bool undisturbed(int module) const;
   void step_axes(Tick tick);
   void after_motion(int module, Tick begin_at);
   void meet_triggers(int module);

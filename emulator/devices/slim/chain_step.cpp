@@ -39,14 +39,19 @@ void Chain::step_groups(Tick tick) {
   }
 }
 
+/// The axis met nothing in the last tick, and nothing has changed for it since.
+bool Chain::undisturbed(int module) const {
+  const motion::Axis& axis = axes_[at(module)];
+  return axis.events == 0 && !axis.attentive && surroundings_[at(module)].version == axis.seen_version;
+}
+
 void Chain::step_axes(Tick tick) {
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
     if (mine.activity == Activity::group) continue;
     motion::Axis& axis = axes_[at(module)];
-    const motion::Surroundings& here = surroundings_[at(module)];
-    const bool idle = !axis.moving() && !axis.attentive && here.version == axis.seen_version;
-    mine.sent_pulses = idle ? 0 : axis.step(tick, here);
+    const bool idle = !axis.moving() && undisturbed(module);
+    mine.sent_pulses = idle ? 0 : axis.step(tick, surroundings_[at(module)]);
     if (!idle) meet_triggers(module);
   }
   for (Group& group : groups_) {
@@ -114,9 +119,8 @@ Tick Chain::next_active_tick(Tick done) const {
     const bool waits = mine.activity == Activity::idle || mine.activity == Activity::group ||
                        axis.task == motion::Task::hanging || (mine.starved && !axis.moving());
     if (!waits) return done + 1;
-    // What the axis saw and sent is of the last tick only. A path may end without a pulse in its last tick.
-    const bool looks = axis.attentive || surroundings_[at(module)].version != axis.seen_version;
-    if (looks || mine.sent_pulses != 0) next = std::min(next, done + 1);
+    // What the axis met and sent is of the last tick only. A path may end without a pulse in its last tick.
+    if (!undisturbed(module) || mine.sent_pulses != 0) next = std::min(next, done + 1);
     for (const Output& output : mine.outputs) next = std::min(next, output.next_change(done));
   }
   return next;

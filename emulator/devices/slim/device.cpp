@@ -164,6 +164,9 @@ Tick Slim::next_active_tick(Tick done) const {
   if (state_.touched) return done + 1;
   for (int m = 0; m < kModules; ++m) {
     if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return done + 1;
+    const bool sees_horg = level(m, kHorg) == state_.chain.horg(m);
+    if (!sees_horg || emulator::Device::input(terminal(m, kAnalog)) != state_.chain.analog(m))
+      return done + 1;
   }
   // A program that waits for the chain asks in every tick.
   if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;

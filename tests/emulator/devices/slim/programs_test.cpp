@@ -151,6 +151,23 @@ AIN = 500
 )");
 }
 
+TEST(SlimPrograms, AJogWithoutAnalogSpeedBeginsWhenTheInputComes) {
+  // As above, but everything has stood still for a second when the input comes.
+  DialogueScript script(1);
+  script.play(R"(
+> AVM
+> JGF
+@ 1000
+> ?PE
+< 0
+AIN = 500
+@ 1000
+> JG0
+@ 50
+)");
+  EXPECT_NEAR(*script.device().value_named("PE"), 8333, 20) << "a tick or two more or less";
+}
+
 TEST(SlimPrograms, AsksTheHostForNumbers) {
   // 5000 pulses at 500 RPM: 83333 pulses/s, 5000 / 83333 + 83333 / 1666667 = 0.06 + 0.05 = 0.11 s.
   DialogueScript(1).play(R"(
