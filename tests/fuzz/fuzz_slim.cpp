@@ -1,0 +1,208 @@
+// What may be typed at a SLIM: anything, at any moment. Whatever it was, lines are answered in whole lines,
+// ticks that are left out are not to be seen, a state that is saved is one that is taken back, and whoever
+// leaves what is going on (ESC, an empty line, EXIT) is answered again.
+//
+// An input is one byte of options, then what is typed. Two values stand for what is no typing:
+//   FE n   time passes (n's upper bits: in which steps)
+//   FD n   a terminal of T0 gets a level (lower bits: which one; upper bits: how much)
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/bench/bench.h"
+#include "emulator/devices/slim/device.h"
+#include "emulator/devices/slim/model.h"
+#include "emulator/parse_real.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
+
+namespace {
+
+using namespace understudy;
+using emulator::SimTime;
+using emulator::Tick;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kLongestInput = 4096;
+constexpr Tick kMostTicks = 20'000;  // so that a run has an end
+constexpr SimTime kUntilQuiet = 1s;  // longer than any piece of a long text takes
+constexpr int kMostRounds = 600;     // of it: a chain has nothing more to say than its line can carry
+constexpr std::uint8_t kTime = 0xFE;
+constexpr std::uint8_t kLevel = 0xFD;
+
+void demand(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "violated: %s\n", what);
+  std::abort();
+}
+
+struct Options {
+  bool echo = false;
+  bool prompt = false;
+  bool names_values = false;
+  bool acknowledges = false;
+  bool keeps_errors_to_itself = false;
+  bool lenient = false;  // columns that are not printed, and programs that go on after an error
+  int modules = 1;
+};
+
+Options options_of(std::uint8_t bits) {
+  return {.echo = (bits & 1) != 0,
+          .prompt = (bits & 2) != 0,
+          .names_values = (bits & 4) != 0,
+          .acknowledges = (bits & 8) != 0,
+          .keeps_errors_to_itself = (bits & 16) != 0,
+          .lenient = (bits & 32) != 0,
+          .modules = 1 + (bits >> 6)};
+}
+
+emulator::Bench bench_for(const Options& options) {
+  emulator::Bench bench;
+  emulator::DeviceSetup device{.model = &emulator::slim::model(), .settings = {}};
+  device.settings.name = "device";
+  device.settings.baud = 115200;  // a long listing takes its time
+  device.settings.modules = options.modules;
+  auto& choices = device.settings.choices;
+  if (options.echo) choices["echo"] = "on";
+  if (options.prompt) choices["prompt"] = "greater_than";
+  if (options.names_values) choices["query_reply"] = "name_and_value";
+  if (options.acknowledges) choices["acknowledgement"] = "ok";
+  if (options.keeps_errors_to_itself) choices["error_reply"] = "nothing";
+  if (options.lenient) choices["immediate_column"] = "taken";
+  if (options.lenient) choices["failed_line"] = "is_passed_over";
+  bench.devices.push_back(device);
+  bench.lines.push_back(
+      {.name = "line", .link = {}, .baud = 115200, .timing = pty::Timing::instant, .stations = {0}});
+  return bench;
+}
+
+/// One chain in a world of its own, with what it has said.
+class Listener {
+ public:
+  explicit Listener(const Options& options) : world_(bench_for(options), emulator::WorldOptions{}, {}) {}
+
+  emulator::World& world() { return world_; }
+
+  void type(std::string_view bytes) {
+    line().receive({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, world_.now());
+    advance(0ns);
+  }
+  void advance(SimTime duration) {
+    world_.advance_to(world_.now() + duration);
+    const auto due = world_.next_due();
+    demand(!due || *due > world_.now(), "what is due has been done");
+    const auto output = line().output();
+    said_.append(output.begin(), output.end());
+    line().take_output(output.size());
+  }
+  void set_terminal(std::size_t number, int level) {
+    const auto terminals = emulator::slim::model().terminals;
+    number %= emulator::slim::kFirstOutput;
+    world_.set_external_input(0, static_cast<int>(number),
+                              std::clamp(level, terminals[number].lowest, terminals[number].highest));
+    advance(0ns);
+  }
+
+  /// Nothing more is said without being asked.
+  bool comes_to_rest() {
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::size_t before = said_.size();
+      advance(kUntilQuiet);
+      if (said_.size() == before) return true;
+    }
+    return false;
+  }
+
+  const emulator::Device& device() { return world_.device(0); }
+  pty::Line& line() { return world_.line(0).line; }
+  const std::string& said() const { return said_; }
+
+ private:
+  emulator::World world_;
+  std::string said_;
+};
+
+Tick ticks_of(std::uint8_t code) {
+  constexpr Tick kSteps[] = {1, 4, 25, 100};
+  return kSteps[code >> 6] * (code & 0x3F);
+}
+
+/// Types it all, with the time that passes in between.
+void play(Listener& listener, std::string_view input) {
+  Tick left = kMostTicks;
+  while (!input.empty()) {
+    const std::size_t typed = std::min(input.size(), input.find_first_of("\xFE\xFD"));
+    if (typed > 0) {
+      listener.type(input.substr(0, typed));
+      input.remove_prefix(typed);
+      continue;
+    }
+    if (input.size() < 2) return;
+    const auto what = static_cast<std::uint8_t>(input[0]);
+    const auto code = static_cast<std::uint8_t>(input[1]);
+    if (what == kTime) {
+      const Tick ticks = std::min(left, ticks_of(code));
+      left -= ticks;
+      listener.advance(emulator::time_of(ticks));
+    } else if (what == kLevel) {
+      listener.set_terminal(code & 0x1F, (code >> 5) * 150);  // AIN has a thousand levels, the others two
+    }
+    input.remove_prefix(2);
+  }
+}
+
+void check_whole_lines(const Listener& listener, const Options& options) {
+  const std::string& said = listener.said();
+  if (options.echo || options.prompt || said.empty()) return;
+  demand(said.ends_with("\r\n"), "what is said are whole lines");
+}
+
+/// Whoever leaves what is going on is answered again.
+void check_answers_again(Listener& listener, const Options& options) {
+  listener.type("\x1B\r");
+  listener.type("EXIT\r");
+  demand(listener.comes_to_rest(), "it comes to rest");
+  check_whole_lines(listener, options);
+  const std::size_t before = listener.said().size();
+  listener.type("?PE\r");
+  std::string answer = listener.said().substr(before);
+  const auto take_away = [&](std::string_view beginning, bool is_there) {
+    if (!is_there) return;
+    demand(answer.starts_with(beginning), "an answer has what was chosen");
+    answer.erase(0, beginning.size());
+  };
+  take_away("?PE\r\n", options.echo);
+  take_away("PE=", options.names_values);
+  const std::size_t end = answer.find("\r\n");
+  demand(end != std::string::npos, "?PE is answered with a line");
+  demand(answer.substr(end + 2) == (options.prompt ? ">" : ""), "and with nothing more");
+  demand(emulator::parse_real(answer.substr(0, end)).has_value(), "and the line is a number");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0 || size > kLongestInput) return 0;
+  const Options options = options_of(data[0]);
+  const std::string_view input(reinterpret_cast<const char*>(data) + 1, size - 1);
+  Listener listener(options);
+  Listener stepped(options);  // the same, every tick run one by one
+  stepped.world().set_bulk_ticks(false);
+  play(listener, input);
+  play(stepped, input);
+  demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  demand(stepped.device().same_state(listener.device()), "ticks left out leave the same state");
+  check_whole_lines(listener, options);
+
+  Listener restored(options);
+  emulator::restore(restored.world(), emulator::save(listener.world()));
+  demand(restored.device().same_state(listener.device()), "what is saved is taken back");
+
+  check_answers_again(listener, options);
+  return 0;
+}
