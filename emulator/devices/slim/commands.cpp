@@ -30,6 +30,10 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
   switch (command.verb) {
     case Verb::wait_done:
     case Verb::axis_wait_done:
+      if (const Error error = linked(module_of(command)); error != Error::none) {
+        remember(0, error);
+        return lang::failed(error);
+      }
       if (command.verb == Verb::axis_wait_done && state_.chain.assigned(letter_of(command)) == kUnassigned) {
         return lang::failed(Error::axis);
       }
