@@ -45,6 +45,7 @@ struct CapturedPacket {
   SimTime time{0};  // when its first character began
   std::span<const std::uint8_t> bytes;
   Remark remark = Remark::none;
+  bool is_text = false;  // of a line of text, and no Modbus frame
 };
 
 /// A line of a capture.

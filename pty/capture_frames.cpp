@@ -59,7 +59,7 @@ void CaptureFrames::on_speech(const Speech& speech) {
   const Remark remark = speech.has_collided  ? Remark::collided
                         : speech.is_for_host ? Remark::none
                                              : Remark::to_nobody;
-  sink_({line_, Way::to_host, speech.start, speech.bytes, remark});
+  sink_({line_, Way::to_host, speech.start, speech.bytes, remark, is_text_});
 }
 
 void CaptureFrames::run(SimTime now) {
@@ -117,7 +117,7 @@ void CaptureFrames::give_packet(std::size_t count, Remark remark) {
   std::array<std::uint8_t, kRtuMaxFrame> bytes;
   for (std::size_t i = 0; i < count; ++i) bytes[i] = waiting_[i].value;
   sink_({line_, Way::from_host, waiting_.front().start, std::span(bytes).first(count),
-         is_heard_ ? remark : Remark::unheard});
+         is_heard_ ? remark : Remark::unheard, is_text_});
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 

@@ -91,10 +91,12 @@ void put_number_tag(std::string& to, std::uint16_t tag, std::uint32_t number) {
   put_big_endian(to, number);
 }
 
-/// What is no frame is shown as bytes; a whole request with a wrong checksum is worth a look inside.
+/// Text, and what is no frame, is shown as bytes; a whole request with a wrong checksum is worth a look
+/// inside.
 std::string_view padded_dissector_of(const CapturedPacket& packet) {
   using namespace std::string_view_literals;
-  const bool is_frame = packet.remark != Remark::incomplete && packet.remark != Remark::not_a_frame;
+  const bool is_frame =
+      !packet.is_text && packet.remark != Remark::incomplete && packet.remark != Remark::not_a_frame;
   return is_frame ? "mbrtu\0\0\0"sv : "data"sv;
 }
 
