@@ -179,6 +179,12 @@ void print_status(const Json& status) {
                 line.at("bytes_unheard").get<unsigned long long>(),
                 line.at("bytes_discarded").get<unsigned long long>());
     for (const Json& station : line.at("stations")) {
+      if (!station.contains("address")) {  // it speaks text: alone on its line, and without exceptions
+        std::printf("  %s: %llu requests, %llu replies\n", station.at("device").get<std::string>().c_str(),
+                    station.at("requests").get<unsigned long long>(),
+                    station.at("replies").get<unsigned long long>());
+        continue;
+      }
       std::printf("  station %d %s: %llu requests, %llu replies, %llu of them exceptions\n",
                   station.at("address").get<int>(), station.at("device").get<std::string>().c_str(),
                   station.at("requests").get<unsigned long long>(),

@@ -78,6 +78,10 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
     throw UsageError("poll: " + quoted(what) +
                      " is a name; expected --model MODEL to look it up, or an address");
   const Model& model = demand_model(arguments.model);
+  if (model.protocol() == Protocol::text) {
+    throw UsageError("poll: " + std::string(model.name) +
+                     " speaks text, no Modbus; expected a model with registers, or a terminal program");
+  }
   const auto found = model.registers.find(what, model.firmwares.back());
   if (!found) {
     throw UsageError("poll: " + model.registers.why_not(what, model.firmwares.back()));
