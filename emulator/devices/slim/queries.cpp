@@ -1,5 +1,7 @@
 // What SLIM's queries answer.
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "emulator/devices/slim/device.h"
 #include "emulator/devices/slim/numbers.h"
@@ -140,9 +142,11 @@ std::optional<double> Slim::value_named(std::string_view name) const {
 std::optional<std::string> Slim::assign(std::string_view name, double value) {
   if (!powered()) return "it has no power";
   wake();
-  const bool is_whole = value == static_cast<double>(static_cast<std::int64_t>(value));
+  if (!(std::abs(value) <= std::numeric_limits<float>::max())) return "is out of range";
+  const bool is_whole = value == std::trunc(value) && std::abs(value) < 1e15;
+  const std::string beginning = std::string(name) + "=";
   lang::ParseResult parsed =
-      lang::parse_line(std::string(name) + "=" + (is_whole ? text_of_integer(value) : text_of_real(value)));
+      lang::parse_line(beginning + (is_whole ? text_of_integer(value) : text_of_real(value)));
   if (parsed.error == Error::none && parsed.line.command) {
     lang::Command& command = *parsed.line.command;
     if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_assignment()) {
@@ -153,7 +157,11 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
   }
   switch (parsed.error) {
     case Error::none: return std::nullopt;
-    case Error::syntax: return "is no parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
+    case Error::syntax:
+      if (!is_whole && lang::parse_line(beginning + "0").error == Error::none) {
+        return "cannot be " + text_of_real(value) + "; expected a whole number within its range";
+      }
+      return "is no parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
     case Error::range: return "is out of range";
     case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
     default: return "is refused with ERR " + std::to_string(static_cast<int>(parsed.error));
