@@ -2,7 +2,7 @@
 
 build_packages=(g++ cmake ninja-build ccache pkg-config libcli11-dev libmodbus-dev libspdlog-dev
                 libyaml-cpp-dev nlohmann-json3-dev libgtest-dev libeigen3-dev)
-host_packages=(mbpoll)
+host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)
 test_packages=(dpkg-dev file man-db                      # for the package and its man page
                python3-pymodbus python3-serial-asyncio)  # a host, which only recommends the second and needs it

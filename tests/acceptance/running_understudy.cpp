@@ -137,6 +137,14 @@ RunningUnderstudy::RunningUnderstudy(const Words& flags, const Environment& envi
         environment);
 }
 
+RunningUnderstudy::RunningUnderstudy(FromModel, const std::string& model, const Words& flags) {
+  start({UNDERSTUDY_BINARY, "serve", "--model", model, "--link", folder_ / "port"}, flags, {});
+}
+
+std::unique_ptr<RunningUnderstudy> RunningUnderstudy::of_model(const std::string& model, const Words& flags) {
+  return std::unique_ptr<RunningUnderstudy>(new RunningUnderstudy(FromModel{}, model, flags));
+}
+
 RunningUnderstudy::RunningUnderstudy(FromBench, const std::string& yaml, const Words& flags) {
   start({UNDERSTUDY_BINARY, "serve", folder_.write("bench.yaml", yaml)}, flags, {});
 }

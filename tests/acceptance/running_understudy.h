@@ -81,6 +81,8 @@ class RunningUnderstudy {
  public:
   /// One Simple2-R3 on a line called "line" with the link folder()/port. `flags` are added.
   explicit RunningUnderstudy(const Words& flags = {}, const Environment& environment = {});
+  /// One device of another model, as above.
+  static std::unique_ptr<RunningUnderstudy> of_model(const std::string& model, const Words& flags = {});
   /// What a bench file says, written into folder(). `flags` are added.
   static std::unique_ptr<RunningUnderstudy> of_bench(const std::string& yaml, const Words& flags = {});
   ~RunningUnderstudy();
@@ -108,6 +110,8 @@ class RunningUnderstudy {
 
  private:
   struct FromBench {};
+  struct FromModel {};
+  RunningUnderstudy(FromModel, const std::string& model, const Words& flags);
   RunningUnderstudy(FromBench, const std::string& yaml, const Words& flags);
   void start(Words command, const Words& flags, const Environment& environment);
 
