@@ -39,6 +39,8 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
       }
       return is_done(command) ? lang::kDone : lang::kWaits;
     case Verb::print: {
+      // A program is much faster than its line: it prints when there is room again.
+      if (state_.speech.size() >= kMostUnsent) return lang::kWaits;
       const lang::Operand& what = command.operands.front();
       say(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
       return lang::kDone;

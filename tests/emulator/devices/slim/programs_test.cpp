@@ -130,8 +130,9 @@ TEST(SlimPrograms, WritesToADisplay) {
 }
 
 TEST(SlimPrograms, JogsAsFastAsTheAnalogInputSays) {
-  // VJ 100 RPM, half of it: 8333.3 pulses/s. The jog is at its beginning one tick after the command, and slows
-  // down from the moment of the other one: 0.999 s between them, 8325 pulses in all, as both ramps are alike.
+  // VJ 100 RPM, half of it: 8333.3 pulses/s. The jog is at its beginning one tick after the command, and
+  // slows down from the moment of the other one: 0.999 s between them, 8325 pulses in all, as both ramps are
+  // alike.
   DialogueScript(1).play(R"(
 AIN = 500
 @ 1
@@ -158,8 +159,6 @@ TEST(SlimPrograms, AJogWithoutAnalogSpeedBeginsWhenTheInputComes) {
 > AVM
 > JGF
 @ 1000
-> ?PE
-< 0
 AIN = 500
 @ 1000
 > JG0
@@ -200,6 +199,25 @@ TEST(SlimPrograms, AsksTheHostForNumbers) {
 > ?PE
 < 5000
 )");
+}
+
+TEST(SlimPrograms, PrintsNoFasterThanItsLineCarries) {
+  Bench bench = slim_bench(1);
+  bench.lines[0].timing = pty::Timing::wire;
+  World world(bench, WorldOptions{}, [](const std::string&) {});
+  pty::Line& line = world.line(0).line;
+  const std::string typed = "PG\r$A\rOUT \"" + std::string(98, 'x') + "\"\rJP $A\r\rG\r";
+  line.receive({reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()}, world.now());
+  std::size_t said = 0;
+  for (int second = 1; second <= 20; ++second) {
+    world.advance_to(std::chrono::seconds(second));
+    said += line.output().size();
+    line.take_output(line.output().size());
+    EXPECT_LT(dynamic_cast<const Slim&>(world.device(0)).state().speech.size(), 2 * kMostUnsent);
+  }
+  // 960 characters a second, but for what is typed first and for pauses of a tick between texts.
+  EXPECT_GT(said, 17'000U);
+  EXPECT_LE(said, 20U * 960U);
 }
 
 TEST(SlimPrograms, HomesAndSetsItsCoordinate) {
