@@ -41,9 +41,10 @@ struct ChoiceError : std::runtime_error {
 std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides);
 
-/// Where a row stands in its table; a compile error if there is none.
+/// Where a row stands in its table. A compile error if there is none, in what is to be known when compiling;
+/// not consteval, because clang 14 does not let one such function call another with its own arguments.
 template <std::size_t N>
-consteval std::size_t choice_number(const ChoiceRow (&rows)[N], std::string_view id) {
+constexpr std::size_t choice_number(const ChoiceRow (&rows)[N], std::string_view id) {
   for (std::size_t i = 0; i < N; ++i) {
     if (rows[i].id == id) return i;
   }
@@ -56,9 +57,9 @@ struct Option {
   std::uint8_t number = 0;
 };
 
-/// A compile error for a row or an option that there is not.
+/// The same for a row or an option that there is not.
 template <std::size_t N>
-consteval Option option_of(const ChoiceRow (&rows)[N], std::string_view id, std::string_view name) {
+constexpr Option option_of(const ChoiceRow (&rows)[N], std::string_view id, std::string_view name) {
   const std::size_t row = choice_number(rows, id);
   std::string_view rest = rows[row].options;
   for (std::uint8_t number = 0;; ++number) {
