@@ -1,7 +1,8 @@
 // A capture as pcapng, for Wireshark and tshark. Pure: it appends whole blocks to a buffer.
 //
 // The link type is "Wireshark upper PDU": each packet names its own dissector, so that no decode-as flag is
-// needed; lines of text are plain data. Stations talk from port 19200 and hosts to it, which makes Wireshark tell requests from replies
+// needed; lines of text are plain data. Stations talk from port 19200 and hosts to it, which makes Wireshark
+// tell requests from replies
 // (`-o mbrtu.tcp.port:19200`), and each line's host has a port of its own, which keeps lines apart.
 // Always little-endian: the same capture is the same file everywhere.
 #pragma once

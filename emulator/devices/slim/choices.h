@@ -43,6 +43,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "a line is not parsed as a command then, but a host that gives up needs a way out"},
     // --- programs ---
     {"lines_a_tick", "G", "how fast a program runs", "one_a_millisecond", kProposal, "not said"},
+    {"print_ahead", "OUT", "how far a program prints ahead of its line", "1024_characters_then_it_waits",
+     kProposal, "a loop with OUT would fill any memory"},
     {"call_depth", "CALL", "how deep subroutines can be nested", "16", kProposal, "not said"},
     {"failed_line", "G", "what a line that is refused does to its program", "ends_it|is_passed_over",
      kProposal, "a program that goes on without one of its moves would hit something"},

@@ -26,6 +26,7 @@ namespace understudy::emulator::slim {
 namespace lang = interpreter::slim;
 
 inline constexpr std::size_t kHistoryLength = 16;
+inline constexpr std::size_t kMostSpeech = 256 * 1024;
 inline constexpr std::size_t kMostUnsent = 1024;  // characters that a program may have waiting for the line
 
 // A module's terminals, among all: T0's, then T1's ...

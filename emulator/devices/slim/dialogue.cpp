@@ -15,7 +15,9 @@ bool is_exit(std::string_view line) {
 
 }  // namespace
 
+/// A host that types faster than its line answers loses what is beyond a bound that no listing reaches.
 void Slim::say(std::string_view text) {
+  if (state_.speech.size() >= kMostSpeech) return;
   state_.speech += text;
   state_.speech += "\r\n";
 }

@@ -70,7 +70,9 @@ inline constexpr Effect kOneMotorEffects[] = {
      "?T1ERR -> 0; ?ERR -> 1; T5RESET -> ERR 5"},
     {"IHOFF",
      "MR 100000; MR 5; @100; IHOFF; @2; ?ST -> 0; MR 5 -> ERR 9; {new}; {full}; IHOFF; @1; ?ST -> 0"},
-    {"IHON", "IHOFF; IHON; @1; ?ST -> 1; MA 5; @20; ?PE -> 5; {new}; {runs}; IHOFF; IHON; ?ST -> 5"},
+    {"IHON",
+     "IHOFF; IHON; @1; ?ST -> 1; MA 5; @20; ?PE -> 5; {new}; {runs}; IHOFF; IHON; ?ST -> 5; {new}; MR 10000; "
+     "HOFF; IHON; @200; ?ST -> 0; {new}; {full}; IHON"},
     // --- outputs
     {"SET Pn",
      "SET P1; @2; P1 is 1; P2 is 0; {new}; MR 10000; SET P4; @150; P4 is 0; @10; P4 is 1; "
