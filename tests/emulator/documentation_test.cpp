@@ -7,6 +7,8 @@
 
 #include "emulator/bench/bench_file.h"
 #include "emulator/describe/fidelity_page.h"
+#include "emulator/devices/slim/numbers.h"
+#include "emulator/devices/slim/parameters.h"
 #include "emulator/model.h"
 
 namespace understudy::emulator {
@@ -36,6 +38,19 @@ TEST(Documentation, the_bench_in_the_bench_page_is_valid) {
   const Bench bench = parse_bench(page.substr(first, page.find("```\n", first) - first), "bench.md", "/tmp");
   EXPECT_EQ(bench.devices.size(), 2U);
   EXPECT_EQ(bench.wires.size(), 1U);
+}
+
+TEST(Documentation, the_slim_page_has_the_parameters_of_the_table) {
+  const std::string page = contents(std::string(PROJECT_FOLDER) + "/docs/slim.md");
+  for (const slim::ParameterDefinition& row : slim::kParameters) {
+    const std::string name = "\n| " + std::string(row.name) + " | " + std::string(row.alias);
+    const std::size_t at = page.find(name);
+    ASSERT_NE(at, std::string::npos) << row.name;
+    const std::string line = page.substr(at + 1, page.find('\n', at + 1) - at - 1);
+    // PN50 is by the number of modules.
+    const std::string factory = row.name == "PN50" ? "by `modules`" : slim::text_of_real(row.factory);
+    EXPECT_NE(line.find(" | " + factory + " |"), std::string::npos) << line;
+  }
 }
 
 TEST(Documentation, the_shipped_benches_are_valid) {
