@@ -70,7 +70,8 @@ const Strings kPassing{
     "  - send: { bytes: 1B, reply: 42 52 45 41 4B 0D 0A }\n",
     // An echo is what comes as well.
     "  - send: { text: ECHO=1 }\n  - send: { text: SAY a, reply: [ SAY a, a ] }\n",
-    "  - power: { robot: cycle }\n  - hear: { text: HELLO }\n",
+    "  - advance: 50ms\n  - send: { text: SAY a, reply: a }\n  - power: { robot: cycle }\n  - hear: { text: "
+    "HELLO }\n",
     "  - send: { text: AT 150 }\n  - send: { text: SAY b, reply: b }\n  - hear: { text: TICK 150, within: 1s "
     "}\n",
     "  - inject: { drop: robot, nth: 1 }\n  - send: { text: SAY a, reply: nothing, within: 100ms }\n"
