@@ -97,7 +97,7 @@ class Device {
   /// The program as text that load_program() takes; empty if the model has none.
   virtual std::string program_text() const { return {}; }
 
-  // --- time: the phases of a tick, each called for all devices before the next one -----------------
+  // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
   virtual void sample_inputs(Tick tick) = 0;
   virtual void run_interpreters(Tick tick) = 0;
   virtual void step_motion(Tick tick) = 0;

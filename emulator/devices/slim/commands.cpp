@@ -30,10 +30,7 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
   switch (command.verb) {
     case Verb::wait_done:
     case Verb::axis_wait_done:
-      if (const Error error = linked(module_of(command)); error != Error::none) {
-        remember(0, error);
-        return lang::failed(error);
-      }
+      if (const Error error = linked(module_of(command)); error != Error::none) return lang::failed(error);
       if (command.verb == Verb::axis_wait_done && state_.chain.assigned(letter_of(command)) == kUnassigned) {
         return lang::failed(Error::axis);
       }
@@ -49,7 +46,7 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
   }
   const Error error = execute(command);
   if (error == Error::buffer_full || error == Error::paused) return lang::kWaits;
-  if (error != Error::none) remember(module_of(command), error);
+  if (error != Error::none) failed_module_ = module_of(command);
   return {.error = error};
 }
 

@@ -146,9 +146,9 @@ void Slim::sample_inputs(Tick tick) {
 }
 
 void Slim::run_interpreters(Tick tick) {
+  failed_module_ = 0;
   const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
-  // What carry_out() has refused is remembered already, of its module.
-  if (error != Error::none && state_.errors[0].present != error) remember(0, error);
+  if (error != Error::none) remember(failed_module_, error);
 }
 
 void Slim::step_motion(Tick tick) { state_.chain.step(tick); }

@@ -177,6 +177,7 @@ class Slim final : public TextDevice, private lang::Machine {
 
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
+  int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
   State state_;
 };
 

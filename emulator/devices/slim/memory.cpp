@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "emulator/devices/slim/numbers.h"
 #include "emulator/one_line.h"
 
 namespace understudy::emulator::slim {
@@ -75,9 +76,10 @@ Memory read_image(const NvImage& image, const Memory& factory) {
     const auto node = from.extract(name);
     return node.empty() ? std::nullopt : std::optional(node.mapped());
   };
-  const auto does_not_fit = [](const char* where, const std::string& name, double value) {
-    return NvError(std::string(where) + ": " + quoted(name) + ": " + std::to_string(value) +
-                   " does not fit; expected a value in its range");
+  const auto does_not_fit = [](const char* where, const std::string& name, double value, double lowest,
+                               double highest) {
+    return NvError(std::string(where) + ": " + quoted(name) + ": " + text_of_real(value) +
+                   " does not fit; expected " + text_of_real(lowest) + " to " + text_of_real(highest));
   };
   for_each_name(memory, [&](const std::string& name, auto& value, const ParameterDefinition* row) {
     using T = std::decay_t<decltype(value)>;
@@ -87,13 +89,15 @@ Memory read_image(const NvImage& image, const Memory& factory) {
     const char* const where = whole ? "registers" : "reals";
     if (row != nullptr) {
       const auto fits = fitted(*row, *given);
-      if (!fits) throw does_not_fit(where, name, *given);
+      if (!fits) throw does_not_fit(where, name, *given, row->lowest, row->highest);
       value = static_cast<T>(*fits);
     } else if (std::is_same_v<T, std::int16_t>) {
-      if (*given < kIntegerLeast || *given > kIntegerMost) throw does_not_fit(where, name, *given);
+      if (*given < kIntegerLeast || *given > kIntegerMost) {
+        throw does_not_fit(where, name, *given, kIntegerLeast, kIntegerMost);
+      }
       value = static_cast<T>(*given);
     } else {
-      if (std::abs(*given) > kMaxReal) throw does_not_fit(where, name, *given);
+      if (std::abs(*given) > kMaxReal) throw does_not_fit(where, name, *given, -kMaxReal, kMaxReal);
       value = static_cast<T>(*given);
     }
   });
