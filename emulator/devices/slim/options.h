@@ -7,21 +7,26 @@ namespace understudy::emulator::slim {
 
 consteval Option option(std::string_view id, std::string_view name) { return option_of(kChoices, id, name); }
 
+// --- the dialogue, modules and numbers ---
 inline constexpr Option kEcho = option("echo", "on");
 inline constexpr Option kPrompt = option("prompt", "greater_than");
 inline constexpr Option kAcknowledges = option("acknowledgement", "ok");
 inline constexpr Option kNamesValues = option("query_reply", "name_and_value");
 inline constexpr Option kErrorsNotAnswered = option("error_reply", "nothing");
+inline constexpr Option kArraysBySaveD = option("arrays_kept", "by_save_d");
+
+// --- programs, and when a command may be given ---
 inline constexpr Option kExternalColumnOnly = option("while_program_runs", "external_column_only");
 inline constexpr Option kImmediateColumnIgnored = option("immediate_column", "taken");
-inline constexpr Option kIneffectivePauseRefused = option("ineffective_pause", "error_3");
-inline constexpr Option kSpeedsOfT0 = option("unequal_speeds", "as_t0_has_them");
-inline constexpr Option kArraysBySaveD = option("arrays_kept", "by_save_d");
-inline constexpr Option kServoOffAtPowerUp = option("power_up_servo", "off");
 inline constexpr Option kFailedLinePassed = option("failed_line", "is_passed_over");
 inline constexpr Option kEventsWaitForChange = option("event_at_arming", "waits_for_a_change");
 inline constexpr Option kHeldEventDropped = option("held_event", "is_dropped");
 inline constexpr Option kWaitsHaveGoneOn = option("interrupted_wait", "have_gone_on");
+
+// --- motion ---
+inline constexpr Option kIneffectivePauseRefused = option("ineffective_pause", "error_3");
+inline constexpr Option kSpeedsOfT0 = option("unequal_speeds", "as_t0_has_them");
+inline constexpr Option kServoOffAtPowerUp = option("power_up_servo", "off");
 inline constexpr Option kThrustRuns = option("thrust", "runs_at_vj");
 inline constexpr Option kNewSpeedAtOnce = option("new_speed", "at_once");
 inline constexpr Option k4000PulsesARevolution = option("pulses_per_revolution", "4000");
