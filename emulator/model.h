@@ -29,6 +29,20 @@ struct ParameterRow {
   std::string_view register_name;  // as in the register table, "{}" for the number
 };
 
+/// A row of a table of parameters that are values of their own, of a model without registers.
+struct NamedParameterRow {
+  std::string_view number;  // "PN10", if the maker counts them
+  std::string_view name;    // "VM"
+  int width = 32;           // bits
+  bool persistent = true;
+  std::string least{};
+  std::string most{};
+  std::string_view unit{};
+  std::string factory{};
+  std::string_view meaning{};
+  std::string_view unmodelled{};  // what is missing, if it is only stored
+};
+
 /// A row of a model's instruction table.
 struct InstructionRow {
   int opcode = 0;
@@ -42,6 +56,7 @@ struct CommandRow {
   std::string_view command;  // the word that it is known by: "MA"
   std::string_view syntax;   // "MA x"
   std::string_view meaning;
+  std::string_view where{};  // it may be given
 };
 
 /// A point where the device meets the outside, as its manual names it.
@@ -115,6 +130,7 @@ struct Model {
   std::span<const Firmware> firmwares;  // oldest first; the last is the default
   const RegisterMap& registers;
   std::span<const ParameterRow> parameters;
+  std::span<const NamedParameterRow> named_parameters{};
   std::span<const InstructionRow> instructions;
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;

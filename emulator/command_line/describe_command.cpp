@@ -38,6 +38,10 @@ int describe_model(const DescribeArguments& arguments) {
         quoted(arguments.what) +
         " cannot be described; expected registers, parameters, instructions, commands or choices");
   }
+  if (sheet->rows.empty() && *format == SheetFormat::table) {
+    std::printf("%s has no %s\n", arguments.model.c_str(), arguments.what.c_str());
+    return kExitWell;
+  }
   // As Markdown the choices are a page of the documentation, whole.
   const bool page = arguments.what == "choices" && *format == SheetFormat::markdown;
   std::fputs(page ? fidelity_page(model).c_str() : format_sheet(*sheet, *format).c_str(), stdout);

@@ -68,8 +68,23 @@ Sheet registers(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-Sheet parameters(const Model& model) {
+Sheet parameters(const Model& model, SheetFormat format) {
+  const bool for_people = format == SheetFormat::table && !model.named_parameters.empty();
   Sheet sheet{.columns = {"number", "name", "address", "width", "persistent"}, .rows = {}};
+  if (for_people) {
+    for (const char* column : {"min", "max", "unit", "default", "meaning", "not modelled"}) {
+      sheet.columns.emplace_back(column);
+    }
+  }
+  for (const NamedParameterRow& row : model.named_parameters) {
+    sheet.rows.push_back({std::string(row.number), std::string(row.name), "", std::to_string(row.width),
+                          row.persistent ? "1" : "0"});
+    if (!for_people) continue;
+    for (const std::string_view cell : {std::string_view(row.least), std::string_view(row.most), row.unit,
+                                        std::string_view(row.factory), row.meaning, row.unmodelled}) {
+      sheet.rows.back().emplace_back(cell);
+    }
+  }
   for (const ParameterRow& parameter : model.parameters) {
     for (const RegisterRow& row : model.registers.rows()) {
       if (row.name != parameter.register_name) continue;
@@ -91,10 +106,13 @@ Sheet instructions(const Model& model) {
   return sheet;
 }
 
-Sheet commands(const Model& model) {
+Sheet commands(const Model& model, SheetFormat format) {
+  const bool for_people = format == SheetFormat::table;
   Sheet sheet{.columns = {"command", "syntax", "meaning"}, .rows = {}};
+  if (for_people) sheet.columns.insert(sheet.columns.end() - 1, "where");
   for (const CommandRow& row : model.commands) {
     sheet.rows.push_back({std::string(row.command), std::string(row.syntax), std::string(row.meaning)});
+    if (for_people) sheet.rows.back().insert(sheet.rows.back().end() - 1, std::string(row.where));
   }
   return sheet;
 }
@@ -118,9 +136,9 @@ Sheet choices(const Model& model) {
 
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format) {
   if (what == "registers") return registers(model, format);
-  if (what == "parameters") return parameters(model);
+  if (what == "parameters") return parameters(model, format);
   if (what == "instructions") return instructions(model);
-  if (what == "commands") return commands(model);
+  if (what == "commands") return commands(model, format);
   if (what == "choices") return choices(model);
   return std::nullopt;
 }

@@ -193,6 +193,13 @@ TEST(Describe, PrintsEverySheetInEveryFormat) {
   }
 }
 
+TEST(Describe, SaysThatAModelHasNoneOfASheet) {
+  EXPECT_EQ(understudy({"describe", "slim", "registers"}).output, "slim has no registers\n");
+  EXPECT_EQ(understudy({"describe", "simple2-r3", "commands"}).output, "simple2-r3 has no commands\n");
+  EXPECT_EQ(understudy({"describe", "simple2-r3", "commands", "--format", "csv"}).output,
+            "command,syntax,meaning\n");
+}
+
 TEST(Describe, PrintsTheDocumentedColumnsAsCsv) {
   const auto header = [](const char* sheet) {
     return lines_of(understudy({"describe", "simple2-r3", sheet, "--format", "csv"}).output).at(0);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator/devices/slim/device.h"
+#include "emulator/devices/slim/numbers.h"
 #include "emulator/text/text_device.h"
 
 namespace understudy::emulator::slim {
@@ -48,9 +49,39 @@ Names make_names() {
   return names;
 }
 
+/// Where a command may be given, as bits of Place, in words.
+constexpr std::array<std::string_view, 8> kWhere{
+    "nowhere", "program",          "typed",          "program, typed",
+    "running", "program, running", "typed, running", "program, typed, running"};
+
 std::vector<CommandRow> command_rows() {
   std::vector<CommandRow> rows;
-  for (const auto& row : lang::kCommands) rows.push_back({row.command, row.syntax, row.meaning});
+  for (std::size_t i = 0; i < lang::kCommands.size(); ++i) {
+    const lang::CommandRow& row = lang::kCommands[i];
+    const lang::Command command{.verb = row.verb, .row = static_cast<int>(i)};
+    std::size_t where = 0;
+    for (const lang::Place place : {lang::Place::program, lang::Place::immediate, lang::Place::external}) {
+      if (is_allowed(command, place)) where |= std::size_t{1} << static_cast<unsigned>(place);
+    }
+    rows.push_back({row.command, row.syntax, row.meaning, kWhere[where]});
+  }
+  return rows;
+}
+
+std::vector<NamedParameterRow> parameter_rows() {
+  std::vector<NamedParameterRow> rows;
+  for (const ParameterDefinition& row : kParameters) {
+    const bool is_real = row.type == ParameterDefinition::Type::real;
+    rows.push_back({.number = row.name.starts_with('P') ? row.name : "",
+                    .name = row.alias.empty() ? row.name : row.alias,
+                    .width = is_real || row.highest > 65535 ? 32 : 16,
+                    .least = (row.above_lowest ? "> " : "") + text_of_real(row.lowest),
+                    .most = is_real ? text_of_real(row.highest) : text_of_integer(row.highest),
+                    .unit = row.unit,
+                    .factory = text_of_real(row.factory),
+                    .meaning = row.meaning,
+                    .unmodelled = row.unmodelled});
+  }
   return rows;
 }
 
@@ -68,12 +99,14 @@ constexpr std::array<std::string_view, 4> kGaps{
 const Model& model() {
   static const Names names = make_names();
   static const std::vector<CommandRow> commands = command_rows();
+  static const std::vector<NamedParameterRow> parameters = parameter_rows();
   static const Model model{
       .name = "slim",
       .title = "chain of up to 8 integrated servos, ASCII commands on RS232",
       .firmwares = kFirmwares,
       .registers = no_registers(),
       .parameters = {},
+      .named_parameters = parameters,
       .instructions = {},
       .commands = commands,
       .choices = kChoices,

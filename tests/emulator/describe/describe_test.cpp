@@ -14,16 +14,16 @@ namespace {
 
 const Model& simple2() { return *find_model("simple2-r3"); }
 
-std::string described(std::string_view what, SheetFormat format) {
-  const auto sheet = describe(simple2(), what, format);
+std::string described(std::string_view what, SheetFormat format, const Model& model = simple2()) {
+  const auto sheet = describe(model, what, format);
   EXPECT_TRUE(sheet) << what;
   return sheet ? format_sheet(*sheet, format) : "";
 }
 
 /// A described sheet as a script reads it: the header, and rows by column.
 struct Csv {
-  explicit Csv(std::string_view what) {
-    std::istringstream text(described(what, SheetFormat::csv));
+  explicit Csv(std::string_view what, const Model& model = simple2()) {
+    std::istringstream text(described(what, SheetFormat::csv, model));
     std::getline(text, header);
     const auto columns = csv_cells(header);
     for (std::string line; std::getline(text, line);) {
@@ -105,6 +105,56 @@ TEST(Describe, InstructionsAreTheManuals) {
     EXPECT_EQ(csv.rows[i].at("opcode"), facts[i].at("opcode"));
     EXPECT_EQ(csv.rows[i].at("mnemonic"), facts[i].at("mnemonic"));
   }
+}
+
+TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
+  // The list's numbers and second names; widths: real numbers are floats of 32 bits.
+  struct Named {
+    const char* number;
+    const char* name;
+    const char* width;
+  };
+  constexpr Named kNamed[] = {{"PN10", "VM", "32"},   {"PN14", "VJ", "32"},   {"", "FU", "16"},
+                              {"", "VA", "32"},       {"", "LL", "32"},       {"", "EL", "32"},
+                              {"PN37", "PN37", "16"}, {"PN44", "PN44", "32"}, {"PN45", "PN45", "32"},
+                              {"PN46", "PN46", "32"}, {"PN50", "PN50", "16"}, {"PR2", "TVA", "32"},
+                              {"PR3", "TVM", "32"},   {"PR7", "CMA", "32"},   {"", "SYN", "16"}};
+  const Csv csv("parameters", *find_model("slim"));
+  EXPECT_EQ(csv.header, "number,name,address,width,persistent");
+  ASSERT_EQ(csv.rows.size(), std::size(kNamed));
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const Fact expected{{"number", kNamed[i].number},
+                        {"name", kNamed[i].name},
+                        {"address", ""},
+                        {"width", kNamed[i].width},
+                        {"persistent", "1"}};
+    EXPECT_EQ(csv.rows[i], expected) << kNamed[i].name;
+  }
+  const std::string table = described("parameters", SheetFormat::table, *find_model("slim"));
+  EXPECT_NE(table.find("PR7     CMA    "), std::string::npos) << table;
+  EXPECT_NE(table.find("largest angle that CM 2 joins"), std::string::npos) << table;
+  EXPECT_NE(table.find("no load is computed"), std::string::npos) << table;
+}
+
+TEST(Describe, TheTableForPeopleTellsWhereACommandMayBeGiven) {
+  std::istringstream table(described("commands", SheetFormat::table, *find_model("slim")));
+  std::map<std::string, std::string> where;  // by syntax
+  for (std::string line; std::getline(table, line);) {
+    for (const char* syntax : {" TAPZ ", " 2MA Rn,Rm ", " 4MR Rx,Ry,Rz,Rw ", " JP addr ", " PL ", " MA x "}) {
+      const std::size_t at = line.find(syntax);
+      if (at == std::string::npos) continue;
+      const std::size_t begin = line.find_first_not_of(' ', at + std::string(syntax).size());
+      where[syntax] = line.substr(begin, line.find("  ", begin) - begin);
+    }
+  }
+  // The second list's columns; for the first list, what makes sense.
+  const std::map<std::string, std::string> expected{{" TAPZ ", "program, typed, running"},
+                                                    {" 2MA Rn,Rm ", "program, typed"},
+                                                    {" 4MR Rx,Ry,Rz,Rw ", "program"},
+                                                    {" JP addr ", "program"},
+                                                    {" PL ", "typed"},
+                                                    {" MA x ", "program, typed"}};
+  EXPECT_EQ(where, expected);
 }
 
 TEST(Describe, EveryChoiceIsListedWithWhatWasChosen) {
