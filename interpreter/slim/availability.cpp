@@ -64,6 +64,8 @@ bool is_variable_form(const CommandRow& row) { return row.slots[0] == Slot::real
 
 bool is_allowed(const Command& command, Place place, const Columns& columns) {
   const CommandRow& row = kCommands[static_cast<std::size_t>(command.row)];
+  // What is typed has nobody to wait for a number.
+  if (place != Place::program && asks_host(command)) return false;
   switch (place) {
     case Place::program:
       return row.program == Printed::nothing ? !is_for_hosts(row) : row.program == Printed::yes;

@@ -1,6 +1,7 @@
 // What a line says, as values.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,6 +55,17 @@ struct ParsedLine {
 
   bool operator==(const ParsedLine&) const = default;
 };
+
+/// GETI and GETR.
+constexpr bool asks_host(Operand::Kind kind) {
+  return kind == Operand::Kind::get_integer || kind == Operand::Kind::get_real;
+}
+/// Whether it waits for a number from the host.
+inline bool asks_host(const Command& command) {
+  return command.verb == Verb::get_integer || command.verb == Verb::get_real ||
+         std::ranges::any_of(command.operands,
+                             [](const Operand& operand) { return asks_host(operand.kind); });
+}
 
 constexpr bool is_variable(Operand::Kind kind) {
   return kind >= Operand::Kind::integer_variable && kind <= Operand::Kind::real_array;

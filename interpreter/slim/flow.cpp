@@ -17,15 +17,12 @@ void finish(Execution& execution, Ending ending, Error error = Error::none) {
   execution = {.ending = ending, .error = error, .line = execution.line, .events = std::move(events)};
 }
 
-bool asks_host(const Operand& operand) {
-  return operand.kind == Kind::get_integer || operand.kind == Kind::get_real;
-}
-
 /// Whether GETI or GETR stands in the line, and which of them.
 std::optional<Kind> asked_of_host(const Command& command) {
   if (command.verb == Verb::get_integer) return Kind::get_integer;
   if (command.verb == Verb::get_real) return Kind::get_real;
-  const auto asking = std::ranges::find_if(command.operands, asks_host);
+  const auto asking =
+      std::ranges::find_if(command.operands, [](const Operand& operand) { return asks_host(operand.kind); });
   if (asking == command.operands.end()) return std::nullopt;
   return asking->kind;
 }
@@ -73,7 +70,7 @@ class LineRun {
     if (asked && !execution_.has_number) return hold(Hold::number);
     Command command = asking;
     for (Operand& operand : command.operands) {
-      if (!asks_host(operand)) continue;
+      if (!asks_host(operand.kind)) continue;
       const bool is_integer = operand.kind == Kind::get_integer;
       operand = {.kind = is_integer ? Kind::integer : Kind::real, .number = execution_.number};
     }

@@ -96,8 +96,7 @@ Error check_typed(Operand& operand, bool for_integer) {
 /// What an assignment gives. A real variable takes integers, too; a parameter takes any number.
 Error check_data(Operand& operand, const Operand* target) {
   const bool is_number = is_constant(operand) || is_variable(operand.kind) || operand.kind == Kind::analog ||
-                         operand.kind == Kind::clock || operand.kind == Kind::get_integer ||
-                         operand.kind == Kind::get_real;
+                         operand.kind == Kind::clock || asks_host(operand.kind);
   if (!is_number) return Error::syntax;
   if (target == nullptr) {
     const Range range = *real_range(Slot::real);
@@ -242,8 +241,7 @@ class Matching {
     take(Slot::comparand);
     const Kind kind = result_.operands.back().kind;
     // An event is looked at every tick; it cannot wait for the host.
-    const bool asks = kind == Kind::get_integer || kind == Kind::get_real;
-    if (asks) add_error(result_.error, Error::syntax);
+    if (asks_host(kind)) add_error(result_.error, Error::syntax);
     take(Slot::variable);
   }
 

@@ -33,14 +33,6 @@ bool is_sound(const Event& event, int number) {
   return is_address && (!event.pending || (event.has_condition && event.has_address));
 }
 
-bool asks_host(const Command& command) {
-  using Kind = Operand::Kind;
-  return command.verb == Verb::get_integer || command.verb == Verb::get_real ||
-         std::ranges::any_of(command.operands, [](const Operand& operand) {
-           return operand.kind == Kind::get_integer || operand.kind == Kind::get_real;
-         });
-}
-
 bool can_hold(const std::optional<Command>& command, Hold hold) {
   if (hold == Hold::nothing) return true;
   if (!command) return false;

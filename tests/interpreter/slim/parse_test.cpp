@@ -216,7 +216,10 @@ TEST(SlimAvailability, ByPlace) {
                                 {"ISET P1", true, true, true},
                                 {"PZ", true, true, true},
                                 {"SET EV1 I,1", true, true, false},
-                                {"PR3=5", true, true, false}}) {
+                                {"PR3=5", true, true, false},
+                                {"GETI", true, false, false},
+                                {"N0=GETI", true, false, false},  // nobody waits for the number
+                                {"TVM=GETR", true, false, false}}) {
     const Command command = command_of(each.text);
     EXPECT_EQ(is_allowed(command, Place::program), each.program) << each.text;
     EXPECT_EQ(is_allowed(command, Place::immediate), each.immediate) << each.text;

@@ -190,8 +190,10 @@ inline constexpr Effect kOneMotorEffects[] = {
     // --- numbers in and out
     {"GETI",
      "PG; GETI; N3=GETI; OUT N3; .; G; @5; 2.5 -> ERR 1; 7; @5; 40000 -> ERR 2; -8; @5; < -8; "
-     "GETI -> ERR 3"},
-    {"GETR", "PG; GETR; R3=GETR; OUT R3; .; G; @5; FOO -> ERR 1; 7; @5; -0.25; @5; < -0.25; GETR -> ERR 3"},
+     "GETI -> ERR 3; N3=GETI -> ERR 3; ?N3 -> -8"},
+    {"GETR",
+     "PG; GETR; R3=GETR; OUT R3; .; G; @5; FOO -> ERR 1; 7; @5; -0.25; @5; < -0.25; GETR -> ERR 3; PR3=GETR "
+     "-> ERR 3; ?PR3 -> 100"},
     {"OUT #var", "N3=-7; OUT N3 -> -7; RS(2000)=0.5; OUT RS(2000) -> 0.5; {new}; {runs}; OUT N3 -> ERR 3"},
     {"OUT \"text\"", "OUT \"a, B\" -> a, B; PG; OUT \"x\"; .; G; @3; < x; {new}; {runs}; OUT \"x\" -> ERR 3"},
     {"DATA idx,r",
