@@ -35,6 +35,14 @@ bool Coordinated::takes(std::size_t axis) const {
   return false;
 }
 
+double Coordinated::speed_pps(std::size_t axis, Tick now) const {
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    if (!engaged || axis_of[i] < 0 || static_cast<std::size_t>(axis_of[i]) != axis) continue;
+    return run.velocity(now)[static_cast<Eigen::Index>(i)] * scale[i].pulses_per_unit();
+  }
+  return 0;
+}
+
 Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
   for (const std::int8_t mine : axis_of) {
     const Axis* axis = axis_at(mine, axes);

@@ -168,6 +168,27 @@ Sample PathRun::sample(Tick now) const {
   return here;
 }
 
+Point PathRun::velocity(Tick now) const {
+  if (chain_count_ == 0) return Point::Zero();
+  const Sample here = sample(now);
+  const Piece* piece = &pieces_[head_];
+  for (std::size_t next = 1; next < chain_count_; ++next) {
+    const Piece& behind = pieces_[(head_ + next) % kMaxPaths];
+    if (here.position_u < behind.begin_u) break;
+    piece = &behind;
+  }
+  const Path& path = piece->path;
+  const Point direction = path.direction_at(here.position_u - piece->begin_u);
+  if (path.measure == Measure::vector) return here.speed_u_s * direction;
+  // The axis that moves most has the speed; what rises on an arc does not count.
+  double most = 0;
+  for (Eigen::Index i = 0; i < kPathAxes; ++i) {
+    const bool counts = path.kind == Path::Kind::line || path.abscissa[i] != 0 || path.ordinate[i] != 0;
+    if (counts) most = std::max(most, std::abs(direction[i]));
+  }
+  return most > 0 ? Point(here.speed_u_s / most * direction) : Point(Point::Zero());
+}
+
 bool PathRun::at_rest(Tick now) const { return sample(now).speed_u_s == 0; }
 
 bool PathRun::slowing_for_the_end(Tick now) const {

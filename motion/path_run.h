@@ -84,6 +84,8 @@ class PathRun {
   bool at_rest(Tick now) const;                            // no speed after tick `now`
   /// Length along the present chain, speed and acceleration after tick `now`.
   Sample sample(Tick now) const;
+  /// How fast each coordinate changes there, u/s. On a corner, of the path behind it.
+  Point velocity(Tick now) const;
   double chain_length_u() const { return chain_end_u_; }
 
   /// One tick, in order. The place after it; where nothing runs, where the last path ended.

@@ -207,5 +207,41 @@ TEST(CoordinatedPath, BacklashComesOutAtOnceAtEachReversalOfAnArcAndIsNoTravel) 
   EXPECT_EQ(bench.travels(), (Travels{0, 0, 0, 0}));
 }
 
+TEST(CoordinatedPath, TheSpeedOfAnAxisIsHowFastItsPlaceChanges) {
+  // A line of 3:4, a quarter circle of radius 1000 that goes on from it in its direction (0.6, 0.8), in
+  // pulses of 1/8 and 1/2 units. Speeds by hand: 5000 u/s along the path.
+  constexpr double kSpeed = 5000;
+  Bench bench;
+  bench.group.run.set_speed(by_slope(kSpeed, 1e6), 0);
+  bench.group.scale[0] = {8, 1};
+  bench.group.scale[1] = {2, 1};
+  bench.add(line(place_of(0, 0), place_of(600, 800)));
+  const Point centre = place_of(600 - 800, 800 + 600);  // to the left of (0.6, 0.8)
+  bench.add(arc_by_sweep(place_of(600, 800), centre, kPi / 2), {.rule = Joint::Rule::join});
+  ASSERT_EQ(bench.begin(), Cause::none);
+  EXPECT_EQ(bench.group.speed_pps(0, bench.tick), 0);
+  bench.steps(101);  // 5 ms up: 12.5 u; then 95 ms: 475 u
+  EXPECT_NEAR(bench.group.speed_pps(0, bench.tick), 8 * 0.6 * kSpeed, 1e-6);
+  EXPECT_NEAR(bench.group.speed_pps(1, bench.tick), 2 * 0.8 * kSpeed, 1e-6);
+  EXPECT_EQ(bench.group.speed_pps(2, bench.tick), 0);
+  // 300 ms after the beginning: 12.5 + 1475 u, 487.5 u into the arc.
+  bench.steps(200);
+  const double angle_rad = std::atan2(-600, 800) + 487.5 / 1000;  // seen from the centre
+  EXPECT_NEAR(bench.group.speed_pps(0, bench.tick), 8 * kSpeed * -std::sin(angle_rad), 1e-4);
+  EXPECT_NEAR(bench.group.speed_pps(1, bench.tick), 2 * kSpeed * std::cos(angle_rad), 1e-4);
+  bench.to_the_end();
+  EXPECT_EQ(bench.group.speed_pps(0, bench.tick), 0);
+}
+
+TEST(CoordinatedPath, TheAxisThatMovesMostHasTheSpeedIfLengthIsMeasuredByIt) {
+  Bench bench;
+  bench.group.run.set_speed(by_slope(5000, 1e6), 0);
+  bench.add(line(place_of(0, 0), place_of(600, -800), Measure::longest_axis));
+  ASSERT_EQ(bench.begin(), Cause::none);
+  bench.steps(101);
+  EXPECT_NEAR(bench.group.speed_pps(0, bench.tick), 3750, 1e-6);
+  EXPECT_NEAR(bench.group.speed_pps(1, bench.tick), -5000, 1e-6);
+}
+
 }  // namespace
 }  // namespace understudy::motion

@@ -179,7 +179,9 @@ double Chain::coordinate(int module) const {
 double Chain::speed_pps(int module) const {
   const motion::Axis& axis = axes_[at(module)];
   if (modules_[at(module)].activity == Activity::group) {
-    return static_cast<double>(modules_[at(module)].sent_pulses) * motion::kTicksPerSecond;
+    double speed_pps = 0;
+    for (const Group& group : groups_) speed_pps += group.motion.speed_pps(at(module), now_);
+    return speed_pps;
   }
   if (!axis.moving()) return 0;
   return axis.sample(now_).speed_u_s * static_cast<double>(axis.drive.direction);
