@@ -29,11 +29,11 @@ struct StationFields {
   static void of(Like<TextStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<TextStation::Outgoing> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<TextStation::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
+    auto& [a, b, c, d, e, f, g, h] = v; visit(a, b, c, d, e, f, g, h);
   }
   // clang-format on
 
-  static constexpr pty::HeardText::What last(pty::HeardText::What) { return pty::HeardText::What::escape; }
+  static constexpr pty::HeardText::What last(pty::HeardText::What) { return pty::HeardText::What::go_on; }
   static void check(const auto&) {}  // only the station tells what may be
 };
 

@@ -11,13 +11,21 @@ namespace {
 constexpr char kBackspace = '\b';
 constexpr char kDelete = '\x7F';
 constexpr char kEscape = '\x1B';
+constexpr char kXon = '\x11';
+constexpr char kXoff = '\x13';
 
 }  // namespace
 
 TextLines::Outcome TextLines::push(const TimedByte& byte, const TextLineRules& rules) {
   const auto character = static_cast<char>(byte.value);
-  const bool is_behind_return = std::exchange(was_return_, character == '\r');
   Outcome outcome;
+  if (rules.has_flow_control && (character == kXon || character == kXoff)) {
+    const auto what = character == kXoff ? HeardText::What::hold : HeardText::What::go_on;
+    outcome.heard = HeardText{.what = what, .end = byte.end, .last_character = byte.number};
+    return outcome;
+  }
+  const bool is_behind_return = std::exchange(was_return_, character == '\r');
+  if (character == '\n' && !rules.line_feed_ends) return outcome;
   const auto hear = [&](HeardText::What what) {
     outcome.heard = HeardText{
         .what = what, .text = std::exchange(text_, {}), .end = byte.end, .last_character = byte.number};
@@ -28,7 +36,7 @@ TextLines::Outcome TextLines::push(const TimedByte& byte, const TextLineRules& r
     const bool is_empty = text_.empty() && !is_overlong_;
     if (character == '\n' && (is_behind_return || is_empty)) return outcome;
     hear(is_overlong_ ? HeardText::What::overlong : HeardText::What::line);
-    outcome.echo = "\r\n";
+    outcome.echo = rules.echoed_end;
     return outcome;
   }
   if (character == kEscape) {

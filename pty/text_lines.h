@@ -5,25 +5,30 @@
 //  * A line that is too long is given as such at its end, without its text.
 //  * Where the device echoes, a person types: BS and DEL take the last character back.
 //  * ESC is told at once, and what of a line came before it is forgotten.
+//  * XOFF and XON, where the device heeds them, are told at once and are no part of a line.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "pty/station.h"
 
 namespace understudy::pty {
 
 struct TextLineRules {
-  std::size_t longest = 127;  // characters of a line, its end not counted
-  bool echoes = false;        // each character is sent back, and BS and DEL edit
+  std::size_t longest = 127;             // characters of a line, its end not counted
+  bool echoes = false;                   // each character is sent back, and BS and DEL edit
+  bool line_feed_ends = true;            // an LF alone ends a line; false: an LF is nothing wherever it comes
+  bool has_flow_control = false;         // XOFF and XON
+  std::string_view echoed_end = "\r\n";  // what is sent back for the end of a line
 };
 
 /// What a character has completed.
 struct HeardText {
-  enum class What : std::uint8_t { line, overlong, escape } what = What::line;
+  enum class What : std::uint8_t { line, overlong, escape, hold, go_on } what = What::line;
   std::string text{};                // of a line, without its end
   SimTime end{0};                    // when its last character was over
   std::uint64_t last_character = 0;  // its number

@@ -12,6 +12,9 @@ namespace understudy::emulator {
 struct TextRules {
   bool echo = false;               // each character is sent back as it is heard, and BS and DEL edit
   std::size_t longest_line = 127;  // characters; of a longer line it only learns that there was one
+  bool line_feed_ends = true;      // an LF alone ends a line; false: it is nothing wherever it comes
+  bool has_flow_control = false;   // XOFF from the host holds what is said, XON lets it go on
+  std::string_view echoed_end = "\r\n";
 };
 
 class TextSpeaker {
@@ -19,8 +22,8 @@ class TextSpeaker {
   virtual TextRules text_rules() const { return {}; }
 
   // --- what it hears, while it has power -------------------------------------------------------
-  /// A line, without its end; it may be empty, and hold any byte but CR and LF. What it has to say to it is
-  /// taken right afterwards, as the answer; what comes later is unasked.
+  /// A line, without its end; it may be empty, and hold any byte but CR, LF and what steers the flow. What it
+  /// has to say to it is taken right afterwards, as the answer; what comes later is unasked.
   virtual void hear_line(std::string_view line) = 0;
   /// A line that was too long.
   virtual void hear_overlong() = 0;

@@ -18,7 +18,11 @@ std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin()
 
 pty::TextLineRules rules_of(const TextSpeaker& speaker) {
   const TextRules rules = speaker.text_rules();
-  return {.longest = rules.longest_line, .echoes = rules.echo};
+  return {.longest = rules.longest_line,
+          .echoes = rules.echo,
+          .line_feed_ends = rules.line_feed_ends,
+          .has_flow_control = rules.has_flow_control,
+          .echoed_end = rules.echoed_end};
 }
 
 TextSpeaker& speaker_of(Device& device) {
@@ -48,22 +52,24 @@ void TextStation::hear(const pty::TimedByte& byte) {
 }
 
 std::optional<pty::SimTime> TextStation::due() const {
-  std::optional<pty::SimTime> due = speaks_at_;
+  std::optional<pty::SimTime> due;
   const auto offer = [&](pty::SimTime at) { due = std::min(due.value_or(at), at); };
   if (!waiting_.empty()) offer(waiting_.front().heard.end);
   if (!late_.empty()) offer(late_.front().at);
+  if (is_held_) return due;
   if (!outgoing_.empty()) offer(free_at_);
+  if (speaks_at_) offer(*speaks_at_);
   return due;
 }
 
 void TextStation::run(pty::SimTime now, pty::Transmitter& out) {
   run_late(now);
   for (const Waiting& waiting : std::exchange(waiting_, {})) {
-    if (!waiting.echo.empty()) out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
+    if (!waiting.echo.empty()) echo(waiting, out);
     if (waiting.has_heard) carry_out(waiting.heard, now);
   }
   send(now, out);
-  if (!speaks_at_ || *speaks_at_ > now) return;
+  if (is_held_ || !speaks_at_ || *speaks_at_ > now) return;
   speaks_at_.reset();
   if (!outgoing_.empty() || free_at_ > now) {
     speaks_at_ = free_at_;
@@ -80,6 +86,7 @@ void TextStation::reset() {
   outgoing_.clear();
   free_at_ = pty::SimTime{0};
   speaks_at_.reset();
+  is_held_ = false;
 }
 
 bool TextStation::look_for_speech(pty::SimTime now) {
@@ -89,6 +96,11 @@ bool TextStation::look_for_speech(pty::SimTime now) {
 }
 
 // --- what it has heard ---------------------------------------------------------------------------
+
+void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
+  if (!is_held_) return out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
+  if (outgoing_size() < kMostOutgoing) outgoing_.push_back({waiting.heard.last_character, waiting.echo});
+}
 
 void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now) {
   if (faults_ == nullptr || heard.what != What::line) return serve(heard, now);
@@ -117,6 +129,8 @@ void TextStation::serve(const pty::HeardText& heard, pty::SimTime now) {
     }
     case What::overlong: speaker_.hear_overlong(); break;
     case What::escape: speaker_.hear_escape(); break;
+    case What::hold: is_held_ = true; return;
+    case What::go_on: is_held_ = false; return;
   }
   if (!speaker_.has_speech() || outgoing_size() >= kMostOutgoing) return;
   std::string text = speaker_.take_speech();
@@ -181,9 +195,11 @@ void TextStation::run_late(pty::SimTime now) {
 // --- what it says --------------------------------------------------------------------------------
 
 void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
-  while (!outgoing_.empty() && free_at_ <= now) {
+  const std::size_t piece =
+      is_instant_ || !speaker_.text_rules().has_flow_control ? kPiece : kPieceThatCanBeHeld;
+  while (!is_held_ && !outgoing_.empty() && free_at_ <= now) {
     Outgoing& first = outgoing_.front();
-    const std::size_t size = std::min(first.text.size(), kPiece);
+    const std::size_t size = std::min(first.text.size(), piece);
     const std::vector<std::uint8_t> bytes = bytes_of(std::string_view(first.text).substr(0, size));
     if (first.last_character == 0) {
       out.transmit(bytes);
@@ -213,7 +229,8 @@ TextStation::State TextStation::save() const {
           .late = late_,
           .outgoing = outgoing_,
           .free_at = free_at_,
-          .speaks_at = speaks_at_};
+          .speaks_at = speaks_at_,
+          .is_held = is_held_};
 }
 
 void TextStation::check(const State& state) const {
@@ -242,6 +259,7 @@ void TextStation::restore(const State& state) {
   outgoing_ = state.outgoing;
   free_at_ = state.free_at;
   speaks_at_ = state.speaks_at;
+  is_held_ = state.is_held;
 }
 
 void TextStation::write_state(StateWriter& writer) const { writer.write<StationFields>(save()); }

@@ -1,6 +1,9 @@
 // A device that is spoken to in lines of text, on its line: makes lines of characters, hands them to the
 // device, and sends what it has said: an answer to a line, or something unasked.
 //
+// A device with flow control is held by the host's XOFF until its XON comes, or the power goes: it hears, but
+// what it has said waits, and what it says unasked stays with it. It sends none of its own.
+//
 // Long texts go out in pieces, as fast as the wire carries them, so that no line's buffer overflows. While
 // the wire is busy with its text, what the device says unasked stays with the device.
 #pragma once
@@ -19,6 +22,8 @@ class TextStation final : public LineStation {
  public:
   /// Characters that are given to the line at once.
   static constexpr std::size_t kPiece = 1024;
+  /// The same where the host may hold it: what has been given cannot be held any more.
+  static constexpr std::size_t kPieceThatCanBeHeld = 1;
   /// Beyond that many characters it takes no more from the device, until some have gone.
   static constexpr std::size_t kMostOutgoing = 64 * 1024;
   /// Lines and answers that are late; what is more is lost.
@@ -59,10 +64,11 @@ class TextStation final : public LineStation {
     pty::TextLines::State lines;
     StationCounters counters;
     std::vector<Waiting> waiting{};  // one at most
-    std::vector<Late> late{};  // in the order of time
+    std::vector<Late> late{};        // in the order of time
     std::vector<Outgoing> outgoing{};
     pty::SimTime free_at{0};                  // the wire has carried what it was given
     std::optional<pty::SimTime> speaks_at{};  // what the device says unasked is taken
+    bool is_held = false;                     // by the host's XOFF
   };
   State save() const;
   /// Throws std::invalid_argument for what this station cannot be.
@@ -71,6 +77,7 @@ class TextStation final : public LineStation {
   void restore(const State& state);
 
  private:
+  void echo(const Waiting& waiting, pty::Transmitter& out);
   void carry_out(const pty::HeardText& heard, pty::SimTime now);
   void serve(const pty::HeardText& heard, pty::SimTime now);
   void answer(std::string text, const pty::HeardText& heard, pty::SimTime now);
@@ -90,6 +97,7 @@ class TextStation final : public LineStation {
   std::vector<Outgoing> outgoing_;
   pty::SimTime free_at_{0};
   std::optional<pty::SimTime> speaks_at_;
+  bool is_held_ = false;
 };
 
 }  // namespace understudy::emulator

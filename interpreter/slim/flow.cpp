@@ -205,13 +205,13 @@ Error serve_events(Execution& execution, const Program& program, const FlowOptio
 }
 
 /// A number in a form and range that GETI or GETR takes.
-Error read_number(std::string_view text, Kind asked, double& number) {
+Error read_number(std::string_view text, Kind asked, const Dialect& dialect, double& number) {
   const std::optional<Operand> read = parse_number(text);
   if (!read) return Error::syntax;
   number = read->number;
   if (asked == Kind::get_integer) {
     if (read->kind != Kind::integer) return Error::syntax;
-    return number >= kIntegerLeast && number <= kIntegerMost ? Error::none : Error::range;
+    return number >= dialect.integer_least && number <= kIntegerMost ? Error::none : Error::range;
   }
   constexpr double kMost = std::numeric_limits<float>::max();
   return number >= -kMost && number <= kMost ? Error::none : Error::range;
@@ -234,13 +234,14 @@ void stop(Execution& execution) {
   if (execution.running) finish(execution, Ending::exited);
 }
 
-Error give_number(Execution& execution, const Program& program, std::string_view text) {
+Error give_number(Execution& execution, const Program& program, std::string_view text,
+                  const Dialect& dialect) {
   if (!wants_number(execution) || execution.line >= program.size()) return Error::not_allowed;
   const std::optional<Command>& command = program.line(execution.line).parsed.command;
   const std::optional<Kind> asked = command ? asked_of_host(*command) : std::nullopt;
   if (!asked) return Error::not_allowed;
   double number = 0;
-  if (const Error error = read_number(text, *asked, number); error != Error::none) return error;
+  if (const Error error = read_number(text, *asked, dialect, number); error != Error::none) return error;
   execution.has_number = true;
   execution.number = number;
   return Error::none;

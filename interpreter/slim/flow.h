@@ -86,7 +86,8 @@ constexpr bool wants_number(const Execution& execution) {
   return execution.running && execution.hold == Hold::number && !execution.has_number;
 }
 /// The host's line while wants_number(). Refused (syntax, range): the program goes on waiting.
-Error give_number(Execution& execution, const Program& program, std::string_view text);
+Error give_number(Execution& execution, const Program& program, std::string_view text,
+                  const Dialect& dialect = {});
 
 /// One tick, at a `now_ms` that is later than the one before. Returns the error of a line that failed.
 Error step(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,

@@ -201,7 +201,7 @@ ParseResult parse_command(std::string_view text, const Dialect& dialect) {
 }  // namespace
 
 ParseResult parse_line(std::string_view text, const Dialect& dialect) {
-  if (text.size() > kLineLength) return refused(Error::syntax);
+  if (text.size() > dialect.longest_line) return refused(Error::syntax);
   text = without_blanks(text);
   std::string label;
   if (text.starts_with('$')) {

@@ -11,8 +11,9 @@
 
 namespace understudy::interpreter::slim {
 
-/// Longer lines are refused.
 inline constexpr std::size_t kLineLength = 127;
+/// The longest that any dialect has.
+inline constexpr std::size_t kLongestLine = 255;
 
 /// What the manual leaves open about the language.
 struct Dialect {
@@ -21,6 +22,8 @@ struct Dialect {
     refused,
     accepted
   } module_move_from_variable = ModuleMoveFromVariable::refused;
+  std::size_t longest_line = kLineLength;  // longer ones are refused
+  int integer_least = kIntegerLeast;       // of integer variables
 
   bool operator==(const Dialect&) const = default;
 };
@@ -31,6 +34,9 @@ struct ParseResult {
 
   bool operator==(const ParseResult&) const = default;
 };
+
+/// Whatever any dialect has: for what a dialect has let in already.
+inline constexpr Dialect kWidestDialect{.longest_line = kLongestLine};
 
 /// Everything that needs no state is checked. An empty line is no error.
 ParseResult parse_line(std::string_view text, const Dialect& dialect = {});

@@ -53,6 +53,11 @@ constexpr std::optional<Range> real_range(Slot slot) {
   }
 }
 
+/// Of an integer variable.
+constexpr Range integer_range(const Dialect& dialect) {
+  return {static_cast<double>(dialect.integer_least), kIntegerMost};
+}
+
 constexpr bool is_constant(const Operand& operand) {
   return operand.kind == Kind::integer || operand.kind == Kind::real;
 }
@@ -75,11 +80,11 @@ Error check_real(Operand& operand, Range range) {
 }
 
 /// A constant, variable or function for a variable of one type.
-Error check_typed(Operand& operand, bool for_integer) {
+Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
   switch (operand.kind) {
     case Kind::integer:
     case Kind::real:
-      if (for_integer) return check_whole(operand, {kIntegerLeast, kIntegerMost});
+      if (for_integer) return check_whole(operand, integer_range(dialect));
       return check_real(operand, *real_range(Slot::real));
     case Kind::integer_variable:
     case Kind::integer_array:
@@ -94,7 +99,7 @@ Error check_typed(Operand& operand, bool for_integer) {
 }
 
 /// What an assignment gives. A real variable takes integers, too; a parameter takes any number.
-Error check_data(Operand& operand, const Operand* target) {
+Error check_data(Operand& operand, const Operand* target, const Dialect& dialect) {
   const bool is_number = is_constant(operand) || is_variable(operand.kind) || operand.kind == Kind::analog ||
                          operand.kind == Kind::clock || asks_host(operand.kind);
   if (!is_number) return Error::syntax;
@@ -102,8 +107,8 @@ Error check_data(Operand& operand, const Operand* target) {
     const Range range = *real_range(Slot::real);
     return is_constant(operand) ? in_range(operand.number, range) : Error::none;
   }
-  if (holds_integer(target->kind)) return check_typed(operand, true);
-  return is_constant(operand) ? check_typed(operand, false) : Error::none;
+  if (holds_integer(target->kind)) return check_typed(operand, true, dialect);
+  return is_constant(operand) ? check_typed(operand, false, dialect) : Error::none;
 }
 
 Error check_slot(Slot slot, const CommandRow& row, Operand& operand, const Dialect& dialect) {
@@ -198,7 +203,7 @@ class Matching {
     // The DATA command names the variable itself.
     const Operand* target = result_.operands.empty() ? target_ : &result_.operands.back();
     Item item = next_item();
-    if (item.error == Error::none) item.error = check_data(item.operand, target);
+    if (item.error == Error::none) item.error = check_data(item.operand, target, dialect_);
     add(std::move(item));
   }
   void take_comparand() {
@@ -206,7 +211,7 @@ class Matching {
     if (items_.empty()) return add_error(result_.error, Error::syntax);
     const Item variable = parse_item(items_.front());
     const bool is_known = item.error == Error::none && variable.error == Error::none;
-    if (is_known) item.error = check_typed(item.operand, holds_integer(variable.operand.kind));
+    if (is_known) item.error = check_typed(item.operand, holds_integer(variable.operand.kind), dialect_);
     add(std::move(item));
   }
   /// A blank, not a comma, is between an event and its condition.

@@ -32,6 +32,8 @@ Heard hear(const std::string& characters, const TextLineRules& rules = {}) {
       case What::line: heard.events += "[" + outcome.heard->text + "]"; break;
       case What::overlong: heard.events += "<long>"; break;
       case What::escape: heard.events += "<esc>"; break;
+      case What::hold: heard.events += "<hold>"; break;
+      case What::go_on: heard.events += "<go on>"; break;
     }
   }
   heard.dropped = lines.dropped_bytes();
@@ -89,6 +91,31 @@ TEST(TextLines, WhatIsTypedIsEchoedAndCanBeTakenBack) {
   EXPECT_EQ(heard.echo, "AC\b \bB\b \b\b \bMA\r\n");
   EXPECT_EQ(hear("A\n", typed).echo, "A\r\n");
   EXPECT_EQ(hear("A\x1B", typed).echo, "A");
+}
+
+TEST(TextLines, WhereOnlyCrEndsALineAnLfIsNothing) {
+  const TextLineRules rules{.longest = 5, .echoes = true, .line_feed_ends = false};
+  EXPECT_EQ(hear("M\nA\n\r\n\nB\n", rules).events, "[MA]");
+  EXPECT_EQ(hear("\n\r\r\n", rules).events, "[][]");
+  EXPECT_EQ(hear("12345\n\r", rules).events, "[12345]");  // it does not count
+  EXPECT_EQ(hear("M\nA\n\r\n", rules).echo, "MA\r\n");
+}
+
+TEST(TextLines, WhatSteersTheFlowIsInNoLine) {
+  const TextLineRules rules{.longest = 5, .echoes = true, .has_flow_control = true, .echoed_end = "\r"};
+  const Heard heard = hear(
+      "M\x13"
+      "A\x11\x11\r",
+      rules);
+  EXPECT_EQ(heard.events, "<hold><go on><go on>[MA]");
+  EXPECT_EQ(heard.echo, "MA\r");
+  EXPECT_EQ(heard.dropped, 0u);
+  EXPECT_EQ(hear("\r\x13\nA\r", rules).events, "[]<hold>[A]");  // the LF is still behind the CR
+  EXPECT_EQ(hear("M\x13"
+                 "A\r")
+                .events,
+            "[M\x13"
+            "A]");  // where nobody heeds it
 }
 
 TEST(TextLines, WhatIsForgottenIsInNoLine) {

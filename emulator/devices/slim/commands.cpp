@@ -30,7 +30,9 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
   switch (command.verb) {
     case Verb::wait_done:
     case Verb::axis_wait_done:
-      if (const Error error = linked(module_of(command)); error != Error::none) return lang::failed(error);
+      if (const Error error = linked(module_of(command)); error != Error::none) {
+        return is_silence(error) ? lang::kDone : lang::failed(error);
+      }
       if (command.verb == Verb::axis_wait_done && state_.chain.assigned(letter_of(command)) == kUnassigned) {
         return lang::failed(Error::axis);
       }
@@ -45,6 +47,7 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
     default: break;
   }
   const Error error = execute(command);
+  if (is_silence(error)) return lang::kDone;
   if (error == Error::buffer_full || error == Error::paused) return lang::kWaits;
   if (error != Error::none) failed_module_ = module_of(command);
   return {.error = error};
@@ -114,7 +117,11 @@ Error Slim::execute(const lang::Command& command) {
       const lang::Operand& variable = command.operands[0];
       return set_variable(variable, amount(command, 1));
     }
-    case Verb::set_parameter: return set_parameter(module, command.name, amount(command, 0));
+    case Verb::set_parameter:
+      if (command.name == "TM" && chose(kVariableReceivesClock) && is_variable(command.operands[0].kind)) {
+        return set_variable(command.operands[0], static_cast<double>(clock_s()));
+      }
+      return set_parameter(module, command.name, amount(command, 0));
     case Verb::set_path_speed: return set_parameter(0, "TVM", amount(command, 0));
     case Verb::default_parameters: return restore_factory_parameters();
     case Verb::save_data: keep_data(); return Error::none;
@@ -183,7 +190,11 @@ Error Slim::move_several(const lang::Command& command) {
     return chain.arc(order);
   };
   switch (command.verb) {
-    case Verb::map_axis: return chain.assign(letter_of(command), static_cast<int>(amount(command, 0)));
+    case Verb::map_axis: {
+      const Error error = assign_axis(letter_of(command), static_cast<int>(amount(command, 0)));
+      if (error == Error::none && chose(kMapIsPn37)) keep_axis_map();
+      return error;
+    }
     case Verb::line_absolute:
     case Verb::line_relative: {
       std::array<double, kLetters> units{};
@@ -202,6 +213,15 @@ Error Slim::move_several(const lang::Command& command) {
     default: break;
   }
   return chain.set_continuous_path(variant_of(command));
+}
+
+/// TX= ..., and what PN37 says at power-up.
+Error Slim::assign_axis(Letter letter, int module) {
+  for (const Letter other : {Letter::x, Letter::y, Letter::z, Letter::w}) {
+    const bool has_it = module != kUnassigned && state_.chain.assigned(other) == module;
+    if (chose(kModuleTakenFromLetter) && has_it) state_.chain.assign(other, kUnassigned);
+  }
+  return state_.chain.assign(letter, module);
 }
 
 Error Slim::control_all(const lang::Command& command) {

@@ -10,6 +10,8 @@ namespace understudy::emulator::slim {
 Slim::Slim(const DeviceSettings& settings)
     : TextDevice(slim::model(), settings), modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();
+  dialect_ = dialect();
+  memory_form_ = memory_form();
   state_.kept = factory();
   state_.ram = state_.kept;
 }
@@ -34,6 +36,19 @@ lang::FlowOptions Slim::flow_options() const {
   return options;
 }
 
+lang::Dialect Slim::dialect() const {
+  lang::Dialect dialect;
+  if (chose(k80Characters)) dialect.longest_line = 80;
+  if (chose(k255Characters)) dialect.longest_line = 255;
+  if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
+  return dialect;
+}
+
+MemoryForm Slim::memory_form() const {
+  return {.speed_names = chose(kPn14IsVm) ? SpeedNames::pn14_is_vm : SpeedNames::pn10_is_vm,
+          .integer_least = dialect_.integer_least};
+}
+
 Memory Slim::factory() const { return factory_memory(modules_); }
 
 // --- power and memory ------------------------------------------------------------------------------
@@ -43,7 +58,7 @@ void Slim::power_up() {
   state_.chain = Chain(chain_options());
   state_.chain.skip_to(now());
   state_.program.clear();
-  state_.program.set_texts(state_.kept_program);
+  state_.program.set_texts(state_.kept_program, dialect_);
   state_.powered_at = now();
   state_.clock_zero = now();
   state_.touched = true;
@@ -56,7 +71,7 @@ void Slim::power_up() {
   apply_all_parameters();
   const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
   for (int letter = 0; letter < kLetters; ++letter) {
-    state_.chain.assign(static_cast<Letter>(letter), (map >> (4 * letter)) & 0xF);
+    assign_axis(static_cast<Letter>(letter), (map >> (4 * letter)) & 0xF);
   }
 }
 
@@ -83,14 +98,14 @@ void Slim::settle_memory() {
 }
 
 void Slim::write_memory(NvImage& image) const {
-  write_image(state_.kept, factory(), image);
+  write_image(state_.kept, factory(), memory_form_, image);
   image.program = state_.kept_program;
 }
 
 void Slim::read_memory(const NvImage& image) {
-  Memory memory = read_image(image, factory());
+  Memory memory = read_image(image, factory(), memory_form_);
   lang::Program program;
-  if (!program.set_texts(image.program)) {
+  if (!program.set_texts(image.program, dialect_)) {
     throw NvError("program: holds a line that is no command of a program; expected lines as PL shows them");
   }
   state_.kept = std::move(memory);
@@ -108,7 +123,7 @@ void Slim::load_program(std::string_view text) {
     const std::size_t first = line.find_first_not_of(" \t");
     // What a file has for people: empty lines and remarks.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
-    const Error error = program.insert(program.size(), line);
+    const Error error = program.insert(program.size(), line, dialect_);
     if (error == Error::none) continue;
     const char* const what = error == Error::buffer_full ? "the program is full; expected at most 1000 lines"
                              : error == Error::range     ? "has a value out of range"
@@ -148,7 +163,10 @@ void Slim::sample_inputs(Tick tick) {
 void Slim::run_interpreters(Tick tick) {
   failed_module_ = 0;
   const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
-  if (error != Error::none) remember(failed_module_, error);
+  if (error == Error::none) return;
+  // A program that goes on failing is faster than its line: what has no room is remembered only.
+  const bool is_said = chose(kProgramErrorsSaid) && state_.speech.size() < kMostUnsent;
+  is_said ? fail(failed_module_, error) : remember(failed_module_, error);
 }
 
 void Slim::step_motion(Tick tick) { state_.chain.step(tick); }

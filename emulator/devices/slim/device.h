@@ -25,7 +25,7 @@ namespace understudy::emulator::slim {
 
 namespace lang = interpreter::slim;
 
-inline constexpr std::size_t kHistoryLength = 16;
+inline constexpr std::size_t kMostHistory = 16;
 inline constexpr std::size_t kMostSpeech = 256 * 1024;
 inline constexpr std::size_t kMostUnsent = 1024;  // characters that a program may have waiting for the line
 
@@ -70,7 +70,7 @@ class Slim final : public TextDevice, private lang::Machine {
   explicit Slim(const DeviceSettings& settings);
 
   // --- the dialogue ---
-  TextRules text_rules() const override { return {.echo = chose(kEcho), .longest_line = lang::kLineLength}; }
+  TextRules text_rules() const override;
   void hear_line(std::string_view line) override;
   void hear_overlong() override;
   void hear_escape() override;
@@ -126,6 +126,13 @@ class Slim final : public TextDevice, private lang::Machine {
   lang::Outcome carry_out(const lang::Command& command) override;
 
   // dialogue.cpp
+  std::string_view line_end() const { return chose(kSaidLinesEndWithCr) ? "\r" : "\r\n"; }
+  bool is_silence(Error error) const { return error == Error::not_linked && chose(kUnlinkedSilent); }
+  /// As it is shown.
+  int code_of(Error error) const;
+  std::size_t history_length() const {
+    return chose(kHistoryOf4) ? 4 : chose(kHistoryOf8) ? 8 : kMostHistory;
+  }
   void say(std::string_view text);
   void fail(int module, Error error);
   void remember(int module, Error error);
@@ -139,6 +146,7 @@ class Slim final : public TextDevice, private lang::Machine {
   Error move_one(const lang::Command& command, int module);
   Error move_several(const lang::Command& command);
   Error switch_outputs(const lang::Command& command, int module);
+  Error assign_axis(Letter letter, int module);
   Error control_all(const lang::Command& command);
   bool is_done(const lang::Command& command) const;
 
@@ -149,6 +157,7 @@ class Slim final : public TextDevice, private lang::Machine {
   Error set_parameter(int module, std::string_view name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
+  void keep_axis_map();
   Error restore_factory_parameters();
   void keep_parameters();
   void keep_data();
@@ -159,6 +168,7 @@ class Slim final : public TextDevice, private lang::Machine {
   // queries.cpp
   Error query(const lang::Command& command, Answer& answer) const;
   std::uint16_t status_bits(int module) const;
+  std::string history_text(const Errors& errors) const;
 
   bool level(int module, int which) const { return emulator::Device::input(terminal(module, which)) != 0; }
   std::uint8_t input_levels(int module) const;
@@ -166,6 +176,8 @@ class Slim final : public TextDevice, private lang::Machine {
   Error linked(int module) const;
   ChainOptions chain_options() const;
   lang::FlowOptions flow_options() const;
+  lang::Dialect dialect() const;
+  MemoryForm memory_form() const;
   Memory factory() const;
   void reboot();
   /// As if all ticks up to now had been run one by one.
@@ -177,6 +189,8 @@ class Slim final : public TextDevice, private lang::Machine {
 
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
+  lang::Dialect dialect_{};
+  MemoryForm memory_form_{};
   int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
   State state_;
 };

@@ -8,18 +8,26 @@ namespace understudy::emulator::slim {
 namespace {
 
 /// The one command that a program hears while it waits for a number.
-bool is_exit(std::string_view line) {
-  const lang::ParseResult parsed = lang::parse_line(line);
+bool is_exit(std::string_view line, const lang::Dialect& dialect) {
+  const lang::ParseResult parsed = lang::parse_line(line, dialect);
   return parsed.line.command && parsed.line.command->verb == lang::Verb::exit;
 }
 
 }  // namespace
 
+TextRules Slim::text_rules() const {
+  return {.echo = chose(kEcho),
+          .longest_line = dialect_.longest_line,
+          .line_feed_ends = !chose(kCrAloneEnds),
+          .has_flow_control = chose(kXonXoff),
+          .echoed_end = line_end()};
+}
+
 /// A host that types faster than its line answers loses what is beyond a bound that no listing reaches.
 void Slim::say(std::string_view text) {
   if (state_.speech.size() >= kMostSpeech) return;
   state_.speech += text;
-  state_.speech += "\r\n";
+  state_.speech += line_end();
 }
 
 /// Of a module that is not linked nobody could ask: the host has it.
@@ -28,12 +36,16 @@ void Slim::remember(int module, Error error) {
   Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   errors.present = error;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
-  if (errors.history.size() > kHistoryLength) errors.history.pop_back();
+  if (errors.history.size() > history_length()) errors.history.pop_back();
+}
+
+int Slim::code_of(Error error) const {
+  return error != Error::none && chose(kOneErrorCode) ? 1 : static_cast<int>(error);
 }
 
 void Slim::fail(int module, Error error) {
   remember(module, error);
-  if (!chose(kErrorsNotAnswered)) say("ERR " + std::to_string(static_cast<int>(error)));
+  if (!chose(kErrorsNotAnswered)) say("ERR " + std::to_string(code_of(error)));
 }
 
 /// After each completed line.
@@ -55,13 +67,13 @@ lang::Columns Slim::columns() const {
 void Slim::hear_line(std::string_view line) {
   wake();
   if (is_editing(state_.editor)) {
-    if (const Error error = enter_line(state_.editor, state_.program, line); error != Error::none) {
+    if (const Error error = enter_line(state_.editor, state_.program, line, dialect_); error != Error::none) {
       fail(0, error);
     } else if (chose(kAcknowledges)) {
       say("OK");
     }
-  } else if (wants_number(state_.execution) && !is_exit(line)) {
-    const Error error = give_number(state_.execution, state_.program, line);
+  } else if (wants_number(state_.execution) && !is_exit(line, dialect_)) {
+    const Error error = give_number(state_.execution, state_.program, line, dialect_);
     if (error != Error::none) fail(0, error);
   } else {
     hear_command(line);
@@ -81,7 +93,7 @@ void Slim::hear_escape() {
 }
 
 void Slim::hear_command(std::string_view line) {
-  lang::ParseResult parsed = lang::parse_line(line);
+  lang::ParseResult parsed = lang::parse_line(line, dialect_);
   if (parsed.error == Error::none && !parsed.line.command) {
     // A label belongs into a program.
     if (!parsed.line.label.empty()) fail(0, Error::syntax);
@@ -95,6 +107,7 @@ void Slim::hear_command(std::string_view line) {
   if (!is_allowed(command, place, columns())) return fail(0, Error::not_allowed);
   std::vector<std::string> lines;
   const Error error = obey(command, lines);
+  if (is_silence(error)) return;
   if (error != Error::none) return fail(command.module < 0 ? 0 : command.module, error);
   for (const std::string& text : lines) say(text);
   if (lines.empty() && chose(kAcknowledges) && powered()) say("OK");

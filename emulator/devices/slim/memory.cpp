@@ -10,19 +10,18 @@ namespace understudy::emulator::slim {
 
 namespace {
 
-using interpreter::slim::kIntegerLeast;
 using interpreter::slim::kIntegerMost;
 
 bool is_integer(const ParameterDefinition& row) { return row.type == ParameterDefinition::Type::integer; }
 
 /// Calls `visit(name, value, definition)` for everything that has a name, in the order of the lists. The
 /// definition is null for variables.
-void for_each_name(auto& memory, auto visit) {
+void for_each_name(auto& memory, SpeedNames names, auto visit) {
   for (int m = 0; m < kModules; ++m) {
-    for (std::size_t i = 0; i < kParameterCount; ++i) {
+    for (std::size_t place = 0; place < kParameterCount; ++place) {
+      const std::size_t i = listed_at(place, names);
       if (m > 0 && kParameters[i].host_only) continue;
-      visit(parameter_name(m, kParameters[i]), memory.parameters[static_cast<std::size_t>(m)][i],
-            &kParameters[i]);
+      visit(parameter_name(m, i, names), memory.parameters[static_cast<std::size_t>(m)][i], &kParameters[i]);
     }
   }
   const ParameterDefinition* const none = nullptr;
@@ -46,27 +45,30 @@ Memory factory_memory(int modules) {
   return memory;
 }
 
-std::string parameter_name(int module, const ParameterDefinition& row) {
-  return (module == 0 ? "" : "T" + std::to_string(module)) + std::string(row.name);
+std::string parameter_name(int module, std::size_t number, SpeedNames names) {
+  return (module == 0 ? "" : "T" + std::to_string(module)) + std::string(name_of(number, names));
 }
 
-void write_image(const Memory& memory, const Memory& factory, NvImage& image) {
+void write_image(const Memory& memory, const Memory& factory, const MemoryForm& form, NvImage& image) {
+  const SpeedNames names = form.speed_names;
   std::vector<double> before;
-  for_each_name(factory, [&](const std::string&, const auto& value, const ParameterDefinition*) {
+  for_each_name(factory, names, [&](const std::string&, const auto& value, const ParameterDefinition*) {
     before.push_back(value);
   });
   std::size_t next = 0;
-  for_each_name(memory, [&](const std::string& name, const auto& value, const ParameterDefinition* row) {
-    if (value == before[next++]) return;
-    if (std::is_same_v<std::decay_t<decltype(value)>, std::int16_t> || (row != nullptr && is_integer(*row))) {
-      image.registers.emplace_back(name, static_cast<std::int64_t>(value));
-    } else {
-      image.reals.emplace_back(name, value);
-    }
-  });
+  for_each_name(memory, names,
+                [&](const std::string& name, const auto& value, const ParameterDefinition* row) {
+                  if (value == before[next++]) return;
+                  if (std::is_same_v<std::decay_t<decltype(value)>, std::int16_t> ||
+                      (row != nullptr && is_integer(*row))) {
+                    image.registers.emplace_back(name, static_cast<std::int64_t>(value));
+                  } else {
+                    image.reals.emplace_back(name, value);
+                  }
+                });
 }
 
-Memory read_image(const NvImage& image, const Memory& factory) {
+Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm& form) {
   std::map<std::string, double> integers;
   std::map<std::string, double> reals;
   for (const auto& [name, value] : image.registers) integers.emplace(name, static_cast<double>(value));
@@ -81,26 +83,28 @@ Memory read_image(const NvImage& image, const Memory& factory) {
     return NvError(std::string(where) + ": " + quoted(name) + ": " + text_of_real(value) +
                    " does not fit; expected " + text_of_real(lowest) + " to " + text_of_real(highest));
   };
-  for_each_name(memory, [&](const std::string& name, auto& value, const ParameterDefinition* row) {
-    using T = std::decay_t<decltype(value)>;
-    const bool whole = std::is_same_v<T, std::int16_t> || (row != nullptr && is_integer(*row));
-    const auto given = take(whole ? integers : reals, name);
-    if (!given) return;
-    const char* const where = whole ? "registers" : "reals";
-    if (row != nullptr) {
-      const auto fits = fitted(*row, *given);
-      if (!fits) throw does_not_fit(where, name, *given, row->lowest, row->highest);
-      value = static_cast<T>(*fits);
-    } else if (std::is_same_v<T, std::int16_t>) {
-      if (*given < kIntegerLeast || *given > kIntegerMost) {
-        throw does_not_fit(where, name, *given, kIntegerLeast, kIntegerMost);
-      }
-      value = static_cast<T>(*given);
-    } else {
-      if (std::abs(*given) > kMaxReal) throw does_not_fit(where, name, *given, -kMaxReal, kMaxReal);
-      value = static_cast<T>(*given);
-    }
-  });
+  for_each_name(memory, form.speed_names,
+                [&](const std::string& name, auto& value, const ParameterDefinition* row) {
+                  using T = std::decay_t<decltype(value)>;
+                  const bool whole = std::is_same_v<T, std::int16_t> || (row != nullptr && is_integer(*row));
+                  const auto given = take(whole ? integers : reals, name);
+                  if (!given) return;
+                  const char* const where = whole ? "registers" : "reals";
+                  if (row != nullptr) {
+                    const auto fits = fitted(*row, *given);
+                    if (!fits) throw does_not_fit(where, name, *given, row->lowest, row->highest);
+                    value = static_cast<T>(*fits);
+                  } else if (std::is_same_v<T, std::int16_t>) {
+                    if (*given < form.integer_least || *given > kIntegerMost) {
+                      throw does_not_fit(where, name, *given, form.integer_least, kIntegerMost);
+                    }
+                    value = static_cast<T>(*given);
+                  } else {
+                    if (std::abs(*given) > kMaxReal)
+                      throw does_not_fit(where, name, *given, -kMaxReal, kMaxReal);
+                    value = static_cast<T>(*given);
+                  }
+                });
   if (!integers.empty()) {
     throw NvError("registers: there is no " + quoted(integers.begin()->first) +
                   "; expected a parameter or variable");

@@ -26,12 +26,18 @@ struct Memory {
 /// As it leaves the factory; the first `modules` are linked.
 Memory factory_memory(int modules);
 
-/// "T1PR3"; of the host without a prefix, as commands name it.
-std::string parameter_name(int module, const ParameterDefinition& row);
+/// What a bench has chosen of its names and ranges.
+struct MemoryForm {
+  SpeedNames speed_names = SpeedNames::pn10_is_vm;
+  int integer_least = interpreter::slim::kIntegerLeast;
+};
+
+/// "T1PR3", of a row by its number; of the host without a prefix, as commands name it.
+std::string parameter_name(int module, std::size_t number, SpeedNames names);
 
 /// What differs from `factory`, by name, into an image; and back into a memory that is `factory` otherwise.
 /// The latter throws NvError for names and values that there are not.
-void write_image(const Memory& memory, const Memory& factory, NvImage& image);
-Memory read_image(const NvImage& image, const Memory& factory);
+void write_image(const Memory& memory, const Memory& factory, const MemoryForm& form, NvImage& image);
+Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm& form);
 
 }  // namespace understudy::emulator::slim

@@ -88,7 +88,8 @@ std::vector<NamedParameterRow> parameter_rows() {
 constexpr std::array<std::string_view, 5> kStateNames{"ST", "MD", "PE", "ERR", "TM"};
 
 constexpr std::array<std::string_view, 4> kGaps{
-    "?AC and ?TEMP always show 24 and 25, ?IMX and ?IC 0: nothing electrical is modelled.",
+    "?AC and ?TEMP always show the same, 24 and 25 or what a bench has chosen, ?IMX and ?IC 0: nothing "
+    "electrical is modelled.",
     "The servo's own loop has no error: ?FLE shows 0, and EL and LL are stored without effect.",
     "FT pushes against something that does not give way, and PN44 and TpSYN are stored without effect.",
     "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead.",

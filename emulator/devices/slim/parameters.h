@@ -74,11 +74,24 @@ consteval std::size_t parameter(std::string_view name) {
   throw "no such parameter";
 }
 
+/// Of PN10 and PN14 the manual says only that both are speeds. Rows go by what they mean: with
+/// `pn14_is_vm` the first is called PN14.
+enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
+
+/// The row whose name stands at that place of a list; and likewise the place of a row.
+constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
+  static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
+  return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
+}
+constexpr std::string_view name_of(std::size_t number, SpeedNames names) {
+  return kParameters[listed_at(number, names)].name;
+}
+
 /// By name or alias, in capitals.
-constexpr std::optional<std::size_t> find_parameter(std::string_view name) {
+constexpr std::optional<std::size_t> find_parameter(std::string_view name, SpeedNames names) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
-    if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
-      return i;
+    const std::string_view alias = kParameters[i].alias;
+    if (name_of(i, names) == name || (!alias.empty() && alias == name)) return i;
   }
   return std::nullopt;
 }

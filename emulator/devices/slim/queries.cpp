@@ -25,15 +25,6 @@ constexpr unsigned kJogs = 1U << 7;
 constexpr unsigned kBufferNotEmpty = 1U << 8;
 constexpr unsigned kInBlend = 1U << 9;
 
-std::string history_text(const Errors& errors) {
-  std::string text;
-  for (const std::uint8_t error : errors.history) {
-    if (!text.empty()) text += ',';
-    text += std::to_string(error);
-  }
-  return text.empty() ? "0" : text;
-}
-
 /// "1:02:03".
 std::string time_text(std::int64_t seconds) {
   char text[40];
@@ -42,7 +33,34 @@ std::string time_text(std::int64_t seconds) {
   return text;
 }
 
+std::string hexadecimal(unsigned value) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%04X", value);
+  return text;
+}
+
+const char* word_of(Mode mode) {
+  switch (mode) {
+    case Mode::idle: return "IDLE";
+    case Mode::position: return "POSITION";
+    case Mode::jog: return "JOG";
+    case Mode::torque: return "TORQUE";
+    case Mode::coordinated: return "COORDINATED";
+    case Mode::analog: return "ANALOG";
+  }
+  return "";
+}
+
 }  // namespace
+
+std::string Slim::history_text(const Errors& errors) const {
+  std::string text;
+  for (const std::uint8_t error : errors.history) {
+    if (!text.empty()) text += ',';
+    text += std::to_string(code_of(static_cast<Error>(error)));
+  }
+  return text.empty() ? "0" : text;
+}
 
 std::uint16_t Slim::status_bits(int module) const {
   const ModuleStatus status = state_.chain.status(module);
@@ -82,6 +100,11 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     answer.text = std::move(text);
     return Error::none;
   };
+  const auto shown_as = [&](std::string text, double value) {
+    answer.number = value;
+    answer.text = std::move(text);
+    return Error::none;
+  };
   const auto electrical = [&](double value) {
     mention_unmodelled(command.name, "nothing electrical is; the value is always the same");
     return whole(value);
@@ -90,12 +113,16 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
   const Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   switch (command.verb) {
     case Verb::query_input: {
+      if (command.operands.empty() && chose(kInputsByNumberOnly)) return Error::syntax;
       const std::uint8_t levels = input_levels(module);
       return whole(command.operands.empty() ? levels : (levels >> (number() - 1)) & 1);
     }
     case Verb::query_analog: return whole(emulator::Device::input(terminal(module, kAnalog)));
     case Verb::query_switch: return whole(level(module, kFirstSwitch + number() - 1) ? 1 : 0);
-    case Verb::query_status: return whole(status_bits(module));
+    case Verb::query_status: {
+      const unsigned bits = status_bits(module);
+      return chose(kStatusInHexadecimal) ? shown_as(hexadecimal(bits), bits) : whole(bits);
+    }
     case Verb::query_version: return words(version_text(firmware()));
     case Verb::query_variable: {
       const lang::Operand& variable = command.operands.front();
@@ -103,14 +130,21 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
       return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
     }
     case Verb::query_coordinate: return real(state_.chain.coordinate(module));
-    case Verb::query_mode: return whole(static_cast<double>(state_.chain.status(module).mode));
-    case Verb::query_error: return whole(static_cast<double>(errors.present));
+    case Verb::query_mode: {
+      const Mode mode = state_.chain.status(module).mode;
+      const auto code = static_cast<double>(mode);
+      return chose(kModeInWords) ? shown_as(word_of(mode), code) : whole(code);
+    }
+    case Verb::query_error: return whole(code_of(errors.present));
     case Verb::query_error_history: return words(history_text(errors));
-    case Verb::query_time: return words(time_text((now() - state_.powered_at) / 1000));
+    case Verb::query_time: {
+      const Tick seconds = (now() - state_.powered_at) / 1000;
+      return chose(kTimeInSeconds) ? whole(static_cast<double>(seconds)) : words(time_text(seconds));
+    }
     case Verb::query_motor_version: return words("1");
     // Not modelled; kGaps says so.
-    case Verb::query_voltage: return electrical(24);
-    case Verb::query_temperature: return electrical(25);
+    case Verb::query_voltage: return electrical(chose(k48Volts) ? 48 : chose(k36Volts) ? 36 : 24);
+    case Verb::query_temperature: return electrical(chose(k60Degrees) ? 60 : chose(k40Degrees) ? 40 : 25);
     case Verb::query_peak_current:
     case Verb::query_mean_current: return electrical(0);
     case Verb::query_peak_following_error:
@@ -119,7 +153,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     default: break;
   }
   if (command.name == "TM") return whole(static_cast<double>(clock_s()));
-  const auto found = find_parameter(command.name);
+  const auto found = find_parameter(command.name, memory_form_.speed_names);
   if (!found || (kParameters[*found].host_only && module != 0)) return Error::syntax;
   const double held = state_.ram.parameters[static_cast<std::size_t>(module)][*found];
   return kParameters[*found].type == ParameterDefinition::Type::integer ? whole(held) : real(held);
@@ -129,7 +163,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
 
 std::optional<double> Slim::value_named(std::string_view name) const {
   if (!powered()) return std::nullopt;
-  lang::ParseResult parsed = lang::parse_line("?" + std::string(name));
+  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), dialect_);
   if (parsed.error != Error::none || !parsed.line.command) return std::nullopt;
   lang::Command& command = *parsed.line.command;
   if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) return std::nullopt;
@@ -146,7 +180,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
   const bool is_whole = value == std::trunc(value) && std::abs(value) < 1e15;
   const std::string beginning = std::string(name) + "=";
   lang::ParseResult parsed =
-      lang::parse_line(beginning + (is_whole ? text_of_integer(value) : text_of_real(value)));
+      lang::parse_line(beginning + (is_whole ? text_of_integer(value) : text_of_real(value)), dialect_);
   if (parsed.error == Error::none && parsed.line.command) {
     lang::Command& command = *parsed.line.command;
     if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_assignment()) {
@@ -164,12 +198,13 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
       return "is no parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
     case Error::range: return "is out of range";
     case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
-    default: return "is refused with ERR " + std::to_string(static_cast<int>(parsed.error));
+    default: return "is refused with ERR " + std::to_string(code_of(parsed.error));
   }
 }
 
 std::vector<std::string> Slim::names() const {
   std::vector<std::string> all{"PE", "ST", "MD", "ERR", "IN", "AIN", "TM", "N0", "R0"};
+  if (chose(kInputsByNumberOnly)) std::erase(all, "IN");
   for (const ParameterDefinition& row : kParameters)
     all.emplace_back(row.alias.empty() ? row.name : row.alias);
   for (int m = 1; m < kModules; ++m) {

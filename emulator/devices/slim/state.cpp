@@ -45,7 +45,7 @@ struct Fields {
   static void read(lang::Program& program, StateReader& reader) {
     std::vector<std::string> texts;
     reader.read<Fields>(texts);
-    demand_state(program.set_texts(texts), "a line is no command of a program");
+    demand_state(program.set_texts(texts, lang::kWidestDialect), "a line is no command of a program");
   }
 
   static void check(const lang::Operand& operand) {
@@ -77,7 +77,7 @@ struct Fields {
   }
   static void check(const lang::Editor& editor) { demand_within(editor.line, 0, lang::kProgramCapacity); }
   static void check(const Errors& errors) {
-    demand_state(errors.history.size() <= kHistoryLength, "too many errors are remembered");
+    demand_state(errors.history.size() <= kMostHistory, "too many errors are remembered");
   }
   static void check(const Memory& memory) {
     for (const Parameters& all : memory.parameters) {
@@ -92,7 +92,8 @@ struct Fields {
     demand_reach(state.powered_at);
     demand_reach(state.clock_zero);
     lang::Program kept;
-    demand_state(kept.set_texts(state.kept_program), "a kept line is no command of a program");
+    demand_state(kept.set_texts(state.kept_program, lang::kWidestDialect),
+                 "a kept line is no command of a program");
     demand_state(is_sound(state.execution, state.program, lang::FlowOptions{}),
                  "the program does what no program can");
   }
@@ -106,6 +107,22 @@ void Slim::write_own_state(StateWriter& writer) const { writer.write<Fields>(set
 std::function<void()> Slim::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
   reader.read<Fields>(*restored);
+  // What only this bench's choices tell.
+  lang::Program program;
+  demand_state(program.set_texts(restored->program.texts(), dialect_) &&
+                   program.set_texts(restored->kept_program, dialect_),
+               "a line of the program is too long, or has a value out of range");
+  for (const Errors& errors : restored->errors) {
+    demand_state(errors.history.size() <= history_length(), "too many errors are remembered");
+  }
+  const auto check_integers = [&](const auto& integers) {
+    for (const std::int16_t value : integers)
+      demand_within(value, dialect_.integer_least, lang::kIntegerMost);
+  };
+  for (const Memory* const memory : {&restored->ram, &restored->kept}) {
+    check_integers(memory->integers);
+    check_integers(memory->integer_array);
+  }
   return [this, restored] { state_ = std::move(*restored); };
 }
 

@@ -42,7 +42,7 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
   if (holds_integer(variable.kind)) {
     // What a real variable or AIN brings is brought to a whole number.
     value = std::trunc(value);
-    if (value < lang::kIntegerLeast || value > lang::kIntegerMost) return Error::range;
+    if (value < dialect_.integer_least || value > lang::kIntegerMost) return Error::range;
   } else if (std::abs(value) > kMaxReal) {
     return Error::range;
   }
@@ -75,7 +75,7 @@ Error Slim::set_parameter(int module, std::string_view name, double value) {
     state_.clock_zero = now() - static_cast<Tick>(std::trunc(value)) * 1000;
     return Error::none;
   }
-  const auto number = find_parameter(name);
+  const auto number = find_parameter(name, memory_form_.speed_names);
   if (!number) return Error::syntax;
   const ParameterDefinition& row = kParameters[*number];
   if (row.host_only && module != 0) return Error::syntax;
@@ -138,6 +138,15 @@ void Slim::apply_all_parameters() {
   }
 }
 
+/// PN37 becomes the map that is in force.
+void Slim::keep_axis_map() {
+  int map = 0;
+  for (int letter = 0; letter < kLetters; ++letter) {
+    map |= state_.chain.assigned(static_cast<Letter>(letter)) << (4 * letter);
+  }
+  state_.ram.parameters[0][parameter("PN37")] = map;
+}
+
 /// DF. While something moves it would change units under way.
 Error Slim::restore_factory_parameters() {
   for (int m = 0; m < kModules; ++m) {
@@ -145,6 +154,7 @@ Error Slim::restore_factory_parameters() {
   }
   state_.ram.parameters = factory().parameters;
   apply_all_parameters();
+  if (chose(kDefaultsKeptAtOnce)) keep_parameters();
   return Error::none;
 }
 
@@ -170,12 +180,13 @@ std::vector<std::string> Slim::parameter_list() const {
   std::vector<std::string> lines;
   for (int m = 0; m < kModules; ++m) {
     if (!state_.chain.linked(m)) continue;
-    for (std::size_t i = 0; i < kParameterCount; ++i) {
+    for (std::size_t place = 0; place < kParameterCount; ++place) {
+      const std::size_t i = listed_at(place, memory_form_.speed_names);
       const ParameterDefinition& row = kParameters[i];
       if (m > 0 && row.host_only) continue;
       const double value = state_.ram.parameters[at(m)][i];
       lines.push_back(
-          parameter_name(m, row) + "=" +
+          parameter_name(m, i, memory_form_.speed_names) + "=" +
           (row.type == ParameterDefinition::Type::integer ? text_of_integer(value) : text_of_real(value)));
     }
   }
