@@ -166,7 +166,8 @@ void Slim::run_interpreters(Tick tick) {
   if (error == Error::none) return;
   // A program that goes on failing is faster than its line: what has no room is remembered only.
   const bool is_said = chose(kProgramErrorsSaid) && state_.speech.size() < kMostUnsent;
-  is_said ? fail(failed_module_, error) : remember(failed_module_, error);
+  if (is_said) return fail(failed_module_, error);
+  remember(failed_module_, error);
 }
 
 void Slim::step_motion(Tick tick) { state_.chain.step(tick); }

@@ -1,5 +1,8 @@
 // SLIM's dialogue, its modules and numbers as a bench chooses them: each option, and ours beside it. How its
 // line is held and read: options_of_the_line_test.cpp.
+#include <algorithm>
+
+#include "emulator/bench/bench_file.h"
 #include "tests/emulator/devices/slim/dialogue_script.h"
 
 namespace understudy::emulator::slim {
@@ -312,6 +315,31 @@ TEST(SlimDialogueOptions, NamesOfSpeedsTheOtherWayRound) {
   // VJ counts for a jog: at 600 RPM and 10000 pulses a revolution 100 pulses a millisecond.
   other.play("> PN10=600\n> VA=1000000000\n> JGF\n@ 10\n");
   EXPECT_DOUBLE_EQ(other.device().speed_pps(0), 100000);
+}
+
+TEST(SlimDialogueOptions, ABenchChoosesAndSets) {
+  const std::string text = R"(understudy: 1
+lines:
+  rs232:
+    timing: instant
+    stations:
+      - name: robot
+        model: slim
+        modules: 2
+        choices: { axis_map_kept: yes, voltage: 48, speed_parameters: pn14_is_vm }
+        set: { PN14: 500, T1PN10: 7 }
+)";
+  World world(parse_bench(text, "bench.yaml", "."), WorldOptions{}, [](const std::string&) {});
+  auto& robot = dynamic_cast<Slim&>(world.device(0));
+  const auto ask = [&](const char* line) {
+    robot.hear_line(line);
+    return robot.take_speech();
+  };
+  EXPECT_EQ(ask("?VM"), "500\r\n");
+  EXPECT_EQ(ask("?T1VJ"), "7\r\n");
+  EXPECT_EQ(ask("?AC"), "48\r\n");
+  EXPECT_EQ(ask("TX=1"), "");
+  EXPECT_EQ(ask("?PN37"), "34945\r\n");
 }
 
 }  // namespace
