@@ -20,6 +20,12 @@ bool is_for_programs(Verb verb) {
   }
 }
 
+/// What a host does to a memory; some machines have their programs do it, too.
+bool is_save(Verb verb) {
+  return verb == Verb::save_data || verb == Verb::save_parameters || verb == Verb::save_program ||
+         verb == Verb::default_parameters;
+}
+
 bool is_for_hosts(const CommandRow& row) {
   switch (row.verb) {
     case Verb::run:
@@ -33,12 +39,8 @@ bool is_for_hosts(const CommandRow& row) {
     case Verb::download:
     case Verb::exit:
     case Verb::list_parameters:
-    case Verb::default_parameters:
-    case Verb::save_data:
-    case Verb::save_parameters:
-    case Verb::save_program:
     case Verb::reboot: return true;
-    default: return row.is_query();
+    default: return row.is_query() || is_save(row.verb);
   }
 }
 
@@ -68,7 +70,8 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
   if (place != Place::program && asks_host(command)) return false;
   switch (place) {
     case Place::program:
-      return row.program == Printed::nothing ? !is_for_hosts(row) : row.program == Printed::yes;
+      if (row.program != Printed::nothing) return row.program == Printed::yes;
+      return !is_for_hosts(row) || (columns.saves == Columns::Saves::stored_too && is_save(row.verb));
     case Place::immediate:
       if (row.immediate == Printed::nothing) return !is_for_programs(row.verb);
       if (row.immediate == Printed::yes) return true;

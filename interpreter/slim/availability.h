@@ -24,6 +24,9 @@ struct Columns {
     typed_too
   } variable_forms = VariableForms::as_printed;
 
+  /// SAVE C, SAVE D, SAVE P and DF, of the list without columns.
+  enum class Saves : std::uint8_t { typed_only, stored_too } saves = Saves::typed_only;
+
   bool operator==(const Columns&) const = default;
 };
 

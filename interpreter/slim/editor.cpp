@@ -9,18 +9,24 @@ namespace {
 
 constexpr char kEscape = '\x1B';
 
-int line_named_by(const Command& command) { return static_cast<int>(command.operands.at(0).number); }
+/// From 0; -1 for line 0 where lines have numbers from 1.
+int line_named_by(const Command& command, const ProgramOptions& options) {
+  return static_cast<int>(command.operands.at(0).number) - options.first_number;
+}
 
-bool is_end(Editor::Mode mode, std::string_view text) {
+bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& options) {
   if (text.find(kEscape) != std::string_view::npos) return true;
   const std::string word = in_capitals(without_blanks(text));
   if (word == "EXIT") return true;
-  return mode == Editor::Mode::download ? word == "END" : word.empty();
+  if (mode == Editor::Mode::download) return word == "END";
+  return word.empty() && options.empty_line == ProgramOptions::EmptyLine::ends_editing;
 }
 
 }  // namespace
 
-Error begin_edit(Editor& editor, Program& program, const Command& command) {
+Error begin_edit(Editor& editor, Program& program, const Command& command, const ProgramOptions& options) {
+  // Without a number behind it the command names no line.
+  const int line = command.operands.empty() ? 0 : line_named_by(command, options);
   switch (command.verb) {
     case Verb::program_new:
       program.clear();
@@ -32,44 +38,44 @@ Error begin_edit(Editor& editor, Program& program, const Command& command) {
       editor = {.mode = Editor::Mode::download};
       return Error::none;
     case Verb::program_edit:
-      if (line_named_by(command) >= program.size()) return Error::range;
-      editor = {.mode = Editor::Mode::replace, .line = line_named_by(command)};
+      if (line < 0 || line >= program.size()) return Error::range;
+      editor = {.mode = Editor::Mode::replace, .line = line};
       return Error::none;
     case Verb::program_insert:
-      if (line_named_by(command) > program.size()) return Error::range;
-      if (program.size() >= kProgramCapacity) return Error::buffer_full;
-      editor = {.mode = Editor::Mode::insert, .line = line_named_by(command)};
+      if (line < 0 || line > program.size()) return Error::range;
+      if (program.size() >= options.capacity) return Error::buffer_full;
+      editor = {.mode = Editor::Mode::insert, .line = line};
       return Error::none;
-    case Verb::program_delete: return program.remove(line_named_by(command));
+    case Verb::program_delete: return program.remove(line);
     default: return Error::syntax;
   }
 }
 
-Error enter_line(Editor& editor, Program& program, std::string_view text, const Dialect& dialect) {
+Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options) {
   const Editor at_work = editor;
-  if (is_end(at_work.mode, text)) {
+  if (is_end(at_work.mode, text, options)) {
     editor = {};
     return Error::none;
   }
+  // Ignored where empty lines end nothing; a file sent by a terminal may have them.
+  if (without_blanks(text).empty()) return Error::none;
   switch (at_work.mode) {
-    case Editor::Mode::replace: editor = {}; return program.replace(at_work.line, text, dialect);
-    case Editor::Mode::insert: editor = {}; return program.insert(at_work.line, text, dialect);
+    case Editor::Mode::replace: editor = {}; return program.replace(at_work.line, text, options);
+    case Editor::Mode::insert: editor = {}; return program.insert(at_work.line, text, options);
     case Editor::Mode::download:
-      // A file sent by a terminal may have empty lines.
-      if (without_blanks(text).empty()) return Error::none;
-      return program.insert(program.size(), text, dialect);
-    case Editor::Mode::lines: return program.insert(program.size(), text, dialect);
+    case Editor::Mode::lines: return program.insert(program.size(), text, options);
     case Editor::Mode::none: break;
   }
   return Error::not_allowed;
 }
 
-std::optional<int> next_line_number(const Editor& editor, const Program& program) {
+std::optional<int> next_line_number(const Editor& editor, const Program& program,
+                                    const ProgramOptions& options) {
   switch (editor.mode) {
     case Editor::Mode::none: return std::nullopt;
     case Editor::Mode::replace:
-    case Editor::Mode::insert: return editor.line;
-    default: return program.size();
+    case Editor::Mode::insert: return editor.line + options.first_number;
+    default: return program.size() + options.first_number;
   }
 }
 

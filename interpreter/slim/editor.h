@@ -13,12 +13,12 @@ namespace understudy::interpreter::slim {
 struct Editor {
   enum class Mode : std::uint8_t {
     none,
-    lines,     // PG, PA: all, until an empty line, EXIT or ESC
+    lines,     // PG, PA: all, until an empty line (unless those are ignored), EXIT or ESC
     replace,   // PE: the next one, in place of `line`
     insert,    // PI: the next one, before `line`
     download,  // DLP: all, until END, EXIT or ESC
   } mode = Mode::none;
-  int line = 0;
+  int line = 0;  // from 0
 
   bool operator==(const Editor&) const = default;
 };
@@ -26,13 +26,15 @@ struct Editor {
 constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::Mode::none; }
 
 /// Carries out one of the six commands. An error changes nothing.
-Error begin_edit(Editor& editor, Program& program, const Command& command);
+Error begin_edit(Editor& editor, Program& program, const Command& command,
+                 const ProgramOptions& options = {});
 
 /// A line that arrives while editing. With an error the line is not stored; PE and PI are over all the same.
 /// A line that contains ESC (0x1B) ends the editing and is not stored.
-Error enter_line(Editor& editor, Program& program, std::string_view text, const Dialect& dialect = {});
+Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options = {});
 
 /// The number that the next line gets, for a prompt.
-std::optional<int> next_line_number(const Editor& editor, const Program& program);
+std::optional<int> next_line_number(const Editor& editor, const Program& program,
+                                    const ProgramOptions& options = {});
 
 }  // namespace understudy::interpreter::slim

@@ -18,6 +18,8 @@ struct EventOptions {
   enum class AtArming : std::uint8_t { fires, waits_for_change } at_arming = AtArming::fires;
   /// An event that came while another one's routine ran, and whose condition is false again at its RET.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
+  /// Conditions are looked at in the milliseconds that this divides; what comes and goes between is not seen.
+  int look_every_ms = 1;
 
   bool operator==(const EventOptions&) const = default;
 };
@@ -42,7 +44,7 @@ void define_event(Events& events, const Command& command, const EventOptions& op
 /// As a program starts: what came before is forgotten, the definitions stay.
 void arm_events(Events& events, const EventOptions& options);
 
-/// Looks at all conditions, once a tick. The error is that of a condition that cannot be tested (it is taken
+/// Looks at all conditions. The error is that of a condition that cannot be tested (it is taken
 /// out of use).
 Error look_at_events(Events& events, const EventOptions& options, const Machine& machine);
 /// The one whose turn it is; it is no longer pending then.

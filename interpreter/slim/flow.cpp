@@ -31,6 +31,12 @@ bool in_event_routine(const Execution& execution) {
   return std::ranges::any_of(execution.stack, &Frame::of_event);
 }
 
+/// The first moment of those that `every_ms` divides which is not before `ms`.
+std::int64_t moment_from(std::int64_t ms, int every_ms) {
+  const std::int64_t past_ms = ms % every_ms;
+  return past_ms == 0 ? ms : ms + (every_ms - past_ms);
+}
+
 /// One line of one tick.
 class LineRun {
  public:
@@ -40,7 +46,9 @@ class LineRun {
 
   Error run() {
     if (execution_.line >= program_.size()) return end(Ending::past_last_line);
-    const std::optional<Command>& command = program_.line(execution_.line).parsed.command;
+    const StoredLine& line = program_.line(execution_.line);
+    if (line.error != Error::none) return fail(line.error);
+    const std::optional<Command>& command = line.parsed.command;
     if (!command) return go_on();
     const bool has_to_change = asked_of_host(*command) || has_variable_index(*command);
     const Error error = has_to_change ? run_changed(*command) : run_command(*command);
@@ -111,7 +119,7 @@ class LineRun {
   }
 
   Error jump(const Operand& address) {
-    const std::optional<int> line = program_.find(address);
+    const std::optional<int> line = program_.find(address, options_.program);
     return line ? go_to(*line) : Error::address;
   }
 
@@ -127,14 +135,14 @@ class LineRun {
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
     if (holds) return jump(command.operands.back());
-    const auto window_ms = static_cast<std::int64_t>(command.operands[1].number);
+    const auto window_ms = static_cast<std::int64_t>(command.operands[1].number) * options_.window_unit_ms;
     const std::int64_t until_ms = execution_.hold == Hold::window ? execution_.until_ms : now_ms_ + window_ms;
     return now_ms_ >= until_ms ? go_on() : hold(Hold::window, until_ms);
   }
 
   Error call(const Operand& address) {
     const auto calls = std::ranges::count(execution_.stack, false, &Frame::of_event);
-    const std::optional<int> line = program_.find(address);
+    const std::optional<int> line = program_.find(address, options_.program);
     if (!line || calls >= options_.call_depth) return Error::address;
     execution_.stack.push_back({.line = execution_.line + 1});
     return go_to(*line);
@@ -186,15 +194,12 @@ class LineRun {
 };
 
 /// Goes to the routine of the event whose turn it is, if any.
-Error serve_events(Execution& execution, const Program& program, const FlowOptions& options,
-                   const Machine& machine) {
-  const Error error = look_at_events(execution.events, options.events, machine);
-  if (error != Error::none) return error;
+Error serve_events(Execution& execution, const Program& program, const FlowOptions& options) {
   // A line that has its number from the host is carried out first: the routine would take the number.
   if (in_event_routine(execution) || execution.has_number) return Error::none;
   const std::optional<Operand> address = take_event(execution.events);
   if (!address) return Error::none;
-  const std::optional<int> line = program.find(*address);
+  const std::optional<int> line = program.find(*address, options.program);
   if (!line) return Error::address;
   execution.stack.push_back(
       {.line = execution.line, .of_event = true, .hold = execution.hold, .until_ms = execution.until_ms});
@@ -217,12 +222,41 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
   return number >= -kMost && number <= kMost ? Error::none : Error::range;
 }
 
+/// The first tick after `done_ms` in which a line may do anything, or the next event has its turn.
+std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
+                          const FlowOptions& options, const Machine& machine) {
+  const std::int64_t next_ms = moment_from(done_ms + 1, options.lines_every_ms);
+  const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
+  if (is_pending && !in_event_routine(execution)) return next_ms;
+
+  bool input_holds = false;
+  if (execution.hold == Hold::input || execution.hold == Hold::window) {
+    if (execution.line >= program.size()) return next_ms;
+    const std::optional<Command>& command = program.line(execution.line).parsed.command;
+    if (!command) return next_ms;
+    const auto condition = static_cast<Condition>(kCommands[static_cast<std::size_t>(command->row)].variant);
+    if (test_condition(condition, command->operands, machine, input_holds) != Error::none) return next_ms;
+  }
+  const auto timed_ms = [&] {
+    return moment_from(std::max(execution.until_ms, next_ms), options.lines_every_ms);
+  };
+  switch (execution.hold) {
+    case Hold::nothing: return next_ms;
+    case Hold::timer: return timed_ms();
+    case Hold::window: return input_holds ? next_ms : timed_ms();
+    case Hold::input: return input_holds ? next_ms : kNever;
+    case Hold::machine: return kNever;
+    case Hold::number: return execution.has_number ? next_ms : kNever;
+  }
+  return next_ms;
+}
+
 }  // namespace
 
 Error start(Execution& execution, const Program& program, const Operand* address,
             const FlowOptions& options) {
-  const Operand first{.kind = Kind::integer, .number = 0};
-  const std::optional<int> line = program.find(address == nullptr ? first : *address);
+  const Operand first{.kind = Kind::integer, .number = static_cast<double>(options.program.first_number)};
+  const std::optional<int> line = program.find(address == nullptr ? first : *address, options.program);
   if (!line) return Error::address;
   Events events = std::move(execution.events);
   arm_events(events, options.events);
@@ -251,13 +285,19 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
            Machine& machine) {
   if (!execution.running) return Error::none;
   LineRun line(execution, now_ms, program, options, machine);
+  const bool is_lines_turn = now_ms % options.lines_every_ms == 0;
   // A wait that is over is over before an event can make it begin again.
-  if (execution.hold == Hold::timer && now_ms >= execution.until_ms) line.go_on();
+  if (is_lines_turn && execution.hold == Hold::timer && now_ms >= execution.until_ms) line.go_on();
   if (!execution.running) return Error::none;
-  const Error event_error = serve_events(execution, program, options, machine);
+  Error event_error = Error::none;
+  if (now_ms % options.events.look_every_ms == 0) {
+    event_error = look_at_events(execution.events, options.events, machine);
+  }
+  if (is_lines_turn && event_error == Error::none) event_error = serve_events(execution, program, options);
   if (event_error != Error::none && options.failed_line == FlowOptions::FailedLine::ends_program) {
     return line.fail(event_error);
   }
+  if (!is_lines_turn) return event_error;
   for (int i = 0; i < options.lines_per_tick && execution.running; ++i) {
     if (execution.hold == Hold::timer) break;
     const Error error = line.run();
@@ -268,29 +308,11 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
 }
 
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                            const Machine& machine) {
+                            const FlowOptions& options, const Machine& machine) {
   if (!execution.running) return kNever;
-  const std::int64_t next_ms = done_ms + 1;
-  const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
-  if ((is_pending && !in_event_routine(execution)) || would_change(execution.events, machine)) return next_ms;
-
-  bool input_holds = false;
-  if (execution.hold == Hold::input || execution.hold == Hold::window) {
-    if (execution.line >= program.size()) return next_ms;
-    const std::optional<Command>& command = program.line(execution.line).parsed.command;
-    if (!command) return next_ms;
-    const auto condition = static_cast<Condition>(kCommands[static_cast<std::size_t>(command->row)].variant);
-    if (test_condition(condition, command->operands, machine, input_holds) != Error::none) return next_ms;
-  }
-  switch (execution.hold) {
-    case Hold::nothing: return next_ms;
-    case Hold::timer: return std::max(execution.until_ms, next_ms);
-    case Hold::window: return input_holds ? next_ms : std::max(execution.until_ms, next_ms);
-    case Hold::input: return input_holds ? next_ms : kNever;
-    case Hold::machine: return kNever;
-    case Hold::number: return execution.has_number ? next_ms : kNever;
-  }
-  return next_ms;
+  const bool sees_event = would_change(execution.events, machine);
+  const std::int64_t look_ms = sees_event ? moment_from(done_ms + 1, options.events.look_every_ms) : kNever;
+  return std::min(look_ms, next_line_ms(execution, done_ms, program, options, machine));
 }
 
 }  // namespace understudy::interpreter::slim

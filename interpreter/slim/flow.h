@@ -1,6 +1,6 @@
-// A SLIM program at work: one line a tick of 1 ms. What a program is doing is a plain value; these functions
-// advance it over the lines. Commands that are not program flow go to the machine, which may let the program
-// wait.
+// A SLIM program at work: one line a tick of 1 ms, unless chosen otherwise. What a program is doing is a
+// plain value; these functions advance it over the lines. Commands that are not program flow go to the
+// machine, which may let the program wait.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,10 @@ inline constexpr std::int64_t kNever = INT64_MAX;
 
 /// What the manual leaves open about running.
 struct FlowOptions {
-  int lines_per_tick = 1;
+  ProgramOptions program = {};
+  int lines_per_tick = 1;  // a line that waits or fails is the last of its tick
+  int lines_every_ms = 1;  // lines run in the milliseconds that this divides
+  int window_unit_ms = 1;  // of tm in JTI and JNTI
   int call_depth = 16;
   EventOptions events = {};
   /// WT and JTI that an event has interrupted: they begin again, or their time has gone on.
@@ -97,7 +100,7 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
 /// stay as they are and the host gives nothing; kNever if none. Ticks before it may be left out. While the
 /// machine lets a command wait (Hold::machine), only the machine can tell when it would carry it out.
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                            const Machine& machine);
+                            const FlowOptions& options, const Machine& machine);
 
 /// Whether a run of this program can have come to this: for what is restored from a file.
 bool is_sound(const Execution& execution, const Program& program, const FlowOptions& options);

@@ -24,6 +24,7 @@ struct Dialect {
   } module_move_from_variable = ModuleMoveFromVariable::refused;
   std::size_t longest_line = kLineLength;  // longer ones are refused
   int integer_least = kIntegerLeast;       // of integer variables
+  int event_count = kEventCount;           // EV1 to so many; 1 .. kEventCount
 
   bool operator==(const Dialect&) const = default;
 };

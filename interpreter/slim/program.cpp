@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "interpreter/slim/availability.h"
 #include "interpreter/slim/words.h"
 
 namespace understudy::interpreter::slim {
@@ -13,30 +12,51 @@ struct Checked {
   StoredLine line = {};
 };
 
-Checked check(std::string_view text, const Dialect& dialect) {
-  ParseResult result = parse_line(text, dialect);
+Checked check(std::string_view text, const ProgramOptions& options) {
+  ParseResult result = parse_line(text, options.dialect);
   if (result.error != Error::none) return {.error = result.error};
   const std::string_view trimmed = without_blanks(text);
   if (trimmed.empty()) return {.error = Error::syntax};
   const auto& command = result.line.command;
-  if (command && !is_allowed(*command, Place::program)) return {.error = Error::not_allowed};
+  if (command && !is_allowed(*command, Place::program, options.columns)) return {.error = Error::not_allowed};
   return {.line = {.text = std::string(trimmed), .parsed = std::move(result.line)}};
+}
+
+/// As a line of a program, it would cut the program off when that is sent back with DLP.
+bool ends_transfer(std::string_view text) {
+  const std::string word = in_capitals(text);
+  return word == "END" || word == "EXIT" || text.find('\x1B') != std::string_view::npos;
+}
+
+/// `$A NONSENSE` is a place to jump to all the same.
+std::string label_of(std::string_view text) {
+  if (!text.starts_with('$')) return {};
+  return parse_line(text.substr(0, text.find_first_of(" \t"))).line.label;
+}
+
+Checked check_as_chosen(std::string_view text, const ProgramOptions& options) {
+  Checked checked = check(text, options);
+  if (checked.error == Error::none || options.check == ProgramOptions::Check::as_entered) return checked;
+  const std::string_view trimmed = without_blanks(text);
+  if (trimmed.empty() || text.size() > kLineLength || ends_transfer(trimmed)) return checked;
+  return {
+      .line = {.text = std::string(trimmed), .parsed = {.label = label_of(trimmed)}, .error = checked.error}};
 }
 
 }  // namespace
 
-Error Program::insert(int number, std::string_view text, const Dialect& dialect) {
+Error Program::insert(int number, std::string_view text, const ProgramOptions& options) {
   if (number < 0 || number > size()) return Error::range;
-  if (size() >= kProgramCapacity) return Error::buffer_full;
-  Checked checked = check(text, dialect);
+  if (size() >= options.capacity) return Error::buffer_full;
+  Checked checked = check_as_chosen(text, options);
   if (checked.error != Error::none) return checked.error;
   lines_.insert(lines_.begin() + number, std::move(checked.line));
   return Error::none;
 }
 
-Error Program::replace(int number, std::string_view text, const Dialect& dialect) {
+Error Program::replace(int number, std::string_view text, const ProgramOptions& options) {
   if (number < 0 || number >= size()) return Error::range;
-  Checked checked = check(text, dialect);
+  Checked checked = check_as_chosen(text, options);
   if (checked.error != Error::none) return checked.error;
   lines_[static_cast<std::size_t>(number)] = std::move(checked.line);
   return Error::none;
@@ -48,10 +68,11 @@ Error Program::remove(int number) {
   return Error::none;
 }
 
-std::optional<int> Program::find(const Operand& address) const {
+std::optional<int> Program::find(const Operand& address, const ProgramOptions& options) const {
   if (address.kind == Operand::Kind::integer) {
-    if (address.number < 0 || address.number >= size()) return std::nullopt;
-    return static_cast<int>(address.number);
+    const double line = address.number - options.first_number;
+    if (line < 0 || line >= size()) return std::nullopt;
+    return static_cast<int>(line);
   }
   for (int i = 0; i < size(); ++i) {
     if (!line(i).parsed.label.empty() && line(i).parsed.label == address.text) return i;
@@ -59,9 +80,12 @@ std::optional<int> Program::find(const Operand& address) const {
   return std::nullopt;
 }
 
-std::vector<std::string> Program::listing() const {
+std::vector<std::string> Program::listing(const ProgramOptions& options) const {
+  if (options.listing == ProgramOptions::Listing::bare) return texts();
   std::vector<std::string> listed;
-  for (int i = 0; i < size(); ++i) listed.push_back(std::to_string(i) + ": " + line(i).text);
+  for (int i = 0; i < size(); ++i) {
+    listed.push_back(std::to_string(i + options.first_number) + ": " + line(i).text);
+  }
   return listed;
 }
 
@@ -77,10 +101,10 @@ std::vector<std::string> Program::texts() const {
   return texts;
 }
 
-bool Program::set_texts(const std::vector<std::string>& texts, const Dialect& dialect) {
+bool Program::set_texts(const std::vector<std::string>& texts, const ProgramOptions& options) {
   Program program;
   for (const std::string& text : texts) {
-    if (program.insert(program.size(), text, dialect) != Error::none) return false;
+    if (program.insert(program.size(), text, options) != Error::none) return false;
   }
   *this = std::move(program);
   return true;

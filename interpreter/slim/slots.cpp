@@ -128,7 +128,9 @@ Error check_slot(Slot slot, const CommandRow& row, Operand& operand, const Diale
   switch (slot) {
     case Slot::real_variable: return is(operand.kind == Kind::real_variable);
     case Slot::port: return is(operand.kind == Kind::port);
-    case Slot::event: return is(operand.kind == Kind::event);
+    case Slot::event:
+      if (operand.kind != Kind::event) return Error::syntax;
+      return operand.index <= dialect.event_count ? Error::none : Error::range;
     case Slot::integer_variable: return is(holds_integer(operand.kind));
     case Slot::variable: return is(is_variable(operand.kind));
     case Slot::stored_variable: return is(is_variable(operand.kind) && !is_array(operand.kind));

@@ -10,12 +10,13 @@ namespace understudy::interpreter::slim {
 namespace {
 
 /// What the parser makes of the command's text again.
-bool reads_back(const Command& command) {
-  const ParseResult result = parse_line(text_of(command));
+bool reads_back(const Command& command, const Dialect& dialect) {
+  const ParseResult result = parse_line(text_of(command), dialect);
   return result.error == Error::none && result.line.command == command;
 }
 
-bool is_sound(const Event& event, int number) {
+bool is_sound(const Event& event, int number, const Dialect& dialect) {
+  if (number > dialect.event_count && (event.has_condition || event.has_address)) return false;
   const Operand name{.kind = Operand::Kind::event, .index = number};
   if (event.has_condition) {
     Command command{.verb = Verb::set_event, .row = row_of("SET EVk cond"), .operands = {name}};
@@ -26,7 +27,7 @@ bool is_sound(const Event& event, int number) {
       return operand.kind >=
              Operand::Kind::event;  // no condition has one, and their text needs a right index
     });
-    if (!has_known_kinds || !reads_back(command)) return false;
+    if (!has_known_kinds || !reads_back(command, dialect)) return false;
   }
   const bool is_address =
       event.address.kind == Operand::Kind::integer || event.address.kind == Operand::Kind::label;
@@ -55,7 +56,7 @@ bool is_sound(const Frame& frame, const Program& program) {
 
 bool is_sound(const Execution& execution, const Program& program, const FlowOptions& options) {
   for (std::size_t i = 0; i < execution.events.size(); ++i) {
-    if (!is_sound(execution.events[i], static_cast<int>(i) + 1)) return false;
+    if (!is_sound(execution.events[i], static_cast<int>(i) + 1, options.program.dialect)) return false;
   }
   if (!execution.running) return execution.hold == Hold::nothing && execution.stack.empty();
   const bool is_line = execution.line >= 0 && execution.line < program.size();

@@ -25,7 +25,8 @@ Error Slim::linked(int module) const { return state_.chain.linked(module) ? Erro
 
 bool Slim::input(int number) const { return ((state_.inputs[0] >> (number - 1)) & 1) != 0; }
 
-/// A program waits where a host is refused: for room in a buffer, and for the end of a pause.
+/// A program waits where a host is refused: for room in a buffer, and (unless chosen otherwise) for the end
+/// of a pause.
 lang::Outcome Slim::carry_out(const lang::Command& command) {
   switch (command.verb) {
     case Verb::wait_done:
@@ -39,7 +40,8 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
       return is_done(command) ? lang::kDone : lang::kWaits;
     case Verb::print: {
       // A program is much faster than its line: it prints when there is room again.
-      if (state_.speech.size() >= kMostUnsent) return lang::kWaits;
+      const std::size_t most = chose(kPrints128Ahead) ? kMostUnsentOfSmall : kMostUnsent;
+      if (state_.speech.size() >= most) return lang::kWaits;
       const lang::Operand& what = command.operands.front();
       say(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
       return lang::kDone;
@@ -48,7 +50,8 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
   }
   const Error error = execute(command);
   if (is_silence(error)) return lang::kDone;
-  if (error == Error::buffer_full || error == Error::paused) return lang::kWaits;
+  const bool waits_for_pause = error == Error::paused && !chose(kPauseFailsMotion);
+  if (error == Error::buffer_full || waits_for_pause) return lang::kWaits;
   if (error != Error::none) failed_module_ = module_of(command);
   return {.error = error};
 }

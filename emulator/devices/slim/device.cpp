@@ -10,7 +10,6 @@ namespace understudy::emulator::slim {
 Slim::Slim(const DeviceSettings& settings)
     : TextDevice(slim::model(), settings), modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();
-  dialect_ = dialect();
   memory_form_ = memory_form();
   state_.kept = factory();
   state_.ram = state_.kept;
@@ -27,8 +26,35 @@ ChainOptions Slim::chain_options() const {
   return options;
 }
 
+lang::ProgramOptions Slim::program_options() const {
+  using Options = lang::ProgramOptions;
+  Options options;
+  lang::Dialect& dialect = options.dialect;
+  if (chose(kFourEvents)) dialect.event_count = 4;
+  if (chose(k80Characters)) dialect.longest_line = 80;
+  if (chose(k255Characters)) dialect.longest_line = 255;
+  if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
+  if (chose(kExternalColumnOnly)) options.columns.external = lang::Columns::External::strict;
+  if (chose(kImmediateColumnIgnored))
+    options.columns.variable_forms = lang::Columns::VariableForms::typed_too;
+  if (chose(kSavesInPrograms)) options.columns.saves = lang::Columns::Saves::stored_too;
+  if (chose(k256Lines)) options.capacity = 256;
+  if (chose(k4000Lines)) options.capacity = 4000;
+  if (chose(kLinesFrom1)) options.first_number = 1;
+  if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
+  if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
+  if (chose(kListsTextOnly)) options.listing = Options::Listing::bare;
+  return options;
+}
+
 lang::FlowOptions Slim::flow_options() const {
-  lang::FlowOptions options;
+  lang::FlowOptions options{.program = program_options()};
+  if (chose(kFourLinesATick)) options.lines_per_tick = 4;
+  if (chose(kLineIn4Ticks)) options.lines_every_ms = 4;
+  if (chose(kTimeUnitOf4Ms)) options.window_unit_ms = 4;
+  if (chose(kCalls8Deep)) options.call_depth = 8;
+  if (chose(kCalls4Deep)) options.call_depth = 4;
+  if (chose(kEventsEach4Ms)) options.events.look_every_ms = 4;
   if (chose(kFailedLinePassed)) options.failed_line = lang::FlowOptions::FailedLine::is_passed;
   if (chose(kWaitsHaveGoneOn)) options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
   if (chose(kEventsWaitForChange)) options.events.at_arming = lang::EventOptions::AtArming::waits_for_change;
@@ -36,17 +62,9 @@ lang::FlowOptions Slim::flow_options() const {
   return options;
 }
 
-lang::Dialect Slim::dialect() const {
-  lang::Dialect dialect;
-  if (chose(k80Characters)) dialect.longest_line = 80;
-  if (chose(k255Characters)) dialect.longest_line = 255;
-  if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
-  return dialect;
-}
-
 MemoryForm Slim::memory_form() const {
   return {.speed_names = chose(kPn14IsVm) ? SpeedNames::pn14_is_vm : SpeedNames::pn10_is_vm,
-          .integer_least = dialect_.integer_least};
+          .integer_least = of_programs().dialect.integer_least};
 }
 
 Memory Slim::factory() const { return factory_memory(modules_); }
@@ -58,7 +76,7 @@ void Slim::power_up() {
   state_.chain = Chain(chain_options());
   state_.chain.skip_to(now());
   state_.program.clear();
-  state_.program.set_texts(state_.kept_program, dialect_);
+  state_.program.set_texts(state_.kept_program, of_programs());
   state_.powered_at = now();
   state_.clock_zero = now();
   state_.touched = true;
@@ -104,9 +122,14 @@ void Slim::write_memory(NvImage& image) const {
 
 void Slim::read_memory(const NvImage& image) {
   Memory memory = read_image(image, factory(), memory_form_);
+  const auto capacity = static_cast<std::size_t>(of_programs().capacity);
+  if (image.program.size() > capacity) {
+    throw NvError("program: has " + std::to_string(image.program.size()) + " lines; expected at most " +
+                  std::to_string(capacity));
+  }
   lang::Program program;
-  if (!program.set_texts(image.program, dialect_)) {
-    throw NvError("program: holds a line that is no command of a program; expected lines as PL shows them");
+  if (!program.set_texts(image.program, of_programs())) {
+    throw NvError("program: holds a line that is no command of a program; expected lines as ULP shows them");
   }
   state_.kept = std::move(memory);
   state_.kept_program = image.program;
@@ -123,13 +146,14 @@ void Slim::load_program(std::string_view text) {
     const std::size_t first = line.find_first_not_of(" \t");
     // What a file has for people: empty lines and remarks.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
-    const Error error = program.insert(program.size(), line, dialect_);
+    const Error error = program.insert(program.size(), line, of_programs());
     if (error == Error::none) continue;
-    const char* const what = error == Error::buffer_full ? "the program is full; expected at most 1000 lines"
-                             : error == Error::range     ? "has a value out of range"
-                             : error == Error::not_allowed ? "may not stand in a program"
-                                                           : "is no command; expected one of `understudy "
-                                                             "describe slim commands`";
+    const std::string lines_that_fit = std::to_string(of_programs().capacity);
+    const std::string what =
+        error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
+        : error == Error::range       ? "has a value out of range"
+        : error == Error::not_allowed ? "may not stand in a program"
+                                      : "is no command; expected one of `understudy describe slim commands`";
     throw ProgramError(number, what);
   }
   stop(state_.execution);
@@ -190,7 +214,7 @@ Tick Slim::next_active_tick(Tick done) const {
   // A program that waits for the chain asks in every tick.
   if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
   return std::min(state_.chain.next_active_tick(done),
-                  next_active_ms(state_.execution, done, state_.program, *this));
+                  next_active_ms(state_.execution, done, state_.program, flow_options_, *this));
 }
 
 State Slim::settled() const {

@@ -27,7 +27,9 @@ namespace lang = interpreter::slim;
 
 inline constexpr std::size_t kMostHistory = 16;
 inline constexpr std::size_t kMostSpeech = 256 * 1024;
-inline constexpr std::size_t kMostUnsent = 1024;  // characters that a program may have waiting for the line
+// Characters that a program may have waiting for the line before it waits itself.
+inline constexpr std::size_t kMostUnsent = 1024;
+inline constexpr std::size_t kMostUnsentOfSmall = 128;
 
 // A module's terminals, among all: T0's, then T1's ...
 inline constexpr int kInputs = lang::kInputCount;
@@ -139,7 +141,6 @@ class Slim final : public TextDevice, private lang::Machine {
   void conclude();
   void hear_command(std::string_view line);
   Error obey(lang::Command& command, std::vector<std::string>& lines);
-  lang::Columns columns() const;
 
   // commands.cpp
   Error execute(const lang::Command& command);
@@ -175,9 +176,10 @@ class Slim final : public TextDevice, private lang::Machine {
   /// What a module's number is, or that it is not linked.
   Error linked(int module) const;
   ChainOptions chain_options() const;
+  lang::ProgramOptions program_options() const;
   lang::FlowOptions flow_options() const;
-  lang::Dialect dialect() const;
   MemoryForm memory_form() const;
+  const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
   void reboot();
   /// As if all ticks up to now had been run one by one.
@@ -189,7 +191,6 @@ class Slim final : public TextDevice, private lang::Machine {
 
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
-  lang::Dialect dialect_{};
   MemoryForm memory_form_{};
   int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
   State state_;

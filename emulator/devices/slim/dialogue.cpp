@@ -17,7 +17,7 @@ bool is_exit(std::string_view line, const lang::Dialect& dialect) {
 
 TextRules Slim::text_rules() const {
   return {.echo = chose(kEcho),
-          .longest_line = dialect_.longest_line,
+          .longest_line = of_programs().dialect.longest_line,
           .line_feed_ends = !chose(kCrAloneEnds),
           .has_flow_control = chose(kXonXoff),
           .echoed_end = line_end()};
@@ -51,29 +51,24 @@ void Slim::fail(int module, Error error) {
 /// After each completed line.
 void Slim::conclude() {
   if (!chose(kPrompt)) return;
-  if (const auto number = next_line_number(state_.editor, state_.program)) {
+  if (const auto number = next_line_number(state_.editor, state_.program, of_programs())) {
     state_.speech += std::to_string(*number);
   }
   state_.speech += ">";
 }
 
-lang::Columns Slim::columns() const {
-  lang::Columns columns;
-  if (chose(kExternalColumnOnly)) columns.external = lang::Columns::External::strict;
-  if (chose(kImmediateColumnIgnored)) columns.variable_forms = lang::Columns::VariableForms::typed_too;
-  return columns;
-}
-
 void Slim::hear_line(std::string_view line) {
   wake();
   if (is_editing(state_.editor)) {
-    if (const Error error = enter_line(state_.editor, state_.program, line, dialect_); error != Error::none) {
+    const Error error = enter_line(state_.editor, state_.program, line, of_programs());
+    if (error != Error::none) {
       fail(0, error);
     } else if (chose(kAcknowledges)) {
       say("OK");
     }
-  } else if (wants_number(state_.execution) && !is_exit(line, dialect_)) {
-    const Error error = give_number(state_.execution, state_.program, line, dialect_);
+  } else if (wants_number(state_.execution) &&
+             (chose(kExitIsNoNumber) || !is_exit(line, of_programs().dialect))) {
+    const Error error = give_number(state_.execution, state_.program, line, of_programs().dialect);
     if (error != Error::none) fail(0, error);
   } else {
     hear_command(line);
@@ -93,7 +88,7 @@ void Slim::hear_escape() {
 }
 
 void Slim::hear_command(std::string_view line) {
-  lang::ParseResult parsed = lang::parse_line(line, dialect_);
+  lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {
     // A label belongs into a program.
     if (!parsed.line.label.empty()) fail(0, Error::syntax);
@@ -104,7 +99,7 @@ void Slim::hear_command(std::string_view line) {
 
   lang::Command& command = *parsed.line.command;
   const lang::Place place = state_.execution.running ? lang::Place::external : lang::Place::immediate;
-  if (!is_allowed(command, place, columns())) return fail(0, Error::not_allowed);
+  if (!is_allowed(command, place, of_programs().columns)) return fail(0, Error::not_allowed);
   std::vector<std::string> lines;
   const Error error = obey(command, lines);
   if (is_silence(error)) return;
@@ -135,14 +130,14 @@ Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
     case Verb::on_event:
       define_event(state_.execution.events, command, flow_options_.events);
       return Error::none;
-    case Verb::program_list: lines = state_.program.listing(); return Error::none;
+    case Verb::program_list: lines = state_.program.listing(of_programs()); return Error::none;
     case Verb::upload: lines = state_.program.upload(); return Error::none;
     case Verb::program_new:
     case Verb::program_append:
     case Verb::program_edit:
     case Verb::program_insert:
     case Verb::program_delete:
-    case Verb::download: return begin_edit(state_.editor, state_.program, command);
+    case Verb::download: return begin_edit(state_.editor, state_.program, command, of_programs());
     case Verb::list_parameters: lines = parameter_list(); return Error::none;
     case Verb::print: {
       const lang::Operand& what = command.operands.front();

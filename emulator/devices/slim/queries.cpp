@@ -163,7 +163,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
 
 std::optional<double> Slim::value_named(std::string_view name) const {
   if (!powered()) return std::nullopt;
-  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), dialect_);
+  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), of_programs().dialect);
   if (parsed.error != Error::none || !parsed.line.command) return std::nullopt;
   lang::Command& command = *parsed.line.command;
   if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) return std::nullopt;
@@ -179,8 +179,8 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
   if (!(std::abs(value) <= std::numeric_limits<float>::max())) return "is out of range";
   const bool is_whole = value == std::trunc(value) && std::abs(value) < 1e15;
   const std::string beginning = std::string(name) + "=";
-  lang::ParseResult parsed =
-      lang::parse_line(beginning + (is_whole ? text_of_integer(value) : text_of_real(value)), dialect_);
+  lang::ParseResult parsed = lang::parse_line(
+      beginning + (is_whole ? text_of_integer(value) : text_of_real(value)), of_programs().dialect);
   if (parsed.error == Error::none && parsed.line.command) {
     lang::Command& command = *parsed.line.command;
     if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_assignment()) {

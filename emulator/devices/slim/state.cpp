@@ -9,6 +9,10 @@ namespace understudy::emulator::slim {
 
 namespace {
 
+/// Holds whatever any device may hold; what its own options make of it comes when all is read.
+constexpr lang::ProgramOptions kAnyProgram{
+    .dialect = lang::kWidestDialect, .capacity = 4000, .check = lang::ProgramOptions::Check::as_run};
+
 struct Fields {
   // clang-format off
   static void of(Like<lang::Operand> auto& v, auto visit) {
@@ -45,7 +49,7 @@ struct Fields {
   static void read(lang::Program& program, StateReader& reader) {
     std::vector<std::string> texts;
     reader.read<Fields>(texts);
-    demand_state(program.set_texts(texts, lang::kWidestDialect), "a line is no command of a program");
+    demand_state(program.set_texts(texts, kAnyProgram), "a line is no line of a program");
   }
 
   static void check(const lang::Operand& operand) {
@@ -59,10 +63,7 @@ struct Fields {
                                                        : 8;
     demand_within(operand.index, 0, most);
   }
-  static void check(const lang::Frame& frame) {
-    demand_within(frame.line, 0, lang::kProgramCapacity);
-    demand_reach(frame.until_ms);
-  }
+  static void check(const lang::Frame& frame) { demand_reach(frame.until_ms); }
   static void check(const lang::Event& event) {
     // As many operands as its condition looks at.
     const bool compares = event.condition >= lang::Condition::equal;
@@ -70,12 +71,10 @@ struct Fields {
                  "an event looks at something else");
   }
   static void check(const lang::Execution& execution) {
-    demand_within(execution.line, 0, lang::kProgramCapacity);
     demand_reach(execution.until_ms);
     demand_state(execution.stack.size() <= 1000, "a program is nested too deep");
     demand_state(std::isfinite(execution.number), "a number is not finite");
   }
-  static void check(const lang::Editor& editor) { demand_within(editor.line, 0, lang::kProgramCapacity); }
   static void check(const Errors& errors) {
     demand_state(errors.history.size() <= kMostHistory, "too many errors are remembered");
   }
@@ -91,14 +90,20 @@ struct Fields {
   static void check(const State& state) {
     demand_reach(state.powered_at);
     demand_reach(state.clock_zero);
-    lang::Program kept;
-    demand_state(kept.set_texts(state.kept_program, lang::kWidestDialect),
-                 "a kept line is no command of a program");
-    demand_state(is_sound(state.execution, state.program, lang::FlowOptions{}),
-                 "the program does what no program can");
   }
   static void check(const auto&) {}
 };
+
+/// What is sound depends on what was chosen; programs become what their lines say here.
+void settle_programs(State& state, const lang::FlowOptions& options) {
+  const std::vector<std::string> texts = state.program.texts();
+  demand_state(state.program.set_texts(texts, options.program), "a line is no command of a program");
+  lang::Program kept;
+  demand_state(kept.set_texts(state.kept_program, options.program), "a kept line is no command of a program");
+  demand_within(state.editor.line, 0, options.program.capacity);
+  demand_within(state.execution.line, 0, options.program.capacity);
+  demand_state(is_sound(state.execution, state.program, options), "the program does what no program can");
+}
 
 }  // namespace
 
@@ -107,17 +112,14 @@ void Slim::write_own_state(StateWriter& writer) const { writer.write<Fields>(set
 std::function<void()> Slim::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
   reader.read<Fields>(*restored);
-  // What only this bench's choices tell.
-  lang::Program program;
-  demand_state(program.set_texts(restored->program.texts(), dialect_) &&
-                   program.set_texts(restored->kept_program, dialect_),
-               "a line of the program is too long, or has a value out of range");
+  settle_programs(*restored, flow_options_);
+  // What else only this bench's choices tell.
   for (const Errors& errors : restored->errors) {
     demand_state(errors.history.size() <= history_length(), "too many errors are remembered");
   }
   const auto check_integers = [&](const auto& integers) {
-    for (const std::int16_t value : integers)
-      demand_within(value, dialect_.integer_least, lang::kIntegerMost);
+    const int least = of_programs().dialect.integer_least;
+    for (const std::int16_t value : integers) demand_within(value, least, lang::kIntegerMost);
   };
   for (const Memory* const memory : {&restored->ram, &restored->kept}) {
     check_integers(memory->integers);

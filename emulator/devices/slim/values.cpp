@@ -42,7 +42,7 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
   if (holds_integer(variable.kind)) {
     // What a real variable or AIN brings is brought to a whole number.
     value = std::trunc(value);
-    if (value < dialect_.integer_least || value > lang::kIntegerMost) return Error::range;
+    if (value < of_programs().dialect.integer_least || value > lang::kIntegerMost) return Error::range;
   } else if (std::abs(value) > kMaxReal) {
     return Error::range;
   }

@@ -132,7 +132,7 @@ TEST(SlimFlow, WaitsForInputs) {
   ProgramRun run({"WI 1", "SET P1", "WNI 1", "CLR P1"});
   run.begin();
   run.until(7);
-  EXPECT_EQ(next_active_ms(run.execution, 7, run.program, run.machine), kNever);
+  EXPECT_EQ(next_active_ms(run.execution, 7, run.program, run.options, run.machine), kNever);
   run.machine.inputs = {1};  // seen at 8
   run.until(20);
   run.machine.inputs = {};  // seen at 21
@@ -227,7 +227,7 @@ TEST(SlimFlow, NumbersComeFromTheHost) {
   EXPECT_FALSE(wants_number(run.execution));
   run.until(20);
   ASSERT_TRUE(wants_number(run.execution));
-  EXPECT_EQ(next_active_ms(run.execution, 20, run.program, run.machine), kNever);
+  EXPECT_EQ(next_active_ms(run.execution, 20, run.program, run.options, run.machine), kNever);
   EXPECT_EQ(give_number(run.execution, run.program, "PE 3"), Error::syntax);
   EXPECT_EQ(give_number(run.execution, run.program, "1.5"), Error::syntax);
   EXPECT_EQ(give_number(run.execution, run.program, "32767"), Error::range);

@@ -66,7 +66,7 @@ using Log = std::vector<std::string>;
 struct ProgramRun {
   explicit ProgramRun(const std::vector<std::string>& lines, FlowOptions flow = {}) : options(flow) {
     for (const std::string& line : lines) {
-      EXPECT_EQ(program.insert(program.size(), line), Error::none) << line;
+      EXPECT_EQ(program.insert(program.size(), line, options.program), Error::none) << line;
     }
   }
 
@@ -82,8 +82,8 @@ struct ProgramRun {
     while (machine.now_ms < ms) {
       // Only the machine can tell when it would no longer let the program wait.
       const bool is_released = execution.hold == Hold::machine && machine.waiting.empty();
-      const bool is_quiet =
-          !is_released && next_active_ms(execution, machine.now_ms, program, machine) > machine.now_ms + 1;
+      const bool is_quiet = !is_released && next_active_ms(execution, machine.now_ms, program, options,
+                                                           machine) > machine.now_ms + 1;
       const Execution before = execution;
       const std::size_t done_before = machine.log.size();
       ++machine.now_ms;
