@@ -82,7 +82,7 @@ class Chain {
   /// HON, HOFF: in their turn. IHON, IHOFF: at once; off discards the module's motion and FIFO.
   Error set_servo(int module, bool on);
   Error set_servo_at_once(int module, bool on);
-  /// RESET: stops at once, forgets the FIFO, motor control is as after power-up; the coordinate stays.
+  /// RESET: stops at once, forgets the FIFO, motor control is as after power-up.
   Error reset(int module);
 
   // ---- Outputs 1 .. 4 of a module
@@ -104,7 +104,8 @@ class Chain {
   /// Two to four coordinates: X, Y, Z, W.
   Error line(std::span<const double> units, bool absolute);
   Error arc(const ArcOrder& order);
-  Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units_turn);
+  /// `growth_units`: of the radius, a turn or in all.
+  Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units);
   /// CM 0, 1, 2.
   Error set_continuous_path(int mode);
 
@@ -130,7 +131,7 @@ class Chain {
   Error set_acceleration(int module, double acceleration);
   Error set_path_speed(int module, double units_s);          // PR3 of one; what runs keeps its speed
   Error set_tvm(double units_s);                             // of all linked ones, and at once
-  Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: not while anything is coordinated
+  Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: what runs keeps its own
   Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180
   Error set_analog_speed(int module);                        // AVM
   void set_options(const ChainOptions& options);  // FIFOs that are longer than allowed then stay so
@@ -150,6 +151,8 @@ class Chain {
   std::size_t queued(int module) const { return modules_[at(module)].fifo.size(); }
   /// DN: all earlier commands are completed. A jog or thrust is no matter, unless it is stopping.
   bool done(int module) const;
+  /// It does something, or a command waits for it.
+  bool busy(int module) const;
   bool moving(int module) const;
   bool servo_on(int module) const { return axes_[at(module)].servo_on; }
   bool paused() const { return paused_; }
@@ -195,12 +198,16 @@ class Chain {
   };
 
   static std::size_t at(int module) { return static_cast<std::size_t>(module); }
-  bool held() const { return paused_ || queues_paused_; }
+  bool in_pause_scope(int module) const { return module == 0 || !options_.pause_is_of_module_0; }
+  bool in_pause_scope(const Group& group) const;
+  /// Of a module, or a group: by TAPZ, or by PZ as far as that goes.
+  bool held(const auto& what) const { return paused_ || (queues_paused_ && in_pause_scope(what)); }
 
   // Commands: chain_commands.cpp, chain_coordinated.cpp, chain_outputs.cpp.
   Error refusal(int module) const;            // any command
   Error refusal_of_motion(int module) const;  // ... that moves
   Error refusal_by_number(int module) const;  // ... by its number
+  Error refusal_of_jog(int module) const;     // ... or of thrust
   bool mapped(int module) const;
   bool servo_expected(int module) const;  // when what is queued is done
   double end_expected(int module) const;
@@ -211,6 +218,7 @@ class Chain {
   Error replace_jog(int module, int way, std::int32_t force);
   void begin_jog(int module, int way, Tick begin_at);
   void begin_thrust(int module, std::int32_t force, Tick begin_at);
+  void begin_next(int module, Tick begin_at);
   void stop_jog(int module);
 
   // Queues: chain_queues.cpp.
@@ -224,6 +232,7 @@ class Chain {
   void note_ends(const Job& job, std::size_t place, const motion::Point& end);
   bool at_all_places(const Job& job, std::size_t place) const;
   bool free_to_move(int module) const;
+  const ModuleSettings& path_settings(const Job& job) const;
   bool within_reach(const Job& job, const motion::Path& path) const;
   motion::Point begin_of(const Job& job) const;
   void carry_out_order(int module, const OutputOrder& order);
@@ -234,12 +243,12 @@ class Chain {
   void drop_head(int module, Error why);
 
   // Stopping: chain_stops.cpp.
-  void hold_all();
-  void release_all();
-  void cut(int module, motion::Cause why);  // no pulse more; what was running is forgotten
-  void forget_queue(int module);
+  void hold();
+  void release();
+  void cut(int module, motion::Cause why);              // no pulse more; what was running is forgotten
+  void forget_queue(int module, std::size_t kept = 0);  // behind the first `kept`
   void end_group(Group& group, motion::Cause why);
-  void release_group(Group& group);
+  void release_group(Group& group, Tick begin_at);
   void slow_for_discard(int module);
   Group* group_of(int module);
   const Group* group_of(int module) const;

@@ -42,6 +42,17 @@ Error Chain::refusal_by_number(int module) const {
   return refusal_of_motion(module);
 }
 
+Error Chain::refusal_of_jog(int module) const {
+  const Error why = options_.only_moves_reserved ? refusal_of_motion(module) : refusal_by_number(module);
+  if (why != Error::none) return why;
+  if (queues_paused_ && in_pause_scope(module)) return Error::not_allowed;
+  const Activity activity = modules_[at(module)].activity;
+  if (!busy(module) || activity == Activity::jog || activity == Activity::thrust) return Error::none;
+  if (!options_.jog_ends_move) return Error::not_allowed;
+  // An HON that still waits would be given up, too.
+  return axes_[at(module)].servo_on ? Error::none : Error::servo_off;
+}
+
 bool Chain::servo_expected(int module) const {
   const auto& fifo = modules_[at(module)].fifo;
   for (std::size_t i = fifo.size(); i-- > 0;) {
@@ -96,7 +107,8 @@ Error Chain::move_axis(Letter letter, bool absolute, double units) {
 }
 
 Error Chain::home(int module) {
-  if (const Error why = refusal_by_number(module); why != Error::none) return why;
+  const Error why = options_.only_moves_reserved ? refusal_of_motion(module) : refusal_by_number(module);
+  if (why != Error::none) return why;
   Job job{.kind = Job::Kind::home};
   job.module_of[0] = static_cast<std::int8_t>(module);
   return enqueue(job);
@@ -105,6 +117,7 @@ Error Chain::home(int module) {
 Error Chain::set_coordinate(int module, double units) {
   if (const Error why = refusal(module); why != Error::none) return why;
   if (!modules_[at(module)].reaches(units)) return Error::range;
+  if (options_.coordinate_at_rest_only && busy(module)) return Error::not_allowed;
   Job job{.kind = Job::Kind::set_coordinate};
   job.module_of[0] = static_cast<std::int8_t>(module);
   job.units[0] = job.ends[0] = units;
@@ -130,25 +143,29 @@ Error Chain::thrust(int module, std::int32_t force) {
 
 /// A jog in `way`, or thrust if that is 0.
 Error Chain::replace_jog(int module, int way, std::int32_t force) {
-  if (const Error why = refusal_by_number(module); why != Error::none) return why;
+  if (const Error why = refusal_of_jog(module); why != Error::none) return why;
   Module& mine = modules_[at(module)];
   motion::Axis& axis = axes_[at(module)];
-  if (queues_paused_) return Error::not_allowed;
-  if (mine.activity == Activity::idle) {
-    if (!mine.fifo.empty()) return Error::not_allowed;
-    way != 0 ? begin_jog(module, way, now_ + 1) : begin_thrust(module, force, now_ + 1);
+  if (mine.activity != Activity::jog && mine.activity != Activity::thrust) {
+    slow_for_discard(module);  // no matter where there is nothing to give up
+    forget_queue(module);
+    mine.next_jog_way = static_cast<std::int8_t>(way);
+    mine.next_thrust = force;
+    if (mine.activity == Activity::idle) begin_next(module, now_ + 1);
+    serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
     return Error::none;
   }
   if (mine.activity == Activity::thrust && way == 0) {
     mine.thrust = force;
     return Error::none;
   }
-  if (mine.activity != Activity::jog && mine.activity != Activity::thrust) return Error::not_allowed;
-  if (mine.activity == Activity::jog && way == mine.jog_way) {
+  const bool stands = mine.starved || axis.task == motion::Task::hanging;
+  const motion::SpeedLaw law = mine.jog_law(options_);
+  if (mine.activity == Activity::jog && way == mine.jog_way && (stands || law.top_speed_u_s > 0)) {
     mine.next_jog_way = 0;
     mine.next_thrust = 0;
-    if (mine.starved || axis.task == motion::Task::hanging) return Error::none;
-    if (!axis.resume(mine.jog_law(), now_)) axis.change_speed(mine.jog_law(), now_);
+    if (stands) return Error::none;
+    if (!axis.resume(law, now_)) axis.change_speed(law, now_);
     return Error::none;
   }
   mine.next_jog_way = static_cast<std::int8_t>(way);
@@ -172,7 +189,7 @@ void Chain::begin_jog(int module, int way, Tick begin_at) {
   } else if (mine.analog_factor() == 0) {
     mine.starved = true;
   } else {
-    axes_[at(module)].run(direction, mine.jog_law(), begin_at - 1);
+    axes_[at(module)].run(direction, mine.jog_law(options_), begin_at - 1);
   }
 }
 
@@ -188,11 +205,21 @@ void Chain::begin_thrust(int module, std::int32_t force, Tick begin_at) {
   mine.thrust = force;
 }
 
+/// What is to follow when the module has stopped.
+void Chain::begin_next(int module, Tick begin_at) {
+  const Module& mine = modules_[at(module)];
+  if (mine.next_thrust != 0) {
+    begin_thrust(module, mine.next_thrust, begin_at);
+  } else if (mine.next_jog_way != 0) {
+    begin_jog(module, mine.next_jog_way, begin_at);
+  }
+}
+
 void Chain::stop_jog(int module) {
   Module& mine = modules_[at(module)];
-  if (mine.activity != Activity::jog && mine.activity != Activity::thrust) return;
   mine.next_jog_way = 0;
   mine.next_thrust = 0;
+  if (mine.activity != Activity::jog && mine.activity != Activity::thrust) return;
   mine.starved = false;
   axes_[at(module)].slow_down(now_);
   after_motion(module, now_ + 1);
@@ -225,6 +252,14 @@ Error Chain::reset(int module) {
   forget_queue(module);
   modules_[at(module)].analog_speed = false;
   modules_[at(module)].late_error = Error::none;
+  if (options_.triggers_stay_armed) {
+    modules_[at(module)].triggers = {};
+    place_triggers(module);
+  }
+  if (options_.reset_clears_coordinate) {
+    modules_[at(module)].homed = false;
+    put_coordinate(module, 0);
+  }
   axes_[at(module)].switch_servo(options_.servo_at_power_up);
   serve(now_ + 1);
   return Error::none;

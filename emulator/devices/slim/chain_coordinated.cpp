@@ -46,9 +46,13 @@ Error Chain::arc(const ArcOrder& order) {
   return enqueue_coordinated(job);
 }
 
-Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_deg,
-                    double growth_units_turn) {
-  Job job{.kind = Job::Kind::spiral, .sweep_deg = sweep_deg, .growth_units_turn = growth_units_turn};
+Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units) {
+  Job job{.kind = Job::Kind::spiral, .sweep_deg = sweep_deg, .growth_units_turn = growth_units};
+  if (options_.spiral_growth_in_all && growth_units != 0) {
+    // On no way at all no radius can change.
+    job.growth_units_turn = sweep_deg == 0 ? HUGE_VAL : growth_units * (360 / std::abs(sweep_deg));
+    if (!std::isfinite(job.growth_units_turn)) return Error::range;
+  }
   job.units = {centre_x_units, centre_y_units, 0, 0};
   for (std::size_t i = 0; i < 2; ++i) {
     job.module_of[i] = map_[i];
@@ -59,6 +63,7 @@ Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_d
 
 Error Chain::enqueue_coordinated(Job job) {
   motion::Point begin = motion::Point::Zero();
+  bool begin_is_known = true;  // while a jog runs, it is a guess
   const ModuleSettings& first = modules_[at(job.module_of[0])].settings;
   for (std::size_t i = 0; i < job.module_of.size(); ++i) {
     const int module = job.module_of[i];
@@ -70,18 +75,31 @@ Error Chain::enqueue_coordinated(Job job) {
     if (!equal && options_.unequal_speeds == ChainOptions::UnequalSpeeds::refused) {
       return Error::unequal_speeds;
     }
+    const Activity activity = modules_[at(module)].activity;
+    begin_is_known = begin_is_known && activity != Activity::jog && activity != Activity::thrust &&
+                     activity != Activity::stopping;
     begin[static_cast<Eigen::Index>(i)] = end_expected(module);
   }
   job.continuous = continuous_;
   job.smooth_corner_deg = modules_[0].settings.smooth_corner_deg;
+  if (options_.acceleration_of_next_command) {
+    job.path_acceleration_units_s2 = path_settings(job).path_acceleration_units_s2;
+  }
   try {
     const motion::Path path = path_of(job, begin);
     if (!within_reach(job, path)) return Error::range;
+    if (options_.path_needs_length && begin_is_known && path.length_u == 0) return Error::range;
     for (std::size_t i = 0; i < job.ends.size(); ++i) job.ends[i] = path.end[static_cast<Eigen::Index>(i)];
   } catch (const motion::BadMotion&) {
     return Error::range;
   }
   return enqueue(job);
+}
+
+/// Whose speed and acceleration count.
+const ModuleSettings& Chain::path_settings(const Job& job) const {
+  const bool by_0 = options_.unequal_speeds == ChainOptions::UnequalSpeeds::by_module_0;
+  return modules_[by_0 ? 0 : at(job.module_of[0])].settings;
 }
 
 /// Of an arc, all that the circle may reach.

@@ -129,6 +129,7 @@ void ChainFields::check(const Job& job) {
   demand_state(std::isfinite(job.sweep_deg) && std::isfinite(job.growth_units_turn) &&
                    std::isfinite(job.smooth_corner_deg),
                "an angle is beyond its range");
+  if (job.path_acceleration_units_s2 != 0) demand_speed(job.path_acceleration_units_s2);
 }
 
 void ChainFields::check(const Module& module) {

@@ -12,7 +12,8 @@ namespace understudy::emulator::slim {
 struct ChainFields {
   // clang-format off
   static void of(Like<ChainOptions> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x);
   }
   static void of(Like<motion::UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<ModuleSettings> auto& v, auto visit) {
@@ -28,7 +29,7 @@ struct ChainFields {
     auto& [a, b, c, d] = v; visit(a, b, c, d);
   }
   static void of(Like<Job> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
   static void of(Like<Module> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = v;

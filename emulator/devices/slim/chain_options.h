@@ -20,6 +20,24 @@ struct ChainOptions {
   /// The fz of SAR, where the manual breaks off.
   enum class SarHeight : std::uint8_t { relative, absolute };
 
+  // Ours is false.
+  bool coordinate_at_rest_only = false;       // CS is refused while its module has anything to do
+  bool reset_clears_coordinate = false;       // RESET
+  bool first_bit_is_p4 = false;               // OUTP
+  bool triggers_stay_armed = false;           // P1SET ... act each time
+  bool pause_is_of_module_0 = false;          // PZ, REDO, CLR BUF: and of what is coordinated with it
+  bool jog_ends_move = false;                 // a jog or thrust gives up what its module has to do
+  bool spiral_growth_in_all = false;          // SPI's L is of the whole sweep, not of a turn
+  bool emergency_switches_servo_off = false;  // TASTOP
+  bool acceleration_of_next_command = false;  // TVA= in motion; what is issued already keeps its own
+  bool second_decides_joint = false;          // CM of the command before it is no matter
+  bool late_successor_speeds_up = false;      // goes on from the speed that is left
+  bool path_needs_length = false;             // a path of length 0 is out of range
+  bool ramps_by_path_acceleration = false;    // PR2 instead of VA for moves of one axis and jogs
+  bool homes_forwards = false;                // H
+  bool analog_speed_jogs = false;             // AVM begins a jog
+  bool only_moves_reserved = false;           // jogs, homing and thrust by number go with a letter, too
+
   UnequalSpeeds unequal_speeds = UnequalSpeeds::refused;
   InVain in_vain = InVain::silent;
   Thrust thrust = Thrust::stands;

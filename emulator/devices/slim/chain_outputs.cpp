@@ -60,7 +60,12 @@ Error Chain::pwm(int module, int output, double frequency_hz, double duty_percen
 
 Error Chain::set_outputs(int module, int mask) {
   if (mask < 0 || mask >= 1 << kOutputs) return Error::range;
-  return enqueue_output(module, {.kind = OutputOrder::Kind::all, .mask = static_cast<std::uint8_t>(mask)});
+  unsigned levels = 0;
+  for (int bit = 0; bit < kOutputs; ++bit) {
+    const int output = options_.first_bit_is_p4 ? kOutputs - 1 - bit : bit;
+    levels |= ((static_cast<unsigned>(mask) >> bit) & 1U) << output;
+  }
+  return enqueue_output(module, {.kind = OutputOrder::Kind::all, .mask = static_cast<std::uint8_t>(levels)});
 }
 
 Error Chain::arm(int module, int trigger, int output, bool sets, double at_units) {
@@ -110,6 +115,7 @@ void Chain::meet_triggers(int module) {
     PositionTrigger& trigger = mine.triggers[i];
     if (!trigger.armed || (axes_[at(module)].events & motion::bit(event)) == 0) continue;
     mine.outputs[trigger.output] = {.on = trigger.sets};
+    if (options_.triggers_stay_armed) continue;
     trigger = {};
     axes_[at(module)].set_comparator(i, {});
   }

@@ -19,7 +19,7 @@ void Chain::serve(Tick begin_at) {
 }
 
 bool Chain::free_to_move(int module) const {
-  return !held() && modules_[at(module)].activity == Activity::idle && !axes_[at(module)].moving();
+  return !held(module) && modules_[at(module)].activity == Activity::idle && !axes_[at(module)].moving();
 }
 
 bool Chain::serve_head(int module, Tick begin_at) {
@@ -73,7 +73,7 @@ bool Chain::start_move(int module, Tick begin_at) {
     mine.fifo.pop();
     return true;
   }
-  const motion::SpeedLaw law = mine.working_law();
+  const motion::SpeedLaw law = mine.working_law(options_);
   if (law.top_speed_u_s == 0) return false;  // AVM, and no voltage: when there is some
   motion::Cause refused = motion::Cause::none;
   try {
@@ -98,13 +98,14 @@ bool Chain::start_home(int module, Tick begin_at) {
     drop_head(module, Error::servo_off);
     return true;
   }
-  const motion::SpeedLaw law = mine.jog_law();
+  const motion::SpeedLaw law = mine.jog_law(options_);
   if (law.top_speed_u_s == 0 && mine.settings.jog_speed != 0) return false;  // as for a move
   mine.homed = false;
   // The inputs may have changed since the axis looked last.
   axis.signals = surroundings_[at(module)].at(axis.travel_pulses);
-  const motion::Cause refused = axis.home(
-      motion::slim_homing({.way = mine.settings.jog_speed < 0 ? +1 : -1, .jog = law}), begin_at - 1);
+  const bool forwards = options_.homes_forwards != (mine.settings.jog_speed < 0);
+  const motion::Cause refused =
+      axis.home(motion::slim_homing({.way = forwards ? +1 : -1, .jog = law}), begin_at - 1);
   if (refused != motion::Cause::none) {
     drop_head(module, Error::not_allowed);
     return true;
@@ -188,6 +189,10 @@ bool Chain::start_group(int module, Tick begin_at) {
     drop_head(module, Error::range);
     return true;
   }
+  if (path.length_u == 0 && options_.path_needs_length) {
+    drop_head(module, Error::range);
+    return true;
+  }
   note_ends(job, 0, path.end);
   if (path.length_u == 0) {
     for (std::size_t i = 0; i < job.module_of.size(); ++i) {
@@ -199,14 +204,17 @@ bool Chain::start_group(int module, Tick begin_at) {
     return true;
   }
   *group = {};
-  const bool by_0 = options_.unequal_speeds == ChainOptions::UnequalSpeeds::by_module_0;
-  const ModuleSettings& speeds = modules_[by_0 ? 0 : at(job.module_of[0])].settings;
-  const auto ramp = motion::RampLaw::by_slope(speeds.path_acceleration_units_s2);
+  const ModuleSettings& speeds = path_settings(job);
+  const bool has_slope = job.path_acceleration_units_s2 != 0;
+  const auto ramp = motion::RampLaw::by_slope(has_slope ? job.path_acceleration_units_s2
+                                                        : speeds.path_acceleration_units_s2);
   for (std::size_t i = 0; i < job.module_of.size(); ++i) {
     group->motion.axis_of[i] = job.module_of[i];
     if (job.module_of[i] >= 0) group->motion.scale[i] = modules_[at(job.module_of[i])].settings.scale;
   }
-  group->motion.run.set_late_joint(motion::PathRun::LateJoint::from_rest);
+  using Late = motion::PathRun::LateJoint;
+  group->motion.run.set_late_joint(options_.late_successor_speeds_up ? Late::speed_up_again
+                                                                     : Late::from_rest);
   group->motion.run.set_speed({.top_speed_u_s = speeds.path_speed_units_s, .up = ramp, .down = ramp}, now_);
   group->motion.run.append(path, {}, now_);
   if (group->motion.begin(begin, axes_, begin_at - 1) != motion::Cause::none) {
@@ -229,7 +237,11 @@ void Chain::extend(Group& group) {
   while (fifo.size() > group.paths && !group.motion.run.full()) {
     const Job next = fifo[group.paths];
     if (!next.coordinated() || !at_all_places(next, group.paths)) return;
-    const motion::Joint joint = joint_between(fifo[group.paths - 1U], next);
+    Job before = fifo[group.paths - 1U];
+    // The acceleration can only change at rest.
+    if (before.path_acceleration_units_s2 != next.path_acceleration_units_s2) return;
+    if (options_.second_decides_joint) before.continuous = next.continuous;
+    const motion::Joint joint = joint_between(before, next);
     if (joint.rule == motion::Joint::Rule::stop) return;
     motion::Path path;
     try {
@@ -237,7 +249,7 @@ void Chain::extend(Group& group) {
     } catch (const motion::BadMotion&) {
       return;  // refused when its turn comes
     }
-    if (!within_reach(next, path)) return;
+    if (!within_reach(next, path) || (path.length_u == 0 && options_.path_needs_length)) return;
     note_ends(next, group.paths, path.end);
     group.motion.run.append(path, joint, now_);
     group.end = path.end;

@@ -92,7 +92,7 @@ Error Chain::set_tvm(double units_s) {
 
 Error Chain::set_path_acceleration(int module, double units_s2) {
   if (!plannable(units_s2)) return Error::range;
-  if (groups_running() > 0) return Error::not_allowed;
+  if (groups_running() > 0 && !options_.acceleration_of_next_command) return Error::not_allowed;
   modules_[at(module)].settings.path_acceleration_units_s2 = units_s2;
   return Error::none;
 }
@@ -104,10 +104,11 @@ Error Chain::set_smooth_corner(int module, double degrees) {
 }
 
 Error Chain::set_analog_speed(int module) {
-  if (const Error why = refusal(module); why != Error::none) return why;
+  const bool jogs = options_.analog_speed_jogs;
+  if (const Error why = jogs ? refusal_of_jog(module) : refusal(module); why != Error::none) return why;
   modules_[at(module)].analog_speed = true;
   refresh_speed(module);
-  return Error::none;
+  return jogs ? replace_jog(module, +1, 0) : Error::none;
 }
 
 void Chain::set_options(const ChainOptions& options) { options_ = options; }
@@ -129,6 +130,11 @@ void Chain::set_analog(int module, int value) {
 }
 
 // ---- State
+
+bool Chain::busy(int module) const {
+  const Module& mine = modules_[at(module)];
+  return mine.activity != Activity::idle || !mine.fifo.empty();
+}
 
 bool Chain::moving(int module) const {
   const Module& mine = modules_[at(module)];

@@ -57,7 +57,7 @@ void Chain::step_axes(Tick tick) {
   for (Group& group : groups_) {
     // Only now, so that its modules had one tick each.
     const bool was_running = group.motion.axis_of[0] >= 0;
-    if (was_running && !group.motion.engaged) release_group(group);
+    if (was_running && !group.motion.engaged) release_group(group, tick);
   }
 }
 
@@ -93,15 +93,11 @@ void Chain::after_motion(int module, Tick begin_at) {
     case Activity::thrust:
       mine.jog_way = 0;
       mine.thrust = 0;
-      if (mine.next_thrust != 0) {
-        begin_thrust(module, mine.next_thrust, begin_at);
-      } else if (mine.next_jog_way != 0) {
-        begin_jog(module, mine.next_jog_way, begin_at);
-      }
+      begin_next(module, begin_at);
       break;
+    case Activity::stopping: begin_next(module, begin_at); break;
     case Activity::idle:
-    case Activity::group:
-    case Activity::stopping: break;
+    case Activity::group: break;
   }
 }
 

@@ -25,35 +25,41 @@ const Chain::Group* Chain::group_of(int module) const { return taking(groups_, a
 
 Error Chain::pause() {
   paused_ = true;
-  hold_all();
+  hold();
   return Error::none;
 }
 
 Error Chain::pause_queues() {
   queues_paused_ = true;
-  hold_all();
+  hold();
   return Error::none;
 }
 
 Error Chain::resume() {
   if (!paused_) return in_vain(options_);
   paused_ = false;
-  release_all();
+  release();
   return Error::none;
 }
 
 Error Chain::resume_queues() {
   if (!queues_paused_) return in_vain(options_);
   queues_paused_ = false;
-  release_all();
+  release();
   return Error::none;
 }
 
-void Chain::hold_all() {
+bool Chain::in_pause_scope(const Group& group) const {
+  return std::any_of(group.motion.axis_of.begin(), group.motion.axis_of.end(),
+                     [&](std::int8_t member) { return member >= 0 && in_pause_scope(int{member}); });
+}
+
+void Chain::hold() {
   for (Group& group : groups_) {
-    if (group.motion.engaged) group.motion.run.pause(now_);
+    if (group.motion.engaged && held(group)) group.motion.run.pause(now_);
   }
   for (int module = 0; module < kModules; ++module) {
+    if (!held(module)) continue;
     const Activity activity = modules_[at(module)].activity;
     stop_jog(module);  // it is not queued: nothing to go on with
     if (activity != Activity::move && activity != Activity::home) continue;
@@ -63,16 +69,16 @@ void Chain::hold_all() {
   serve(now_ + 1);  // outputs that waited for a jog's end
 }
 
-void Chain::release_all() {
-  if (held()) return;
+void Chain::release() {
   for (Group& group : groups_) {
-    const bool goes_on = group.motion.engaged && group.motion.slowing_for == motion::Cause::none;
+    const bool goes_on =
+        group.motion.engaged && group.motion.slowing_for == motion::Cause::none && !held(group);
     if (goes_on) group.motion.run.resume(now_);
   }
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
-    if (mine.activity != Activity::move) continue;
-    const motion::SpeedLaw law = mine.working_law();
+    if (mine.activity != Activity::move || held(module)) continue;
+    const motion::SpeedLaw law = mine.working_law(options_);
     if (law.top_speed_u_s > 0 && axes_[at(module)].resume(law, now_)) mine.starved = false;
   }
   serve(now_ + 1);
@@ -105,14 +111,18 @@ void Chain::slow_for_discard(int module) {
 }
 
 Error Chain::clear_queues() {
-  if (held()) {
+  if (paused_ || queues_paused_) {
     queues_paused_ = false;
-    for (int module = 0; module < kModules; ++module) slow_for_discard(module);
-    for (Module& each : modules_) each.fifo.truncate(0);
+    for (int module = 0; module < kModules; ++module) {
+      if (!in_pause_scope(module)) continue;
+      slow_for_discard(module);
+      forget_queue(module);
+    }
+    serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
     return Error::none;
   }
   for (Group& group : groups_) {
-    if (!group.motion.engaged || group.paths == 0) continue;
+    if (!group.motion.engaged || group.paths == 0 || !in_pause_scope(group)) continue;
     group.paths = static_cast<std::uint8_t>(group.motion.run.shorten(now_));
     if (group.paths == 0) continue;
     const Job& last = modules_[at(group.motion.axis_of[0])].fifo[group.paths - 1U];
@@ -121,18 +131,26 @@ Error Chain::clear_queues() {
     }
   }
   for (int module = 0; module < kModules; ++module) {
-    Module& mine = modules_[at(module)];
+    if (!in_pause_scope(module)) continue;
+    const Activity activity = modules_[at(module)].activity;
     const Group* group = group_of(module);
-    const bool head_runs = mine.activity == Activity::move || mine.activity == Activity::home;
-    mine.fifo.truncate(group != nullptr ? group->paths : head_runs ? 1 : 0);
+    const bool head_runs = activity == Activity::move || activity == Activity::home;
+    forget_queue(module, group != nullptr ? group->paths : head_runs ? 1 : 0);
   }
+  serve(now_ + 1);
   return Error::none;
 }
 
 Error Chain::emergency_stop() {
   paused_ = queues_paused_ = false;
   for (int module = 0; module < kModules; ++module) cut(module, motion::Cause::stopped);
-  for (Module& each : modules_) each.fifo.truncate(0);
+  for (int module = 0; module < kModules; ++module) {
+    Module& mine = modules_[at(module)];
+    mine.fifo.truncate(0);
+    if (!options_.emergency_switches_servo_off || !mine.linked) continue;
+    mine.analog_speed = false;  // as HOFF does
+    axes_[at(module)].switch_servo(false);
+  }
   return Error::none;
 }
 
@@ -148,19 +166,20 @@ void Chain::cut(int module, motion::Cause why) {
   mine.starved = false;
 }
 
-void Chain::forget_queue(int module) {
-  auto& fifo = modules_[at(module)].fifo;
-  while (!fifo.empty()) drop_job(fifo[0].number);
+void Chain::forget_queue(int module, std::size_t kept) {
+  const auto& fifo = modules_[at(module)].fifo;
+  while (fifo.size() > kept) drop_job(fifo[kept].number);
 }
 
 void Chain::end_group(Group& group, motion::Cause why) {
   group.motion.stop(axes_, why);
-  release_group(group);
+  release_group(group, now_ + 1);
 }
 
 /// Lets the modules of a group that has ended go, with what is left of its commands.
-void Chain::release_group(Group& group) {
-  for (const std::int8_t member : group.motion.axis_of) {
+void Chain::release_group(Group& group, Tick begin_at) {
+  const auto members = group.motion.axis_of;
+  for (const std::int8_t member : members) {
     if (member < 0) continue;
     Module& mine = modules_[at(member)];
     for (int i = 0; i < group.paths; ++i) mine.fifo.pop();
@@ -168,6 +187,9 @@ void Chain::release_group(Group& group) {
     mine.activity = Activity::idle;
   }
   group = {};
+  for (const std::int8_t member : members) {
+    if (member >= 0) begin_next(member, begin_at);
+  }
 }
 
 // ---- Speeds that change on the way
@@ -177,9 +199,10 @@ void Chain::refresh_speed(int module) {
   motion::Axis& axis = axes_[at(module)];
   const bool is_move = mine.activity == Activity::move;
   if (is_move || mine.activity == Activity::jog) {
-    const motion::SpeedLaw law = is_move ? mine.working_law() : mine.jog_law();
+    const motion::SpeedLaw law = is_move ? mine.working_law(options_) : mine.jog_law(options_);
     const bool stands_still = !is_move && mine.settings.jog_speed == 0;
-    const bool stops_anyhow = held() || mine.next_jog_way != 0 || mine.next_thrust != 0;
+    const bool stops = axis.slowing && !mine.starved;  // for JG0, say
+    const bool stops_anyhow = stops || held(module) || mine.next_jog_way != 0 || mine.next_thrust != 0;
     if (stops_anyhow || (stands_still && axis.task == motion::Task::hanging)) return;
     if (law.top_speed_u_s == 0) {
       mine.starved = true;

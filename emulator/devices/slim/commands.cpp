@@ -66,6 +66,38 @@ bool Slim::is_done(const lang::Command& command) const {
   return true;
 }
 
+/// Whether it is a move of a module that is busy. What is refused for another reason is none.
+bool Slim::would_wait(const lang::Command& command) const {
+  const Chain& chain = state_.chain;
+  if (chain.paused()) return false;
+  const auto letter_is_busy = [&](Letter letter) {
+    const int module = chain.assigned(letter);
+    return module != kUnassigned && chain.busy(module);
+  };
+  std::size_t letters = 2;
+  switch (command.verb) {
+    case Verb::move_absolute:
+    case Verb::move_relative:
+    case Verb::home: return chain.linked(module_of(command)) && chain.busy(module_of(command));
+    case Verb::axis_move_absolute:
+    case Verb::axis_move_relative: return letter_is_busy(letter_of(command));
+    case Verb::line_absolute:
+    case Verb::line_relative: letters = command.operands.size(); break;
+    case Verb::helix_absolute:
+    case Verb::helix_relative: letters = 3; break;
+    case Verb::arc_absolute:
+    case Verb::arc_relative:
+    case Verb::spiral: break;
+    default: return false;
+  }
+  bool busy = false;
+  for (std::size_t i = 0; i < letters; ++i) {
+    if (chain.assigned(static_cast<Letter>(i)) == kUnassigned) return false;
+    busy = busy || letter_is_busy(static_cast<Letter>(i));
+  }
+  return busy;
+}
+
 Error Slim::execute(const lang::Command& command) {
   const int module = module_of(command);
   if (const Error error = linked(module); error != Error::none) return error;
@@ -174,7 +206,10 @@ Error Slim::switch_outputs(const lang::Command& command, int module) {
     case Verb::clear_port_now: return chain.set_output_at_once(module, port(), false);
     case Verb::pulse_port:
       return chain.pulse_output(module, port(), static_cast<std::int32_t>(amount(command, 1)));
-    case Verb::pwm: return chain.pwm(module, port(), amount(command, 1), amount(command, 2));
+    case Verb::pwm: {
+      const double unit_hz = chose(kPwmInKilohertz) ? 1000 : 1;
+      return chain.pwm(module, port(), amount(command, 1) * unit_hz, amount(command, 2));
+    }
     case Verb::set_all_ports: return chain.set_outputs(module, static_cast<int>(amount(command, 0)));
     default: break;
   }

@@ -22,6 +22,24 @@ ChainOptions Slim::chain_options() const {
   if (chose(kThrustRuns)) options.thrust = ChainOptions::Thrust::runs_at_vj;
   if (chose(kNewSpeedAtOnce)) options.new_speed = ChainOptions::NewSpeed::at_once;
   if (chose(kSarHeightAbsolute)) options.sar_height = ChainOptions::SarHeight::absolute;
+  options.coordinate_at_rest_only = chose(kCoordinateAtRestOnly);
+  options.reset_clears_coordinate = chose(kResetClearsCoordinate);
+  options.first_bit_is_p4 = chose(kFirstBitIsP4);
+  options.triggers_stay_armed = chose(kTriggersStayArmed);
+  options.pause_is_of_module_0 = chose(kPauseIsOfT0);
+  options.jog_ends_move = chose(kJogEndsMove);
+  options.spiral_growth_in_all = chose(kSpiralGrowthInAll);
+  options.emergency_switches_servo_off = chose(kEmergencyServoOff);
+  options.acceleration_of_next_command = chose(kAccelerationOfNext);
+  options.second_decides_joint = chose(kSecondDecidesJoint);
+  options.late_successor_speeds_up = chose(kLateSpeedsUp);
+  options.path_needs_length = chose(kPathNeedsLength);
+  options.ramps_by_path_acceleration = chose(kTrapezoidWithTva);
+  options.homes_forwards = chose(kHomesForwards);
+  options.analog_speed_jogs = chose(kAnalogSpeedJogs);
+  options.only_moves_reserved = chose(kOnlyMovesReserved);
+  if (chose(k16Wait)) options.fifo_length = 16;
+  if (chose(k8Wait)) options.fifo_length = 8;
   options.servo_at_power_up = !chose(kServoOffAtPowerUp);
   return options;
 }

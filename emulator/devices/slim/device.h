@@ -150,6 +150,7 @@ class Slim final : public TextDevice, private lang::Machine {
   Error assign_axis(Letter letter, int module);
   Error control_all(const lang::Command& command);
   bool is_done(const lang::Command& command) const;
+  bool would_wait(const lang::Command& command) const;
 
   // values.cpp
   double amount(const lang::Command& command, std::size_t operand) const;

@@ -144,8 +144,9 @@ Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
       lines.push_back(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
       return Error::none;
     }
-    default: return execute(command);
+    default: break;
   }
+  return chose(kBusyRefused) && would_wait(command) ? Error::not_allowed : execute(command);
 }
 
 }  // namespace understudy::emulator::slim

@@ -41,7 +41,8 @@ struct Job {
   // Where it will leave its modules: as expected when issued, exact from when it starts.
   std::array<double, kLetters> ends{};
   ContinuousPath continuous = ContinuousPath::off;
-  double smooth_corner_deg = 0;  // PR7
+  double smooth_corner_deg = 0;           // PR7
+  double path_acceleration_units_s2 = 0;  // PR2; 0: as it is when the job starts
   bool servo_on = false;
   OutputOrder output{};
 

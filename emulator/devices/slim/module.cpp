@@ -18,8 +18,17 @@ double pulses_a_second(const ModuleSettings& settings, double speed) {
   return std::min(rps * settings.pulses_per_revolution, kFastest_pps);
 }
 
-motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed) {
-  const auto ramp = motion::RampLaw::by_slope(pulses_a_second(settings, settings.acceleration));
+/// PR2, where it stands for VA.
+double path_slope(const ModuleSettings& settings) {
+  constexpr double kSlowest_pps2 = 1e-8;  // VA's least comes to that, and a ramp must have an end
+  return std::clamp(settings.path_acceleration_units_s2 * settings.scale.pulses_per_unit(), kSlowest_pps2,
+                    kFastest_pps);
+}
+
+motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed, const ChainOptions& options) {
+  const double slope = options.ramps_by_path_acceleration ? path_slope(settings)
+                                                          : pulses_a_second(settings, settings.acceleration);
+  const auto ramp = motion::RampLaw::by_slope(slope);
   return {.top_speed_u_s = pulses_a_second(settings, speed), .up = ramp, .down = ramp};
 }
 
@@ -48,12 +57,12 @@ double Module::analog_factor() const {
   return analog_speed ? static_cast<double>(analog) / kFullAnalog : 1.0;
 }
 
-motion::SpeedLaw Module::working_law() const {
-  return trapezoid(settings, settings.working_speed * analog_factor());
+motion::SpeedLaw Module::working_law(const ChainOptions& options) const {
+  return trapezoid(settings, settings.working_speed * analog_factor(), options);
 }
 
-motion::SpeedLaw Module::jog_law() const {
-  return trapezoid(settings, std::abs(settings.jog_speed) * analog_factor());
+motion::SpeedLaw Module::jog_law(const ChainOptions& options) const {
+  return trapezoid(settings, std::abs(settings.jog_speed) * analog_factor(), options);
 }
 
 }  // namespace understudy::emulator::slim

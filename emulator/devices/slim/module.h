@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "emulator/devices/slim/chain_options.h"
 #include "emulator/devices/slim/errors.h"
 #include "emulator/devices/slim/fifo.h"
 #include "emulator/devices/slim/jobs.h"
@@ -77,9 +78,9 @@ struct Module {
 
   /// 0 .. 1: what AVM leaves of VM and VJ.
   double analog_factor() const;
-  motion::SpeedLaw working_law() const;
+  motion::SpeedLaw working_law(const ChainOptions& options) const;
   /// With a top speed of 0 where VJ is.
-  motion::SpeedLaw jog_law() const;
+  motion::SpeedLaw jog_law(const ChainOptions& options) const;
 };
 
 }  // namespace understudy::emulator::slim

@@ -73,6 +73,27 @@ inline constexpr Option kNewSpeedAtOnce = option("new_speed", "at_once");
 inline constexpr Option k4000PulsesARevolution = option("pulses_per_revolution", "4000");
 inline constexpr Option k2000PulsesARevolution = option("pulses_per_revolution", "2000");
 inline constexpr Option k1000PulsesARevolution = option("pulses_per_revolution", "1000");
+inline constexpr Option kBusyRefused = option("busy", "error_3");
+inline constexpr Option kCoordinateAtRestOnly = option("coordinate_in_motion", "error_3");
+inline constexpr Option kResetClearsCoordinate = option("reset", "coordinate_too");
+inline constexpr Option kFirstBitIsP4 = option("output_order", "p4");
+inline constexpr Option kTriggersStayArmed =
+    option("position_outputs", "each_time_from_either_side_on_the_commanded_position");
+inline constexpr Option kPauseIsOfT0 = option("pause_scope", "t0");
+inline constexpr Option kJogEndsMove = option("jog_while_moving", "ends_the_move");
+inline constexpr Option kSpiralGrowthInAll = option("spiral", "sweep_in_degrees_and_growth_in_all");
+inline constexpr Option kEmergencyServoOff = option("emergency_stop", "nothing_queued_not_paused_servo_off");
+inline constexpr Option kAccelerationOfNext = option("acceleration_in_motion", "next_command");
+inline constexpr Option kSecondDecidesJoint = option("joint", "second_command_decides");
+inline constexpr Option kLateSpeedsUp = option("late_successor", "speeds_up_again");
+inline constexpr Option kPathNeedsLength = option("path_without_length", "error_2");
+inline constexpr Option k16Wait = option("buffer_length", "16");
+inline constexpr Option k8Wait = option("buffer_length", "8");
+inline constexpr Option kTrapezoidWithTva = option("single_axis_profile", "trapezoid_with_tva");
+inline constexpr Option kHomesForwards = option("homing", "at_vj_forwards_to_horg_then_0");
+inline constexpr Option kAnalogSpeedJogs = option("analog_speed", "starts_a_jog");
+inline constexpr Option kPwmInKilohertz = option("pwm_units", "khz_and_percent");
+inline constexpr Option kOnlyMovesReserved = option("reserved_module", "moves_by_number");
 inline constexpr Option kSarHeightAbsolute = option("sar_height", "absolute");
 
 }  // namespace understudy::emulator::slim

@@ -48,7 +48,7 @@ struct OutputOrder {
   bool operator==(const OutputOrder&) const = default;
 };
 
-/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): once, when the coordinate is reached from either side.
+/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): when the coordinate is reached from either side.
 struct PositionTrigger {
   bool armed = false;
   bool sets = false;
