@@ -105,7 +105,9 @@ Tick Chain::next_active_tick(Tick done) const {
   for (const Group& group : groups_) {
     const motion::PathRun& run = group.motion.run;
     if (!group.motion.engaged) continue;
-    const bool stands = run.paused() && run.at_rest(done) && group.motion.slowing_for == motion::Cause::none;
+    // What was completed is of the last tick only.
+    const bool stands = run.paused() && run.at_rest(done) && run.completed() == 0 &&
+                        group.motion.slowing_for == motion::Cause::none;
     if (!stands) return done + 1;
   }
   Tick next = kNever;

@@ -41,6 +41,8 @@ std::vector<Moment> moments() {
        "@ 300\n> TAREDO\n@ 9\n"},
       {"paused", path + program("> 2MR 100,50\n> 2MR 5,5\n> XDN\n> OUT \"END\"\n") + "@ 501\n> TAPZ\n@ 200\n",
        "@ 100\n> TAREDO\n"},
+      // 20 units take 300 ms, the last 100 slowing down: the pause is reached on the end.
+      {"paused on the end of a path", path + "> 2MR 20,0\n@ 270\n> TAPZ\n@ 76\n", ""},
       {"held", "> MR 100000\n> T1MR 5\n> T1MR -20000\n@ 301\n> PZ\n@ 40\n", "@ 200\n> REDO\n"},
       {"a program in front of a pause", path + "> TAPZ\n" + program("> 2MR 9,9\n> OUT \"END\"\n") + "@ 50\n",
        "@ 30\n> TAREDO\n"},
