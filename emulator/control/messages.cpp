@@ -146,6 +146,10 @@ constexpr std::array<Verb, 13> kVerbs{{{"status", status_message},
                                        {"pause", pause_message},
                                        {"resume", resume_message}}};
 
+std::string line_of(const Json& answer) {
+  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
 void handle_message(Daemon& daemon, const std::string& line,
@@ -159,7 +163,8 @@ void handle_message(Daemon& daemon, const std::string& line,
     }
     const std::string verb = message["do"].get<std::string>();
     for (const Verb& known : kVerbs) {
-      if (verb == known.name) return reply(known.answer(daemon, message).dump());
+      // Names and programs come from outside and may be no UTF-8.
+      if (verb == known.name) return reply(line_of(known.answer(daemon, message)));
     }
     if (verb == "advance") return advance_message(daemon, message, reply);
     if (verb == "run-until") return run_until_message(daemon, message, reply);
@@ -169,8 +174,7 @@ void handle_message(Daemon& daemon, const std::string& line,
   } catch (const Json::exception&) {
     reply(R"({"ok":false,"error":"the message is not JSON; expected one object on one line"})");
   } catch (const std::exception& error) {
-    // Names come from outside and may be no UTF-8.
-    reply(Json{{"ok", false}, {"error", error.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace));
+    reply(line_of(Json{{"ok", false}, {"error", error.what()}}));
   }
 }
 

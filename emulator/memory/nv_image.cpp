@@ -66,7 +66,7 @@ Parsed parse_strictly(const std::string& text) {
   } catch (const Json::parse_error& error) {
     throw NvError(line_of(text, error.byte) + ": is torn or no JSON; expected an NV image");
   } catch (const Json::exception&) {  // a number that no type holds
-    throw NvError("registers: a number is beyond all bounds; expected whole numbers");
+    throw NvError("a number is beyond all bounds; expected one that 64 bits hold");
   }
 }
 
@@ -80,12 +80,31 @@ void read_reals(const Json& reals, const std::vector<std::string>& names, NvImag
   }
 }
 
+/// A line as text. JSON is UTF-8; a display may want another code, whose bytes are then numbers.
+OrderedJson json_of_line(const std::string& line) {
+  const std::string text = OrderedJson(line).dump(-1, ' ', false, OrderedJson::error_handler_t::ignore);
+  if (OrderedJson::parse(text) == line) return line;
+  return std::vector<std::uint8_t>(line.begin(), line.end());
+}
+
 void read_program(const Json& program, NvImage& image) {
-  const auto is_line = [](const Json& line) { return line.is_string(); };
+  const auto is_byte = [](const Json& json) {
+    return json.is_number_unsigned() && json.get<std::uint64_t>() <= 0xFF;
+  };
+  const auto is_line = [&](const Json& line) {
+    return line.is_string() || (line.is_array() && std::all_of(line.begin(), line.end(), is_byte));
+  };
   if (!program.is_array() || !std::all_of(program.begin(), program.end(), is_line)) {
     throw NvError("program: is no list of lines; expected one");
   }
-  for (const Json& line : program) image.program.push_back(line.get<std::string>());
+  for (const Json& line : program) {
+    if (line.is_string()) {
+      image.program.push_back(line.get<std::string>());
+    } else {
+      const auto bytes = line.get<std::vector<std::uint8_t>>();
+      image.program.emplace_back(bytes.begin(), bytes.end());
+    }
+  }
 }
 
 }  // namespace
@@ -101,7 +120,7 @@ std::string to_json(const NvImage& image) {
   OrderedJson::object_t reals;
   for (const auto& [name, value] : image.reals) reals.push_back({name, value});
   if (!reals.empty()) file["reals"] = std::move(reals);
-  if (!image.program.empty()) file["program"] = image.program;
+  for (const std::string& line : image.program) file["program"].push_back(json_of_line(line));
   return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 

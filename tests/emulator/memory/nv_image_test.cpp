@@ -169,6 +169,35 @@ TEST(NvImage, RefusesWhatIsNoImage) {
   }
 }
 
+TEST(NvImage, HoldsRealNumbersAndAProgram) {
+  // A line in UTF-8 is text, one in another code (Big5 here: 5C is its second byte) a list of its bytes.
+  const NvImage image{.model = "slim",
+                      .firmware = "1.00",
+                      .registers = {},
+                      .reals = {{"PR3", 55.5}, {"RS(2000)", -1e-30}, {"R0", 0.1}},
+                      .program = {"MA 5", "OUT \"完成 \\ \"", "OUT \"\xA7\xB9\xA6\x5C\"", "", "\xFF"}};
+  const std::string text = to_json(image);
+  EXPECT_EQ(parse_nv_image(text), image);
+  EXPECT_NE(text.find("\"MA 5\",\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("完成"), std::string::npos) << text;
+  const std::string head = R"({"understudy": 1, "kind": "nv-image", "model": "m", "firmware": "1.52", )";
+  const auto program = [&](const std::string& lines) {
+    return complaint(head + R"("registers": {}, "program": )" + lines + "}");
+  };
+  EXPECT_EQ(program(R"(["MA 5", [77, 65, 32, 53]])"), "");
+  for (const char* lines :
+       {"7", "{}", "[7]", "[[256]]", "[[-1]]", "[[1.5]]", R"([["M"]])", "null", "[null]"}) {
+    EXPECT_EQ(program(lines), "program: is no list of lines; expected one") << lines;
+  }
+  const auto reals = [&](const std::string& values) {
+    return complaint(head + R"("registers": {}, "reals": )" + values + "}");
+  };
+  EXPECT_EQ(reals("[1]"), "reals: is no object; expected names and values");
+  EXPECT_EQ(reals(R"({"R0": "1"})"), "reals: 'R0': is no number; expected one");
+  EXPECT_EQ(reals(R"({"R0": 1e999})"), "a number is beyond all bounds; expected one that 64 bits hold");
+  EXPECT_EQ(reals(R"({"R0": 1, "R0": 2})"), "'R0': is there twice; expected it once");
+}
+
 TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {
   EXPECT_EQ(
       parse_nv_image(with_registers(R"({"a": -9223372036854775808, "b": 9223372036854775807})")).registers,
@@ -181,7 +210,7 @@ TEST(NvImage, TakesWholeNumbersOf64BitsOnly) {
   }
   for (const char* value : {"1e999", "-1e999"}) {
     EXPECT_EQ(complaint(with_registers(std::string("{\"a\": ") + value + "}")),
-              "registers: a number is beyond all bounds; expected whole numbers")
+              "a number is beyond all bounds; expected one that 64 bits hold")
         << value;
   }
   for (const char* value : {"01", "+1", "0x10", "1_000", "NaN", ".5", "--1", "1 2"}) {
@@ -201,7 +230,7 @@ TEST(NvImage, IsNotBroughtDownByItsSize) {
             "registers: is no object; expected names and values");
   EXPECT_EQ(complaint(std::string(5'000'000, '[')), "line 1: is torn or no JSON; expected an NV image");
   EXPECT_EQ(complaint(with_registers("{\"a\": " + std::string(1'000'000, '9') + "}")),
-            "registers: a number is beyond all bounds; expected whole numbers");
+            "a number is beyond all bounds; expected one that 64 bits hold");
   const std::string long_name(2'000'000, 'n');
   EXPECT_EQ(parse_nv_image(with_registers("{\"" + long_name + "\": 1}")).registers.front().first, long_name);
   std::string many = "{";

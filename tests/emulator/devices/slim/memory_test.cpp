@@ -94,6 +94,21 @@ on
 )");
 }
 
+/// A display may speak another code than UTF-8: its bytes are kept as they are.
+TEST(SlimMemory, KeepsTheBytesOfAText) {
+  const std::string line = "OUT \"" + std::string(120, '\xFF') + "\"";
+  DialogueScript script(1);
+  for (const std::string& typed : {std::string("PG"), line, std::string(), std::string("SAVE P")}) {
+    script.type(typed);
+  }
+  const NvImage image = script.device().nv_image();
+  ASSERT_EQ(image.program, std::vector<std::string>{line});
+  Bench bench = slim_bench(1);
+  bench.devices[0].settings.nv = parse_nv_image(to_json(image));
+  World world(bench, WorldOptions{}, [](const std::string&) {});
+  EXPECT_EQ(world.device(0).nv_image(), image);
+}
+
 TEST(SlimMemory, IsKeptInAnImage) {
   DialogueScript script(2);
   script.play(R"(
