@@ -2,13 +2,15 @@
 // ticks that are left out are not to be seen, a state that is saved is one that is taken back, and whoever
 // leaves what is going on (ESC, an empty line, EXIT) is answered again.
 //
-// An input is one byte of options, then what is typed. Two values stand for what is no typing:
+// An input is a byte of options, a byte that mixes all other choices (0: ours), then what is typed. Two
+// values stand for what is no typing:
 //   FE n   time passes (n's upper bits: in which steps)
 //   FD n   a terminal of T0 gets a level (lower bits: which one; upper bits: how much)
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +43,13 @@ void demand(bool condition, const char* what) {
   std::abort();
 }
 
+/// Rows that have a bit of their own, or would change what is checked here: how a line ends, that EXIT is
+/// heard, and that it is said at all.
+constexpr std::string_view kNotMixed[] = {
+    "echo",         "prompt",          "query_reply",       "acknowledgement",
+    "error_reply",  "failed_line",     "immediate_column",  "output_end",
+    "flow_control", "get_number_exit", "while_program_runs"};
+
 struct Options {
   bool echo = false;
   bool prompt = false;
@@ -49,16 +58,31 @@ struct Options {
   bool keeps_errors_to_itself = false;
   bool lenient = false;  // columns that are not printed, and programs that go on after an error
   int modules = 1;
+  std::uint8_t mix = 0;
 };
 
-Options options_of(std::uint8_t bits) {
+Options options_of(std::uint8_t bits, std::uint8_t mix) {
   return {.echo = (bits & 1) != 0,
           .prompt = (bits & 2) != 0,
           .names_values = (bits & 4) != 0,
           .acknowledges = (bits & 8) != 0,
           .keeps_errors_to_itself = (bits & 16) != 0,
           .lenient = (bits & 32) != 0,
-          .modules = 1 + (bits >> 6)};
+          .modules = 1 + (bits >> 6),
+          .mix = mix};
+}
+
+/// One of each row's options, ours more often than not.
+void mix_choices(std::uint8_t mix, std::map<std::string, std::string>& choices) {
+  if (mix == 0) return;
+  std::uint32_t number = mix;
+  for (const emulator::ChoiceRow& row : emulator::slim::model().choices) {
+    number = number * 1'664'525 + 1'013'904'223;
+    if (std::ranges::find(kNotMixed, row.id) != std::end(kNotMixed)) continue;
+    const auto options = emulator::options_of(row);
+    const std::size_t which = (number >> 16) % (2 * options.size());
+    if (which < options.size()) choices[std::string(row.id)] = options[which];
+  }
 }
 
 emulator::Bench bench_for(const Options& options) {
@@ -75,6 +99,7 @@ emulator::Bench bench_for(const Options& options) {
   if (options.keeps_errors_to_itself) choices["error_reply"] = "nothing";
   if (options.lenient) choices["immediate_column"] = "taken";
   if (options.lenient) choices["failed_line"] = "is_passed_over";
+  mix_choices(options.mix, choices);
   bench.devices.push_back(device);
   bench.lines.push_back(
       {.name = "line", .link = {}, .baud = 115200, .timing = pty::Timing::instant, .stations = {0}});
@@ -188,9 +213,9 @@ void check_answers_again(Listener& listener, const Options& options) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0 || size > kLongestInput) return 0;
-  const Options options = options_of(data[0]);
-  const std::string_view input(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (size < 2 || size > kLongestInput) return 0;
+  const Options options = options_of(data[0], data[1]);
+  const std::string_view input(reinterpret_cast<const char*>(data) + 2, size - 2);
   Listener listener(options);
   Listener stepped(options);  // the same, every tick run one by one
   stepped.world().set_bulk_ticks(false);
