@@ -97,6 +97,10 @@ class Device {
   /// The program as text that load_program() takes; empty if the model has none.
   virtual std::string program_text() const { return {}; }
 
+  // --- of what its model lists, what this one has: a chain may be shorter -------------------------------
+  virtual bool has_axis(int) const { return true; }
+  virtual bool has_terminal(int) const { return true; }
+
   // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
   virtual void sample_inputs(Tick tick) = 0;
   virtual void run_interpreters(Tick tick) = 0;

@@ -62,10 +62,11 @@ struct CommandRow {
 /// A point where the device meets the outside, as its manual names it.
 struct TerminalRow {
   enum class Kind : std::uint8_t {
-    digital_in,   // 1: conducting
-    digital_out,  // 1: conducting
-    analog_in,    // millivolts
-    dip_switch,   // on the housing: 1 is ON
+    digital_in,     // 1: conducting
+    digital_out,    // 1: conducting
+    analog_in,      // millivolts
+    analog_number,  // an analog input that the maker counts in no unit
+    dip_switch,     // on the housing: 1 is ON
   } kind;
   std::string_view name;
   std::int32_t lowest = 0;  // levels that it can be given
@@ -73,6 +74,9 @@ struct TerminalRow {
 };
 
 constexpr bool is_input(TerminalRow::Kind kind) { return kind != TerminalRow::Kind::digital_out; }
+constexpr bool is_analog(TerminalRow::Kind kind) {
+  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number;
+}
 
 /// A motor axis, and where the switches of the machine that it drives are wired to.
 struct AxisRow {

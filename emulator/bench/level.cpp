@@ -32,13 +32,18 @@ std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind
     if (text.ends_with("V")) return parse_volts(text.substr(0, text.size() - 1));
     return parse_integer(text);
   }
+  if (kind == TerminalRow::Kind::analog_number) return parse_integer(text);
   if (text == "on" || text == "true") return 1;
   if (text == "off" || text == "false") return 0;
   return parse_integer(text);
 }
 
 std::string_view level_example(TerminalRow::Kind kind) {
-  return kind == TerminalRow::Kind::analog_in ? "a voltage such as 2.5V" : "on or off";
+  switch (kind) {
+    case TerminalRow::Kind::analog_in: return "a voltage such as 2.5V";
+    case TerminalRow::Kind::analog_number: return "a number";
+    default: return "on or off";
+  }
 }
 
 }  // namespace understudy::emulator

@@ -1,4 +1,5 @@
-// Levels of inputs as text: 1, 0, on, off; of analog inputs 2.5V, 2500mV, or millivolts without a unit.
+// Levels of inputs as text: 1, 0, on, off; of analog inputs 2.5V, 2500mV, or millivolts without a unit;
+// of those that are counted in no unit a whole number.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace understudy::emulator {
 
 /// Nothing for text that is no level of such an input. Whether the input can have it is for demand_level().
 std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind kind);
-/// "on or off", "a voltage such as 2.5V".
+/// "on or off", "a voltage such as 2.5V", "a number".
 std::string_view level_example(TerminalRow::Kind kind);
 
 }  // namespace understudy::emulator

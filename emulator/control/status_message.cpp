@@ -63,6 +63,7 @@ Json device_status(const World& world, std::size_t number) {
   for (std::size_t i = 0; i < device.model().terminals.size(); ++i) {
     const TerminalRow& terminal = device.model().terminals[i];
     const auto place = static_cast<int>(i);
+    if (!device.has_terminal(place)) continue;
     const std::string name(terminal.name);
     if (is_input(terminal.kind)) {
       status["inputs"][name] = device.input(place);
@@ -71,21 +72,17 @@ Json device_status(const World& world, std::size_t number) {
     }
   }
   status["axes"] = Json::object();
-  for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
-    const auto place = static_cast<int>(axis);
-    status["axes"][std::string(device.model().axes[axis].name)] =
-        Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
-  }
   status["machines"] = Json::object();
   for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
-    const PlantAxis& plant = world.plant(number, static_cast<int>(axis));
-    status["machines"][std::string(device.model().axes[axis].name)] =
-        Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
-    if (plant.has_drive()) {
-      status["machines"][std::string(device.model().axes[axis].name)]["drive"] = plant.in_alarm() ? "alarm"
-                                                                                 : plant.ready()  ? "ready"
-                                                                                                  : "off";
-    }
+    const auto place = static_cast<int>(axis);
+    if (!device.has_axis(place)) continue;
+    const std::string name(device.model().axes[axis].name);
+    status["axes"][name] =
+        Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
+    const PlantAxis& plant = world.plant(number, place);
+    Json& machine = status["machines"][name];
+    machine = Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
+    if (plant.has_drive()) machine["drive"] = plant.in_alarm() ? "alarm" : plant.ready() ? "ready" : "off";
   }
   return status;
 }

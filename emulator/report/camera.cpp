@@ -18,9 +18,11 @@ constexpr double kMillivolts = 1000;
 }  // namespace
 
 Camera::Camera(World& world) : world_(world), probes_(world) {
-  for (const KnownDevice& device : world.known()) {
-    for (const AxisRow& row : device.model->axes) {
-      const std::string axis = device.name + "." + std::string(row.name);
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    const KnownDevice& device = world.known()[d];
+    for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
+      if (!world.device(d).has_axis(static_cast<int>(a))) continue;
+      const std::string axis = device.name + "." + std::string(device.model->axes[a].name);
       add_sight(axis + ".position", Kind::position);
       add_sight(axis + ".pulses", Kind::pulses);
       add_sight(axis + ".speed", Kind::speed);
@@ -28,10 +30,14 @@ Camera::Camera(World& world) : world_(world), probes_(world) {
         add_sight(axis + word, Kind::bit);
       }
     }
-    for (const TerminalRow& row : device.model->terminals) {
+    for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
+      const TerminalRow& row = device.model->terminals[t];
       if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      add_sight(device.name + "." + std::string(row.name),
-                row.kind == TerminalRow::Kind::analog_in ? Kind::analog : Kind::bit);
+      if (!world.device(d).has_terminal(static_cast<int>(t))) continue;
+      const Kind kind = row.kind == TerminalRow::Kind::analog_in       ? Kind::voltage
+                        : row.kind == TerminalRow::Kind::analog_number ? Kind::level
+                                                                       : Kind::bit;
+      add_sight(device.name + "." + std::string(row.name), kind);
     }
     add_sight(device.name + ".power", Kind::bit);
   }
@@ -75,7 +81,7 @@ void Camera::world_restored(std::size_t steps) {
 void Camera::on_tick(Tick tick) {
   for (Sight& sight : sights_) {
     const double value = probes_.value(sight.handle).real();
-    sight.values.add(tick, sight.kind == Kind::analog ? value / kMillivolts : value);
+    sight.values.add(tick, sight.kind == Kind::voltage ? value / kMillivolts : value);
   }
   scene_.end = std::max(scene_.end, time_of(tick));
 }

@@ -16,7 +16,8 @@ struct SeenSignal {
     position,  // of the machine, in pulses
     pulses,    // that an axis has sent
     speed,     // by plan, in pulses a second
-    analog,    // a voltage, in volts
+    voltage,   // of an analog input, in volts
+    level,     // of an analog input without a unit
     bit,       // an input, an output, a switch, power
   } kind = Kind::bit;
   struct Point {

@@ -75,11 +75,13 @@ bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   return true;
 }
 
-/// Position and pulses of the axes that did anything (or of all), the speeds of those that did, and voltages.
+/// Position and pulses of the axes that did anything (or of all), the speeds of those that did, and analog
+/// inputs.
 std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
   Panel positions{.title = "position [pulses]", .height = 190, .curves = {}};
   Panel speeds{.title = "speed [pulses/s]", .height = 120, .marks = 4, .has_zero = true, .curves = {}};
   Panel voltages{.title = "analog inputs [V]", .height = 90, .marks = 3, .curves = {}};
+  Panel levels{.title = "analog inputs", .height = 90, .marks = 3, .curves = {}};
   std::size_t axis = 0;
   for (std::size_t i = 0; i + 2 < scene.signals.size(); ++i) {
     const SeenSignal& position = scene.signals[i];
@@ -96,12 +98,12 @@ std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
     if (!is_still) speeds.curves.push_back({.signal = &speed, .colour = colour});
   }
   for (const SeenSignal& signal : scene.signals) {
-    if (signal.kind != Kind::analog || !signal.varies()) continue;
-    voltages.curves.push_back(
-        {.signal = &signal, .colour = voltages.curves.size() % kColours, .is_stepped = true});
+    if ((signal.kind != Kind::voltage && signal.kind != Kind::level) || !signal.varies()) continue;
+    Panel& panel = signal.kind == Kind::voltage ? voltages : levels;
+    panel.curves.push_back({.signal = &signal, .colour = panel.curves.size() % kColours, .is_stepped = true});
   }
   std::vector<Panel> panels;
-  for (Panel& panel : std::vector{positions, speeds, voltages}) {
+  for (Panel& panel : std::vector{positions, speeds, voltages, levels}) {
     if (!panel.curves.empty()) panels.push_back(std::move(panel));
   }
   return panels;

@@ -39,9 +39,8 @@ std::string terminals_text(const Device& device) {
     const std::int32_t level = is_output ? (device.output(number) ? 1 : 0) : device.input(number);
     if (level == 0) continue;
     text += (text.empty() ? "" : ", ") + std::string(terminals[i].name);
-    text += terminals[i].kind == TerminalRow::Kind::analog_in
-                ? " " + number_text(Number(level), Unit::millivolts)
-                : " on";
+    const Unit unit = terminals[i].kind == TerminalRow::Kind::analog_in ? Unit::millivolts : Unit::none;
+    text += is_analog(terminals[i].kind) ? " " + number_text(Number(level), unit) : " on";
   }
   return text;
 }
@@ -72,6 +71,7 @@ std::vector<std::string> state_text(const World& world) {
       texts.push_back(device.name() + ": " + registers);
     }
     for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
+      if (!device.has_axis(static_cast<int>(a))) continue;
       texts.push_back(device.name() + "." + std::string(device.model().axes[a].name) + ": " +
                       axis_text(world, d, a));
     }

@@ -22,12 +22,17 @@ void add_axis(const std::string& axis, std::vector<TraceSignal>& signals) {
 
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also) {
   std::vector<TraceSignal> signals;
-  for (const KnownDevice& device : world.known()) {
-    for (const AxisRow& axis : device.model->axes)
-      add_axis(device.name + "." + std::string(axis.name), signals);
-    for (const TerminalRow& row : device.model->terminals) {
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    const KnownDevice& device = world.known()[d];
+    for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
+      if (!world.device(d).has_axis(static_cast<int>(a))) continue;
+      add_axis(device.name + "." + std::string(device.model->axes[a].name), signals);
+    }
+    for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
+      const TerminalRow& row = device.model->terminals[t];
       if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      const bool is_bit = row.kind != TerminalRow::Kind::analog_in;
+      if (!world.device(d).has_terminal(static_cast<int>(t))) continue;
+      const bool is_bit = !is_analog(row.kind);
       signals.push_back(
           {.name = device.name + "." + std::string(row.name), .kind = is_bit ? Kind::bit : Kind::whole});
     }

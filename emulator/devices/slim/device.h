@@ -99,6 +99,8 @@ class Slim final : public TextDevice, private lang::Machine {
   bool same_state(const Device& other) const override;
 
   // --- terminals and axes ---
+  bool has_axis(int axis) const override { return axis < modules_ || state_.chain.linked(axis); }
+  bool has_terminal(int terminal) const override { return has_axis(terminal / kTerminalsOfModule); }
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override { return state_.chain.pulses(axis); }
   double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }

@@ -35,7 +35,7 @@ Names make_names() {
   for (int m = 0; m < kModules; ++m) {
     for (int i = 1; i <= kInputs; ++i) add(m, Kind::digital_in, "IN" + std::to_string(i));
     add(m, Kind::digital_in, "HORG");
-    add(m, Kind::analog_in, "AIN", kFullAnalog);
+    add(m, Kind::analog_number, "AIN", kFullAnalog);
     for (int i = 1; i <= lang::kSwitchCount; ++i) add(m, Kind::dip_switch, "SW" + std::to_string(i));
     for (int i = 1; i <= kOutputs; ++i) add(m, Kind::digital_out, "P" + std::to_string(i));
   }

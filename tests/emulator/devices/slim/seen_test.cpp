@@ -1,0 +1,64 @@
+// What is shown of a chain: the modules that it has, and AIN as the number it is.
+#include <algorithm>
+#include <set>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/scenario/state_text.h"
+#include "emulator/trace/trace.h"
+#include "tests/emulator/devices/slim/dialogue_script.h"
+
+namespace understudy::emulator::slim {
+
+namespace {
+
+std::set<std::string> names_of(const World& world) {
+  std::set<std::string> names;
+  for (const TraceSignal& signal : trace_signals(world, {})) names.insert(signal.name);
+  return names;
+}
+
+TEST(SlimSeen, TracesHaveTheModulesThatTheChainHas) {
+  const auto names = names_of(DialogueScript(2).world());
+  for (const char* name :
+       {"robot.T0.pulses", "robot.T1.position", "robot.IN8", "robot.T1AIN", "robot.T1P4"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  for (const std::string& name : names) EXPECT_FALSE(name.starts_with("robot.T2")) << name;
+  EXPECT_EQ(names_of(DialogueScript(8).world()).count("robot.T7.pulses"), 1u);
+}
+
+TEST(SlimSeen, AModuleThatIsLinkedLaterIsThere) {
+  DialogueScript script(2);
+  const auto shown = [&](const std::string& axis) {
+    const auto texts = state_text(script.world());
+    return std::ranges::any_of(texts, [&](const std::string& text) { return text.starts_with(axis + ": "); });
+  };
+  EXPECT_TRUE(shown("robot.T1"));
+  EXPECT_FALSE(shown("robot.T2"));
+  script.type("PN50=5");  // T0 and T2: T1 is still on its place
+  EXPECT_TRUE(shown("robot.T1"));
+  EXPECT_TRUE(shown("robot.T2"));
+  EXPECT_FALSE(shown("robot.T3"));
+}
+
+TEST(SlimSeen, TheAnalogInputIsANumber) {
+  const auto bench = [](const std::string& level) {
+    const std::string text =
+        "understudy: 1\nlines: { a: { stations: [ { name: robot, model: slim } ] } }\ninputs: { robot.AIN: " +
+        level + " }\n";
+    try {
+      const World world(parse_bench(text, "b.yaml", "."), WorldOptions{}, [](const std::string&) {});
+      return state_text(world).back();
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(bench("300"), "robot: AIN 300");
+  EXPECT_EQ(bench("2.5V"), "b.yaml:3: inputs.robot.AIN: '2.5V' is no level; expected a number");
+  EXPECT_EQ(bench("on"), "b.yaml:3: inputs.robot.AIN: 'on' is no level; expected a number");
+  EXPECT_EQ(bench("1001"), "b.yaml:3: inputs.robot.AIN: robot.AIN: 1001 is no level; expected 0 to 1000");
+}
+
+}  // namespace
+
+}  // namespace understudy::emulator::slim
