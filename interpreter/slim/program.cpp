@@ -38,7 +38,7 @@ Checked check_as_chosen(std::string_view text, const ProgramOptions& options) {
   Checked checked = check(text, options);
   if (checked.error == Error::none || options.check == ProgramOptions::Check::as_entered) return checked;
   const std::string_view trimmed = without_blanks(text);
-  if (trimmed.empty() || text.size() > kLineLength || ends_transfer(trimmed)) return checked;
+  if (trimmed.empty() || text.size() > options.dialect.longest_line || ends_transfer(trimmed)) return checked;
   return {
       .line = {.text = std::string(trimmed), .parsed = {.label = label_of(trimmed)}, .error = checked.error}};
 }

@@ -124,4 +124,12 @@ class DialogueScript {
   std::deque<std::string> said_;
 };
 
+using Choices = std::map<std::string, std::string>;
+
+/// The same script, as it goes with one option and, where that is not tested elsewhere, with ours.
+inline void play(const Choices& choices, const std::string& script) {
+  SCOPED_TRACE(choices.empty() ? "ours" : choices.begin()->first + ": " + choices.begin()->second);
+  DialogueScript(1, choices).play(script);
+}
+
 }  // namespace understudy::emulator::slim

@@ -9,13 +9,6 @@ namespace understudy::emulator::slim {
 
 namespace {
 
-using Choices = std::map<std::string, std::string>;
-
-void play(const Choices& choices, const std::string& script) {
-  SCOPED_TRACE(choices.empty() ? "ours" : choices.begin()->first + ": " + choices.begin()->second);
-  DialogueScript(1, choices).play(script);
-}
-
 TEST(SlimProgramEntryChoices, ProgramSize) {
   const auto lines = [](int count) {
     std::string text;
@@ -108,6 +101,27 @@ on
   // A device that checks earlier takes back no state that it cannot have come to.
   DialogueScript early(1);
   EXPECT_THROW(early.device().restore_state(late.device().save_state()), StateError);
+}
+
+/// What is stored unchecked fits the line all the same, and is taken back.
+TEST(SlimProgramEntryChoices, ProgramCheckOfLinesAsLongAsChosen) {
+  for (const auto& [option, longest] : {std::pair{"127_characters_then_error_1", 127},
+                                        {"80_characters_then_error_1", 80},
+                                        {"255_characters_then_error_1", 255}}) {
+    SCOPED_TRACE(option);
+    const Choices chosen{{"program_check", "when_it_runs"}, {"longest_line", option}};
+    DialogueScript script(1, chosen);
+    const std::string line(static_cast<std::size_t>(longest), 'A');
+    script.play("> PG\n> " + line + "\n> " + line + "A\n< ERR 1\n>\n> PL\n< 0: " + line + "\n> SAVE P\n");
+    try {
+      script.device().load_program(line + "A");
+      ADD_FAILURE() << "taken";
+    } catch (const ProgramError&) {
+    }
+    DialogueScript other(1, chosen);
+    other.device().restore_state(script.device().save_state());
+    other.play("off\non\n> PL\n< 0: " + line + "\n");
+  }
 }
 
 TEST(SlimProgramEntryChoices, EditEnd) {

@@ -10,14 +10,6 @@ namespace understudy::emulator::slim {
 
 namespace {
 
-using Choices = std::map<std::string, std::string>;
-
-/// The same script, as it goes with one option and, where that is not tested elsewhere, with ours.
-void play(const Choices& choices, const std::string& script) {
-  SCOPED_TRACE(choices.empty() ? "ours" : choices.begin()->first + ": " + choices.begin()->second);
-  DialogueScript(1, choices).play(script);
-}
-
 const std::string kAsking = R"(
 > PG
 > N0=GETI

@@ -9,8 +9,6 @@ namespace understudy::emulator::slim {
 
 namespace {
 
-using Choices = std::map<std::string, std::string>;
-
 struct Case {
   const char* title;
   Choices choices;

@@ -8,8 +8,6 @@ namespace understudy::emulator::slim {
 namespace {
 
 using namespace std::chrono_literals;
-using Choices = std::map<std::string, std::string>;
-
 /// A line as it is, without any idea of where lines end.
 struct Wire {
   explicit Wire(const Choices& choices, pty::Timing timing = pty::Timing::instant)
