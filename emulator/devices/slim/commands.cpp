@@ -40,8 +40,7 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
       return is_done(command) ? lang::kDone : lang::kWaits;
     case Verb::print: {
       // A program is much faster than its line: it prints when there is room again.
-      const std::size_t most = chose(kPrints128Ahead) ? kMostUnsentOfSmall : kMostUnsent;
-      if (state_.speech.size() >= most) return lang::kWaits;
+      if (!has_room_to_speak()) return lang::kWaits;
       const lang::Operand& what = command.operands.front();
       say(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
       return lang::kDone;

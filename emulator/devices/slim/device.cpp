@@ -10,7 +10,6 @@ namespace understudy::emulator::slim {
 Slim::Slim(const DeviceSettings& settings)
     : TextDevice(slim::model(), settings), modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();
-  memory_form_ = memory_form();
   state_.kept = factory();
   state_.ram = state_.kept;
 }
@@ -38,8 +37,7 @@ ChainOptions Slim::chain_options() const {
   options.homes_forwards = chose(kHomesForwards);
   options.analog_speed_jogs = chose(kAnalogSpeedJogs);
   options.only_moves_reserved = chose(kOnlyMovesReserved);
-  if (chose(k16Wait)) options.fifo_length = 16;
-  if (chose(k8Wait)) options.fifo_length = 8;
+  options.fifo_length = static_cast<std::uint8_t>(chosen_number(kBufferLength));
   options.servo_at_power_up = !chose(kServoOffAtPowerUp);
   return options;
 }
@@ -48,16 +46,14 @@ lang::ProgramOptions Slim::program_options() const {
   using Options = lang::ProgramOptions;
   Options options;
   lang::Dialect& dialect = options.dialect;
-  if (chose(kFourEvents)) dialect.event_count = 4;
-  if (chose(k80Characters)) dialect.longest_line = 80;
-  if (chose(k255Characters)) dialect.longest_line = 255;
+  dialect.event_count = chosen_number(kEvents);
+  dialect.longest_line = static_cast<std::size_t>(chosen_number(kLongestLine));
   if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
   if (chose(kExternalColumnOnly)) options.columns.external = lang::Columns::External::strict;
   if (chose(kImmediateColumnIgnored))
     options.columns.variable_forms = lang::Columns::VariableForms::typed_too;
   if (chose(kSavesInPrograms)) options.columns.saves = lang::Columns::Saves::stored_too;
-  if (chose(k256Lines)) options.capacity = 256;
-  if (chose(k4000Lines)) options.capacity = 4000;
+  options.capacity = chosen_number(kProgramSize);
   if (chose(kLinesFrom1)) options.first_number = 1;
   if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
   if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
@@ -70,8 +66,7 @@ lang::FlowOptions Slim::flow_options() const {
   if (chose(kFourLinesATick)) options.lines_per_tick = 4;
   if (chose(kLineIn4Ticks)) options.lines_every_ms = 4;
   if (chose(kTimeUnitOf4Ms)) options.window_unit_ms = 4;
-  if (chose(kCalls8Deep)) options.call_depth = 8;
-  if (chose(kCalls4Deep)) options.call_depth = 4;
+  options.call_depth = chosen_number(kCallDepth);
   if (chose(kEventsEach4Ms)) options.events.look_every_ms = 4;
   if (chose(kFailedLinePassed)) options.failed_line = lang::FlowOptions::FailedLine::is_passed;
   if (chose(kWaitsHaveGoneOn)) options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
@@ -99,11 +94,9 @@ void Slim::power_up() {
   state_.clock_zero = now();
   state_.touched = true;
   for (int m = 0; m < kModules; ++m) state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
-  const int pulses_per_revolution = chose(k4000PulsesARevolution)   ? 4000
-                                    : chose(k2000PulsesARevolution) ? 2000
-                                    : chose(k1000PulsesARevolution) ? 1000
-                                                                    : 10'000;
-  for (int m = 0; m < kModules; ++m) state_.chain.set_pulses_per_revolution(m, pulses_per_revolution);
+  for (int m = 0; m < kModules; ++m) {
+    state_.chain.set_pulses_per_revolution(m, chosen_number(kPulsesPerRevolution));
+  }
   apply_all_parameters();
   const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
   for (int letter = 0; letter < kLetters; ++letter) {
@@ -134,12 +127,12 @@ void Slim::settle_memory() {
 }
 
 void Slim::write_memory(NvImage& image) const {
-  write_image(state_.kept, factory(), memory_form_, image);
+  write_image(state_.kept, factory(), memory_form(), image);
   image.program = state_.kept_program;
 }
 
 void Slim::read_memory(const NvImage& image) {
-  Memory memory = read_image(image, factory(), memory_form_);
+  Memory memory = read_image(image, factory(), memory_form());
   const auto capacity = static_cast<std::size_t>(of_programs().capacity);
   if (image.program.size() > capacity) {
     throw NvError("program: has " + std::to_string(image.program.size()) + " lines; expected at most " +
@@ -207,8 +200,7 @@ void Slim::run_interpreters(Tick tick) {
   const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
   if (error == Error::none) return;
   // A program that goes on failing is faster than its line: what has no room is remembered only.
-  const bool is_said = chose(kProgramErrorsSaid) && state_.speech.size() < kMostUnsent;
-  if (is_said) return fail(failed_module_, error);
+  if (chose(kProgramErrorsSaid) && has_room_to_speak()) return fail(failed_module_, error);
   remember(failed_module_, error);
 }
 

@@ -25,11 +25,7 @@ namespace understudy::emulator::slim {
 
 namespace lang = interpreter::slim;
 
-inline constexpr std::size_t kMostHistory = 16;
 inline constexpr std::size_t kMostSpeech = 256 * 1024;
-// Characters that a program may have waiting for the line before it waits itself.
-inline constexpr std::size_t kMostUnsent = 1024;
-inline constexpr std::size_t kMostUnsentOfSmall = 128;
 
 // A module's terminals, among all: T0's, then T1's ...
 inline constexpr int kInputs = lang::kInputCount;
@@ -129,13 +125,17 @@ class Slim final : public TextDevice, private lang::Machine {
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
+  int chosen_number(std::size_t row) const { return number_of(kChoices[row], choice(row)); }
+
   // dialogue.cpp
   std::string_view line_end() const { return chose(kSaidLinesEndWithCr) ? "\r" : "\r\n"; }
   bool is_silence(Error error) const { return error == Error::not_linked && chose(kUnlinkedSilent); }
   /// As it is shown.
   int code_of(Error error) const;
-  std::size_t history_length() const {
-    return chose(kHistoryOf4) ? 4 : chose(kHistoryOf8) ? 8 : kMostHistory;
+  std::size_t history_length() const { return static_cast<std::size_t>(chosen_number(kHistoryLength)); }
+  /// For what a program says of itself: it is faster than its line.
+  bool has_room_to_speak() const {
+    return state_.speech.size() < static_cast<std::size_t>(chosen_number(kPrintAhead));
   }
   void say(std::string_view text);
   void fail(int module, Error error);
@@ -194,7 +194,6 @@ class Slim final : public TextDevice, private lang::Machine {
 
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
-  MemoryForm memory_form_{};
   int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
   State state_;
 };

@@ -1,5 +1,10 @@
-// SLIM: the options of choices.h as the code asks for them. Ours, the first of each row, needs no name.
+// SLIM: the options of choices.h as the code asks for them. Ours, the first of each row, needs no name; of
+// options that are numbers the row is asked for.
 #pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
 
 #include "emulator/devices/slim/choices.h"
 
@@ -7,7 +12,32 @@ namespace understudy::emulator::slim {
 
 consteval Option option(std::string_view id, std::string_view name) { return option_of(kChoices, id, name); }
 
+/// The number that one of a row's options begins with: 256 of "256_lines".
+constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
+  std::string_view rest = row.options;
+  for (; option_number > 0; --option_number) rest.remove_prefix(rest.find('|') + 1);
+  if (rest.empty() || rest.front() < '0' || rest.front() > '9') throw "the option has no number";
+  int number = 0;
+  for (const char c : rest) {
+    if (c < '0' || c > '9') break;
+    number = 10 * number + (c - '0');
+  }
+  return number;
+}
+
+/// A row whose options are numbers; a compile error if one of them is none.
+consteval std::size_t numbers(std::string_view id) {
+  const std::size_t row = choice_number(kChoices, id);
+  const auto bars = std::ranges::count(kChoices[row].options, '|');
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(bars); ++i) (void)number_of(kChoices[row], i);
+  return row;
+}
+
 // --- the dialogue, modules and numbers ---
+inline constexpr std::size_t kLongestLine = numbers("longest_line");
+inline constexpr std::size_t kHistoryLength = numbers("history_length");
+inline constexpr std::size_t kVoltage = numbers("voltage");
+inline constexpr std::size_t kTemperature = numbers("temperature");
 inline constexpr Option kEcho = option("echo", "on");
 inline constexpr Option kPrompt = option("prompt", "greater_than");
 inline constexpr Option kAcknowledges = option("acknowledgement", "ok");
@@ -15,8 +45,6 @@ inline constexpr Option kNamesValues = option("query_reply", "name_and_value");
 inline constexpr Option kErrorsNotAnswered = option("error_reply", "nothing");
 inline constexpr Option kArraysBySaveD = option("arrays_kept", "by_save_d");
 inline constexpr Option kCrAloneEnds = option("line_end", "cr_alone");
-inline constexpr Option k80Characters = option("longest_line", "80_characters_then_error_1");
-inline constexpr Option k255Characters = option("longest_line", "255_characters_then_error_1");
 inline constexpr Option kProgramErrorsSaid = option("unasked_text", "errors_of_a_program_too");
 inline constexpr Option kXonXoff = option("flow_control", "xon_xoff");
 inline constexpr Option kSaidLinesEndWithCr = option("output_end", "cr");
@@ -25,12 +53,6 @@ inline constexpr Option kStatusInHexadecimal = option("status_bits", "the_same_i
 inline constexpr Option kModeInWords = option("mode_codes", "words");
 inline constexpr Option kTimeInSeconds = option("time_format", "seconds");
 inline constexpr Option kOneErrorCode = option("error_codes", "1_for_all");
-inline constexpr Option kHistoryOf8 = option("history_length", "8");
-inline constexpr Option kHistoryOf4 = option("history_length", "4");
-inline constexpr Option k36Volts = option("voltage", "36");
-inline constexpr Option k48Volts = option("voltage", "48");
-inline constexpr Option k40Degrees = option("temperature", "40");
-inline constexpr Option k60Degrees = option("temperature", "60");
 inline constexpr Option kIntegersFromMinus32766 = option("integer_range", "from_minus_32766");
 inline constexpr Option kModuleTakenFromLetter = option("axis_values", "is_taken_from_its_letter");
 inline constexpr Option kMapIsPn37 = option("axis_map_kept", "yes");
@@ -40,24 +62,22 @@ inline constexpr Option kPn14IsVm = option("speed_parameters", "pn14_is_vm");
 inline constexpr Option kVariableReceivesClock = option("clock_assignment", "the_variable");
 
 // --- programs, and when a command may be given ---
+inline constexpr std::size_t kPrintAhead = numbers("print_ahead");
+inline constexpr std::size_t kEvents = numbers("events");
+inline constexpr std::size_t kProgramSize = numbers("program_size");
+inline constexpr std::size_t kCallDepth = numbers("call_depth");
 inline constexpr Option kExternalColumnOnly = option("while_program_runs", "external_column_only");
 inline constexpr Option kImmediateColumnIgnored = option("immediate_column", "taken");
 inline constexpr Option kExitIsNoNumber = option("get_number_exit", "nothing");
 inline constexpr Option kSavesInPrograms = option("first_list_columns", "saves_in_programs_too");
 inline constexpr Option kFourLinesATick = option("lines_a_tick", "four_a_millisecond");
 inline constexpr Option kLineIn4Ticks = option("lines_a_tick", "one_in_4_milliseconds");
-inline constexpr Option kPrints128Ahead = option("print_ahead", "128_characters_then_it_waits");
 inline constexpr Option kTimeUnitOf4Ms = option("time_unit", "4_milliseconds");
-inline constexpr Option kFourEvents = option("events", "4_with_the_conditions_of_jumps");
 inline constexpr Option kEventsEach4Ms = option("event_check", "each_4_milliseconds");
-inline constexpr Option k256Lines = option("program_size", "256_lines");
-inline constexpr Option k4000Lines = option("program_size", "4000_lines");
 inline constexpr Option kCheckedAsItRuns = option("program_check", "when_it_runs");
 inline constexpr Option kEmptyLinesIgnored = option("edit_end", "exit_or_esc");
 inline constexpr Option kListsTextOnly = option("listing", "text");
 inline constexpr Option kPauseFailsMotion = option("pause_in_program", "error_6");
-inline constexpr Option kCalls8Deep = option("call_depth", "8");
-inline constexpr Option kCalls4Deep = option("call_depth", "4");
 inline constexpr Option kLinesFrom1 = option("addresses", "line_number_from_1");
 inline constexpr Option kFailedLinePassed = option("failed_line", "is_passed_over");
 inline constexpr Option kEventsWaitForChange = option("event_at_arming", "waits_for_a_change");
@@ -65,14 +85,13 @@ inline constexpr Option kHeldEventDropped = option("held_event", "is_dropped");
 inline constexpr Option kWaitsHaveGoneOn = option("interrupted_wait", "have_gone_on");
 
 // --- motion ---
+inline constexpr std::size_t kPulsesPerRevolution = numbers("pulses_per_revolution");
+inline constexpr std::size_t kBufferLength = numbers("buffer_length");
 inline constexpr Option kIneffectivePauseRefused = option("ineffective_pause", "error_3");
 inline constexpr Option kSpeedsOfT0 = option("unequal_speeds", "as_t0_has_them");
 inline constexpr Option kServoOffAtPowerUp = option("power_up_servo", "off");
 inline constexpr Option kThrustRuns = option("thrust", "runs_at_vj");
 inline constexpr Option kNewSpeedAtOnce = option("new_speed", "at_once");
-inline constexpr Option k4000PulsesARevolution = option("pulses_per_revolution", "4000");
-inline constexpr Option k2000PulsesARevolution = option("pulses_per_revolution", "2000");
-inline constexpr Option k1000PulsesARevolution = option("pulses_per_revolution", "1000");
 inline constexpr Option kBusyRefused = option("busy", "error_3");
 inline constexpr Option kCoordinateAtRestOnly = option("coordinate_in_motion", "error_3");
 inline constexpr Option kResetClearsCoordinate = option("reset", "coordinate_too");
@@ -87,8 +106,6 @@ inline constexpr Option kAccelerationOfNext = option("acceleration_in_motion", "
 inline constexpr Option kSecondDecidesJoint = option("joint", "second_command_decides");
 inline constexpr Option kLateSpeedsUp = option("late_successor", "speeds_up_again");
 inline constexpr Option kPathNeedsLength = option("path_without_length", "error_2");
-inline constexpr Option k16Wait = option("buffer_length", "16");
-inline constexpr Option k8Wait = option("buffer_length", "8");
 inline constexpr Option kTrapezoidWithTva = option("single_axis_profile", "trapezoid_with_tva");
 inline constexpr Option kHomesForwards = option("homing", "at_vj_forwards_to_horg_then_0");
 inline constexpr Option kAnalogSpeedJogs = option("analog_speed", "starts_a_jog");

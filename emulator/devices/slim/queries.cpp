@@ -143,8 +143,8 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     }
     case Verb::query_motor_version: return words("1");
     // Not modelled; kGaps says so.
-    case Verb::query_voltage: return electrical(chose(k48Volts) ? 48 : chose(k36Volts) ? 36 : 24);
-    case Verb::query_temperature: return electrical(chose(k60Degrees) ? 60 : chose(k40Degrees) ? 40 : 25);
+    case Verb::query_voltage: return electrical(chosen_number(kVoltage));
+    case Verb::query_temperature: return electrical(chosen_number(kTemperature));
     case Verb::query_peak_current:
     case Verb::query_mean_current: return electrical(0);
     case Verb::query_peak_following_error:
@@ -153,7 +153,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     default: break;
   }
   if (command.name == "TM") return whole(static_cast<double>(clock_s()));
-  const auto found = find_parameter(command.name, memory_form_.speed_names);
+  const auto found = find_parameter(command.name, memory_form().speed_names);
   if (!found || (kParameters[*found].host_only && module != 0)) return Error::syntax;
   const double held = state_.ram.parameters[static_cast<std::size_t>(module)][*found];
   return kParameters[*found].type == ParameterDefinition::Type::integer ? whole(held) : real(held);

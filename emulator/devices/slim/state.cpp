@@ -75,9 +75,6 @@ struct Fields {
     demand_state(execution.stack.size() <= 1000, "a program is nested too deep");
     demand_state(std::isfinite(execution.number), "a number is not finite");
   }
-  static void check(const Errors& errors) {
-    demand_state(errors.history.size() <= kMostHistory, "too many errors are remembered");
-  }
   static void check(const Memory& memory) {
     for (const Parameters& all : memory.parameters) {
       for (std::size_t i = 0; i < kParameterCount; ++i) {

@@ -40,8 +40,6 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
   if (variable.kind == Kind::clock) return set_parameter(0, "TM", value);
   if (!std::isfinite(value)) return Error::range;
   if (holds_integer(variable.kind)) {
-    // What a real variable or AIN brings is brought to a whole number.
-    value = std::trunc(value);
     if (value < of_programs().dialect.integer_least || value > lang::kIntegerMost) return Error::range;
   } else if (std::abs(value) > kMaxReal) {
     return Error::range;
@@ -75,7 +73,7 @@ Error Slim::set_parameter(int module, std::string_view name, double value) {
     state_.clock_zero = now() - static_cast<Tick>(std::trunc(value)) * 1000;
     return Error::none;
   }
-  const auto number = find_parameter(name, memory_form_.speed_names);
+  const auto number = find_parameter(name, memory_form().speed_names);
   if (!number) return Error::syntax;
   const ParameterDefinition& row = kParameters[*number];
   if (row.host_only && module != 0) return Error::syntax;
@@ -181,12 +179,12 @@ std::vector<std::string> Slim::parameter_list() const {
   for (int m = 0; m < kModules; ++m) {
     if (!state_.chain.linked(m)) continue;
     for (std::size_t place = 0; place < kParameterCount; ++place) {
-      const std::size_t i = listed_at(place, memory_form_.speed_names);
+      const std::size_t i = listed_at(place, memory_form().speed_names);
       const ParameterDefinition& row = kParameters[i];
       if (m > 0 && row.host_only) continue;
       const double value = state_.ram.parameters[at(m)][i];
       lines.push_back(
-          parameter_name(m, i, memory_form_.speed_names) + "=" +
+          parameter_name(m, i, memory_form().speed_names) + "=" +
           (row.type == ParameterDefinition::Type::integer ? text_of_integer(value) : text_of_real(value)));
     }
   }
