@@ -81,6 +81,7 @@ constexpr SectionRow kSections[] = {
     {"程式控制", "program control"},
     {"程式指令列表", "program instructions"},
     {"旗標", "flags"},
+    {"程式碼通訊位址相關", "addresses of the program"},
     {"系統參數相關", "system parameters"},
     {"程式應用相關", "what programs use"},
     {"位址列表", "list of addresses"},

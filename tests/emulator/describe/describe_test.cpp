@@ -148,7 +148,7 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
       EXPECT_TRUE(is_ascii(row.in_english) && !row.in_english.empty()) << row.name;
       EXPECT_TRUE(translated.insert(row.name).second) << row.name << " is there twice";
     }
-    EXPECT_EQ(sections, translated) << model->name;
+    EXPECT_EQ(sections, translated) << model->name << ": Model::sections is not what its rows name";
     for (const Fact& row : Csv("choices", *model).rows) {
       EXPECT_TRUE(is_ascii(row.at("section_english"))) << row.at("id");
     }
