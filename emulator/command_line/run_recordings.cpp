@@ -14,6 +14,7 @@
 #include "emulator/bench/bench_text.h"
 #include "emulator/recording/recording_spool.h"
 #include "emulator/scenario/play_recorder.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -69,12 +70,17 @@ void remove_abandoned_spools() {
 }
 
 /// Also from one file system to another.
-void move_file(const std::string& from, const std::string& to) {
+void move_file(const std::string& from, const std::string& path) {
   std::error_code error;
+  std::string to;
+  try {
+    to = pty::output_target(path);
+  } catch (const pty::OutputError& refused) {
+    throw GrowingFileError("--record: " + path + " cannot be written: " + refused.what());
+  }
   fs::rename(from, to, error);
   if (!error) return;
-  fs::remove(to, error);  // a link there is replaced, as it is by a rename, and not written through
-  fs::copy_file(from, to, error);
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
   if (error) refuse(to, error);
   fs::remove(from, error);
 }

@@ -41,7 +41,7 @@ struct DaemonOptions {
   std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
   std::string version;  // of the program, for the recording
-  FileClaims files{};   // that no snapshot may overwrite
+  FileClaims files{};   // that no snapshot may replace; what the daemon opens itself is added
 };
 
 class Daemon {
@@ -100,10 +100,11 @@ class Daemon {
   void end_posts();
   void open_control(const std::string& asked_path);
   void make_ports(const Bench& bench);
-  void start_capture(const std::string& path);
+  void claim_own_places();
+  void open_files(const Bench& bench, const DaemonOptions& options);
+  void start_capture();
   void finish_capture();
-  void start_trace(const DaemonOptions& options);
-  void start_recording(const Bench& bench, const DaemonOptions& options);
+  void start_trace(std::vector<TraceSignal> signals, bool is_vcd);
   void judge_stall();
   void catch_up(WallTime longest);
   void work_towards(SimTime target, WallTime longest);
