@@ -44,6 +44,22 @@ void demand_stale(const std::string& path, const std::string& absolute_path) {
   if (!dangles) throw PortError(path + ": is a link to " + target + expected);
 }
 
+/// Makes a link, over one that is there, in one step: nobody ever finds no link there. 0, or the error.
+int replace_link(const std::string& path, const std::string& target) {
+  const std::string fresh = path + "." + std::to_string(::getpid()) + ".new";
+  ::unlink(fresh.c_str());
+  if (::symlink(target.c_str(), fresh.c_str()) != 0) return errno;
+  if (::rename(fresh.c_str(), path.c_str()) == 0) return 0;
+  const int error = errno;
+  ::unlink(fresh.c_str());
+  return error;
+}
+
+PortError cannot_link(const std::string& path, int error) {
+  return PortError(path + ": the link cannot be made: " + error_text(error) +
+                   "; expected a writable directory");
+}
+
 void demand_directory(const std::string& path, const std::filesystem::path& absolute_path) {
   const std::filesystem::path parent = absolute_path.parent_path();
   std::error_code error;
@@ -58,10 +74,6 @@ void demand_directory(const std::string& path, const std::filesystem::path& abso
 PortLink::PortLink(const std::string& path, std::string target) {
   const std::filesystem::path absolute_path = std::filesystem::absolute(path);
   demand_directory(path, absolute_path);
-  const auto fail = [&path](int error) -> PortError {
-    return PortError(path + ": the link cannot be made: " + error_text(error) +
-                     "; expected a writable directory");
-  };
   const std::string name = absolute_path.string();
   std::error_code ignored;
   const auto canonical_parent = std::filesystem::canonical(absolute_path.parent_path(), ignored);
@@ -77,17 +89,9 @@ PortLink::PortLink(const std::string& path, std::string target) {
   }
   // A free path is taken in one step, which never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {
-    if (errno != EEXIST) throw fail(errno);
+    if (errno != EEXIST) throw cannot_link(path, errno);
     demand_stale(path, name);
-    // A stale link is replaced in one step, so that nobody ever finds no link there.
-    const std::string fresh = name + "." + std::to_string(::getpid()) + ".new";
-    ::unlink(fresh.c_str());
-    if (::symlink(target.c_str(), fresh.c_str()) != 0) throw fail(errno);
-    if (::rename(fresh.c_str(), name.c_str()) != 0) {
-      const int error = errno;
-      ::unlink(fresh.c_str());
-      throw fail(error);
-    }
+    if (const int error = replace_link(name, target)) throw cannot_link(path, error);
   }
   absolute_path_ = name;
   target_ = std::move(target);
@@ -95,6 +99,12 @@ PortLink::PortLink(const std::string& path, std::string target) {
 
 PortLink::~PortLink() {
   if (!target_.empty() && link_target(absolute_path_) == target_) ::unlink(absolute_path_.c_str());
+}
+
+void PortLink::point_to(const std::string& target) {
+  if (target_.empty() || link_target(absolute_path_) != target_) return;
+  if (const int error = replace_link(absolute_path_, target)) throw cannot_link(absolute_path_, error);
+  target_ = target;
 }
 
 PortLink::PortLink(PortLink&& other) noexcept
