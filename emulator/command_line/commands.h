@@ -74,7 +74,10 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
-  std::string record;  // a folder
+  std::string record;  // folders, for a file of each scenario
+  std::string trace;
+  std::vector<std::string> trace_also;
+  std::string capture;
   bool lint = false;
   bool hash = false;
   std::optional<int> jobs;  // none: one for each core
@@ -89,6 +92,10 @@ struct ReplayArguments {
   std::string recording;
   std::string until;  // a duration; then `control`
   std::string control;
+  std::string trace;  // files, as those of `serve` and `run`
+  std::vector<std::string> trace_also;
+  std::string capture;
+  std::string report;
   std::string version;  // of this program
 };
 int replay_recording(const ReplayArguments& arguments);
