@@ -39,6 +39,7 @@ struct CommandLine {
   std::string program;
   std::string schema;
   std::vector<std::string> files;
+  std::string save_below;
   std::function<int()> chosen;
 
   CommandLine() {
@@ -130,6 +131,12 @@ struct CommandLine {
     command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
   }
 
+  static void add_save_below(CLI::App& command, std::string& folder) {
+    command
+        .add_option("--save-below", folder, "Let scenarios `save` below this folder [each one's own folder]")
+        ->check(kNotEmpty);
+  }
+
   void add_exec() {
     CLI::App* command =
         app.add_subcommand("exec", "Run a command with a bench to talk to: exec BENCH -- COMMAND");
@@ -137,6 +144,7 @@ struct CommandLine {
     command->add_option("COMMAND", exec.stray_words, "A program and its arguments, after --");
     command->add_option("--with", exec.with, "A scenario to play beside the command [none]")
         ->check(kNotEmpty);
+    add_save_below(*command, exec.save_below);
     command->add_flag("--tty-shim", exec.tty_shim,
                       "Preload what lets hosts that insist on parity use a pseudo-terminal");
     command
@@ -197,6 +205,7 @@ struct CommandLine {
     command->add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
     command->add_option("--capture", run.capture, "Folder for a capture of each scenario, for Wireshark")
         ->check(kNotEmpty);
+    add_save_below(*command, run.save_below);
     command->add_flag("--lint", run.lint, kLintHelp);
     command->add_flag("--hash", run.hash,
                       "Print a hash of all that each scenario's devices said and did, for comparison");
@@ -309,7 +318,8 @@ struct CommandLine {
   void add_check() {
     CLI::App* command = app.add_subcommand("check", "Validate benches and scenarios without running them");
     command->add_option("FILE", files, "Bench and scenario files")->required();
-    command->callback([this] { chosen = [this] { return check_files(files); }; });
+    add_save_below(*command, save_below);
+    command->callback([this] { chosen = [this] { return check_files(files, save_below); }; });
   }
 
   void add_schema() {

@@ -5,7 +5,9 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/file_claims.h"
+#include "emulator/recording/recording_spool.h"
 #include "emulator/trace/trace_file.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -36,6 +38,17 @@ inline const std::string& demand_trace(FileClaims& claims, const std::string& pa
     throw UsageError("--trace: " + path + ": is no kind of trace; expected FILE.csv or FILE.vcd");
   }
   return demand_output(claims, "--trace", path);
+}
+
+/// Where the older part of a recording goes once it has grown large: beside the file that is really written.
+/// Empty if there is none.
+inline std::string older_part_of(const std::string& recording) {
+  if (recording.empty()) return "";
+  try {
+    return pty::output_target(recording) + kOlderPart;
+  } catch (const pty::OutputError&) {
+    return recording + kOlderPart;  // whoever opens it is told
+  }
 }
 
 }  // namespace understudy::emulator

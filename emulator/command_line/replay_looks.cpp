@@ -27,6 +27,9 @@ ReplayLooks::ReplayLooks(World& world, const ReplayArguments& arguments, Scenari
       throw UsageError(std::string("--trace-also: ") + error.what());
     }
   }
+  // All are open before any is emptied.
+  if (capture_) capture_->begin();
+  if (trace_) trace_->begin();
   if (arguments.report.empty()) return;
   camera_ = std::make_unique<Camera>(world);
   seen_.file = arguments.recording;

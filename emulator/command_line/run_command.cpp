@@ -28,7 +28,7 @@ std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   bool is_well = true;
   for (const std::string& file : arguments.scenarios) {
     try {
-      for (Scenario& scenario : load_scenarios(file)) {
+      for (Scenario& scenario : load_scenarios(file, arguments.save_below)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
         scenarios.push_back(std::move(scenario));
       }
@@ -130,6 +130,8 @@ int run_scenarios(const RunArguments& arguments) {
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
   RunFiles files(folders_of(arguments), arguments.real_time, arguments.version);
+  junit.empty();
+  report.empty();
   std::vector<ScenarioResult> all;
   PlayOptions options{.with_hash = arguments.hash};
   if (arguments.lint) {

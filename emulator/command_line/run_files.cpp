@@ -18,6 +18,7 @@
 #include "emulator/scenario/play_recorder.h"
 #include "emulator/trace/trace_file.h"
 #include "emulator/trace/world_capture.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -114,12 +115,17 @@ void remove_abandoned_spools() {
 }
 
 /// Also from one file system to another.
-void move_file(const char* flag, const std::string& from, const std::string& to) {
+void move_file(const char* flag, const std::string& from, const std::string& path) {
   std::error_code error;
+  std::string to;
+  try {
+    to = pty::output_target(path);
+  } catch (const pty::OutputError& refused) {
+    throw GrowingFileError(std::string(flag) + ": " + path + " cannot be written: " + refused.what());
+  }
   fs::rename(from, to, error);
   if (!error) return;
-  fs::remove(to, error);  // a link there is replaced, as it is by a rename, and not written through
-  fs::copy_file(from, to, error);
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
   if (error) refuse(flag, to, error);
   fs::remove(from, error);
 }
@@ -195,10 +201,14 @@ std::vector<OnlookerMaker> RunFiles::onlookers(const Scenario& scenario) {
     });
   };
   add(kTrace, [this](World& world, const std::string& path) {
-    return std::make_shared<TraceFile>(world, path, folders_.trace_also, log_line);
+    auto trace = std::make_shared<TraceFile>(world, path, folders_.trace_also, log_line);
+    trace->begin();
+    return trace;
   });
   add(kCapture, [](World& world, const std::string& path) {
-    return std::make_shared<WorldCapture>(world, path, log_line);
+    auto capture = std::make_shared<WorldCapture>(world, path, log_line);
+    capture->begin();
+    return capture;
   });
   return makers;
 }

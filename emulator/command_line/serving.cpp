@@ -88,13 +88,17 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   return bench;
 }
 
-/// What the bench is made of, and the memories, which are written as well.
-FileClaims claims_of(const Bench& bench) {
+/// What the bench is made of, the memories, which are written as well, and what hosts and `ctl` open.
+FileClaims claims_of(const Bench& bench, const std::string& control) {
   FileClaims claims;
   claims.add(bench.files);
   for (const DeviceSetup& device : bench.devices) {
     claims.add({device.nv_path, "the memory of " + emulator::quoted(device.settings.name)});
   }
+  for (const LineSetup& line : bench.lines) {
+    claims.add_place({line.link, "the link of line " + emulator::quoted(line.name)});
+  }
+  claims.add_place({control, "the control socket"});
   return claims;
 }
 
@@ -110,7 +114,7 @@ void demand_names(const Bench& bench, const std::vector<std::string>& also) {
 
 /// And the file beside it, where its older part goes once it has grown large.
 const std::string& demand_recording(const std::string& path, FileClaims& claims) {
-  if (!path.empty()) demand_output(claims, "--record", path + kOlderPart);
+  demand_output(claims, "--record", older_part_of(path));
   return demand_output(claims, "--record", path);
 }
 
@@ -132,7 +136,7 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
-  options.files = claims_of(serving.bench);
+  options.files = claims_of(serving.bench, arguments.control);
   options.capture_path = demand_capture(options.files, arguments.capture);
   options.record_path = demand_recording(arguments.record, options.files);
   options.trace_path = demand_trace(options.files, arguments.trace, arguments.trace_also);

@@ -113,7 +113,7 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
   ReplayResult& result = replayed.result;
   try {
     replayed.header = parse_header(line);
-    replayed.bench = parse_bench(replayed.header.bench, "bench", "");
+    replayed.bench = parse_recorded_bench(replayed.header.bench);
   } catch (const RecordingError& error) {
     throw fail(error.what());
   } catch (const BenchError& error) {

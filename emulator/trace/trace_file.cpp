@@ -8,13 +8,14 @@ bool is_trace_name(const std::string& path) { return path.ends_with(".csv") || p
 
 TraceFile::TraceFile(World& world, const std::string& path, const std::vector<std::string>& also,
                      std::function<void(const std::string&)> log)
-    : TraceFile(world, path, trace_signals(world, also), std::move(log)) {}
+    : world_(world),
+      signals_(trace_signals(world, also)),
+      is_vcd_(path.ends_with(".vcd")),
+      file_(path, "the trace", std::move(log)) {}
 
-TraceFile::TraceFile(World& world, const std::string& path, std::vector<TraceSignal> signals,
-                     std::function<void(const std::string&)> log)
-    : file_(path, "the trace", std::move(log)),
-      trace_(world, std::move(signals),
-             path.ends_with(".vcd") ? vcd_format([this](std::string_view lines) { file_.take(lines); })
-                                    : csv_format([this](std::string_view lines) { file_.take(lines); })) {}
+void TraceFile::begin() {
+  const TakeLine take = [this](std::string_view lines) { file_.take(lines); };
+  trace_ = std::make_unique<Trace>(world_, signals_, is_vcd_ ? vcd_format(take) : csv_format(take));
+}
 
 }  // namespace understudy::emulator

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,17 +16,21 @@ bool is_trace_name(const std::string& path);
 
 class TraceFile {
  public:
-  /// What trace_signals() has. The world must outlive it. `log` gets a word if the trace ends early. Throws
-  /// NameError (nothing is opened then) and GrowingFileError.
+  /// Opens it; what is there stays until begin(). It will have what trace_signals() has; `log` gets a word if
+  /// it ends early. The world must outlive it. Throws NameError (nothing is opened then) and
+  /// GrowingFileError.
   TraceFile(World& world, const std::string& path, const std::vector<std::string>& also,
             std::function<void(const std::string&)> log);
 
- private:
-  TraceFile(World& world, const std::string& path, std::vector<TraceSignal> signals,
-            std::function<void(const std::string&)> log);
+  /// From this moment on. Throws GrowingFileError.
+  void begin();
 
+ private:
+  World& world_;
+  std::vector<TraceSignal> signals_;
+  bool is_vcd_;
   GrowingFile file_;
-  Trace trace_;  // last: it ends before its file does
+  std::unique_ptr<Trace> trace_;  // last: it ends before its file does
 };
 
 }  // namespace understudy::emulator

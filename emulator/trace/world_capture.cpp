@@ -18,9 +18,12 @@ std::vector<pty::CapturedLine> lines_of(World& world) {
 }  // namespace
 
 WorldCapture::WorldCapture(World& world, const std::string& path, std::function<void(const std::string&)> log)
-    : world_(world), file_(path, lines_of(world), std::move(log)) {
-  for (std::size_t i = 0; i < world.line_count(); ++i) {
-    World::OneLine& line = world.line(i);
+    : world_(world), file_(path, std::move(log)) {}
+
+void WorldCapture::begin() {
+  file_.begin(lines_of(world_));
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    World::OneLine& line = world_.line(i);
     lines_.push_back(std::make_unique<pty::CaptureFrames>(
         i, line.framing, [this](const pty::CapturedPacket& packet) { file_.add(packet); },
         line.protocol == Protocol::text));

@@ -14,12 +14,15 @@ namespace understudy::emulator {
 
 class WorldCapture {
  public:
-  /// From this moment on; the world must outlive it. The file as pty/capture_file.h has it; throws
-  /// pty::CaptureError.
+  /// Opens the file, as pty/capture_file.h has it; what is there stays until begin(). The world must outlive
+  /// it. Throws pty::CaptureError.
   WorldCapture(World& world, const std::string& path, std::function<void(const std::string&)> log);
   ~WorldCapture();  // what waits for its end is a packet then
   WorldCapture(const WorldCapture&) = delete;
   WorldCapture& operator=(const WorldCapture&) = delete;
+
+  /// From this moment on. Throws pty::CaptureError.
+  void begin();
 
  private:
   World& world_;
