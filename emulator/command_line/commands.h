@@ -75,7 +75,10 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
-  std::string record;      // a folder
+  std::string record;  // folders, for a file of each scenario
+  std::string trace;
+  std::vector<std::string> trace_also;
+  std::string capture;
   std::string save_below;  // the folder that scenarios may save in; empty: their own
   bool lint = false;
   bool hash = false;
@@ -91,6 +94,10 @@ struct ReplayArguments {
   std::string recording;
   std::string until;  // a duration; then `control`
   std::string control;
+  std::string trace;  // files, as those of `serve` and `run`
+  std::vector<std::string> trace_also;
+  std::string capture;
+  std::string report;
   std::string version;  // of this program
 };
 int replay_recording(const ReplayArguments& arguments);

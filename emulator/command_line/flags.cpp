@@ -21,6 +21,8 @@ const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
     "");
 
+constexpr const char* kTraceAlsoHelp =
+    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A";
 constexpr const char* kLintHelp = "Tell at the end what a real controller would not forgive its host";
 
 struct CommandLine {
@@ -119,11 +121,7 @@ struct CommandLine {
         .add_option("--trace", serving.trace,
                     "Write what moves and switches to this file: FILE.csv, or FILE.vcd for GTKWave")
         ->check(kNotEmpty);
-    command
-        .add_option("--trace-also", serving.trace_also,
-                    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A")
-        ->delimiter(',')
-        ->check(kNotEmpty);
+    command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
     command.add_flag("--lint", serving.lint, kLintHelp);
   }
 
@@ -171,6 +169,18 @@ struct CommandLine {
     command
         ->add_option("--control", replay.control, "Path of the control socket, with --until [a private one]")
         ->check(kNotEmpty);
+    command
+        ->add_option("--trace", replay.trace,
+                     "Write what moved and switched to this file: FILE.csv, or FILE.vcd for GTKWave")
+        ->check(kNotEmpty);
+    command->add_option("--trace-also", replay.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    command
+        ->add_option(
+            "--capture", replay.capture,
+            "Write what went over the lines to this file: FILE.pcapng for Wireshark, else a text log")
+        ->check(kNotEmpty);
+    command->add_option("--report", replay.report, "Write a page about it to this file, as HTML")
+        ->check(kNotEmpty);
     command->callback([this] {
       replay.version = UNDERSTUDY_VERSION;
       chosen = [this] { return replay_recording(replay); };
@@ -191,6 +201,11 @@ struct CommandLine {
     command
         ->add_option("--record", run.record,
                      "Folder for the recordings of all scenarios [those of failures, below /tmp]")
+        ->check(kNotEmpty);
+    command->add_option("--trace", run.trace, "Folder for a trace of each scenario, as CSV")
+        ->check(kNotEmpty);
+    command->add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    command->add_option("--capture", run.capture, "Folder for a capture of each scenario, for Wireshark")
         ->check(kNotEmpty);
     add_save_below(*command, run.save_below);
     command->add_flag("--lint", run.lint, kLintHelp);

@@ -1,19 +1,14 @@
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cinttypes>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 #include <thread>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/command_line/run_recordings.h"
+#include "emulator/command_line/result_file.h"
+#include "emulator/command_line/run_files.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
@@ -25,7 +20,6 @@
 #include "emulator/scenario/result_text.h"
 #include "emulator/scenario/scenario_file.h"
 #include "emulator/scenario/suite.h"
-#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -86,6 +80,13 @@ std::vector<Scenario> choose_some(std::vector<Scenario> scenarios, const RunArgu
   return choose(std::move(scenarios), arguments.filter, shard);
 }
 
+RunFolders folders_of(const RunArguments& arguments) {
+  return {.recordings = arguments.record,
+          .traces = arguments.trace,
+          .captures = arguments.capture,
+          .trace_also = arguments.trace_also};
+}
+
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
 void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
                       const RunArguments& arguments) {
@@ -99,10 +100,14 @@ void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
   }
   demand_output(claims, "--junit", arguments.junit);
   demand_output(claims, "--report", arguments.report);
-  if (arguments.record.empty()) return;
-  if (const std::string why = claims.objection_to_folder(arguments.record, RunRecordings::file_endings());
-      !why.empty()) {
-    throw UsageError("--record: " + arguments.record + ": " + why);
+  demand_folders(claims, folders_of(arguments));
+  if (arguments.trace_also.empty()) return;
+  for (const Scenario& scenario : scenarios) {
+    try {
+      trace_signals(World(scenario.bench, {}, {}), arguments.trace_also);
+    } catch (const NameError& error) {
+      throw UsageError("--trace-also: " + scenario.file + ": " + error.what());
+    }
   }
 }
 
@@ -119,60 +124,6 @@ int jobs_of(const RunArguments& arguments) {
   }
   return *arguments.jobs;
 }
-
-/// Opened before anything is played, so that a wrong path is told at once. What has no end, such as
-/// /dev/stdout, is written as well.
-class ResultFile {
- public:
-  /// Nothing is written if the path is empty.
-  ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
-    if (path_.empty()) return;
-    try {
-      if (!is_stream(path_)) {
-        file_.emplace(path_);
-        return;
-      }
-      stream_ = pty::Descriptor(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-    } catch (const pty::OutputError& error) {
-      refuse(error.what());
-    }
-    if (!stream_) refuse(errno == ENXIO ? "nobody reads the pipe" : std::strerror(errno));
-    ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
-  }
-  bool is_wanted() const { return !path_.empty(); }
-  /// What was there is gone: nobody takes it for the result of a run that breaks off.
-  void empty() {
-    if (file_) begin("");
-  }
-  void write(const std::string& text) {
-    if (file_) return begin(text);
-    for (std::string_view rest = text; !rest.empty();) {
-      const ssize_t size = ::write(stream_.get(), rest.data(), rest.size());
-      if (size < 0 && errno != EINTR) refuse(std::strerror(errno));
-      if (size > 0) rest.remove_prefix(static_cast<std::size_t>(size));
-    }
-  }
-
- private:
-  static bool is_stream(const std::string& path) {
-    struct stat status = {};
-    return ::stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
-  }
-  void begin(const std::string& text) {
-    try {
-      file_->begin(text);
-    } catch (const pty::OutputError& error) {
-      refuse(error.what());
-    }
-  }
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw GrowingFileError(flag_ + ": " + path_ + " cannot be written: " + why);
-  }
-  std::string flag_;
-  std::string path_;
-  std::optional<pty::OutputFile> file_;
-  pty::Descriptor stream_;
-};
 
 void print(const std::vector<ScenarioResult>& results, bool with_hash) {
   for (const ScenarioResult& result : results) {
@@ -200,7 +151,7 @@ int run_scenarios(const RunArguments& arguments) {
   demand_own_files(std::move(claims), scenarios, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
-  RunRecordings recordings(arguments.record, arguments.real_time, arguments.version);
+  RunFiles files(folders_of(arguments), arguments.real_time, arguments.version);
   junit.empty();
   report.empty();
   std::vector<ScenarioResult> all;
@@ -214,11 +165,11 @@ int run_scenarios(const RunArguments& arguments) {
   }
   const auto options_for = [&](const Scenario& scenario) {
     PlayOptions of_one = options;
-    of_one.onlookers.push_back([&](World& world) { return recordings.record(world, scenario); });
+    for (OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
     return of_one;
   };
   play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
-    for (ScenarioResult& result : results) recordings.settle(result);
+    for (ScenarioResult& result : results) files.settle(result);
     print(results, arguments.hash);
     all.insert(all.end(), results.begin(), results.end());
   });

@@ -64,9 +64,8 @@ Daemon::~Daemon() {
   ports_.clear();
   memories_.reset();
   trace_.reset();
-  trace_file_.reset();
   recording_.reset();
-  finish_capture();
+  capture_.reset();
   if (signals_ >= 0) close(signals_);
   if (posted_signal_ >= 0) close(posted_signal_);
 }
@@ -161,17 +160,17 @@ void Daemon::claim_own_places() {
 
 /// All are open before any is emptied.
 void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
-  const auto open = [&](const std::string& path, const char* what) {
-    return path.empty() ? nullptr : std::make_unique<GrowingFile>(path, what, log_);
-  };
   if (!options.capture_path.empty()) {
-    capture_ = std::make_unique<pty::CaptureFile>(options.capture_path, log_);
+    capture_ = std::make_unique<WorldCapture>(world_, options.capture_path, log_);
   }
-  std::unique_ptr<GrowingFile> recording = open(options.record_path, "the recording");
-  trace_file_ = open(options.trace_path, "the trace");
-  std::vector<TraceSignal> signals;
-  if (trace_file_) signals = trace_signals(world_, options.trace_also);
-  if (capture_) start_capture();
+  std::unique_ptr<GrowingFile> recording;
+  if (!options.record_path.empty()) {
+    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  }
+  if (!options.trace_path.empty()) {
+    trace_ = std::make_unique<TraceFile>(world_, options.trace_path, options.trace_also, log_);
+  }
+  if (capture_) capture_->begin();
   if (recording) {
     const RecordingHeader header{.version = options.version,
                                  .bench = to_text(bench),
@@ -181,33 +180,7 @@ void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
     recording_ = std::make_unique<RecordingSpool>(world_, header, std::move(recording),
                                                   options.record_cap_bytes, log_);
   }
-  if (trace_file_) start_trace(std::move(signals), options.trace_path.ends_with(".vcd"));
-}
-
-void Daemon::start_capture() {
-  std::vector<pty::CapturedLine> lines;
-  for (const auto& port : ports_) {
-    const pty::Line& line = world_.line(port->line_number()).line;
-    lines.push_back({line.name(), line.options().settings.baud});
-  }
-  capture_->begin(std::move(lines));
-  for (std::size_t i = 0; i < ports_.size(); ++i) {
-    World::OneLine& line = world_.line(ports_[i]->line_number());
-    captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); },
-        line.protocol == Protocol::text));
-    line.line.add_observer(*captured_lines_.back());
-  }
-}
-
-void Daemon::start_trace(std::vector<TraceSignal> signals, bool is_vcd) {
-  const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
-  trace_ = std::make_unique<Trace>(world_, std::move(signals), is_vcd ? vcd_format(take) : csv_format(take));
-}
-
-void Daemon::finish_capture() {
-  for (const auto& line : captured_lines_) line->finish();
-  if (capture_) capture_->finish();
+  if (trace_) trace_->begin();
 }
 
 void Daemon::catch_up() { catch_up(kWorkSlice); }

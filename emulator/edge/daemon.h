@@ -17,13 +17,11 @@
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/file_claims.h"
-#include "emulator/growing_file.h"
 #include "emulator/recording/recording_spool.h"
-#include "emulator/trace/trace.h"
+#include "emulator/trace/trace_file.h"
+#include "emulator/trace/world_capture.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
-#include "pty/capture_file.h"
-#include "pty/capture_frames.h"
 
 namespace understudy::emulator {
 
@@ -102,9 +100,6 @@ class Daemon {
   void make_ports(const Bench& bench);
   void claim_own_places();
   void open_files(const Bench& bench, const DaemonOptions& options);
-  void start_capture();
-  void finish_capture();
-  void start_trace(std::vector<TraceSignal> signals, bool is_vcd);
   void judge_stall();
   void catch_up(WallTime longest);
   void work_towards(SimTime target, WallTime longest);
@@ -118,12 +113,10 @@ class Daemon {
   World world_;
   std::uint64_t bench_hash_;
   FileClaims files_;
-  std::unique_ptr<pty::CaptureFile> capture_;
-  std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
+  std::unique_ptr<WorldCapture> capture_;
   std::unique_ptr<NvKeeper> memories_;
   std::unique_ptr<RecordingSpool> recording_;
-  std::unique_ptr<GrowingFile> trace_file_;
-  std::unique_ptr<Trace> trace_;
+  std::unique_ptr<TraceFile> trace_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;
