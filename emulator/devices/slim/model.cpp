@@ -99,7 +99,9 @@ constexpr std::array<std::string_view, 4> kGaps{
     "electrical is modelled.",
     "The servo's own loop has no error: ?FLE shows 0, and EL and LL are stored without effect.",
     "FT pushes against something that does not give way, and PN44 and TpSYN are stored without effect.",
-    "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead.",
+    "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead; where PR3 of "
+    "one "
+    "module changes in motion, the path is kept to all the same.",
 };
 
 }  // namespace
