@@ -147,7 +147,7 @@ int poll_port(const PollArguments& arguments);
 int assemble_program(const std::string& file);
 int disassemble_program(const std::string& file);
 
-/// Benches, scenarios, and files of steps that scenarios include.
+/// Benches, scenarios, and files of steps that scenarios include; folders with such files.
 int check_files(const std::vector<std::string>& files, const std::string& save_below);
 /// The JSON Schema of "bench" or "scenario" files.
 int print_schema(const std::string& what);

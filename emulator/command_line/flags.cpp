@@ -189,7 +189,9 @@ struct CommandLine {
 
   void add_run() {
     CLI::App* command = app.add_subcommand("run", "Play scenarios, in simulated time");
-    command->add_option("SCENARIO", run.scenarios, "Scenario files")->required();
+    command
+        ->add_option("SCENARIO", run.scenarios, "Scenario files; folders, of which all scenarios are played")
+        ->required();
     command->add_flag("--real-time", run.real_time,
                       "By the clock on the wall, over real ports, with libmodbus as the host");
     command->add_option("--junit", run.junit, "Write the results to this file, as JUnit XML")
@@ -317,7 +319,7 @@ struct CommandLine {
 
   void add_check() {
     CLI::App* command = app.add_subcommand("check", "Validate benches and scenarios without running them");
-    command->add_option("FILE", files, "Bench and scenario files")->required();
+    command->add_option("FILE", files, "Bench and scenario files, and folders of them")->required();
     add_save_below(*command, save_below);
     command->callback([this] { chosen = [this] { return check_files(files, save_below); }; });
   }

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_files.h"
+#include "emulator/command_line/yaml_files.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
 #include "emulator/one_line.h"
@@ -22,11 +25,30 @@ namespace understudy::emulator {
 
 namespace {
 
-/// All scenarios of all files; each file's first error is told. Nothing if there is one.
+/// The files that are played: of a folder its scenarios, and neither its benches nor steps to include.
+std::vector<std::string> files_of(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  std::vector<std::string> files = yaml_files_below(path);
+  std::erase_if(files, [](const std::string& file) { return kind_of_file(file) != FileKind::scenario; });
+  if (files.empty()) throw FileError(path + ": folder: has no scenario; expected at least one");
+  return files;
+}
+
+/// All scenarios of all files; what is wrong with each is told. Nothing if anything is.
 std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   std::vector<Scenario> scenarios;
+  std::vector<std::string> files;
   bool is_well = true;
-  for (const std::string& file : arguments.scenarios) {
+  for (const std::string& path : arguments.scenarios) {
+    try {
+      const auto more = files_of(path);
+      files.insert(files.end(), more.begin(), more.end());
+    } catch (const FileError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      is_well = false;
+    }
+  }
+  for (const std::string& file : files) {
     try {
       for (Scenario& scenario : load_scenarios(file, arguments.save_below)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;

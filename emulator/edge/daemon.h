@@ -77,8 +77,10 @@ class Daemon {
   /// (asked at the end of every tick), then calls `done`. Only where the clock stands; false otherwise, or
   /// while another advance is under way.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
-  /// Brings the world to the present moment.
+  /// Brings the world to the present moment, or as far as it comes in a few milliseconds.
   void catch_up();
+  /// Like catch_up(), but as far as it comes in a tenth of a second: for what is stamped with this moment.
+  void catch_up_for_bytes();
 
   /// Of the bench that the world is of, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
@@ -99,7 +101,8 @@ class Daemon {
   void claim_own_places();
   void open_files(const Bench& bench, const DaemonOptions& options);
   void judge_stall();
-  void work_towards(SimTime target);
+  void catch_up(WallTime longest);
+  void work_towards(SimTime target, WallTime longest);
   void work_on_advance();
   void work_towards_condition();
   std::optional<WallTime> next_wake() const;
@@ -124,7 +127,8 @@ class Daemon {
   std::vector<std::function<void()>> posted_;
   bool is_over_ = false;  // under the same mutex
   bool stopping_ = false;
-  std::optional<WallTime> planned_;  // for when the loop meant to wake; judged once
+  std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
+  std::optional<WallTime> behind_since_;  // since when it has worked to catch up; nothing: it has caught up
 
   SimTime advance_target_{0};
   std::function<bool()> advance_is_there_;  // may be none
