@@ -79,6 +79,7 @@ Json device_status(const World& world, std::size_t number) {
     const std::string name(device.model().axes[axis].name);
     status["axes"][name] =
         Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
+    if (const auto duty = device.duty_percent(place)) status["axes"][name]["pwm_percent"] = *duty;
     const PlantAxis& plant = world.plant(number, place);
     Json& machine = status["machines"][name];
     machine = Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
