@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "pty/output_file.h"
 #include "pty/port_claim.h"
 
 namespace understudy::pty {
@@ -24,24 +25,47 @@ std::string link_target(const std::string& path) {
   return size > 0 ? std::string(target.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-std::string kind_of(mode_t mode) {
-  if (S_ISREG(mode)) return "a regular file";
-  if (S_ISDIR(mode)) return "a directory";
-  if (S_ISSOCK(mode)) return "a socket";
-  if (S_ISFIFO(mode)) return "a pipe";
-  return "a device";
+const std::string kExpected = ", not a link of ours; expected a free path or a stale link";
+
+/// Throws if there is something else than a link.
+void demand_link_or_nothing(const std::string& path, const std::string& absolute_path) {
+  struct stat status = {};
+  if (::lstat(absolute_path.c_str(), &status) != 0 || S_ISLNK(status.st_mode)) return;
+  throw PortError(path + ": is " + kind_of_file(status.st_mode) + kExpected);
 }
 
 /// Throws if what is at `absolute_path` may not be replaced.
 void demand_stale(const std::string& path, const std::string& absolute_path) {
-  struct stat status = {};
-  if (::lstat(absolute_path.c_str(), &status) != 0) return;  // gone meanwhile
-  const std::string expected = ", not a link of ours; expected a free path or a stale link";
-  if (!S_ISLNK(status.st_mode)) throw PortError(path + ": is " + kind_of(status.st_mode) + expected);
+  demand_link_or_nothing(path, absolute_path);
   const std::string target = link_target(absolute_path);
   if (target.starts_with("/dev/pts/")) return;
+  struct stat status = {};
   const bool dangles = ::stat(absolute_path.c_str(), &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
-  if (!dangles) throw PortError(path + ": is a link to " + target + expected);
+  if (!dangles) throw PortError(path + ": is a link to " + target + kExpected);
+}
+
+/// A new link under the first free name; empty, and errno, if it cannot be made.
+std::string make_link_beside(const std::string& name, const std::string& target) {
+  for (int i = 1;; ++i) {
+    const std::string fresh = name + ".new" + (i == 1 ? "" : "-" + std::to_string(i));
+    if (::symlink(target.c_str(), fresh.c_str()) == 0) return fresh;
+    if (errno != EEXIST) return "";
+  }
+}
+
+/// Makes a link, over one that is there, in one step: nobody ever finds no link there. 0, or the error.
+int replace_link(const std::string& path, const std::string& target) {
+  const std::string fresh = make_link_beside(path, target);
+  if (fresh.empty()) return errno;
+  if (::rename(fresh.c_str(), path.c_str()) == 0) return 0;
+  const int error = errno;
+  ::unlink(fresh.c_str());
+  return error;
+}
+
+PortError cannot_link(const std::string& path, int error) {
+  return PortError(path + ": the link cannot be made: " + error_text(error) +
+                   "; expected a writable directory");
 }
 
 void demand_directory(const std::string& path, const std::filesystem::path& absolute_path) {
@@ -58,18 +82,15 @@ void demand_directory(const std::string& path, const std::filesystem::path& abso
 PortLink::PortLink(const std::string& path, std::string target) {
   const std::filesystem::path absolute_path = std::filesystem::absolute(path);
   demand_directory(path, absolute_path);
-  const auto fail = [&path](int error) -> PortError {
-    return PortError(path + ": the link cannot be made: " + error_text(error) +
-                     "; expected a writable directory");
-  };
   const std::string name = absolute_path.string();
+  demand_link_or_nothing(path, name);
   std::error_code ignored;
   const auto canonical_parent = std::filesystem::canonical(absolute_path.parent_path(), ignored);
   try {
-    claim_ = claim_link((canonical_parent / absolute_path.filename()).string());
+    claim_ = PortClaim((canonical_parent / absolute_path.filename()).string());
   } catch (const std::system_error& error) {
     throw PortError(path + ": whether the link is in use cannot be told: " + error.what() +
-                    "; expected a free descriptor and Unix sockets");
+                    "; expected to make and lock that file");
   }
   if (!claim_) {
     throw PortError(
@@ -77,17 +98,9 @@ PortLink::PortLink(const std::string& path, std::string target) {
   }
   // A free path is taken in one step, which never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {
-    if (errno != EEXIST) throw fail(errno);
+    if (errno != EEXIST) throw cannot_link(path, errno);
     demand_stale(path, name);
-    // A stale link is replaced in one step, so that nobody ever finds no link there.
-    const std::string fresh = name + "." + std::to_string(::getpid()) + ".new";
-    ::unlink(fresh.c_str());
-    if (::symlink(target.c_str(), fresh.c_str()) != 0) throw fail(errno);
-    if (::rename(fresh.c_str(), name.c_str()) != 0) {
-      const int error = errno;
-      ::unlink(fresh.c_str());
-      throw fail(error);
-    }
+    if (const int error = replace_link(name, target)) throw cannot_link(path, error);
   }
   absolute_path_ = name;
   target_ = std::move(target);
@@ -95,6 +108,12 @@ PortLink::PortLink(const std::string& path, std::string target) {
 
 PortLink::~PortLink() {
   if (!target_.empty() && link_target(absolute_path_) == target_) ::unlink(absolute_path_.c_str());
+}
+
+void PortLink::point_to(const std::string& target) {
+  if (target_.empty() || link_target(absolute_path_) != target_) return;
+  if (const int error = replace_link(absolute_path_, target)) throw cannot_link(absolute_path_, error);
+  target_ = target;
 }
 
 PortLink::PortLink(PortLink&& other) noexcept

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "pty/descriptor.h"
+#include "pty/port_claim.h"
 
 namespace understudy::pty {
 
@@ -23,13 +23,16 @@ class PortLink {
   PortLink(const std::string& path, std::string target);
   /// Removes the link, unless it has become another's.
   ~PortLink();
+  /// Links the same path to another target, in one step. Nothing if there is no link, or it has become
+  /// another's. Throws PortError.
+  void point_to(const std::string& target);
   PortLink(PortLink&& other) noexcept;
   PortLink& operator=(PortLink&& other) noexcept;
 
  private:
   std::string absolute_path_;  // the working directory may change before the link is removed
   std::string target_;         // empty: no link
-  Descriptor claim_;           // says that the link is in use
+  PortClaim claim_;            // says that the link is in use
 };
 
 }  // namespace understudy::pty

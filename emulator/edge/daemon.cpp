@@ -12,6 +12,7 @@
 
 #include "emulator/bench/bench_text.h"
 #include "emulator/control/messages.h"
+#include "emulator/one_line.h"
 #include "emulator/world/snapshot_file.h"
 
 namespace understudy::emulator {
@@ -21,6 +22,10 @@ namespace {
 // Free running and long advances look up from their work this often (wall time), so that ports and the
 // control socket are served meanwhile.
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
+// For bytes, which are stamped with the moment that the world has come to.
+constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
+// A trace looks at every tick, so a long quiet span takes long to cross: it is crossed as it goes by.
+constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
 // What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
@@ -48,11 +53,10 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
   watch_posts();
   make_ports(bench);
   if (options.has_control) open_control(options.control_path);
+  claim_own_places();
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
-  // Last: a run that cannot start leaves the capture of the one before alone.
-  if (!options.capture_path.empty()) start_capture(options.capture_path);
-  if (!options.record_path.empty()) start_recording(bench, options);
-  if (!options.trace_path.empty()) start_trace(options);
+  // Last: a run that cannot start leaves the files of the one before alone.
+  open_files(bench, options);
 }
 
 Daemon::~Daemon() {
@@ -60,9 +64,8 @@ Daemon::~Daemon() {
   ports_.clear();
   memories_.reset();
   trace_.reset();
-  trace_file_.reset();
   recording_.reset();
-  finish_capture();
+  capture_.reset();
   if (signals_ >= 0) close(signals_);
   if (posted_signal_ >= 0) close(posted_signal_);
 }
@@ -141,56 +144,62 @@ void Daemon::make_ports(const Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     std::string link = bench.lines[i].link;
     if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
-    ports_.push_back(std::make_unique<Port>(loop_, world_, i, link, [this] { catch_up(); }));
+    ports_.push_back(std::make_unique<Port>(
+        loop_, world_, i, link, [this] { catch_up_for_bytes(); }, log_));
   }
 }
 
-void Daemon::start_capture(const std::string& path) {
-  std::vector<pty::CapturedLine> lines;
+void Daemon::claim_own_places() {
   for (const auto& port : ports_) {
-    const pty::Line& line = world_.line(port->line_number()).line;
-    lines.push_back({line.name(), line.options().settings.baud});
+    const std::string line = "of line " + emulator::quoted(world_.line(port->line_number()).line.name());
+    files_.add_place({port->terminal().link_path(), "the link " + line});
+    files_.add_place({port->terminal().path(), "the port " + line});
   }
-  capture_ = std::make_unique<pty::CaptureFile>(path, std::move(lines), log_);
-  for (std::size_t i = 0; i < ports_.size(); ++i) {
-    World::OneLine& line = world_.line(ports_[i]->line_number());
-    captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); },
-        line.protocol == Protocol::text));
-    line.line.add_observer(*captured_lines_.back());
+  files_.add_place({control_path(), "the control socket"});
+}
+
+/// All are open before any is emptied.
+void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
+  if (!options.capture_path.empty()) {
+    capture_ = std::make_unique<WorldCapture>(world_, options.capture_path, log_);
   }
+  std::unique_ptr<GrowingFile> recording;
+  if (!options.record_path.empty()) {
+    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  }
+  if (!options.trace_path.empty()) {
+    trace_ = std::make_unique<TraceFile>(world_, options.trace_path, options.trace_also, log_);
+  }
+  if (capture_) capture_->begin();
+  if (recording) {
+    const RecordingHeader header{.version = options.version,
+                                 .bench = to_text(bench),
+                                 .options = world_options(options),
+                                 .seed = bench.seed,
+                                 .snapshot = {}};
+    recording_ = std::make_unique<RecordingSpool>(world_, header, std::move(recording),
+                                                  options.record_cap_bytes, log_);
+  }
+  if (trace_) trace_->begin();
 }
 
-void Daemon::start_recording(const Bench& bench, const DaemonOptions& options) {
-  const RecordingHeader header{.version = options.version,
-                               .bench = to_text(bench),
-                               .options = world_options(options),
-                               .seed = bench.seed,
-                               .snapshot = {}};
-  recording_ =
-      std::make_unique<RecordingSpool>(world_, header, options.record_path, options.record_cap_bytes, log_);
-}
+void Daemon::catch_up() { catch_up(kWorkSlice); }
 
-void Daemon::start_trace(const DaemonOptions& options) {
-  std::vector<TraceSignal> signals = trace_signals(world_, options.trace_also);
-  trace_file_ = std::make_unique<GrowingFile>(options.trace_path, "the trace", log_);
-  const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
-  trace_ = std::make_unique<Trace>(
-      world_, std::move(signals), options.trace_path.ends_with(".vcd") ? vcd_format(take) : csv_format(take));
-}
+void Daemon::catch_up_for_bytes() { catch_up(kWorkForBytes); }
 
-void Daemon::finish_capture() {
-  for (const auto& line : captured_lines_) line->finish();
-  if (capture_) capture_->finish();
-}
-
-void Daemon::catch_up() {
+void Daemon::catch_up(WallTime longest) {
+  const WallTime now = wall_now();
   judge_stall();
-  const SimTime target = std::max(world_.now(), pacer_.target(wall_now()));
-  work_towards(target);
-  // Free means as fast as it goes: what it could not do is no debt.
-  if (pacer_.speed().kind == Speed::Kind::free && world_.now() < target)
-    pacer_.moved_to(world_.now(), wall_now());
+  const bool is_free = pacer_.speed().kind == Speed::Kind::free;
+  const SimTime target = std::max(world_.now(), pacer_.target(now));
+  work_towards(target, is_free ? kWorkSlice : longest);
+  if (world_.now() >= target) {
+    behind_since_.reset();
+  } else if (is_free) {
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as it goes: what it could not do is no debt
+  } else if (!behind_since_) {
+    behind_since_ = now;
+  }
 }
 
 /// Before anything catches up with the time that has passed: was it a stall?
@@ -198,6 +207,7 @@ void Daemon::judge_stall() {
   if (!planned_) return;
   const WallTime planned = *std::exchange(planned_, std::nullopt);
   const WallTime left_out = pacer_.woke(planned, wall_now());
+  if (behind_since_) *behind_since_ += left_out;
   // Every real stall is told; a machine that never keeps up slips by little again and again, and would fill
   // the log.
   const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
@@ -207,9 +217,9 @@ void Daemon::judge_stall() {
   }
 }
 
-/// For a slice of wall time at most; quiet spans are crossed in ever larger steps.
-void Daemon::work_towards(SimTime target) {
-  const WallTime until = wall_now() + kWorkSlice;
+/// For so much wall time at most; quiet spans are crossed in ever larger steps.
+void Daemon::work_towards(SimTime target, WallTime longest) {
+  const WallTime until = wall_now() + longest;
   for (SimTime step = kSimSlice; world_.now() < target; step = std::min(2 * step, kHorizon / 4)) {
     world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
     if (wall_now() >= until) return;
@@ -222,6 +232,7 @@ void Daemon::pause() {
   pacer_.pause(wall_now());
   catch_up();                                 // to the moment at which the clock stopped,
   pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
+  behind_since_.reset();
 }
 
 bool Daemon::resume() {
@@ -254,7 +265,7 @@ void Daemon::work_on_advance() {
   if (advance_is_there_) {
     work_towards_condition();
   } else {
-    work_towards(advance_target_);
+    work_towards(advance_target_, kWorkSlice);
   }
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;
@@ -276,6 +287,7 @@ std::string_view Daemon::why_no_restore() const {
 void Daemon::restore(const WorldState& state) {
   emulator::restore(world_, state);
   planned_.reset();
+  behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());
   for (const auto& port : ports_) port->world_restored();
   memories_->world_restored();
@@ -283,12 +295,14 @@ void Daemon::restore(const WorldState& state) {
 
 std::optional<WallTime> Daemon::next_wake() const {
   const auto due = world_.next_due();
-  return due ? pacer_.wall_time_of(*due) : std::nullopt;
+  if (!trace_) return due ? pacer_.wall_time_of(*due) : std::nullopt;
+  return pacer_.wall_time_of(std::min(due.value_or(kHorizon), world_.now() + kTracedSpan));
 }
 
 void Daemon::wait() {
-  // An advance is work in hand, not a moment that was planned for.
-  planned_ = advance_done_ ? std::nullopt : next_wake();
+  // An advance is work in hand, not a moment that was planned for. So is catching up: what counts is since
+  // when it lasts, not how much simulated time it has still to cross, which may have been a long sleep.
+  planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   for (const auto& port : ports_) {
     const auto look = port->next_look(pacer_.standing());

@@ -15,6 +15,13 @@ namespace {
 constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual names none
 constexpr std::array<int, 5> kBauds{9600, 19200, 38400, 57600, 115200};
 
+constexpr SectionRow kSections[] = {
+    {"程式/立即", "program, immediate"},
+    {"立即", "immediate"},
+    {"立即/外部", "immediate, external"},
+    {"緩衝區", "buffer"},
+};
+
 /// Names live as long as the program.
 struct Names {
   std::vector<std::string> texts;
@@ -115,6 +122,7 @@ const Model& model() {
       .instructions = {},
       .commands = commands,
       .choices = kChoices,
+      .sections = kSections,
       .terminals = names.terminals,
       .axes = names.axes,
       .state_registers = kStateNames,
