@@ -85,6 +85,14 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   if (!arguments.timing.empty()) {
     for (LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
   }
+  if (!arguments.baud_tolerance.empty()) {
+    const auto ppm = parse_baud_tolerance(arguments.baud_tolerance);
+    if (!ppm) {
+      throw UsageError("--baud-tolerance: " + emulator::quoted(arguments.baud_tolerance) +
+                       " is not a share of the speed; " + std::string(kBaudToleranceExpected));
+    }
+    for (LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
+  }
   return bench;
 }
 

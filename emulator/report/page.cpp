@@ -102,7 +102,8 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
               " left out here</td></tr>\n";
     }
     rows += "<tr>" + time_cell(frame->time) + "<td class=\"dim\">" + xml_escaped(frame->line) + "</td><td>" +
-            (frame->is_from_host ? "&rarr;" : "&larr;") + "</td><td>" + in("code", xml_escaped(frame->text));
+            (frame->is_from_host ? "&rarr;" : "&larr;") + "</td><td>";
+    if (!frame->text.empty()) rows += in("code", xml_escaped(frame->text));
     if (frame->text != frame->bytes) rows += " <code class=\"dim\">" + xml_escaped(frame->bytes) + "</code>";
     if (!frame->remark.empty()) rows += " <span class=\"bad\">" + xml_escaped(frame->remark) + "</span>";
     rows += "</td></tr>\n";
