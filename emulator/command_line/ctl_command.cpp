@@ -208,6 +208,10 @@ void print_status(const Json& status) {
       std::printf("\n");
     }
   }
+  for (const Json& fault : status.at("faults")) {
+    std::printf("fault %lld %s%s\n", fault.at("number").get<long long>(),
+                fault.at("fault").get<std::string>().c_str(), course_text(fault).c_str());
+  }
 }
 
 }  // namespace

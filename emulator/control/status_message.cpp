@@ -110,6 +110,7 @@ Json status_message(Daemon& daemon, const Json& message) {
   for (const auto& port : daemon.ports()) status["lines"].push_back(line_status(daemon, *port));
   status["devices"] = Json::array();
   for (std::size_t i = 0; i < world.device_count(); ++i) status["devices"].push_back(device_status(world, i));
+  status["faults"] = faults_message_part(world);
   return Json{{"ok", true}, {"status", status}};
 }
 

@@ -61,6 +61,19 @@ std::string axis_text(const World& world, std::size_t number, std::size_t axis) 
   return text;
 }
 
+std::string fault_text(const World& world, std::size_t number, const ArmedFault& armed) {
+  const auto& [fault, course] = armed;
+  std::string text = "fault " + std::to_string(number) + " " + to_text(world.known(), fault) + ":";
+  if (!is_of_frames(fault.kind)) text += course.in_force ? " in force" : " not in force";
+  if (waits(fault)) {
+    text += (is_of_frames(fault.kind) ? " hit " : ", hit ") + std::to_string(course.hits) + " of " +
+            std::to_string(course.matched) + " that matched";
+  } else if (is_of_frames(fault.kind)) {
+    text += " in force";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> state_text(const World& world) {
@@ -81,6 +94,7 @@ std::vector<std::string> state_text(const World& world) {
       texts.push_back(device.name() + ": " + terminals);
     }
   }
+  for (const auto& [number, armed] : world.faults()) texts.push_back(fault_text(world, number, armed));
   return texts;
 }
 
