@@ -21,6 +21,7 @@
 #include "emulator/scenario/real_stage.h"
 #include "emulator/scenario/result_text.h"
 #include "emulator/scenario/scenario_file.h"
+#include "emulator/scenario/shared_reading.h"
 #include "emulator/scenario/suite.h"
 #include "pty/output_file.h"
 
@@ -31,10 +32,11 @@ namespace {
 /// All scenarios of all files; each file's first error is told. Nothing if there is one.
 std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   std::vector<Scenario> scenarios;
+  SharedReading shared;
   bool is_well = true;
   for (const std::string& file : arguments.scenarios) {
     try {
-      for (Scenario& scenario : load_scenarios(file, arguments.save_below)) {
+      for (Scenario& scenario : load_scenarios(file, arguments.save_below, shared)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
         scenarios.push_back(std::move(scenario));
       }
