@@ -22,7 +22,7 @@ pty::Descriptor open_regular(const std::string& path, std::string& why) {
   pty::Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status = {};
   if (!file || ::fstat(file.get(), &status) != 0) {
-    why = "cannot be read";
+    why = std::string("cannot be read (") + std::strerror(errno) + ")";
   } else if (!S_ISREG(status.st_mode)) {
     why = "is no regular file";
     file = pty::Descriptor();
@@ -72,7 +72,10 @@ FileText read_text_file(const std::string& path) {
   while (true) {
     const ssize_t size = ::read(file.get(), piece.data(), piece.size());
     if (size < 0 && errno == EINTR) continue;
-    if (size < 0) return text;
+    if (size < 0) {
+      text.why = std::string("cannot be read (") + std::strerror(errno) + ")";
+      return text;
+    }
     if (size == 0) break;
     // It may grow while it is read, so that its size beforehand says little.
     if (bytes.size() + static_cast<std::size_t>(size) > kMostTextBytes) {

@@ -11,7 +11,7 @@ inline constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;
 
 /// The bytes of a file; nothing if there is none, or it cannot be read.
 struct FileText : std::optional<std::string> {
-  std::string why = "cannot be read";  // for messages, where there is nothing
+  std::string why{};  // where there is nothing, for messages: "cannot be read (Permission denied)"
 };
 
 /// Only a regular file is read, up to kMostTextBytes: a pipe would be waited for without end, and a device

@@ -4,7 +4,10 @@ build_packages=(g++ cmake ninja-build ccache pkg-config libcli11-dev libmodbus-d
                 libyaml-cpp-dev nlohmann-json3-dev libgtest-dev libeigen3-dev)
 host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)
-test_packages=(dpkg-dev file man-db                      # for the package and its man page
+test_packages=(python3                                   # counts the results
+               clang                                     # reads the product as well
+               dpkg-dev file man-db                      # for the package and its man page
+               tshark gtkwave                            # read the captures and traces
                python3-pymodbus python3-serial-asyncio)  # a host, which only recommends the second and needs it
 heavy_host_packages=(libqt5serialbus5-dev)               # with UNDERSTUDY_HEAVY_HOSTS=1
 

@@ -44,15 +44,6 @@ void demand_stale(const std::string& path, const std::string& absolute_path) {
   if (!dangles) throw PortError(path + ": is a link to " + target + kExpected);
 }
 
-void demand_directory(const std::string& path, const std::filesystem::path& absolute_path) {
-  const std::filesystem::path parent = absolute_path.parent_path();
-  std::error_code error;
-  if (std::filesystem::is_directory(parent, error)) return;
-  const bool exists = std::filesystem::exists(parent, error);
-  throw PortError(path + ": " + parent.string() + (exists ? " is no directory" : " does not exist") +
-                  "; expected an existing directory");
-}
-
 /// A new link under the first free name; empty, and errno, if it cannot be made.
 std::string make_link_beside(const std::string& name, const std::string& target) {
   for (int i = 1;; ++i) {
@@ -62,15 +53,35 @@ std::string make_link_beside(const std::string& name, const std::string& target)
   }
 }
 
+/// Makes a link, over one that is there, in one step: nobody ever finds no link there. 0, or the error.
+int replace_link(const std::string& path, const std::string& target) {
+  const std::string fresh = make_link_beside(path, target);
+  if (fresh.empty()) return errno;
+  if (::rename(fresh.c_str(), path.c_str()) == 0) return 0;
+  const int error = errno;
+  ::unlink(fresh.c_str());
+  return error;
+}
+
+PortError cannot_link(const std::string& path, int error) {
+  return PortError(path + ": the link cannot be made: " + error_text(error) +
+                   "; expected a writable directory");
+}
+
+void demand_directory(const std::string& path, const std::filesystem::path& absolute_path) {
+  const std::filesystem::path parent = absolute_path.parent_path();
+  std::error_code error;
+  if (std::filesystem::is_directory(parent, error)) return;
+  const bool exists = std::filesystem::exists(parent, error);
+  throw PortError(path + ": " + parent.string() + (exists ? " is no directory" : " does not exist") +
+                  "; expected an existing directory");
+}
+
 }  // namespace
 
 PortLink::PortLink(const std::string& path, std::string target) {
   const std::filesystem::path absolute_path = std::filesystem::absolute(path);
   demand_directory(path, absolute_path);
-  const auto fail = [&path](int error) -> PortError {
-    return PortError(path + ": the link cannot be made: " + error_text(error) +
-                     "; expected a writable directory");
-  };
   const std::string name = absolute_path.string();
   demand_link_or_nothing(path, name);
   std::error_code ignored;
@@ -87,16 +98,9 @@ PortLink::PortLink(const std::string& path, std::string target) {
   }
   // A free path is taken in one step, which never replaces anything.
   if (::symlink(target.c_str(), name.c_str()) != 0) {
-    if (errno != EEXIST) throw fail(errno);
+    if (errno != EEXIST) throw cannot_link(path, errno);
     demand_stale(path, name);
-    // A stale link is replaced in one step, so that nobody ever finds no link there.
-    const std::string fresh = make_link_beside(name, target);
-    if (fresh.empty()) throw fail(errno);
-    if (::rename(fresh.c_str(), name.c_str()) != 0) {
-      const int error = errno;
-      ::unlink(fresh.c_str());
-      throw fail(error);
-    }
+    if (const int error = replace_link(name, target)) throw cannot_link(path, error);
   }
   absolute_path_ = name;
   target_ = std::move(target);
@@ -104,6 +108,12 @@ PortLink::PortLink(const std::string& path, std::string target) {
 
 PortLink::~PortLink() {
   if (!target_.empty() && link_target(absolute_path_) == target_) ::unlink(absolute_path_.c_str());
+}
+
+void PortLink::point_to(const std::string& target) {
+  if (target_.empty() || link_target(absolute_path_) != target_) return;
+  if (const int error = replace_link(absolute_path_, target)) throw cannot_link(absolute_path_, error);
+  target_ = target;
 }
 
 PortLink::PortLink(PortLink&& other) noexcept

@@ -23,6 +23,9 @@ class PortLink {
   PortLink(const std::string& path, std::string target);
   /// Removes the link, unless it has become another's.
   ~PortLink();
+  /// Links the same path to another target, in one step. Nothing if there is no link, or it has become
+  /// another's. Throws PortError.
+  void point_to(const std::string& target);
   PortLink(PortLink&& other) noexcept;
   PortLink& operator=(PortLink&& other) noexcept;
 

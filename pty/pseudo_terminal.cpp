@@ -4,6 +4,8 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <sys/inotify.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <termios.h>
 
 #include <array>
@@ -38,30 +40,69 @@ bool is_hung_up(int master) {
   return (entry.revents & POLLHUP) != 0;
 }
 
-}  // namespace
+/// Whether a host wants the line for itself alone (TIOCEXCL): then only root can open it once more.
+bool is_claimed(int slave) {
+  int claimed = 0;
+  return ::ioctl(slave, TIOCGEXCL, &claimed) == 0 && claimed != 0;
+}
 
-PseudoTerminal::PseudoTerminal(const std::string& link_path) : link_path_(link_path) {
-  master_ = Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (!master_) throw cannot_have(link_path, "no pseudo-terminal is to be had; expected a free one", errno);
+struct Pair {
+  Descriptor master;
+  Descriptor slave;
+  std::string path;  // of the slave
+};
+
+/// Raw, at the resting speed.
+Pair open_pair(const std::string& link_path) {
+  Pair pair;
+  pair.master = Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!pair.master) {
+    throw cannot_have(link_path, "no pseudo-terminal is to be had; expected a free one", errno);
+  }
+  const int master = pair.master.get();
   std::array<char, 64> name{};
-  if (::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0 ||
-      ::ptsname_r(master_.get(), name.data(), name.size()) != 0) {
+  if (::grantpt(master) != 0 || ::unlockpt(master) != 0 ||
+      ::ptsname_r(master, name.data(), name.size()) != 0) {
     throw cannot_have(link_path, "the pseudo-terminal cannot be unlocked", errno);
   }
-  path_ = name.data();
-  slave_ = open_slave(path_);
-  if (!slave_) throw cannot_have(link_path, path_ + " cannot be opened", errno);
-  if (!rest(slave_.get())) throw cannot_have(link_path, path_ + " cannot be set raw", errno);
+  pair.path = name.data();
+  pair.slave = open_slave(pair.path);
+  if (!pair.slave) throw cannot_have(link_path, pair.path + " cannot be opened", errno);
+  if (!rest(pair.slave.get())) throw cannot_have(link_path, pair.path + " cannot be set raw", errno);
+  return pair;
+}
 
-  watch_ = Descriptor(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
-  if (!watch_) {
+/// Of a slave: who opens and closes it.
+Descriptor watch_of(const std::string& path, const std::string& link_path) {
+  Descriptor watch(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+  if (!watch) {
     throw cannot_have(
         link_path,
         "no inotify instance is to be had; expected fewer than fs.inotify.max_user_instances in use", errno);
   }
-  if (::inotify_add_watch(watch_.get(), path_.c_str(), IN_OPEN | IN_CLOSE_WRITE | IN_CLOSE_NOWRITE) < 0) {
-    throw cannot_have(link_path, path_ + " cannot be watched", errno);
+  if (::inotify_add_watch(watch.get(), path.c_str(), IN_OPEN | IN_CLOSE_WRITE | IN_CLOSE_NOWRITE) < 0) {
+    throw cannot_have(link_path, path + " cannot be watched", errno);
   }
+  return watch;
+}
+
+/// Whoever may open the one may open the other.
+void give_same_access(const std::string& from, const std::string& to) {
+  struct stat access = {};
+  if (::stat(from.c_str(), &access) != 0) return;
+  // The group first: until then the old one must not gain anything.
+  if (::chown(to.c_str(), static_cast<uid_t>(-1), access.st_gid) != 0) return;
+  ::chmod(to.c_str(), access.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
+}
+
+}  // namespace
+
+PseudoTerminal::PseudoTerminal(const std::string& link_path) : link_path_(link_path) {
+  Pair pair = open_pair(link_path);
+  master_ = std::move(pair.master);
+  slave_ = std::move(pair.slave);
+  path_ = std::move(pair.path);
+  watch_ = watch_of(path_, link_path);
   if (!link_path.empty()) link_ = PortLink(link_path, path_);
 }
 
@@ -112,7 +153,8 @@ void PseudoTerminal::follow_presence(bool must_look) {
   const bool was_in_doubt = is_in_doubt();
   const bool has_closed = read_presence_events();
   bool is_second_look = was_in_doubt && !has_closed && is_in_doubt();
-  must_look = must_look || has_closed || is_second_look;
+  const bool is_abandoned = !slave_ && is_hung_up(master_.get());
+  must_look = must_look || has_closed || is_second_look || is_abandoned;
   // Hosts come and go while we look; if they go on doing so, the watch stays readable for the next call.
   constexpr int kMaxLooks = 8;
   for (int look = 0; must_look && look < kMaxLooks; ++look) {
@@ -187,8 +229,16 @@ void PseudoTerminal::count_departure() {
   if (const auto last = host_settings_of(master_.get())) settings_ = last;
 }
 
-/// If nobody is there, the line is at rest afterwards.
+// A claim (TIOCEXCL) would keep us out as well, unless we are root; and on a pseudo-terminal, unlike a real
+// port, it outlives the host that made it. So it is taken off before we let go, and given back if a host is
+// still there. What is left is a host that comes and claims the line in just that moment: then we are
+// without a slave until it goes, which works, as its own keeps the master from hanging up. If it went without
+// taking its claim back, the kernel never lets anybody in again: recover().
+
+/// If nobody is there, the line is at rest afterwards, and nobody's.
 bool PseudoTerminal::is_somebody_there() {
+  const bool was_claimed = slave_ && is_claimed(slave_.get());
+  if (was_claimed) ::ioctl(slave_.get(), TIOCNXCL);
   own_closes_ = own_opens_ = 1;
   slave_.close();
   const bool is_free = is_hung_up(master_.get());
@@ -198,7 +248,32 @@ bool PseudoTerminal::is_somebody_there() {
     if (!is_at_rest(master_.get()) && is_hung_up(master_.get())) rest(master_.get());
   }
   slave_ = open_slave(path_);
+  if (!is_free && was_claimed && slave_) ::ioctl(slave_.get(), TIOCEXCL);
   return !is_free;
+}
+
+bool PseudoTerminal::recover() {
+  if (!is_lost()) return true;
+  slave_ = open_slave(path_);
+  if (slave_) {
+    ::tcflush(slave_.get(), TCIFLUSH);  // count_departure() could not
+    return true;
+  }
+  if (errno != EBUSY) return false;  // no descriptor is to be had just now
+  try {
+    Pair fresh = open_pair(link_path_);
+    give_same_access(path_, fresh.path);
+    Descriptor watch = watch_of(fresh.path, link_path_);
+    link_.point_to(fresh.path);
+    path_ = std::move(fresh.path);
+    master_ = std::move(fresh.master);
+    slave_ = std::move(fresh.slave);
+    watch_ = std::move(watch);
+    opens_ = own_opens_ = own_closes_ = 0;
+    return true;
+  } catch (const PortError&) {
+    return false;
+  }
 }
 
 }  // namespace understudy::pty

@@ -52,6 +52,16 @@ class PseudoTerminal {
   /// again in a few milliseconds. Rare. Without that call the doubt lasts until the next host.
   bool is_in_doubt() const { return is_present_ && opens_ == 0; }
 
+  /// Nobody has the line open, not even we: the kernel would not let us back in. Then data_descriptor() tells
+  /// of a hang-up without end: do not watch it, but call recover(), now and again.
+  bool is_lost() const { return !slave_ && !is_present_; }
+  /// We have a slave, or a host's bears the line. Without ours, call poll_presence() when data_descriptor()
+  /// is readable, as it may have hung up.
+  bool holds_slave() const { return static_cast<bool>(slave_); }
+  /// Of a lost line: true if it can be used again. If a host's claim outlives it (TIOCEXCL) there is a fresh
+  /// pseudo-terminal behind the link, and path() and both descriptors are others. False: later, perhaps.
+  bool recover();
+
   /// What the host of the bytes just read has set; nothing if it left the resting speed alone. read()
   /// looks, remembers it and puts the resting speed back, so that the host's next tcsetattr changes
   /// something and succeeds. Remembered until the next host opens the free line.
@@ -68,7 +78,7 @@ class PseudoTerminal {
   std::string path_;
   std::string link_path_;
   Descriptor master_;
-  Descriptor slave_;  // ours, so that the master never hangs up
+  Descriptor slave_;  // ours, so that the master never hangs up; rarely none (is_lost(), holds_slave())
   Descriptor watch_;  // inotify on the slave
   PortLink link_;
 

@@ -407,7 +407,8 @@ class BenchReader {
 YamlFields root_of(const std::string& text, const std::string& name) {
   const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
   if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
-    throw FileError(name + ":1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
+    throw FileError({name, 1, 1},
+                    "bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
   }
   root.demand_keys(kBenchKeys);
   root.at("understudy").integer(kVersionForm);
@@ -432,12 +433,26 @@ Bench read_bench(const YamlFields& fields, const std::string& folder) {
   return BenchReader(folder, "").read(fields);
 }
 
-Bench load_bench(const std::string& path, const std::string& links) {
-  const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: bench: " + text.why + "; expected a bench file");
-  Bench bench = parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
+namespace {
+
+Bench bench_of(const std::string& text, const std::string& path, const std::string& links) {
+  Bench bench = parse_bench(text, path, std::filesystem::path(path).parent_path().string(), links);
   bench.files.insert(bench.files.begin(), {path, "the bench itself"});
   return bench;
+}
+
+}  // namespace
+
+Bench load_bench(const std::string& path, const std::string& links) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ": bench: " + text.why + "; expected a bench file");
+  return bench_of(*text, path, links);
+}
+
+Bench load_bench(const YamlFields& path) {
+  const auto text = read_text_file(path.path());
+  if (!text) path.fail(path.path() + " " + text.why + "; expected a bench file");
+  return bench_of(*text, path.path(), "");
 }
 
 }  // namespace understudy::emulator

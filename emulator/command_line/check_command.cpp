@@ -3,6 +3,7 @@
 #include "emulator/bench/bench_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/edge/nv_keeper.h"
+#include "emulator/one_line.h"
 #include "emulator/scenario/scenario_file.h"
 
 namespace understudy::emulator {

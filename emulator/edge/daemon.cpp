@@ -22,6 +22,10 @@ namespace {
 // Free running and long advances look up from their work this often (wall time), so that ports and the
 // control socket are served meanwhile.
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
+// For bytes, which are stamped with the moment that the world has come to.
+constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
+// A trace looks at every tick, so a long quiet span takes long to cross: it is crossed as it goes by.
+constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
 // What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
 
@@ -141,7 +145,8 @@ void Daemon::make_ports(const Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     std::string link = bench.lines[i].link;
     if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
-    ports_.push_back(std::make_unique<Port>(loop_, world_, i, link, [this] { catch_up(); }));
+    ports_.push_back(std::make_unique<Port>(
+        loop_, world_, i, link, [this] { catch_up_for_bytes(); }, log_));
   }
 }
 
@@ -205,13 +210,23 @@ void Daemon::finish_capture() {
   if (capture_) capture_->finish();
 }
 
-void Daemon::catch_up() {
+void Daemon::catch_up() { catch_up(kWorkSlice); }
+
+void Daemon::catch_up_for_bytes() { catch_up(kWorkForBytes); }
+
+void Daemon::catch_up(WallTime longest) {
+  const WallTime now = wall_now();
   judge_stall();
-  const SimTime target = std::max(world_.now(), pacer_.target(wall_now()));
-  work_towards(target);
-  // Free means as fast as it goes: what it could not do is no debt.
-  if (pacer_.speed().kind == Speed::Kind::free && world_.now() < target)
-    pacer_.moved_to(world_.now(), wall_now());
+  const bool is_free = pacer_.speed().kind == Speed::Kind::free;
+  const SimTime target = std::max(world_.now(), pacer_.target(now));
+  work_towards(target, is_free ? kWorkSlice : longest);
+  if (world_.now() >= target) {
+    behind_since_.reset();
+  } else if (is_free) {
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as it goes: what it could not do is no debt
+  } else if (!behind_since_) {
+    behind_since_ = now;
+  }
 }
 
 /// Before anything catches up with the time that has passed: was it a stall?
@@ -219,6 +234,7 @@ void Daemon::judge_stall() {
   if (!planned_) return;
   const WallTime planned = *std::exchange(planned_, std::nullopt);
   const WallTime left_out = pacer_.woke(planned, wall_now());
+  if (behind_since_) *behind_since_ += left_out;
   // Every real stall is told; a machine that never keeps up slips by little again and again, and would fill
   // the log.
   const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
@@ -228,9 +244,9 @@ void Daemon::judge_stall() {
   }
 }
 
-/// For a slice of wall time at most; quiet spans are crossed in ever larger steps.
-void Daemon::work_towards(SimTime target) {
-  const WallTime until = wall_now() + kWorkSlice;
+/// For so much wall time at most; quiet spans are crossed in ever larger steps.
+void Daemon::work_towards(SimTime target, WallTime longest) {
+  const WallTime until = wall_now() + longest;
   for (SimTime step = kSimSlice; world_.now() < target; step = std::min(2 * step, kHorizon / 4)) {
     world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
     if (wall_now() >= until) return;
@@ -243,6 +259,7 @@ void Daemon::pause() {
   pacer_.pause(wall_now());
   catch_up();                                 // to the moment at which the clock stopped,
   pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
+  behind_since_.reset();
 }
 
 bool Daemon::resume() {
@@ -275,7 +292,7 @@ void Daemon::work_on_advance() {
   if (advance_is_there_) {
     work_towards_condition();
   } else {
-    work_towards(advance_target_);
+    work_towards(advance_target_, kWorkSlice);
   }
   pacer_.moved_to(world_.now(), wall_now());
   if (world_.now() < advance_target_) return;
@@ -297,6 +314,7 @@ std::string_view Daemon::why_no_restore() const {
 void Daemon::restore(const WorldState& state) {
   emulator::restore(world_, state);
   planned_.reset();
+  behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());
   for (const auto& port : ports_) port->world_restored();
   memories_->world_restored();
@@ -304,12 +322,14 @@ void Daemon::restore(const WorldState& state) {
 
 std::optional<WallTime> Daemon::next_wake() const {
   const auto due = world_.next_due();
-  return due ? pacer_.wall_time_of(*due) : std::nullopt;
+  if (!trace_) return due ? pacer_.wall_time_of(*due) : std::nullopt;
+  return pacer_.wall_time_of(std::min(due.value_or(kHorizon), world_.now() + kTracedSpan));
 }
 
 void Daemon::wait() {
-  // An advance is work in hand, not a moment that was planned for.
-  planned_ = advance_done_ ? std::nullopt : next_wake();
+  // An advance is work in hand, not a moment that was planned for. So is catching up: what counts is since
+  // when it lasts, not how much simulated time it has still to cross, which may have been a long sleep.
+  planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
   for (const auto& port : ports_) {
     const auto look = port->next_look(pacer_.standing());

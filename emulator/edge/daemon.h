@@ -79,8 +79,10 @@ class Daemon {
   /// (asked at the end of every tick), then calls `done`. Only where the clock stands; false otherwise, or
   /// while another advance is under way.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
-  /// Brings the world to the present moment.
+  /// Brings the world to the present moment, or as far as it comes in a few milliseconds.
   void catch_up();
+  /// Like catch_up(), but as far as it comes in a tenth of a second: for what is stamped with this moment.
+  void catch_up_for_bytes();
 
   /// Of the bench that the world is of, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
@@ -104,7 +106,8 @@ class Daemon {
   void finish_capture();
   void start_trace(std::vector<TraceSignal> signals, bool is_vcd);
   void judge_stall();
-  void work_towards(SimTime target);
+  void catch_up(WallTime longest);
+  void work_towards(SimTime target, WallTime longest);
   void work_on_advance();
   void work_towards_condition();
   std::optional<WallTime> next_wake() const;
@@ -131,7 +134,8 @@ class Daemon {
   std::vector<std::function<void()>> posted_;
   bool is_over_ = false;  // under the same mutex
   bool stopping_ = false;
-  std::optional<WallTime> planned_;  // for when the loop meant to wake; judged once
+  std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
+  std::optional<WallTime> behind_since_;  // since when it has worked to catch up; nothing: it has caught up
 
   SimTime advance_target_{0};
   std::function<bool()> advance_is_there_;  // may be none

@@ -10,6 +10,9 @@ namespace {
 // The kernel tells that a host closes a moment before it has; so much later it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 
+// A lost terminal is tried again after so long.
+constexpr WallTime kRecovery = std::chrono::milliseconds(100);
+
 // As much as the kernel holds (20,480 bytes) and one reading more: a host that goes loses nothing. Hosts that
 // write and go faster than the wire carries lose what is beyond that.
 constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
@@ -17,16 +20,50 @@ constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
 }  // namespace
 
 Port::Port(EventLoop& loop, World& world, std::size_t line_number, const std::string& link_path,
-           std::function<void()> catch_up)
+           std::function<void()> catch_up, std::function<void(const std::string&)> log)
     : loop_(loop),
       world_(world),
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
+      log_(std::move(log)),
       terminal_(link_path) {
-  loop_.watch(terminal_.presence_descriptor(), EventLoop::readable,
-              [this](std::uint32_t) { on_presence({}); });
-  loop_.watch(terminal_.data_descriptor(), EventLoop::readable,
-              [this](std::uint32_t ready) { on_data(ready); });
+  watch();
+}
+
+void Port::watch() {
+  loop_.watch(terminal_.presence_descriptor(), EventLoop::readable, [this](std::uint32_t) {
+    on_presence({});
+    keep_watch();
+  });
+  loop_.watch(terminal_.data_descriptor(), EventLoop::readable, [this](std::uint32_t ready) {
+    on_data(ready);
+    keep_watch();
+  });
+  is_watching_ = true;
+}
+
+/// A lost terminal would tell of its hang-up without end.
+void Port::keep_watch() {
+  if (!terminal_.is_lost()) {
+    if (!is_watching_) watch();
+    return;
+  }
+  if (is_watching_) {
+    loop_.unwatch(terminal_.data_descriptor());
+    loop_.unwatch(terminal_.presence_descriptor());
+    is_watching_ = false;
+  }
+  const std::string path_before = terminal_.path();
+  if (!terminal_.recover()) {
+    next_recovery_ = wall_now() + kRecovery;
+    return;
+  }
+  next_recovery_ = WallTime{0};
+  watch();
+  if (terminal_.path() != path_before) {
+    log_("line " + line().name() + ": a host that has gone left " + path_before +
+         " claimed (TIOCEXCL), so nobody can open it; the port is " + terminal_.path() + " now");
+  }
 }
 
 Port::~Port() {
@@ -89,6 +126,7 @@ void Port::pass_on_what_was_left_behind() {
 }
 
 void Port::on_data(std::uint32_t ready) {
+  if (!terminal_.holds_slave()) on_presence({});  // perhaps it is a hang-up that we are told of
   if ((ready & EventLoop::readable) != 0 && left_behind_.empty()) {
     std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
     const std::size_t count = terminal_.read(std::span(bytes).first(line().room()));
@@ -111,6 +149,7 @@ void Port::receive(std::span<const std::uint8_t> bytes) {
 }
 
 std::optional<WallTime> Port::next_look(bool clock_stands) {
+  if (next_recovery_ > WallTime{0}) return next_recovery_;
   if (!terminal_.is_in_doubt()) {
     second_look_ = WallTime{0};
   } else {
@@ -123,9 +162,11 @@ std::optional<WallTime> Port::next_look(bool clock_stands) {
 }
 
 void Port::look(WallTime now, bool clock_stands) {
+  if (next_recovery_ > WallTime{0} && now >= next_recovery_) keep_watch();
   if (second_look_ > WallTime{0} && now >= second_look_) {
     second_look_ = WallTime{0};
     on_presence({});
+    keep_watch();
   }
   if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + kFramePatience) {
     last_bytes_ = WallTime{0};

@@ -1,6 +1,7 @@
 // Steps that use the line: write, expect, send.
 #include <cctype>
 
+#include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"

@@ -139,8 +139,9 @@ void Performance::perform(const ExpectStep& step) {
   for (const auto& [target, wanted] : step.entries) {
     Number value;
     if (target.is_value) {
-      stage_->with_world(
-          [&](World&) { value = evaluate(parse_expression(target.name, eyes_->probes), eyes_->probes); });
+      stage_->with_world([&, &name = target.name](World&) {
+        value = evaluate(parse_expression(name, eyes_->probes), eyes_->probes);
+      });
     } else {
       value = Number(value_in(target, words[next], low_word_first[next]));
       ++next;

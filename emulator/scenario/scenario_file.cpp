@@ -140,25 +140,24 @@ class ScenarioReader {
     for (const auto& [name, value] : root_.at("parameters").entries()) demand_used(name, value);
   }
 
-  Bench bench_at(const std::string& path) const {
+  Bench bench_at(const YamlFields& field) const {
     auto& benches = file_.shared.benches;
-    auto it = benches.find(path);
-    if (it == benches.end()) it = benches.emplace(path, load_bench(path)).first;
+    auto it = benches.find(field.path());
+    if (it == benches.end()) it = benches.emplace(field.path(), load_bench(field)).first;
     return it->second;
   }
 
   Bench read_its_bench(const YamlFields& root) const {
     const YamlFields field = root.at("bench");
-    Bench bench = field.is_map() ? read_bench(field, field.folder()) : bench_at(field.path());
+    Bench bench = field.is_map() ? read_bench(field, field.folder()) : bench_at(field);
     if (root.has("nv")) {
       const YamlFields nv = root.at("nv");
       nv.demand_map();
       for (const auto& [name, image] : nv.entries()) {
         DeviceSetup& device = demand_device(bench, image, name);
         device.nv_path = image.path();
-        if (!std::filesystem::exists(device.nv_path)) {
-          image.fail(device.nv_path + " cannot be read; expected an NV image");
-        }
+        if (const std::string why = why_not_readable(device.nv_path); !why.empty())
+          image.fail(device.nv_path + " " + why + "; expected an NV image");
       }
     }
     if (root.has("firmware")) read_firmwares(root.at("firmware"), bench);
@@ -280,8 +279,8 @@ std::vector<Scenario> parse_with(SharedReading& shared, const std::string& text,
                                  const std::string& save_below) {
   const YamlFields root = YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
   if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
-    throw FileError(path +
-                    ":1: scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
+    throw FileError({path, 1, 1},
+                    "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   }
   return ScenarioReader(root, path, save_below, shared).read();
 }
@@ -297,7 +296,7 @@ std::vector<Scenario> parse_scenarios(const std::string& text, const std::string
 std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
                                      SharedReading& shared) {
   const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: scenario: " + text.why + "; expected a scenario file");
+  if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
   return parse_with(shared, *text, path, save_below);
 }
 
@@ -308,7 +307,7 @@ std::vector<Scenario> load_scenarios(const std::string& path, const std::string&
 
 FileKind kind_of_file(const std::string& path) {
   const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: file: " + text.why + "; expected a bench or a scenario");
+  if (!text) throw FileError(path + ": file: " + text.why + "; expected a bench or a scenario");
   const YamlFields root =
       YamlFields::parse(*text, path, "file", "a bench (`lines:`) or a scenario (`bench:` and `steps:`)");
   if (!root.has("steps"))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/bench/yaml_fields.h"
+#include "emulator/one_line.h"
 #include "emulator/scenario/parameters.h"
 #include "emulator/scenario/scenario.h"
 #include "emulator/scenario/shared_reading.h"

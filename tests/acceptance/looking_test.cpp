@@ -3,7 +3,9 @@
 
 #include <csignal>
 #include <fstream>
+#include <thread>
 
+#include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
@@ -184,6 +186,27 @@ TEST(Plot, TellsInALineWhatIsWrong) {
   EXPECT_EQ(without.errors,
             "understudy: plot: gnuplot cannot be started (Debian's package is gnuplot-nox): No such file or "
             "directory\n");
+}
+
+/// The daemon's count of times when it left simulated time out.
+std::string slips_of(const RunningUnderstudy& daemon) {
+  const std::string status = daemon.ctl({"--json", "status"}).output;
+  const std::size_t at = status.find("\"slips\":");
+  return at == std::string::npos ? status : status.substr(at, status.find_first_of(",}", at) - at);
+}
+
+TEST(Trace, OfAQuietChainLosesNoTime) {
+  const PrivateFolder folder;
+  const auto daemon =
+      RunningUnderstudy::of_model("slim", {"--modules", "2", "--trace", folder / "quiet.csv"});
+  Host host(daemon->port());
+  const Bytes request = hex("3F 50 45 0D");  // ?PE
+  const Bytes reply = exchange(host, request, 3);
+  EXPECT_EQ(reply.size(), 3u);
+  std::this_thread::sleep_for(Wait(5'000));
+  EXPECT_EQ(exchange(host, request, 3), reply);
+  EXPECT_EQ(slips_of(*daemon), "\"slips\":0");
+  EXPECT_EQ(daemon->errors().find("stalled"), std::string::npos) << daemon->errors();
 }
 
 }  // namespace

@@ -169,5 +169,20 @@ TEST(PortLink, TakesOverTheLockThatAKilledRunHasLeft) {
   EXPECT_EQ(fs::file_size(lock), 8U);
 }
 
+TEST(PortLink, CanPointToAnother) {
+  const ScratchDirectory folder;
+  const std::string path = folder / "port";
+  {
+    PortLink link(path, "/dev/pts/1");
+    link.point_to("/dev/pts/2");
+    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/pts/2");
+    std::filesystem::remove(path);
+    std::filesystem::create_symlink("/dev/pts/3", path);
+    link.point_to("/dev/pts/4");
+    EXPECT_EQ(std::filesystem::read_symlink(path), "/dev/pts/3") << "another's by now";
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(path));
+}
+
 }  // namespace
 }  // namespace understudy::pty

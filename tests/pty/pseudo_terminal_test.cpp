@@ -122,6 +122,27 @@ TEST(PseudoTerminal, StaysTakenUntilTheLastOfSeveralHostsHasGone) {
   EXPECT_TRUE(is_quiet(port));
 }
 
+TEST(PseudoTerminal, AClaimEndsWithTheLastHost) {
+  PseudoTerminal port("");
+  const auto is_claimed = [](const Host& host) {
+    int claimed = -1;
+    ::ioctl(host.descriptor(), TIOCGEXCL, &claimed);
+    return claimed;
+  };
+  Host first(port.path());
+  Host second(port.path());
+  port.poll_presence();
+  ASSERT_EQ(::ioctl(first.descriptor(), TIOCEXCL), 0);
+  first.close();
+  port.poll_presence();
+  EXPECT_EQ(is_claimed(second), 1);
+  second.close();
+  port.poll_presence();
+  EXPECT_FALSE(port.host_present());
+  EXPECT_FALSE(port.is_lost());
+  EXPECT_EQ(is_claimed(Host(port.path())), 0);
+}
+
 // --- settings ------------------------------------------------------------------------------------
 
 TEST(PseudoTerminal, SeesSpeedAndStopBits) {

@@ -36,7 +36,7 @@ std::string with_line(const std::string& line) { return "understudy: 1\nlines:\n
 const std::string kStation = "stations: [ { name: x, model: simple2-r3 } ]";
 
 TEST(BenchErrors, AFileThatIsNoMap) {
-  const std::string no_map = "1: bench: the file is no map; expected `understudy: 1` and `lines:`";
+  const std::string no_map = "1: bench: the file is not a map; expected `understudy: 1` and `lines:`";
   expect_complaints({
       {"", no_map},
       {" \n\n", no_map},

@@ -177,7 +177,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   EXPECT_EQ(refusal(to_line(RecordingHeader{
                         .version = "1", .bench = "understudy: 1", .options = {}, .snapshot = {}}) +
                     "\n"),
-            "a.jsonl:1: bench: bench:1: bench: 'lines' is missing; expected it here");
+            "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
   EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': is there twice; expected it once");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
             "a.jsonl:3: line: stands behind the end; expected nothing more");
