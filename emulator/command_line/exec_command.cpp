@@ -216,6 +216,7 @@ int execute(const ExecArguments& arguments) {
     scenario = load_companion(arguments.with, serving.bench);
     demand_apart(*scenario, arguments.serve, serving.options.files);
   }
+  remove_left_overs();
   PrivateFolder folder;
   use_private_places(serving, arguments, folder);
   serving.options.watch_signals = false;

@@ -90,6 +90,7 @@ RunRecordings::RunRecordings(std::string folder, bool real_time, std::string ver
   if (!folder_.empty()) fs::create_directories(folder_, error);
   if (error) refuse(folder_, error);
   remove_abandoned_spools();
+  remove_left_overs();
   // It gets its name when it is locked: before, others would take it for abandoned.
   const std::string unlocked = private_folder_.path() + "/unlocked";
   spool_ = private_folder_.path() + "/" + kSpool;
