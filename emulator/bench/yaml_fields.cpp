@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "emulator/bench/complaints.h"
 #include "emulator/bench/yaml_document.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
@@ -62,28 +63,33 @@ std::string YamlFields::read_scalar(const YAML::Node& node) const {
   }
 }
 
-void YamlFields::demand_map() const {
+void YamlFields::demand_map() const { demand_keys_of(nullptr); }
+
+void YamlFields::demand_keys(std::span<const KeyRow> known) const { demand_keys_of(&known); }
+
+void YamlFields::demand_keys_of(const std::span<const KeyRow>* known) const {
+  Complaints complaints;
   std::set<std::string> seen;
-  for (const auto& [key, value] : entries()) {
-    if (!seen.insert(key).second) value.fail("is given twice; expected it once");
-  }
+  complaints.demand([&] {
+    for (const auto& [key, value] : entries()) {
+      complaints.attempt([&, &name = key, &field = value] {
+        if (!seen.insert(name).second) field.fail("is given twice; expected it once");
+        if (known != nullptr) field.demand_known(name, *known);
+      });
+    }
+  });
 }
 
-void YamlFields::demand_keys(std::span<const KeyRow> known) const {
-  demand_map();
-  for (const auto& [key, value] : entries()) {
-    const auto is_it = [&key = key](const KeyRow& row) { return row.key == key; };
-    if (std::any_of(known.begin(), known.end(), is_it)) continue;
-    std::vector<std::string> names;
-    std::string list;
-    for (const KeyRow& row : known) {
-      names.emplace_back(row.key);
-      list += (list.empty() ? "" : ", ") + names.back();
-    }
-    const auto nearest = near_word(key, names);
-    value.fail("is no key here; expected one of " + list +
-               (nearest ? " (the nearest is '" + *nearest + "')" : ""));
+void YamlFields::demand_known(const std::string& key, std::span<const KeyRow> known) const {
+  std::vector<std::string> names;
+  std::string list;
+  for (const KeyRow& row : known) {
+    if (row.key == key) return;
+    names.emplace_back(row.key);
+    list += (list.empty() ? "" : ", ") + names.back();
   }
+  const auto nearest = near_word(key, names);
+  fail("is no key here; expected one of " + list + (nearest ? " (the nearest is '" + *nearest + "')" : ""));
 }
 
 std::optional<YamlFields> YamlFields::find(std::string_view key) const {

@@ -52,7 +52,7 @@ class YamlFields {
   bool is_list() const;
   bool is_scalar() const;
 
-  /// Demands a map without duplicate keys.
+  /// Demands a map without duplicate keys. All that is wrong is thrown together.
   void demand_map() const;
   /// And whose keys are all `known`.
   void demand_keys(std::span<const KeyRow> known) const;
@@ -81,6 +81,8 @@ class YamlFields {
   YamlFields(const YamlFields& parent, const YAML::Node& node, const std::string& field);
   YamlFields(std::string file, const YAML::Node& node, std::string field);
   std::string read_scalar(const YAML::Node& node) const;
+  void demand_keys_of(const std::span<const KeyRow>* known) const;
+  void demand_known(const std::string& key, std::span<const KeyRow> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
   std::string file_;
