@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -120,6 +121,7 @@ class Slim final : public TextDevice, private lang::Machine {
     std::string name{};
     std::string text{};
     std::optional<double> number{};  // of a query that has one
+    bool has_words = true;           // false: only the number is wanted
   };
 
   // Of a program: interpreter/slim/machine.h.
@@ -127,6 +129,7 @@ class Slim final : public TextDevice, private lang::Machine {
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
+  const std::optional<lang::Command>& query_named(std::string_view name) const;
   int chosen_number(std::size_t row) const { return number_of(kChoices[row], choice(row)); }
 
   // dialogue.cpp
@@ -223,6 +226,8 @@ class Slim final : public TextDevice, private lang::Machine {
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
   int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
+  // Queries by their names: not state, it only saves reading the words again.
+  mutable std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
   State state_;
 };
 
