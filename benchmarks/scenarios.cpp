@@ -14,6 +14,7 @@
 #include "emulator/recording/recorder.h"
 #include "emulator/scenario/runner.h"
 #include "emulator/scenario/scenario_file.h"
+#include "emulator/scenario/shared_reading.h"
 #include "emulator/world/snapshot.h"
 
 namespace understudy::benchmarks {
@@ -59,8 +60,9 @@ struct Played {
 template <typename OptionsFor>
 Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
   Played played;
+  emulator::SharedReading shared;
   for (const std::string& file : files) {
-    for (const Scenario& scenario : emulator::load_scenarios(file)) {
+    for (const Scenario& scenario : emulator::load_scenarios(file, "", shared)) {
       ++played.scenarios;
       for (const ScenarioResult& result : emulator::play(scenario, options_for(scenario))) {
         played.simulated_s += seconds_of(result.simulated);

@@ -19,6 +19,7 @@
 #include "emulator/scenario/real_stage.h"
 #include "emulator/scenario/result_text.h"
 #include "emulator/scenario/scenario_file.h"
+#include "emulator/scenario/shared_reading.h"
 #include "emulator/scenario/suite.h"
 
 namespace understudy::emulator {
@@ -38,6 +39,7 @@ std::vector<std::string> files_of(const std::string& path) {
 std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> files;
+  SharedReading shared;
   bool is_well = true;
   for (const std::string& path : arguments.scenarios) {
     try {
@@ -50,7 +52,7 @@ std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   }
   for (const std::string& file : files) {
     try {
-      for (Scenario& scenario : load_scenarios(file, arguments.save_below)) {
+      for (Scenario& scenario : load_scenarios(file, arguments.save_below, shared)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
         scenarios.push_back(std::move(scenario));
       }

@@ -49,8 +49,12 @@ bool is_below(const std::string& path, const std::string& folder) {
 
 class ScenarioReader {
  public:
-  ScenarioReader(const YamlFields& root, std::string path, const std::string& save_below)
-      : root_(root), path_(std::move(path)), save_below_(save_below.empty() ? root_.folder() : save_below) {}
+  ScenarioReader(const YamlFields& root, std::string path, const std::string& save_below,
+                 SharedReading& shared)
+      : root_(root),
+        path_(std::move(path)),
+        save_below_(save_below.empty() ? root_.folder() : save_below),
+        file_{.shared = shared} {}
 
   std::vector<Scenario> read() {
     root_.demand_keys(kScenarioKeys);
@@ -136,9 +140,16 @@ class ScenarioReader {
     for (const auto& [name, value] : root_.at("parameters").entries()) demand_used(name, value);
   }
 
+  Bench bench_at(const YamlFields& field) const {
+    auto& benches = file_.shared.benches;
+    auto it = benches.find(field.path());
+    if (it == benches.end()) it = benches.emplace(field.path(), load_bench(field)).first;
+    return it->second;
+  }
+
   Bench read_its_bench(const YamlFields& root) const {
     const YamlFields field = root.at("bench");
-    Bench bench = field.is_map() ? read_bench(field, field.folder()) : load_bench(field);
+    Bench bench = field.is_map() ? read_bench(field, field.folder()) : bench_at(field);
     if (root.has("nv")) {
       const YamlFields nv = root.at("nv");
       nv.demand_map();
@@ -262,20 +273,36 @@ class ScenarioReader {
 
 }  // namespace
 
-std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path,
-                                      const std::string& save_below) {
+namespace {
+
+std::vector<Scenario> parse_with(SharedReading& shared, const std::string& text, const std::string& path,
+                                 const std::string& save_below) {
   const YamlFields root = YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
   if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
     throw FileError({path, 1, 1},
                     "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   }
-  return ScenarioReader(root, path, save_below).read();
+  return ScenarioReader(root, path, save_below, shared).read();
+}
+
+}  // namespace
+
+std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path,
+                                      const std::string& save_below) {
+  SharedReading shared;
+  return parse_with(shared, text, path, save_below);
+}
+
+std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
+                                     SharedReading& shared) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
+  return parse_with(shared, *text, path, save_below);
 }
 
 std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below) {
-  const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
-  return parse_scenarios(*text, path, save_below);
+  SharedReading shared;
+  return load_scenarios(path, save_below, shared);
 }
 
 FileKind kind_of_file(const std::string& path) {

@@ -109,14 +109,15 @@ void StepsReader::read_included(const YamlFields& field) {
   if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) {
     field.fail(field.path() + " includes itself; expected another file");
   }
-  auto it = file_.included.find(path);
-  if (it == file_.included.end()) {
+  auto& included = file_.shared.included;
+  auto it = included.find(field.path());
+  if (it == included.end()) {
     const auto text = read_text_file(path);
     if (!text) field.fail(field.path() + " " + text.why + "; expected a file of steps");
     const YamlFields root = YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
     root.demand_keys(kIncludedKeys);
     root.at("understudy").integer(kVersionForm);
-    it = file_.included.emplace(path, root.at("steps")).first;
+    it = included.emplace(field.path(), root.at("steps")).first;
   }
   add_file(field.path(), "a file of steps that is included");
   paths_.push_back(path);

@@ -2,7 +2,6 @@
 // and everything is checked on the way.
 #pragma once
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "emulator/one_line.h"
 #include "emulator/scenario/parameters.h"
 #include "emulator/scenario/scenario.h"
+#include "emulator/scenario/shared_reading.h"
 #include "emulator/scenario/story.h"
 #include "emulator/scenario/trial.h"
 
@@ -23,7 +23,7 @@ struct FileReading {
   static constexpr int kDeepest = 32;                               // loops, forks and includes in each other
   int steps = 0;
   std::size_t bytes = 0;
-  std::map<std::string, YamlFields> included;  // by path; each is read once
+  SharedReading& shared;
 };
 
 class StepsReader {
