@@ -44,6 +44,7 @@ struct ServeArguments {
   std::string timing;
   bool strict_framing = false;
   bool ignore_baud = false;
+  std::string baud_tolerance;
   std::string speed = "real";
   std::string control;
   std::string nv;  // the folder for memories of devices that have no file of their own

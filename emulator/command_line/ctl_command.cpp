@@ -201,10 +201,16 @@ void print_status(const Json& status) {
     for (const auto& [axis, machine] : device.at("machines").items()) {
       std::printf("  machine %s: at %lld pulses, %lld lost", axis.c_str(),
                   machine.at("position_pulses").get<long long>(), machine.at("lost_pulses").get<long long>());
+      if (const int duty = device.at("axes").at(axis).value("pwm_percent", 0); duty != 0)
+        std::printf(", PWM %d %%", duty);
       if (machine.contains("drive"))
         std::printf(", drive %s", machine.at("drive").get<std::string>().c_str());
       std::printf("\n");
     }
+  }
+  for (const Json& fault : status.at("faults")) {
+    std::printf("fault %lld %s%s\n", fault.at("number").get<long long>(),
+                fault.at("fault").get<std::string>().c_str(), course_text(fault).c_str());
   }
 }
 

@@ -101,6 +101,10 @@ struct CommandLine {
                      "Only silence ends a frame, as on a real line");
     command.add_flag("--ignore-baud", serving.ignore_baud,
                      "Hear hosts that set another speed or other stop bits");
+    command
+        .add_option("--baud-tolerance", serving.baud_tolerance,
+                    "How much faster or slower a host may be and still be heard [2%, or the bench's]")
+        ->check(kNotEmpty);
     command.add_option("--speed", serving.speed, "real, free, manual, or a factor such as 10x")
         ->capture_default_str();
     command.add_option("--control", serving.control, "Path of the control socket [a private one]")

@@ -1,9 +1,12 @@
 #include "emulator/command_line/serving.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 
 #include "emulator/bench/bench_file.h"
+#include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/device.h"
@@ -85,6 +88,14 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   if (!arguments.timing.empty()) {
     for (LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
   }
+  if (!arguments.baud_tolerance.empty()) {
+    const auto ppm = parse_baud_tolerance(arguments.baud_tolerance);
+    if (!ppm) {
+      throw UsageError("--baud-tolerance: " + emulator::quoted(arguments.baud_tolerance) +
+                       " is not a share of the speed; " + std::string(kBaudToleranceExpected));
+    }
+    for (LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
+  }
   return bench;
 }
 
@@ -153,11 +164,30 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   return serving;
 }
 
+namespace {
+
+/// For a person only: in a script's log it would look like something gone wrong.
+void say_how_to_have_parity(const Daemon& daemon) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  for (const auto& port : daemon.ports()) {
+    const pty::Line& line = daemon.world().line(port->line_number()).line;
+    if (line.options().settings.parity == pty::Parity::none) continue;
+    log_line("line " + line.name() + " is " + pty::to_string(line.options().settings) +
+             ", and a pseudo-terminal has no parity: pyserial, minimalmodbus and pymodbus hosts that get "
+             "\"Invalid "
+             "argument\" run with LD_PRELOAD=$(understudy tty-shim)");
+    return;
+  }
+}
+
+}  // namespace
+
 void say_ready(const Daemon& daemon) {
   for (const auto& port : daemon.ports()) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
                 port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }
+  say_how_to_have_parity(daemon);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
   }

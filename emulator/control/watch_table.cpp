@@ -88,6 +88,9 @@ void add_device(const Json& device, std::vector<std::string>& lines) {
     lines.push_back(formatted("  %-11s%12lld pulses %12.1f pulses/s   machine at %lld", name.c_str(),
                               axis.at("pulses").get<long long>(), axis.at("speed_pps").get<double>(),
                               machine.at("position_pulses").get<long long>()) +
+                    (axis.value("pwm_percent", 0) != 0
+                         ? formatted(", PWM %d %%", axis.at("pwm_percent").get<int>())
+                         : std::string()) +
                     (machine.contains("drive") ? ", drive " + machine.at("drive").get<std::string>() : ""));
   }
   if (device.contains("registers")) {

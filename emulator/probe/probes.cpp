@@ -42,9 +42,10 @@ NamedNumber Probes::resolve(std::string_view name) const {
 }
 
 bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
-  static constexpr std::array<std::pair<std::string_view, What>, 12> kOfAxis{{
+  static constexpr std::array<std::pair<std::string_view, What>, 13> kOfAxis{{
       {"pulses", What::pulses},
       {"speed", What::speed},
+      {"pwm", What::pwm},
       {"greatest_speed", What::greatest_speed},
       {"greatest_acceleration", What::greatest_acceleration},
       {"position", What::position},
@@ -62,6 +63,7 @@ bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
   if (axis < 0 || what_name.empty()) return false;
   std::vector<std::string> known;
   for (const auto& [word, what] : kOfAxis) {
+    if (what == What::pwm && !world_.device(probe.device).duty_percent(axis)) continue;
     known.emplace_back(word);
     if (word != what_name) continue;
     probe.what = what;
@@ -111,6 +113,10 @@ Probes::Probe Probes::find(std::string_view name) const {
   for (const auto& [word, what] : kOfDevice) {
     if (word != rest) continue;
     probe.what = what;
+    return probe;
+  }
+  if (rest == "pulse_format" && !world_.device(probe.device).pulse_formats().empty()) {
+    probe.what = What::pulse_format;
     return probe;
   }
   if (find_of_axis(rest, probe)) return probe;
@@ -171,8 +177,10 @@ Number Probes::value(std::int32_t handle) const {
     case What::input: return device.input(probe.place);
     case What::output: return device.output(probe.place) ? 1 : 0;
     case What::power: return device.powered() ? 1 : 0;
+    case What::pulse_format: return static_cast<std::int64_t>(device.pulse_format_number());
     case What::pulses: return world_.sent_pulses(probe.device, probe.place);
     case What::speed: return device.speed_pps(probe.place);
+    case What::pwm: return device.duty_percent(probe.place).value_or(0);
     case What::greatest_speed:
     case What::greatest_acceleration: return peak_value(probe);
     case What::requests: return count(count_of_stations(probe.device, &StationCounters::requests));

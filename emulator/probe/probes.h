@@ -8,12 +8,14 @@
 //                              of the same name comes first
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
 //   feeder.A.speed             what it runs at by plan, in pulses a second, real
+//   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
 //   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
 //                              scenarios, since their begin or the last `reset: peaks`
 //   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
 //   feeder.A.encoder           its encoder's count
 //   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive
 //   feeder.power               1 while it has power
+//   feeder.pulse_format        which of its forms the pulses have, by number; where the model has several
 //   feeder.requests, .replies, .exceptions    of its stations
 //   rs485.bytes_in, .bytes_out, .collisions   of a line
 #pragma once
@@ -47,6 +49,7 @@ class Probes final : public NameResolver, public ValueSource {
     output,
     pulses,
     speed,
+    pwm,
     greatest_speed,
     greatest_acceleration,
     position,
@@ -58,6 +61,7 @@ class Probes final : public NameResolver, public ValueSource {
     ready,
     alarm,
     power,
+    pulse_format,
     requests,
     replies,
     exceptions,

@@ -46,13 +46,13 @@ void FrameLog::add(const pty::CapturedPacket& packet) {
   frame.way = packet.way;
   frame.time = packet.time;
   frame.bytes.assign(packet.bytes.begin(), packet.bytes.end());
-  frame.remark = packet.remark;
+  frame.comment = comment_of(packet);
   frames_.push_back(std::move(frame));
 }
 
 const FrameLog::Frame* FrameLog::request_before(std::size_t reply) const {
   for (std::size_t i = reply; i-- > 0;) {
-    if (frames_[i].line != frames_[reply].line) continue;
+    if (frames_[i].line != frames_[reply].line || frames_[i].bytes.empty()) continue;
     return frames_[i].way == pty::Way::from_host ? &frames_[i] : nullptr;
   }
   return nullptr;
@@ -64,7 +64,9 @@ std::vector<std::string> FrameLog::last(std::size_t most) {
   for (std::size_t i = frames_.size() - std::min(most, frames_.size()); i < frames_.size(); ++i) {
     const Frame& frame = frames_[i];
     std::string text = format_duration(frame.time) + " " + world_.line(frame.line).line.name();
-    if (frame.way == pty::Way::from_host) {
+    if (frame.bytes.empty()) {  // only what a fault has done
+      text += frame.way == pty::Way::from_host ? " -> " : " <- ";
+    } else if (frame.way == pty::Way::from_host) {
       text += " -> " + request_text(world_, frame.line, frame.bytes);
     } else {
       const Frame* const request = request_before(i);
@@ -72,7 +74,7 @@ std::vector<std::string> FrameLog::last(std::size_t most) {
                                   request == nullptr ? std::span<const std::uint8_t>() : request->bytes,
                                   frame.bytes);
     }
-    if (frame.remark != pty::Remark::none) text += "  (" + std::string(text_of(frame.remark)) + ")";
+    if (!frame.comment.empty()) text += (frame.bytes.empty() ? "(" : "  (") + frame.comment + ")";
     texts.push_back(std::move(text));
   }
   return texts;

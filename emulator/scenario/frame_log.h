@@ -31,7 +31,7 @@ class FrameLog {
     pty::Way way = pty::Way::from_host;
     SimTime time{0};
     std::vector<std::uint8_t> bytes;
-    pty::Remark remark = pty::Remark::none;
+    std::string comment{};
   };
   void watch();
   void ignore();

@@ -209,6 +209,15 @@ TEST(ManualSpeed, KeepsARequestThatIsStillOnTheWire) {
   EXPECT_EQ(host.read(kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
+// 0x41 is of a length that only silence tells, and by the simulated clock there is none.
+TEST(ManualSpeed, ServesWhatOnlySilenceEnds) {
+  const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
+  Host host(daemon.port());
+  ASSERT_TRUE(host.set_even_parity(B19200));
+  const Bytes refusal = hex("01 C1 01 B0 50");
+  EXPECT_EQ(exchange(host, hex("01 41 01 02 03 1D 5D"), refusal.size()), refusal);
+}
+
 TEST(ControlAdvance, IsRefusedWhereTimeRunsByItself) {
   const RunningUnderstudy daemon;
   expect_refused(daemon, {"advance", "1s"}, "manual");

@@ -165,6 +165,23 @@ class Slim final : public TextDevice, private lang::Machine {
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
   Error set_variable(const lang::Operand& variable, double value);
+  /// PR4 is another name of PR3, unless it is a speed of its own.
+  std::string_view meant(std::string_view parameter) const {
+    return parameter == "PR4" && !chose(kPr4OfItsOwn) ? "PR3" : parameter;
+  }
+  /// By number: so many pulses are so many user units.
+  struct UserUnit {
+    std::size_t pulses = parameter("PN45");
+    std::size_t units = parameter("PN46");
+  };
+  UserUnit user_unit() const {
+    if (chose(kUnitOfPn44AndPn45)) return {parameter("PN44"), parameter("PN45")};
+    return chose(kUnitOfPn46AndPn45) ? UserUnit{parameter("PN46"), parameter("PN45")} : UserUnit{};
+  }
+  bool is_of_user_unit(std::size_t number) const {
+    return number == user_unit().pulses || number == user_unit().units;
+  }
+  Error set_scale(int module, std::size_t number, double value);
   Error set_parameter(int module, std::string_view name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
@@ -191,6 +208,10 @@ class Slim final : public TextDevice, private lang::Machine {
   MemoryForm memory_form() const;
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
+  void write_history(NvImage& image) const;
+  std::array<Errors, kModules> read_history(NvImage& image) const;
+  /// By PZ.
+  bool program_is_held() const { return chose(kPauseHoldsProgram) && state_.chain.queues_paused(); }
   void reboot();
   /// As if all ticks up to now had been run one by one.
   State settled() const;
