@@ -7,9 +7,11 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 
 #include "pty/descriptor.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -20,7 +22,7 @@ pty::Descriptor open_regular(const std::string& path, std::string& why) {
   pty::Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
   struct stat status = {};
   if (!file || ::fstat(file.get(), &status) != 0) {
-    why = "cannot be read";
+    why = std::string("cannot be read (") + std::strerror(errno) + ")";
   } else if (!S_ISREG(status.st_mode)) {
     why = "is no regular file";
     file = pty::Descriptor();
@@ -70,7 +72,10 @@ FileText read_text_file(const std::string& path) {
   while (true) {
     const ssize_t size = ::read(file.get(), piece.data(), piece.size());
     if (size < 0 && errno == EINTR) continue;
-    if (size < 0) return text;
+    if (size < 0) {
+      text.why = std::string("cannot be read (") + std::strerror(errno) + ")";
+      return text;
+    }
     if (size == 0) break;
     // It may grow while it is read, so that its size beforehand says little.
     if (bytes.size() + static_cast<std::size_t>(size) > kMostTextBytes) {
@@ -89,14 +94,21 @@ std::string why_not_readable(const std::string& path) {
   return why;
 }
 
-int replace_text_file(const std::string& path, const std::string& contents) {
+std::string replace_text_file(const std::string& path, const std::string& contents) {
+  std::string target;
+  try {
+    target = pty::output_target(path);
+  } catch (const pty::OutputError& error) {
+    return error.what();
+  }
   std::string beside;
-  const int file = make_beside(path, beside);
-  if (file < 0) return errno;
+  const int file = make_beside(target, beside);
+  if (file < 0) return std::strerror(errno);
   int error = write_whole(file, contents);
-  if (error == 0 && std::rename(beside.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) unlink(beside.c_str());
-  return error;
+  if (error == 0 && std::rename(beside.c_str(), target.c_str()) != 0) error = errno;
+  if (error == 0) return "";
+  unlink(beside.c_str());
+  return std::strerror(error);
 }
 
 }  // namespace understudy::emulator

@@ -11,7 +11,7 @@ inline constexpr std::size_t kMostTextBytes = std::size_t{64} << 20;
 
 /// The bytes of a file; nothing if there is none, or it cannot be read.
 struct FileText : std::optional<std::string> {
-  std::string why = "cannot be read";  // for messages, where there is nothing
+  std::string why{};  // where there is nothing, for messages: "cannot be read (Permission denied)"
 };
 
 /// Only a regular file is read, up to kMostTextBytes: a pipe would be waited for without end, and a device
@@ -22,7 +22,8 @@ FileText read_text_file(const std::string& path);
 std::string why_not_readable(const std::string& path);
 
 /// Puts a file there as a whole, in place of what was there: written beside it, under a name that is free,
-/// and on the disk before it gets its own. 0, or the error (errno), and what was there stays.
-int replace_text_file(const std::string& path, const std::string& contents);
+/// and on the disk before it gets its own. pty/output_file.h has what may be replaced. Empty, or else why it
+/// could not be, and what was there stays.
+std::string replace_text_file(const std::string& path, const std::string& contents);
 
 }  // namespace understudy::emulator

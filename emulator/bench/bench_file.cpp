@@ -20,18 +20,29 @@ namespace understudy::emulator {
 
 namespace {
 
+// Ports and memories are files that are named after lines and devices; a link has a lock beside it.
+constexpr std::size_t kLongestName = 100;
+constexpr std::size_t kLongestLinkName = 200;
+
 /// A name that other names can be joined to with a dot.
 void demand_name(const YamlFields& field, const std::string& name) {
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
   if (!plain) field.fail(emulator::quoted(name) + " is no name; expected letters, digits, _ and -");
+  if (name.size() > kLongestName) {
+    field.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
+               std::to_string(kLongestName));
+  }
 }
 
 class BenchReader {
  public:
   BenchReader(std::string folder, const std::string& links)
       : folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
+
+  /// From here on every path is refused.
+  void refuse_paths() { has_paths_ = false; }
 
   Bench read(const YamlFields& root) {
     if (root.has("devices")) read_devices(root.at("devices"));
@@ -103,7 +114,8 @@ class BenchReader {
     field.fail(emulator::quoted(field.text()) + " is no number; expected one");
   }
 
-  static std::string path_in(const std::string& folder, const YamlFields& field) {
+  std::string path_in(const std::string& folder, const YamlFields& field) const {
+    if (!has_paths_) field.fail("is a path; expected none in a recording, which has everything in itself");
     if (field.text().empty()) field.fail("is empty; expected a path");
     return (std::filesystem::path(folder) / field.text()).lexically_normal().string();
   }
@@ -199,6 +211,11 @@ class BenchReader {
       const YamlFields link = fields.at("link");
       line.link = path_in(links_, link);
       if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without");
+      if (const auto size = std::filesystem::path(line.link).filename().string().size();
+          size > kLongestLinkName) {
+        link.fail("has a name of " + std::to_string(size) + " characters; expected at most " +
+                  std::to_string(kLongestLinkName));
+      }
       const auto absolute = [](const std::string& path) {
         return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
       };
@@ -390,22 +407,34 @@ class BenchReader {
 
   std::string folder_;
   std::string links_;
+  bool has_paths_ = true;
   Bench bench_;
   std::vector<YamlFields> device_fields_;  // where each device was described
   std::vector<bool> on_a_line_;
 };
 
+YamlFields root_of(const std::string& text, const std::string& name) {
+  const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
+  if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
+    throw FileError({name, 1, 1},
+                    "bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
+  }
+  root.demand_keys(kBenchKeys);
+  root.at("understudy").integer(kVersionForm);
+  return root;
+}
+
 }  // namespace
 
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
                   const std::string& links) {
-  const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
-  if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
-    throw FileError(name + ":1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
-  }
-  root.demand_keys(kBenchKeys);
-  root.at("understudy").integer(kVersionForm);
-  return BenchReader(folder, links).read(root);
+  return BenchReader(folder, links).read(root_of(text, name));
+}
+
+Bench parse_recorded_bench(const std::string& text) {
+  BenchReader reader("", "");
+  reader.refuse_paths();
+  return reader.read(root_of(text, "bench"));
 }
 
 Bench read_bench(const YamlFields& fields, const std::string& folder) {
@@ -413,12 +442,26 @@ Bench read_bench(const YamlFields& fields, const std::string& folder) {
   return BenchReader(folder, "").read(fields);
 }
 
-Bench load_bench(const std::string& path, const std::string& links) {
-  const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ":1: bench: " + text.why + "; expected a bench file");
-  Bench bench = parse_bench(*text, path, std::filesystem::path(path).parent_path().string(), links);
+namespace {
+
+Bench bench_of(const std::string& text, const std::string& path, const std::string& links) {
+  Bench bench = parse_bench(text, path, std::filesystem::path(path).parent_path().string(), links);
   bench.files.insert(bench.files.begin(), {path, "the bench itself"});
   return bench;
+}
+
+}  // namespace
+
+Bench load_bench(const std::string& path, const std::string& links) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ": bench: " + text.why + "; expected a bench file");
+  return bench_of(*text, path, links);
+}
+
+Bench load_bench(const YamlFields& path) {
+  const auto text = read_text_file(path.path());
+  if (!text) path.fail(path.path() + " " + text.why + "; expected a bench file");
+  return bench_of(*text, path.path(), "");
 }
 
 }  // namespace understudy::emulator

@@ -16,9 +16,16 @@ class YamlFields;
 /// Paths are relative to the file's folder, links to `links` if that is given. Throws FileError.
 Bench load_bench(const std::string& path, const std::string& links = "");
 
+/// The same where another file names it: that is where it is told if it cannot be read.
+Bench load_bench(const YamlFields& path);
+
 /// The same from a text; `name` stands for the file in messages, paths are relative to `folder`.
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
                   const std::string& links = "");
+
+/// The bench that is inside a recording. It has everything in itself: whoever names a path there wants
+/// something read or written that is none of a recording's business, and is refused.
+Bench parse_recorded_bench(const std::string& text);
 
 /// One that is written inside another file, as the value of a key.
 Bench read_bench(const YamlFields& fields, const std::string& folder);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "emulator/bench/yaml_document.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/register_map/register_map.h"
@@ -13,42 +14,14 @@
 
 namespace understudy::emulator {
 
-namespace {
-
-std::string line_of(const YAML::Mark& mark) { return std::to_string(std::max(mark.line, 0) + 1); }
-
-/// Whether the line, which could not be read, has a `${...}` that YAML takes for a map.
-bool has_bare_parameter(const std::string& text, int line) {
-  std::size_t begin = 0;
-  for (; line > 0 && begin != std::string::npos; --line) {
-    begin = text.find('\n', begin);
-    if (begin != std::string::npos) ++begin;
-  }
-  if (begin == std::string::npos) return false;
-  return std::string_view(text).substr(begin, text.find('\n', begin) - begin).find("${") != std::string::npos;
-}
-
-}  // namespace
-
 YamlFields YamlFields::parse(const std::string& text, const std::string& file, const std::string& what,
                              const std::string& expected) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw FileError(file + ":" + line_of(documents[1].Mark()) + ": " + what +
-                      ": a second document begins here; expected one");
-    }
-    if (documents.empty() || !documents.front().IsMap()) {
-      throw FileError(file + ":1: " + what + ": the file is no map; expected " + expected);
-    }
-    YamlFields root(file, documents.front(), what);
-    root.is_root_ = true;
-    return root;
-  } catch (const YAML::Exception& error) {
-    const bool is_bare = has_bare_parameter(text, error.mark.line);
-    throw FileError(file + ":" + line_of(error.mark) + ": " + what + ": is not YAML: " + error.msg +
-                    (is_bare ? "; expected quotes around a ${...} between braces or brackets" : ""));
-  }
+  const YAML::Node document = parse_yaml(text, file, what);
+  if (!document.IsMap())
+    throw FileError({file, 1, 1}, what + ": the file is not a map; expected " + expected);
+  YamlFields root(file, document, what);
+  root.is_root_ = true;
+  return root;
 }
 
 YamlFields::YamlFields(std::string file, const YAML::Node& node, std::string field)
@@ -61,11 +34,11 @@ YamlFields::YamlFields(const YamlFields& parent, const YAML::Node& node, const s
 
 int YamlFields::line() const { return node_->Mark().line + 1; }
 
+FilePlace YamlFields::place() const { return {file_, line(), node_->Mark().column + 1}; }
+
 std::string YamlFields::folder() const { return std::filesystem::path(file_).parent_path().string(); }
 
-void YamlFields::fail(const std::string& what) const {
-  throw FileError(file_ + ":" + std::to_string(line()) + ": " + field_ + ": " + what);
-}
+void YamlFields::fail(const std::string& what) const { throw FileError(place(), field_ + ": " + what); }
 
 YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
   YamlFields same = *this;

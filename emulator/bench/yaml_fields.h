@@ -30,7 +30,7 @@ class ScalarRule {
 };
 
 /// Where in which file a node stands, and how to complain about it. All that can fail throws FileError
-/// "file:line: field: what".
+/// "file:line:column: field: what".
 class YamlFields {
  public:
   /// The one document of a text; a map. Messages call it `what`; an empty file is told what is `expected`.
@@ -40,6 +40,7 @@ class YamlFields {
   const std::string& file() const { return file_; }
   const std::string& field() const { return field_; }
   int line() const;
+  FilePlace place() const;
   /// The folder that paths in it are relative to.
   std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;

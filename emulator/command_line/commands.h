@@ -62,6 +62,7 @@ struct ExecArguments {
   std::vector<std::string> command;      // and its arguments: what stands behind --
   std::vector<std::string> stray_words;  // in front of it
   std::string with;                      // the file of a scenario that is played beside it
+  std::string save_below;                // the folder that it may save in; empty: its own
   bool tty_shim = false;
   std::string timeout;  // a duration
 };
@@ -75,7 +76,11 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
-  std::string record;  // a folder
+  std::string record;  // folders, for a file of each scenario
+  std::string trace;
+  std::vector<std::string> trace_also;
+  std::string capture;
+  std::string save_below;  // the folder that scenarios may save in; empty: their own
   bool lint = false;
   bool hash = false;
   std::optional<int> jobs;  // none: one for each core
@@ -90,6 +95,10 @@ struct ReplayArguments {
   std::string recording;
   std::string until;  // a duration; then `control`
   std::string control;
+  std::string trace;  // files, as those of `serve` and `run`
+  std::vector<std::string> trace_also;
+  std::string capture;
+  std::string report;
   std::string version;  // of this program
 };
 int replay_recording(const ReplayArguments& arguments);
@@ -139,8 +148,8 @@ int poll_port(const PollArguments& arguments);
 int assemble_program(const std::string& file);
 int disassemble_program(const std::string& file);
 
-/// Benches, scenarios, and files of steps that scenarios include.
-int check_files(const std::vector<std::string>& files);
+/// Benches, scenarios, and files of steps that scenarios include; folders with such files.
+int check_files(const std::vector<std::string>& files, const std::string& save_below);
 /// The JSON Schema of "bench" or "scenario" files.
 int print_schema(const std::string& what);
 

@@ -194,7 +194,7 @@ void demand_apart(const Scenario& scenario, const ServeArguments& serve, FileCla
     demand_output(of_scenario, flag, path);
   };
   demand("--capture", serve.capture);
-  if (!serve.record.empty()) demand("--record", serve.record + kOlderPart);
+  demand("--record", older_part_of(serve.record));
   demand("--record", serve.record);
   demand("--trace", serve.trace);
   for (const std::string& path : scenario.saved) demand_output(files, "--with: save", path);
@@ -212,7 +212,7 @@ int execute(const ExecArguments& arguments) {
   demand_variables(serving.bench);
   std::optional<Scenario> scenario;
   if (!arguments.with.empty()) {
-    scenario = load_companion(arguments.with, serving.bench);
+    scenario = load_companion(arguments.with, serving.bench, arguments.save_below);
     demand_apart(*scenario, arguments.serve, serving.options.files);
   }
   PrivateFolder folder;

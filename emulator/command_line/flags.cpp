@@ -21,6 +21,8 @@ const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
     "");
 
+constexpr const char* kTraceAlsoHelp =
+    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A";
 constexpr const char* kLintHelp = "Tell at the end what a real controller would not forgive its host";
 
 struct CommandLine {
@@ -37,6 +39,7 @@ struct CommandLine {
   std::string program;
   std::string schema;
   std::vector<std::string> files;
+  std::string save_below;
   std::function<int()> chosen;
 
   CommandLine() {
@@ -122,11 +125,7 @@ struct CommandLine {
         .add_option("--trace", serving.trace,
                     "Write what moves and switches to this file: FILE.csv, or FILE.vcd for GTKWave")
         ->check(kNotEmpty);
-    command
-        .add_option("--trace-also", serving.trace_also,
-                    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A")
-        ->delimiter(',')
-        ->check(kNotEmpty);
+    command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
     command.add_flag("--lint", serving.lint, kLintHelp);
   }
 
@@ -136,6 +135,12 @@ struct CommandLine {
     command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
   }
 
+  static void add_save_below(CLI::App& command, std::string& folder) {
+    command
+        .add_option("--save-below", folder, "Let scenarios `save` below this folder [each one's own folder]")
+        ->check(kNotEmpty);
+  }
+
   void add_exec() {
     CLI::App* command =
         app.add_subcommand("exec", "Run a command with a bench to talk to: exec BENCH -- COMMAND");
@@ -143,6 +148,7 @@ struct CommandLine {
     command->add_option("COMMAND", exec.stray_words, "A program and its arguments, after --");
     command->add_option("--with", exec.with, "A scenario to play beside the command [none]")
         ->check(kNotEmpty);
+    add_save_below(*command, exec.save_below);
     command->add_flag("--tty-shim", exec.tty_shim,
                       "Preload what lets hosts that insist on parity use a pseudo-terminal");
     command
@@ -167,6 +173,18 @@ struct CommandLine {
     command
         ->add_option("--control", replay.control, "Path of the control socket, with --until [a private one]")
         ->check(kNotEmpty);
+    command
+        ->add_option("--trace", replay.trace,
+                     "Write what moved and switched to this file: FILE.csv, or FILE.vcd for GTKWave")
+        ->check(kNotEmpty);
+    command->add_option("--trace-also", replay.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    command
+        ->add_option(
+            "--capture", replay.capture,
+            "Write what went over the lines to this file: FILE.pcapng for Wireshark, else a text log")
+        ->check(kNotEmpty);
+    command->add_option("--report", replay.report, "Write a page about it to this file, as HTML")
+        ->check(kNotEmpty);
     command->callback([this] {
       replay.version = UNDERSTUDY_VERSION;
       chosen = [this] { return replay_recording(replay); };
@@ -175,7 +193,9 @@ struct CommandLine {
 
   void add_run() {
     CLI::App* command = app.add_subcommand("run", "Play scenarios, in simulated time");
-    command->add_option("SCENARIO", run.scenarios, "Scenario files")->required();
+    command
+        ->add_option("SCENARIO", run.scenarios, "Scenario files; folders, of which all scenarios are played")
+        ->required();
     command->add_flag("--real-time", run.real_time,
                       "By the clock on the wall, over real ports, with libmodbus as the host");
     command->add_option("--junit", run.junit, "Write the results to this file, as JUnit XML")
@@ -186,6 +206,12 @@ struct CommandLine {
         ->add_option("--record", run.record,
                      "Folder for the recordings of all scenarios [those of failures, below /tmp]")
         ->check(kNotEmpty);
+    command->add_option("--trace", run.trace, "Folder for a trace of each scenario, as CSV")
+        ->check(kNotEmpty);
+    command->add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    command->add_option("--capture", run.capture, "Folder for a capture of each scenario, for Wireshark")
+        ->check(kNotEmpty);
+    add_save_below(*command, run.save_below);
     command->add_flag("--lint", run.lint, kLintHelp);
     command->add_flag("--hash", run.hash,
                       "Print a hash of all that each scenario's devices said and did, for comparison");
@@ -297,8 +323,9 @@ struct CommandLine {
 
   void add_check() {
     CLI::App* command = app.add_subcommand("check", "Validate benches and scenarios without running them");
-    command->add_option("FILE", files, "Bench and scenario files")->required();
-    command->callback([this] { chosen = [this] { return check_files(files); }; });
+    command->add_option("FILE", files, "Bench and scenario files, and folders of them")->required();
+    add_save_below(*command, save_below);
+    command->callback([this] { chosen = [this] { return check_files(files, save_below); }; });
   }
 
   void add_schema() {

@@ -7,10 +7,13 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
+#include "emulator/command_line/replay_looks.h"
+#include "emulator/command_line/result_file.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/edge/daemon.h"
 #include "emulator/one_line.h"
 #include "emulator/recording/replay.h"
+#include "emulator/report/page.h"
 #include "emulator/text_file.h"
 #include "emulator/world/snapshot.h"
 
@@ -53,13 +56,23 @@ int replay_recording(const ReplayArguments& arguments) {
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
+  FileClaims claims;
+  claims.add({arguments.recording, "the recording itself"});
+  demand_looks(arguments, claims);
   std::ifstream file(arguments.recording, std::ios::binary);
+  ResultFile report("--report", arguments.report);
+  ScenarioResult seen;
   std::optional<WorldState> state;
   const auto begin = std::chrono::steady_clock::now();
-  const Replayed replayed = replay(file, arguments.recording, until, {}, [&](const World& world) {
+  const auto watch = [&](World& world) { return std::make_unique<ReplayLooks>(world, arguments, seen); };
+  const Replayed replayed = replay(file, arguments.recording, until, watch, [&](const World& world) {
     if (until) state = save(world);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (report.is_wanted()) {
+    const ScenarioResult shown = result_of(replayed, arguments.recording, std::move(seen));
+    report.write(report_page({&shown, 1}, arguments.version));
+  }
   if (replayed.header.version != arguments.version) {
     log_line("the recording is from version " + replayed.header.version + ", this is " + arguments.version);
   }

@@ -99,47 +99,33 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   return bench;
 }
 
-/// What the bench is made of, and the memories, which are written as well.
-FileClaims claims_of(const Bench& bench) {
+/// What the bench is made of, the memories, which are written as well, and what hosts and `ctl` open.
+FileClaims claims_of(const Bench& bench, const std::string& control) {
   FileClaims claims;
   claims.add(bench.files);
   for (const DeviceSetup& device : bench.devices) {
     claims.add({device.nv_path, "the memory of " + emulator::quoted(device.settings.name)});
   }
+  for (const LineSetup& line : bench.lines) {
+    claims.add_place({line.link, "the link of line " + emulator::quoted(line.name)});
+  }
+  claims.add_place({control, "the control socket"});
   return claims;
 }
 
-const std::string& demand_capture(const ServeArguments& arguments, FileClaims& claims) {
-  const std::string& path = arguments.capture;
-  if (path.ends_with(".pcap")) {
-    throw UsageError("--capture: " + path +
-                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+/// What else is to be traced can be seen of this bench.
+void demand_names(const Bench& bench, const std::vector<std::string>& also) {
+  if (also.empty()) return;
+  try {
+    trace_signals(World(bench, {}, {}), also);
+  } catch (const NameError& error) {
+    throw UsageError(std::string("--trace-also: ") + error.what());
   }
-  return demand_output(claims, "--capture", path);
-}
-
-const std::string& demand_trace(const ServeArguments& arguments, const Bench& bench, FileClaims& claims) {
-  const std::string& path = arguments.trace;
-  if (path.empty()) {
-    if (arguments.trace_also.empty()) return path;
-    throw UsageError("--trace-also: expected --trace FILE beside it");
-  }
-  if (!path.ends_with(".csv") && !path.ends_with(".vcd")) {
-    throw UsageError("--trace: " + path + ": is no kind of trace; expected FILE.csv or FILE.vcd");
-  }
-  if (!arguments.trace_also.empty()) {
-    try {
-      trace_signals(World(bench, {}, {}), arguments.trace_also);
-    } catch (const NameError& error) {
-      throw UsageError(std::string("--trace-also: ") + error.what());
-    }
-  }
-  return demand_output(claims, "--trace", path);
 }
 
 /// And the file beside it, where its older part goes once it has grown large.
 const std::string& demand_recording(const std::string& path, FileClaims& claims) {
-  if (!path.empty()) demand_output(claims, "--record", path + kOlderPart);
+  demand_output(claims, "--record", older_part_of(path));
   return demand_output(claims, "--record", path);
 }
 
@@ -161,10 +147,11 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
-  options.files = claims_of(serving.bench);
-  options.capture_path = demand_capture(arguments, options.files);
+  options.files = claims_of(serving.bench, arguments.control);
+  options.capture_path = demand_capture(options.files, arguments.capture);
   options.record_path = demand_recording(arguments.record, options.files);
-  options.trace_path = demand_trace(arguments, serving.bench, options.files);
+  options.trace_path = demand_trace(options.files, arguments.trace, arguments.trace_also);
+  demand_names(serving.bench, arguments.trace_also);
   options.trace_also = arguments.trace_also;
   options.version = arguments.version;
   const auto speed = parse_speed(arguments.speed);

@@ -1,5 +1,4 @@
 // Snapshots of the running world, in files of the user's.
-#include <cstring>
 
 #include "emulator/control/message_fields.h"
 #include "emulator/control/verbs.h"
@@ -34,9 +33,9 @@ Json snapshot_message(Daemon& daemon, const Json& message) {
     throw MessageError(path + ": file: " + why);
   }
   daemon.catch_up();
-  if (const int error = replace_text_file(path, to_text(save(daemon.world()), daemon.bench_hash()))) {
-    throw MessageError(path + ": file: cannot be written (" + std::strerror(error) +
-                       "); expected a place for it");
+  const std::string why = replace_text_file(path, to_text(save(daemon.world()), daemon.bench_hash()));
+  if (!why.empty()) {
+    throw MessageError(path + ": file: cannot be written (" + why + "); expected a place for it");
   }
   return reply_of(daemon);
 }

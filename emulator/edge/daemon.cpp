@@ -12,6 +12,7 @@
 
 #include "emulator/bench/bench_text.h"
 #include "emulator/control/messages.h"
+#include "emulator/one_line.h"
 #include "emulator/world/snapshot_file.h"
 
 namespace understudy::emulator {
@@ -52,11 +53,10 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
   watch_posts();
   make_ports(bench);
   if (options.has_control) open_control(options.control_path);
+  claim_own_places();
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
-  // Last: a run that cannot start leaves the capture of the one before alone.
-  if (!options.capture_path.empty()) start_capture(options.capture_path);
-  if (!options.record_path.empty()) start_recording(bench, options);
-  if (!options.trace_path.empty()) start_trace(options);
+  // Last: a run that cannot start leaves the files of the one before alone.
+  open_files(bench, options);
 }
 
 Daemon::~Daemon() {
@@ -64,9 +64,8 @@ Daemon::~Daemon() {
   ports_.clear();
   memories_.reset();
   trace_.reset();
-  trace_file_.reset();
   recording_.reset();
-  finish_capture();
+  capture_.reset();
   if (signals_ >= 0) close(signals_);
   if (posted_signal_ >= 0) close(posted_signal_);
 }
@@ -150,43 +149,38 @@ void Daemon::make_ports(const Bench& bench) {
   }
 }
 
-void Daemon::start_capture(const std::string& path) {
-  std::vector<pty::CapturedLine> lines;
+void Daemon::claim_own_places() {
   for (const auto& port : ports_) {
-    const pty::Line& line = world_.line(port->line_number()).line;
-    lines.push_back({line.name(), line.options().settings.baud});
+    const std::string line = "of line " + emulator::quoted(world_.line(port->line_number()).line.name());
+    files_.add_place({port->terminal().link_path(), "the link " + line});
+    files_.add_place({port->terminal().path(), "the port " + line});
   }
-  capture_ = std::make_unique<pty::CaptureFile>(path, std::move(lines), log_);
-  for (std::size_t i = 0; i < ports_.size(); ++i) {
-    World::OneLine& line = world_.line(ports_[i]->line_number());
-    captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); },
-        line.protocol == Protocol::text));
-    line.line.add_observer(*captured_lines_.back());
+  files_.add_place({control_path(), "the control socket"});
+}
+
+/// All are open before any is emptied.
+void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
+  if (!options.capture_path.empty()) {
+    capture_ = std::make_unique<WorldCapture>(world_, options.capture_path, log_);
   }
-}
-
-void Daemon::start_recording(const Bench& bench, const DaemonOptions& options) {
-  const RecordingHeader header{.version = options.version,
-                               .bench = to_text(bench),
-                               .options = world_options(options),
-                               .seed = bench.seed,
-                               .snapshot = {}};
-  recording_ =
-      std::make_unique<RecordingSpool>(world_, header, options.record_path, options.record_cap_bytes, log_);
-}
-
-void Daemon::start_trace(const DaemonOptions& options) {
-  std::vector<TraceSignal> signals = trace_signals(world_, options.trace_also);
-  trace_file_ = std::make_unique<GrowingFile>(options.trace_path, "the trace", log_);
-  const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
-  trace_ = std::make_unique<Trace>(
-      world_, std::move(signals), options.trace_path.ends_with(".vcd") ? vcd_format(take) : csv_format(take));
-}
-
-void Daemon::finish_capture() {
-  for (const auto& line : captured_lines_) line->finish();
-  if (capture_) capture_->finish();
+  std::unique_ptr<GrowingFile> recording;
+  if (!options.record_path.empty()) {
+    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  }
+  if (!options.trace_path.empty()) {
+    trace_ = std::make_unique<TraceFile>(world_, options.trace_path, options.trace_also, log_);
+  }
+  if (capture_) capture_->begin();
+  if (recording) {
+    const RecordingHeader header{.version = options.version,
+                                 .bench = to_text(bench),
+                                 .options = world_options(options),
+                                 .seed = bench.seed,
+                                 .snapshot = {}};
+    recording_ = std::make_unique<RecordingSpool>(world_, header, std::move(recording),
+                                                  options.record_cap_bytes, log_);
+  }
+  if (trace_) trace_->begin();
 }
 
 void Daemon::catch_up() { catch_up(kWorkSlice); }

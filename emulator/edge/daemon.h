@@ -17,13 +17,11 @@
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/file_claims.h"
-#include "emulator/growing_file.h"
 #include "emulator/recording/recording_spool.h"
-#include "emulator/trace/trace.h"
+#include "emulator/trace/trace_file.h"
+#include "emulator/trace/world_capture.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
-#include "pty/capture_file.h"
-#include "pty/capture_frames.h"
 
 namespace understudy::emulator {
 
@@ -41,7 +39,7 @@ struct DaemonOptions {
   std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
   std::string version;  // of the program, for the recording
-  FileClaims files{};   // that no snapshot may overwrite
+  FileClaims files{};   // that no snapshot may replace; what the daemon opens itself is added
 };
 
 class Daemon {
@@ -100,10 +98,8 @@ class Daemon {
   void end_posts();
   void open_control(const std::string& asked_path);
   void make_ports(const Bench& bench);
-  void start_capture(const std::string& path);
-  void finish_capture();
-  void start_trace(const DaemonOptions& options);
-  void start_recording(const Bench& bench, const DaemonOptions& options);
+  void claim_own_places();
+  void open_files(const Bench& bench, const DaemonOptions& options);
   void judge_stall();
   void catch_up(WallTime longest);
   void work_towards(SimTime target, WallTime longest);
@@ -117,12 +113,10 @@ class Daemon {
   World world_;
   std::uint64_t bench_hash_;
   FileClaims files_;
-  std::unique_ptr<pty::CaptureFile> capture_;
-  std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
+  std::unique_ptr<WorldCapture> capture_;
   std::unique_ptr<NvKeeper> memories_;
   std::unique_ptr<RecordingSpool> recording_;
-  std::unique_ptr<GrowingFile> trace_file_;
-  std::unique_ptr<Trace> trace_;
+  std::unique_ptr<TraceFile> trace_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;

@@ -51,8 +51,9 @@ std::string linked(const ScenarioResult& result, const std::string& id) {
 
 std::string list_of(std::span<const ScenarioResult> results) {
   std::string text =
-      "<table class=\"scenarios\">\n<tr><th>verdict</th><th>scenario</th><th>file</th>"
-      "<th class=\"time\">simulated [s]</th></tr>\n";
+      "<div class=\"scroll\"><table class=\"scenarios\">\n<tr><th scope=\"col\">verdict</th>"
+      "<th scope=\"col\">scenario</th><th scope=\"col\">file</th>"
+      "<th scope=\"col\" class=\"time\">simulated [s]</th></tr>\n";
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ScenarioResult& result = results[i];
     text += "<tr><td>" + verdict_text(result) + "</td><td>" + linked(result, id_of(i));
@@ -60,15 +61,17 @@ std::string list_of(std::span<const ScenarioResult> results) {
     text += "</td><td class=\"dim\">" + xml_escaped(result.file) + "</td>" + time_cell(result.simulated) +
             "</tr>\n";
   }
-  return text + "</table>\n";
+  return text + "</table></div>\n";
 }
 
 std::string failure_text(const Failure& failure) {
-  std::string text = "<div class=\"failure\"><b>" + xml_escaped(failure.what) +
-                     "</b> <span class=\"dim\">at " + format_duration(failure.at) + "</span>\n<table>";
+  std::string text = "<h3 class=\"unseen\">why it failed</h3>\n<div class=\"failure\"><b>" +
+                     xml_escaped(failure.what) + "</b> <span class=\"dim\">at " +
+                     format_duration(failure.at) + "</span>\n<table>";
   const auto row = [&](const char* title, const std::string& what) {
     if (!what.empty())
-      text += "<tr><th>" + std::string(title) + "</th><td>" + in("code", xml_escaped(what)) + "</td></tr>\n";
+      text += "<tr><th scope=\"row\">" + std::string(title) + "</th><td>" + in("code", xml_escaped(what)) +
+              "</td></tr>\n";
   };
   row("expected", failure.expected);
   row("came", failure.came);
@@ -83,6 +86,10 @@ std::string failure_text(const Failure& failure) {
   fold("the last frames before it", failure.frames);
   fold("the state around it", failure.state);
   return text + "</div>\n";
+}
+
+std::string arrow(const char* sign, const char* meaning) {
+  return std::string("<span role=\"img\" aria-label=\"") + meaning + "\">" + sign + "</span>";
 }
 
 /// Those of a scene that began in [from, to).
@@ -102,7 +109,8 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
               " left out here</td></tr>\n";
     }
     rows += "<tr>" + time_cell(frame->time) + "<td class=\"dim\">" + xml_escaped(frame->line) + "</td><td>" +
-            (frame->is_from_host ? "&rarr;" : "&larr;") + "</td><td>";
+            (frame->is_from_host ? arrow("&rarr;", "from the host") : arrow("&larr;", "to the host")) +
+            "</td><td>";
     if (!frame->text.empty()) rows += in("code", xml_escaped(frame->text));
     if (frame->text != frame->bytes) rows += " <code class=\"dim\">" + xml_escaped(frame->bytes) + "</code>";
     if (!frame->remark.empty()) rows += " <span class=\"bad\">" + xml_escaped(frame->remark) + "</span>";
@@ -116,8 +124,10 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
 std::string steps_text(std::span<const StepResult> steps, std::size_t first_number, const Scene* scene) {
   if (steps.empty()) return "";
   std::string text =
-      "<table class=\"steps\">\n<tr><th class=\"time\">step</th><th class=\"time\">begins [s]</th>"
-      "<th class=\"time\">takes [s]</th><th>what</th><th></th></tr>\n";
+      "<h3 class=\"unseen\">steps</h3>\n<div class=\"scroll\"><table class=\"steps\">\n"
+      "<tr><th scope=\"col\" class=\"time\">step</th><th scope=\"col\" class=\"time\">begins [s]</th>"
+      "<th scope=\"col\" class=\"time\">takes [s]</th><th scope=\"col\">what</th>"
+      "<th scope=\"col\" class=\"place\">where</th></tr>\n";
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const StepResult& step = steps[i];
     // Time that goes back belongs to the next scene.
@@ -134,7 +144,7 @@ std::string steps_text(std::span<const StepResult> steps, std::size_t first_numb
     text += "</td><td class=\"place dim\">" + xml_escaped(step.file) + ":" + std::to_string(step.line) +
             "</td></tr>\n";
   }
-  return text + "</table>\n";
+  return text + "</table></div>\n";
 }
 
 /// What was on all the time, which no picture shows.
@@ -150,12 +160,14 @@ std::string always_on(const Scene& scene) {
 std::string scene_text(const ScenarioResult& result, const Scene& scene, std::size_t first, std::size_t end,
                        bool is_last) {
   const auto steps = std::span(result.steps).subspan(first, end - first);
-  PictureMarks marks{.steps = steps, .first_number = first + 1, .failed_at = {}};
+  PictureMarks marks{.steps = steps, .first_number = first + 1, .failed_at = {}, .of = result.name};
   if (result.failure && is_last) marks.failed_at = result.failure->at;
   const std::string drawn = picture(scene, marks);
-  const std::string text = drawn.empty()
-                               ? "<p class=\"dim\">Nothing moved or switched.</p>\n"
-                               : "<div class=\"scene\">" + drawn + "<pre class=\"values\"></pre></div>\n";
+  const std::string text =
+      drawn.empty() ? "<p class=\"dim\">Nothing moved or switched.</p>\n"
+                    : "<div class=\"scene\"><div class=\"scroll\" role=\"group\" aria-label=\"picture\" "
+                      "tabindex=\"0\">" +
+                          drawn + "</div><pre class=\"values\" aria-hidden=\"true\"></pre></div>\n";
   return text + always_on(scene) + steps_text(steps, first + 1, &scene);
 }
 
@@ -171,7 +183,7 @@ std::string body_of(const ScenarioResult& result) {
   } else {
     const std::vector<Scene>& scenes = result.footage->scenes;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-      if (i > 0) text += "<h2>after step " + std::to_string(scenes[i].first_step) + "</h2>\n";
+      if (i > 0) text += "<h3>after step " + std::to_string(scenes[i].first_step) + "</h3>\n";
       const bool is_last = i + 1 == scenes.size();
       const std::size_t first = i == 0 ? 0 : scenes[i].first_step;  // a scene without any time is not there
       const std::size_t end = is_last ? result.steps.size() : scenes[i + 1].first_step;
@@ -179,7 +191,7 @@ std::string body_of(const ScenarioResult& result) {
     }
   }
   if (!result.manners.empty()) {
-    text += "<h2>the host's manners</h2>\n<ul>\n";
+    text += "<h3>the host's manners</h3>\n<ul>\n";
     for (const std::string& line : result.manners) text += in("li", in("code", xml_escaped(line))) + "\n";
     text += "</ul>\n";
   }
@@ -195,19 +207,22 @@ std::string report_page(std::span<const ScenarioResult> results, std::string_vie
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>Understudy: " +
       summary + "</title>\n<style>" + std::string(kPageStyle) +
-      "</style>\n</head>\n<body>\n<h1>Understudy</h1>\n<p>" + summary + "</p>\n" + list_of(results);
+      "</style>\n</head>\n<body>\n<header>\n<h1>Understudy</h1>\n<p>" + summary +
+      "</p>\n</header>\n<main>\n<nav aria-label=\"scenarios\">\n<h2 class=\"unseen\">Scenarios</h2>\n" +
+      list_of(results) + "</nav>\n";
   // Those that failed are open; one alone as well.
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ScenarioResult& result = results[i];
     if (result.verdict == Verdict::not_reached) continue;
     const bool is_open = result.verdict == Verdict::failed || results.size() == 1;
     page += "<details class=\"scenario\" id=\"" + id_of(i) + "\"" + (is_open ? " open" : "") + "><summary>" +
-            verdict_text(result) + "<b>" + xml_escaped(result.name) + "</b><span class=\"dim\">" +
+            verdict_text(result) + "<h2>" + xml_escaped(result.name) + "</h2><span class=\"dim\">" +
             xml_escaped(result.file) + ", " + format_duration(result.simulated) + "</span></summary>\n" +
             body_of(result) + "</details>\n";
   }
-  return page + "<footer>understudy " + xml_escaped(version) + "; times are simulated</footer>\n<script>" +
-         std::string(kPageScript) + "</script>\n</body>\n</html>\n";
+  return page + "</main>\n<footer>understudy " + xml_escaped(version) +
+         "; times are simulated</footer>\n<script>" + std::string(kPageScript) +
+         "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace understudy::emulator

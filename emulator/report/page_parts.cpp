@@ -22,7 +22,8 @@ const std::string_view kPageStyle = R"(
 body { margin: 0 auto; padding: 24px; max-width: 1240px; background: var(--page); color: var(--ink);
        font: 14px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
 h1 { font-size: 22px; margin: 0 0 2px; }
-h2 { font-size: 15px; margin: 18px 0 6px; }
+h2, h3 { font-size: 15px; margin: 18px 0 6px; }
+.unseen { position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; clip-path: inset(50%); }
 a { color: inherit; }
 code, pre, td.time, .picture text { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; }
 code, pre, td.time { font-size: 12.5px; }
@@ -39,19 +40,21 @@ td.time, th.time { text-align: right; white-space: nowrap; }
 .scenario { margin-top: 18px; border: 1px solid var(--rule); border-radius: 8px; padding: 0 18px; }
 .scenario[open] { padding-bottom: 16px; }
 .scenario > summary { cursor: pointer; padding: 10px 0; font-size: 15px; }
-.scenario > summary b { margin: 0 8px; }
+.scenario > summary h2 { display: inline; margin: 0 8px; }
 .failure { background: var(--bad-card); border-left: 4px solid var(--bad); padding: 8px 14px; margin: 4px 0; }
 .failure table { margin-top: 6px; }
 .failure th, .failure td { border: 0; padding: 1px 12px 1px 0; }
 .failure th { width: 90px; }
 .steps tr.failed > td { background: var(--bad-card); }
-.steps td.place { white-space: nowrap; text-align: right; padding-right: 0; }
+.steps .place { white-space: nowrap; text-align: right; padding-right: 0; }
 .steps summary, .failure summary { cursor: pointer; color: var(--dim); font-size: 12.5px; }
 .frames { margin: 2px 0 6px; width: auto; }
 .frames td { border: 0; padding: 0 12px 0 0; font-size: 12.5px; }
 .frames code.dim { margin-left: 10px; }
 .scene { position: relative; }
-.picture { display: block; width: 100%; height: auto; margin: 4px 0 0; }
+.scroll { overflow-x: auto; }
+.scroll > table { min-width: 560px; }
+.picture { display: block; width: 100%; min-width: 820px; height: auto; margin: 4px 0 0; }
 .picture text { font-size: 11px; fill: var(--ink); }
 .picture .mark, .picture .number { fill: var(--dim); }
 .picture .title { font-weight: 600; }
@@ -73,6 +76,11 @@ td.time, th.time { text-align: right; white-space: nowrap; }
 .values { position: absolute; pointer-events: none; visibility: hidden; z-index: 1; background: var(--card);
           border: 1px solid var(--rule); border-radius: 6px; padding: 6px 10px; box-shadow: 0 2px 8px #0003; }
 footer { margin-top: 24px; color: var(--dim); font-size: 12.5px; }
+@media (max-width: 640px) {
+  body { padding: 14px; }
+  .scenario { padding: 0 10px; }
+}
+@media print { .scroll { overflow: visible; } .picture { min-width: 0; } }
 @media print { .scenario { break-inside: avoid; } }
 )";
 
@@ -88,7 +96,7 @@ openLinked();
 
 // The values under the pointer. Lines have their data in `points`: milliseconds and amounts.
 for (const picture of document.querySelectorAll("svg.picture")) {
-  const values = picture.parentElement.querySelector(".values");
+  const scene = picture.closest(".scene"), values = scene.querySelector(".values");
   const pointer = picture.querySelector(".pointer");
   const [begin, end, left, right] =
     ["begin", "end", "left", "right"].map(name => Number(picture.dataset[name]));
@@ -122,7 +130,7 @@ for (const picture of document.querySelectorAll("svg.picture")) {
     rows.unshift(["time", (begin + ms) / 1000 + " s"]);
     const width = Math.max(...rows.map(row => row[0].length));
     values.textContent = rows.map(([name, value]) => name.padEnd(width + 2) + value).join("\n");
-    const box = picture.getBoundingClientRect(), x = event.clientX - box.left;
+    const box = scene.getBoundingClientRect(), x = event.clientX - box.left;
     values.style.left = x > box.width / 2 ? "" : x + 18 + "px";
     values.style.right = x > box.width / 2 ? box.width - x + 18 + "px" : "";
     values.style.top = Math.min(event.clientY - box.top + 12, Math.max(box.height - values.offsetHeight, 0)) + "px";

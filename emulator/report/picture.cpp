@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "emulator/report/axis_scale.h"
+#include "emulator/report/picture_words.h"
 #include "emulator/scenario/junit.h"
 
 namespace understudy::emulator {
@@ -17,7 +18,9 @@ using Kind = SeenSignal::Kind;
 constexpr double kWidth = 1100;
 constexpr double kLeft = 170;  // where time begins
 constexpr double kRight = 1085;
-constexpr double kTop = 34;  // steps and the failure have their marks above
+constexpr double kTop = 38;              // steps and the failure have their marks above
+constexpr double kNumberY = kTop - 10;   // where a step's number stands
+constexpr double kFailureY = kTop - 26;  // a row of its own above them
 constexpr double kLegendHeight = 24;
 constexpr double kPanelGap = 14;
 constexpr double kRowHeight = 19;
@@ -206,21 +209,24 @@ class Drawing {
       if (x - last < kRoomForNumber) continue;
       last = x;
       body_ += line_between(x, kTop - 6, x, kTop, "step") + through_frames(x, "step");
-      body_ += text_at(x, kTop - 10, "number middle", std::to_string(marks.first_number + i));
+      body_ += text_at(x, kNumberY, "number middle", std::to_string(marks.first_number + i));
     }
     if (!marks.failed_at) return;
     const double x = x_of(std::clamp(ms_of(*marks.failed_at), begin_ms_, end_ms_));
-    body_ += line_between(x, kTop - 18, x, bottom_, "failure");
+    // From below the numbers: it crosses none of them.
+    body_ += line_between(x, kTop - 6, x, bottom_, "failure");
     const bool is_far_right = x > kRight - 150;
-    body_ += text_at(is_far_right ? x - 5 : x + 5, kTop - 21, is_far_right ? "failed end" : "failed",
+    body_ += text_at(is_far_right ? x - 5 : x + 5, kFailureY, is_far_right ? "failed end" : "failed",
                      "failed at " + format_duration(*marks.failed_at));
   }
 
-  std::string finish() const {
+  std::string finish(const Scene& scene, const PictureMarks& marks) const {
     return "<svg class=\"picture\"" + attribute("viewBox", "0 0 " + number(kWidth) + " " + number(y_)) +
            attribute("data-begin", plain_number(begin_ms_)) + attribute("data-end", plain_number(end_ms_)) +
-           attribute("data-left", number(kLeft)) + attribute("data-right", number(kRight)) +
-           " role=\"img\">\n" + body_ + line_between(kLeft, kTop, kLeft, bottom_, "pointer") + "</svg>\n";
+           attribute("data-left", number(kLeft)) + attribute("data-right", number(kRight)) + " role=\"img\"" +
+           attribute("aria-label", xml_escaped(picture_name(scene, marks.of))) + ">\n<desc>" +
+           xml_escaped(picture_words(scene, marks.failed_at)) + "</desc>\n" + body_ +
+           line_between(kLeft, kTop, kLeft, bottom_, "pointer") + "</svg>\n";
   }
 
  private:
@@ -306,7 +312,7 @@ std::string picture(const Scene& scene, const PictureMarks& marks) {
   drawing.add_time();
   drawing.add_strikes(scene.frames);
   drawing.add_marks(marks);
-  return drawing.finish();
+  return drawing.finish(scene, marks);
 }
 
 }  // namespace understudy::emulator

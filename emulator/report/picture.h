@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "emulator/report/footage.h"
 #include "emulator/scenario/result.h"
@@ -14,6 +15,7 @@ struct PictureMarks {
   std::span<const StepResult> steps;  // those of the scene
   std::size_t first_number = 1;       // of them
   std::optional<SimTime> failed_at;
+  std::string_view of;  // what is shown, for those who hear the page: the scenario's name
 };
 
 /// As an SVG element, whose classes page_parts.h gives their looks; empty if nothing of the scene varies,

@@ -1,5 +1,6 @@
 // Steps that say how the others follow each other: snapshot, restore, fork, repeat, for, include.
 #include "emulator/bench/names.h"
+#include "emulator/one_line.h"
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"

@@ -4,6 +4,7 @@
 
 #include "emulator/bench/machine_fields.h"
 #include "emulator/memory/nv_file.h"
+#include "emulator/one_line.h"
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"
@@ -121,7 +122,7 @@ void read_memory(StepsReader& reader, const YamlFields& step, const YamlFields& 
     if (!reader.story().saved.contains(memory.file)) {
       try {
         const auto image = read_nv_file(memory.file);
-        if (!image) field.fail(memory.file + " cannot be read; expected an NV image");
+        if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
         reader.trial().demand_memory(field, memory.device, *image);
         reader.add_file(memory.file, "a memory that a step compares with");
       } catch (const NvError& error) {

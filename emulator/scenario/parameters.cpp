@@ -2,6 +2,7 @@
 
 #include "emulator/bench/names.h"
 #include "emulator/expression/parser.h"
+#include "emulator/one_line.h"
 #include "emulator/suggestion.h"
 
 namespace understudy::emulator {

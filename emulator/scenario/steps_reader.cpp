@@ -28,6 +28,25 @@ const StepRow* find_row(std::string_view key) {
   entries.front().second.fail("is no step" + suggestion(key, names));
 }
 
+/// What a step carries besides its text: of the kinds that may carry much.
+struct BytesOf {
+  std::size_t operator()(const SendStep& step) const {
+    return step.bytes.size() + (step.reply ? step.reply->size() : 0);
+  }
+  std::size_t operator()(const TextStep& step) const {
+    std::size_t bytes = step.text ? step.text->size() : 0;
+    if (!step.lines) return bytes;
+    for (const std::string& line : *step.lines) bytes += line.size();
+    return bytes;
+  }
+  std::size_t operator()(const ProgramStep& step) const { return step.text.size(); }
+  std::size_t operator()(const SayStep& step) const { return step.text.size(); }
+  template <typename Other>
+  std::size_t operator()(const Other&) const {
+    return 0;
+  }
+};
+
 /// However it is spelled.
 std::string canonical(const std::string& path) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
@@ -51,6 +70,14 @@ void StepsReader::count(const YamlFields& where) {
   if (++file_.steps > FileReading::kMostSteps) {
     where.fail("is one step too many; expected at most " + std::to_string(FileReading::kMostSteps) +
                " with all loops and cases");
+  }
+}
+
+void StepsReader::count_bytes(const YamlFields& where, const Step& step) {
+  file_.bytes += step.text.size() + std::visit(BytesOf{}, step.what);
+  if (file_.bytes > FileReading::kMostBytes) {
+    where.fail("is too much: the steps have grown beyond " + std::to_string(FileReading::kMostBytes >> 20) +
+               " MiB; expected less, with all loops and cases");
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/bench/yaml_fields.h"
+#include "emulator/one_line.h"
 #include "emulator/scenario/parameters.h"
 #include "emulator/scenario/scenario.h"
 #include "emulator/scenario/story.h"
@@ -17,9 +18,11 @@ namespace understudy::emulator {
 
 /// What the cases of a file share.
 struct FileReading {
-  static constexpr int kMostSteps = 100'000;  // of all cases
-  static constexpr int kDeepest = 32;         // loops, forks and includes in each other
+  static constexpr int kMostSteps = 100'000;                        // of all cases
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of what they say and send
+  static constexpr int kDeepest = 32;                               // loops, forks and includes in each other
   int steps = 0;
+  std::size_t bytes = 0;
   std::map<std::string, YamlFields> included;  // by path; each is read once
 };
 
@@ -45,6 +48,7 @@ class StepsReader {
     count(where);
     into_->push_back(
         {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
+    count_bytes(where, into_->back());
   }
   /// The steps of a list, in this place, with other parameters.
   void read_here(const YamlFields& list, const Parameters& parameters);
@@ -55,6 +59,7 @@ class StepsReader {
  private:
   void read_step(const YamlFields& step);
   void count(const YamlFields& where);
+  void count_bytes(const YamlFields& where, const Step& step);
 
   const Trial& trial_;
   FileReading& file_;

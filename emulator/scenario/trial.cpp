@@ -2,6 +2,7 @@
 
 #include "emulator/bench/machine_fields.h"
 #include "emulator/expression/parser.h"
+#include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/scenario/requests.h"
 #include "emulator/suggestion.h"

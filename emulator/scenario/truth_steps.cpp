@@ -1,6 +1,7 @@
 // Steps that look, without the line: wait, advance, assert, always, never, end, reset, say.
 #include <algorithm>
 
+#include "emulator/one_line.h"
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "interpreter/slim/words.h"
+
 namespace understudy::interpreter::slim {
 namespace {
 
@@ -25,10 +27,6 @@ std::optional<Kind> asked_of_host(const Command& command) {
       std::ranges::find_if(command.operands, [](const Operand& operand) { return asks_host(operand.kind); });
   if (asking == command.operands.end()) return std::nullopt;
   return asking->kind;
-}
-
-bool in_event_routine(const Execution& execution) {
-  return std::ranges::any_of(execution.stack, &Frame::of_event);
 }
 
 /// The first moment of those that `every_ms` divides which is not before `ms`.
@@ -108,7 +106,16 @@ class LineRun {
     }
     const Outcome outcome = machine_.carry_out(command);
     if (outcome.error != Error::none) return outcome.error;
+    if (outcome.program == Outcome::Program::ends) return end(Ending::exited);
+    if (outcome.program == Outcome::Program::forgets_what_it_interrupted) forget_what_was_interrupted();
     return outcome.waits ? hold(Hold::machine) : go_on();
+  }
+
+  /// The routine of an event goes on to its RET, behind which the program is over.
+  void forget_what_was_interrupted() {
+    for (Frame& frame : execution_.stack) {
+      if (frame.of_event) frame = {.line = program_.size(), .of_event = true};
+    }
   }
 
   /// An event keeps its variable index: it is read anew at every look.
@@ -219,6 +226,7 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
     return number >= dialect.integer_least && number <= kIntegerMost ? Error::none : Error::range;
   }
   constexpr double kMost = std::numeric_limits<float>::max();
+  number = rounded_real(number);
   return number >= -kMost && number <= kMost ? Error::none : Error::range;
 }
 
@@ -252,6 +260,10 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
 }
 
 }  // namespace
+
+bool in_event_routine(const Execution& execution) {
+  return std::ranges::any_of(execution.stack, &Frame::of_event);
+}
 
 Error start(Execution& execution, const Program& program, const Operand* address,
             const FlowOptions& options) {

@@ -40,7 +40,7 @@ enum class Ending : std::uint8_t {
   not_started,
   returned,  // RET at the top
   past_last_line,
-  exited,  // EXIT
+  exited,  // EXIT, TASTOP
   failed,  // with `error`
 };
 
@@ -81,6 +81,8 @@ struct Execution {
 /// `G`: runs from an address on (null: line 0), from the next tick. Refused with Error::address: no such
 /// line; nothing is changed then.
 Error start(Execution& execution, const Program& program, const Operand* address, const FlowOptions& options);
+/// Between an event and the RET of its routine.
+bool in_event_routine(const Execution& execution);
 /// `EXIT`. What the program has started goes on.
 void stop(Execution& execution);
 

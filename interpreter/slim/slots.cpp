@@ -47,7 +47,7 @@ constexpr std::optional<Range> real_range(Slot slot) {
   constexpr double kMost = std::numeric_limits<float>::max();
   switch (slot) {
     case Slot::real: return Range{-kMost, kMost};
-    case Slot::frequency: return Range{0, kMost};
+    case Slot::frequency: return Range{1e-6, 1e6};  // in kHz 0.001 Hz, in Hz what ticks are told
     case Slot::percent: return Range{0, 100};
     default: return std::nullopt;
   }
@@ -76,6 +76,7 @@ Error check_whole(const Operand& operand, Range range) {
 Error check_real(Operand& operand, Range range) {
   if (!is_constant(operand)) return Error::syntax;
   operand.kind = Kind::real;
+  operand.number = rounded_real(operand.number);
   return in_range(operand.number, range);
 }
 
@@ -105,6 +106,7 @@ Error check_data(Operand& operand, const Operand* target, const Dialect& dialect
   if (!is_number) return Error::syntax;
   if (target == nullptr) {
     const Range range = *real_range(Slot::real);
+    if (is_constant(operand)) operand.number = rounded_real(operand.number);
     return is_constant(operand) ? in_range(operand.number, range) : Error::none;
   }
   if (holds_integer(target->kind)) return check_typed(operand, true, dialect);

@@ -49,6 +49,7 @@ bool can_hold(const std::optional<Command>& command, Hold hold) {
 bool is_sound(const Frame& frame, const Program& program) {
   if (frame.line < 0 || frame.line > program.size()) return false;
   if (!frame.of_event) return frame.hold == Hold::nothing;
+  if (frame.line == program.size()) return frame.hold == Hold::nothing;  // what it interrupted is forgotten
   return frame.line < program.size() && can_hold(program.line(frame.line).parsed.command, frame.hold);
 }
 

@@ -1,9 +1,11 @@
 #include "interpreter/slim/words.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -164,6 +166,12 @@ std::optional<Operand> parse_number(std::string_view text) {
   if (is_whole && std::abs(operand.number) < kExactWhole) operand.kind = Kind::integer;
   if (operand.number == 0) operand.number = 0;  // no negative zero
   return operand;
+}
+
+double rounded_real(double number) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kNext = 0x1.ffffffp127;  // half way to what would be the next one
+  return std::abs(number) < kNext ? std::clamp(number, -kMost, kMost) : number;
 }
 
 Item parse_item(std::string_view text) {

@@ -187,8 +187,8 @@ TEST(CaptureRefusals, AreOneLineAndLeaveWhatIsThereAlone) {
   const std::string bench = folder.write("bench.yaml", kTwoLines);
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const Case& expected :
-       {Case{folder.path(), 3, "no regular file"}, Case{folder / "pipe", 3, "no regular file"},
-        Case{"/dev/null", 3, "no regular file"}, Case{folder / "none/a.txt", 3, "No such file or directory"},
+       {Case{folder.path(), 3, "is a directory"}, Case{folder / "pipe", 3, "is a pipe"},
+        Case{"/dev/null", 3, "is a device"}, Case{folder / "none/a.txt", 3, "No such file or directory"},
         Case{folder / "a.pcap", 2, "expected .pcapng"}, Case{bench, 2, "is the bench itself"},
         Case{"", 2, "is empty"}}) {
     const Finished finished = understudy({"serve", bench, "--capture", expected.path});
@@ -214,7 +214,7 @@ TEST(CaptureRefusals, TwoRunsNeverWriteOneFile) {
   Capturing first("a.txt");
   const Finished second = understudy({"serve", "--model", "simple2-r3", "--capture", first.path()});
   EXPECT_EQ(second.exit_code, 3);
-  EXPECT_NE(second.errors.find("another one is being written there"), std::string::npos) << second.errors;
+  EXPECT_NE(second.errors.find("another program is writing it"), std::string::npos) << second.errors;
 }
 
 /// What tshark, with the one flag that docs/wire.md gives, prints of these fields for each packet.

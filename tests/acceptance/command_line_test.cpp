@@ -52,20 +52,21 @@ const std::vector<BadUsage> kBadUsages = {
     {"NvIsNoFolder",
      {"serve", "{}/good.yaml", "--nv", "/dev/null"},
      "--nv: /dev/null is no folder; expected one"},
-    {"ScenarioToServe", {"serve", "{}/play.yaml"}, "play.yaml:1: bench: is a scenario; expected a bench"},
-    {"BenchToRun", {"run", "{}/good.yaml"}, "good.yaml:1: scenario: is a bench; expected a scenario"},
+    {"ScenarioToServe", {"serve", "{}/play.yaml"}, "play.yaml:1:1: bench: is a scenario; expected a bench"},
+    {"BenchToRun", {"run", "{}/good.yaml"}, "good.yaml:1:1: scenario: is a bench; expected a scenario"},
     {"VeryLongValue", {"serve", "{}/good.yaml", "--timing", "{120}"}, "xxx...' is unknown; expected wire or"},
     {"BenchMissing", {"serve", "{}/missing.yaml"}, "missing.yaml"},
     {"BenchIsAFolder", {"serve", "{}"}, "bench"},
-    {"BenchWithUnknownKey", {"serve", "{}/unknown-key.yaml"}, "unknown-key.yaml:4: "},
-    {"BenchWithUnknownModel", {"serve", "{}/unknown-model.yaml"}, "unknown-model.yaml:5: "},
-    {"BenchThatIsNoYaml", {"serve", "{}/no-yaml.yaml"}, "no-yaml.yaml:3: "},
-    {"BenchWithTheSameAddressTwice", {"serve", "{}/same-address.yaml"}, "same-address.yaml:6: "},
+    {"BenchWithUnknownKey", {"serve", "{}/unknown-key.yaml"}, "unknown-key.yaml:4:15: "},
+    {"BenchWithUnknownModel", {"serve", "{}/unknown-model.yaml"}, "unknown-model.yaml:5:27: "},
+    {"BenchThatIsNoYaml", {"serve", "{}/no-yaml.yaml"}, "no-yaml.yaml:3:8: "},
+    {"BenchWithTheSameAddressTwice", {"serve", "{}/same-address.yaml"}, "same-address.yaml:6:9: "},
     {"CheckWithoutFile", {"check"}, "FILE"},
     {"AsmMissingFile", {"asm", "{}/missing.lst"}, "missing.lst: cannot be read"},
     {"DisasmMissingFile", {"disasm", "{}/missing.txt"}, "missing.txt: cannot be read"},
     {"CheckMissingFile", {"check", "{}/missing.yaml"}, "missing.yaml"},
-    {"CheckBadBench", {"check", "{}/unknown-key.yaml"}, "unknown-key.yaml:4: "},
+    {"CheckStrayComma", {"check", "{}/comma.yaml"}, "comma.yaml:1:1: file: is not YAML: "},
+    {"CheckBadBench", {"check", "{}/unknown-key.yaml"}, "unknown-key.yaml:4:15: "},
     {"DescribeUnknownModel", {"describe", "simpel2", "registers"}, "simple2-r3"},
     {"DescribeUnknownSheet", {"describe", "simple2-r3", "register"}, "registers"},
     {"DescribeUnknownFormat", {"describe", "simple2-r3", "registers", "--format", "xml"}, "markdown"},
@@ -112,6 +113,7 @@ void write_benches(const PrivateFolder& folder) {
   folder.write("unknown-key.yaml", "understudy: 1\nlines:\n  bus:\n    baudrate: 19200\n    stations: []\n");
   folder.write("unknown-model.yaml",
                "understudy: 1\nlines:\n  bus:\n    stations:\n      - { name: a, model: simple2-r4 }\n");
+  folder.write("comma.yaml", ",");
   folder.write("no-yaml.yaml", "understudy: 1\nlines:\n  bus: ]\n");
   folder.write("same-address.yaml",
                "understudy: 1\nlines:\n  bus:\n    stations:\n      - { name: a, model: simple2-r3 }\n"
@@ -206,8 +208,10 @@ TEST(Describe, PrintsTheDocumentedColumnsAsCsv) {
   };
   EXPECT_EQ(header("registers"), "table,address,name,access,width,signed,min,max,unit,persistent,default");
   EXPECT_EQ(header("parameters"), "number,name,address,width,persistent");
-  EXPECT_EQ(header("instructions"), "opcode,mnemonic,data1,data2");
+  EXPECT_EQ(header("instructions"), "opcode,mnemonic,data1,data2,meaning");
   EXPECT_EQ(header("commands"), "command,syntax,meaning");
+  EXPECT_EQ(header("choices"),
+            "id,section,question,chosen,alternatives,confidence,why,scenario,section_english");
 }
 
 TEST(ProgramText, GoesToCellsAndBack) {

@@ -358,7 +358,7 @@ TEST(DipSwitch, AgreesWithTheBaudOrTheBenchIsRefused) {
     if (agree) {
       EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     } else {
-      expect_refused(finished, "bench.yaml:8: lines.line.stations[0]: ");
+      expect_refused(finished, "bench.yaml:8:9: lines.line.stations[0]: ");
       const std::string switches = std::string(dip) == "on" ? "115200" : "19200";
       EXPECT_NE(finished.errors.find("dip: the switches say " + switches + " baud, the line " +
                                      std::to_string(baud)),
@@ -372,7 +372,8 @@ TEST(DipSwitch, ThatTheModelDoesNotHaveIsRefused) {
   const PrivateFolder folder;
   expect_refused(serve({folder.write("bench.yaml", bench_of(", dip: { DIP3: on }"))}),
                  "'DIP3' is no switch of simple2-r3; the nearest is 'DIP");
-  expect_refused(serve({folder.write("level.yaml", bench_of(", dip: { DIP1: upwards }"))}), "level.yaml:7: ");
+  expect_refused(serve({folder.write("level.yaml", bench_of(", dip: { DIP1: upwards }"))}),
+                 "level.yaml:7:57: ");
 }
 
 TEST(DipSwitch, ChangedWhileItRunsCountsAtTheNextPowerUp) {

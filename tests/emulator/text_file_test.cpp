@@ -67,8 +67,8 @@ TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
   }
   for (const std::string& file : {path("none"), path("none/file"), std::string()}) {
     EXPECT_FALSE(read_text_file(file)) << file;
-    EXPECT_EQ(read_text_file(file).why, "cannot be read") << file;
-    EXPECT_EQ(why_not_readable(file), "cannot be read") << file;
+    EXPECT_EQ(read_text_file(file).why, "cannot be read (No such file or directory)") << file;
+    EXPECT_EQ(why_not_readable(file), "cannot be read (No such file or directory)") << file;
   }
 }
 
@@ -95,11 +95,11 @@ TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
   const std::string csv = path("pipe.csv");
   ASSERT_EQ(mkfifo(csv.c_str(), 0600), 0);
   EXPECT_EQ(complaint([&] { load_bench(pipe); }),
-            pipe + ":1: bench: is no regular file; expected a bench file");
+            pipe + ": bench: is no regular file; expected a bench file");
   EXPECT_EQ(complaint([&] { load_scenarios(pipe); }),
-            pipe + ":1: scenario: is no regular file; expected a scenario file");
+            pipe + ": scenario: is no regular file; expected a scenario file");
   EXPECT_EQ(complaint([&] { kind_of_file(pipe); }),
-            pipe + ":1: file: is no regular file; expected a bench or a scenario");
+            pipe + ": file: is no regular file; expected a bench or a scenario");
   EXPECT_EQ(complaint([&] { read_nv_file(pipe); }),
             pipe + ": file: is no regular file; expected an NV image");
   EXPECT_EQ(complaint([&] { read_trace(csv); }), csv + ": is no regular file; expected a trace");
@@ -109,15 +109,16 @@ TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
   EXPECT_EQ(complaint([&] {
               load_bench(put("b.yaml", bench.substr(0, bench.rfind(" }")) + ", program: pipe }\n"));
             }),
-            path("b.yaml") + ":5: lines.rs485.stations[0].program: " + pipe +
+            path("b.yaml") + ":5:53: lines.rs485.stations[0].program: " + pipe +
                 " is no regular file; expected a listing");
   put("feeder.yaml", bench);
   for (const auto& [step, why] : std::vector<std::pair<std::string, std::string>>{
            {"program: { feeder: pipe }",
-            ".program.feeder: " + pipe + " is no regular file; expected a listing"},
-           {"include: pipe", ".include: " + pipe + " is no regular file; expected a file of steps"}}) {
+            "24: steps[0].program.feeder: " + pipe + " is no regular file; expected a listing"},
+           {"include: pipe",
+            "14: steps[0].include: " + pipe + " is no regular file; expected a file of steps"}}) {
     const std::string file = put("s.yaml", "understudy: 1\nbench: feeder.yaml\nsteps:\n  - " + step + "\n");
-    EXPECT_EQ(complaint([&] { load_scenarios(file); }), file + ":4: steps[0]" + why);
+    EXPECT_EQ(complaint([&] { load_scenarios(file); }), file + ":4:" + why);
   }
 }
 
@@ -125,12 +126,36 @@ TEST_F(TextFile, IsReplacedAsAWholeAndTouchesNoNeighbour) {
   put("file", "old");
   put("file.new", "precious");
   put("file.new-2", "too");
-  EXPECT_EQ(replace_text_file(path("file"), "new"), 0);
+  EXPECT_EQ(replace_text_file(path("file"), "new"), "");
   EXPECT_EQ(content(path("file")), "new");
   EXPECT_EQ(content(path("file.new")), "precious");
   EXPECT_EQ(content(path("file.new-2")), "too");
   EXPECT_FALSE(fs::exists(path("file.new-3")));
-  EXPECT_EQ(replace_text_file(path("none/file"), "new"), ENOENT);
+  EXPECT_EQ(replace_text_file(path("none/file"), "new"), "No such file or directory");
+}
+
+TEST_F(TextFile, WhatIsNotARegularFileIsNeverReplaced) {
+  fs::create_directory(path("folder"));
+  const std::string expected = "; expected a regular file, or a free path";
+  EXPECT_EQ(replace_text_file(path("pipe"), "new"), "it is a pipe" + expected);
+  EXPECT_EQ(replace_text_file(path("link"), "new"), "it is a pipe" + expected) << "a link to it";
+  EXPECT_EQ(replace_text_file(path("folder"), "new"), "it is a directory" + expected);
+  EXPECT_EQ(replace_text_file("/dev/null", "new"), "it is a device" + expected);
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+}
+
+TEST_F(TextFile, ALinkStaysAndWhatItLeadsToIsReplaced) {
+  fs::create_directory(path("folder"));
+  put("folder/real", "old");
+  fs::create_symlink("folder/real", path("to it"));
+  fs::create_symlink("folder/free", path("to nothing"));
+  EXPECT_EQ(replace_text_file(path("to it"), "new"), "");
+  EXPECT_EQ(replace_text_file(path("to nothing"), "made"), "");
+  EXPECT_TRUE(fs::is_symlink(path("to it")));
+  EXPECT_TRUE(fs::is_symlink(path("to nothing")));
+  EXPECT_EQ(content(path("folder/real")), "new");
+  EXPECT_EQ(content(path("folder/free")), "made");
 }
 
 }  // namespace

@@ -4,32 +4,31 @@
 // An input is one byte of options, then lumps. A lump is: a byte of gap (how long the line was quiet), a byte
 // of length, its bytes. With the length's top bit a right checksum is put behind the bytes, so that the
 // search gets past it.
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "emulator/bench/bench.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
+#include "tests/fuzz/fuzzing.h"
 
 namespace {
 
 using namespace understudy;
 using emulator::SimTime;
+using fuzzing::demand;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostLumps = 32;  // so that a run has an end
-constexpr SimTime kAfterwards = 2s;     // for what is still on the wire
-
-void demand(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "violated: %s\n", what);
-  std::abort();
-}
+constexpr SimTime kMostTime = 2s;       // of all gaps together, likewise
+constexpr SimTime kAfterwards = 2s;     // for what is still on the wire, at most
+constexpr SimTime kAStep = 25ms;        // in which that is waited for
 
 struct Lump {
   SimTime gap{0};
@@ -45,6 +44,8 @@ struct Input {
   std::vector<Lump> lumps;
 };
 
+constexpr std::size_t kSettings = 16;  // what the byte of options can ask for
+
 SimTime gap_of(std::uint8_t code) {
   constexpr SimTime kSteps[] = {10us, 150us, 2ms, 20ms};
   return kSteps[code >> 6] * (code & 0x3F);
@@ -58,9 +59,11 @@ Input read_input(std::span<const std::uint8_t> data) {
   input.rotary_switch = (data[0] & 4) != 0 ? 0 : 1;
   input.alternative_choices = (data[0] & 8) != 0;
   data = data.subspan(1);
+  SimTime left = kMostTime;
   while (data.size() >= 2 && input.lumps.size() < kMostLumps) {
     Lump& lump = input.lumps.emplace_back();
-    lump.gap = gap_of(data[0]);
+    lump.gap = std::min(left, gap_of(data[0]));
+    left -= lump.gap;
     const bool has_checksum = (data[1] & 0x80) != 0;
     const std::size_t length = std::min<std::size_t>(data[1] & 0x7F, data.size() - 2);
     lump.bytes.assign(data.begin() + 2, data.begin() + 2 + static_cast<std::ptrdiff_t>(length));
@@ -73,10 +76,17 @@ Input read_input(std::span<const std::uint8_t> data) {
 /// One controller in a world of its own, with what it has said.
 class Listener {
  public:
-  Listener(const Input& input, int rotary_switch)
-      : world_(bench_for(input, rotary_switch), options_for(input), {}) {}
+  Listener(const Input& input, int rotary_switch, bool in_bulk = true)
+      : world_(bench_for(input, rotary_switch), options_for(input), {}), as_made_(save(world_)) {
+    world_.set_bulk_ticks(in_bulk);
+  }
 
-  void set_bulk_ticks(bool on) { world_.set_bulk_ticks(on); }
+  /// Everything is as it was when it was made.
+  void begin_anew() {
+    restore(world_, as_made_);
+    line().take_output(line().output().size());
+    said_.clear();
+  }
 
   void hear(const Lump& lump) {
     advance(lump.gap);
@@ -90,6 +100,12 @@ class Listener {
     const auto output = line().output();
     said_.insert(said_.end(), output.begin(), output.end());
     line().take_output(output.size());
+  }
+
+  /// What is on the wire, or about to be said, has been said.
+  void finish() {
+    const SimTime end = world_.now() + kAfterwards;
+    while (line().due() && world_.now() < end) advance(kAStep);
   }
 
   pty::Line& line() { return world_.line(0).line; }
@@ -118,6 +134,7 @@ class Listener {
   }
 
   emulator::World world_;
+  emulator::WorldState as_made_;
   std::vector<std::uint8_t> said_;
 };
 
@@ -157,26 +174,58 @@ void check_replies(Listener& listener, int rotary_switch) {
   demand(replies <= listener.counters().requests, "nothing is said without a request");
 }
 
+/// The listeners for one set of options.
+struct Crowd {
+  explicit Crowd(const Input& input)
+      : listener(input, input.rotary_switch),
+        stepped(input, input.rotary_switch, false),
+        other(input, input.other_switch),
+        untouched(input, input.other_switch) {}
+
+  Listener listener;
+  Listener stepped;  // the same, every tick run one by one
+  Listener other;    // hears the same, is meant by little of it
+  Listener untouched;
+};
+
+void play(Listener& listener, const Input& input) {
+  listener.begin_anew();
+  for (const Lump& lump : input.lumps) listener.hear(lump);
+  listener.finish();
+}
+
+/// Made when it is first asked for.
+Crowd& crowd_for(const Input& input, std::uint8_t options) {
+  static std::array<std::unique_ptr<Crowd>, kSettings> crowds;
+  auto& crowd = crowds[options % kSettings];
+  if (!crowd) crowd = std::make_unique<Crowd>(input);
+  return *crowd;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
   const Input input = read_input({data, size});
-  Listener listener(input, input.rotary_switch);
-  Listener stepped(input, input.rotary_switch);  // the same, every tick run one by one
-  Listener other(input, input.other_switch);     // hears the same, is meant by little of it
-  Listener untouched(input, input.other_switch);
-  stepped.set_bulk_ticks(false);
-  for (const Lump& lump : input.lumps) {
-    for (Listener* each : {&listener, &stepped, &other}) each->hear(lump);
-  }
-  for (Listener* each : {&listener, &stepped, &other}) each->advance(kAfterwards);
-  untouched.advance(other.now());
-
+  Crowd& crowd = crowd_for(input, data[0]);
+  Listener& listener = crowd.listener;
+  play(listener, input);
   check_replies(listener, input.rotary_switch);
-  check_replies(other, input.other_switch);
+  if (!fuzzing::is_checked_wholly({data, size})) return 0;
+
+  Listener& stepped = crowd.stepped;
+  play(stepped, input);
   demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
+  demand(stepped.now() == listener.now(), "nor do they take another time");
   demand(stepped.device().same_state(listener.device()), "ticks left out leave the same state");
+
+  Listener& other = crowd.other;
+  play(other, input);
+  check_replies(other, input.other_switch);
   if (other.counters().requests == 0) {
+    Listener& untouched = crowd.untouched;
+    untouched.begin_anew();
+    untouched.advance(other.now());
     demand(other.device().same_state(untouched.device()), "frames for others change nothing");
     demand(other.said().empty(), "frames for others are not answered");
   }

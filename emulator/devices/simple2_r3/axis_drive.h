@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "emulator/devices/simple2_r3/reactions.h"
 #include "emulator/simulated_time.h"
 #include "motion/axis.h"
 #include "motion/homing_tables.h"
@@ -24,18 +25,23 @@ struct AxisState {
   Command command = Command::none;
   bool homed = false;
   bool has_own_speed = false;  // the move that runs was started with Speed, AccTime and DecTime of the axis
+  bool by_trigger = false;     // ... and by the trigger register itself
+  bool cut_short = false;      // the last move or homing ended before its end
   bool alarm_latched = false;  // where a choice has the alarm outlast its input
   std::int32_t coordinate_pulses = 0;
   std::int64_t pulses_this_tick = 0;  // as they leave the device: after DIR_Polarity
   Tick alarm_clear_until = 0;         // the first tick at which ACLR is over
 
-  std::int64_t target_urpm = 0;  // of velocity mode, 1000 a mRPM
+  // What velocity and PWM mode are to do. While a limit or an alarm forbids it, it waits; what does not wait
+  // is set to 0 then (reactions.h).
+  std::int64_t target_urpm = 0;  // 1000 a mRPM
   std::int64_t speed_urpm = 0;
   std::int64_t velocity_phase = 0;  // of the pulse being made, in 1 / kVelocityPhase
 
   std::uint8_t pwm_percent = 0;
 
-  std::int64_t encoder_counts = 0;    // as the plant has them
+  std::int64_t encoder_raw = 0;       // as the plant has it
+  std::int64_t encoder_counts = 0;    // since power-up, each by the polarity of its moment
   std::int64_t encoder_preset = 0;    // what a write to ENCx added
   std::int64_t encoder_followed = 0;  // counts that sync mode has taken
   // For ENCx_RPM: the counts at the ends of the last ticks, in a ring by tick, and when they last changed.
@@ -56,8 +62,9 @@ inline constexpr std::int64_t kVelocityPhase = 60'000'000LL * 2000;
 struct DriveSettings {
   std::uint32_t pulses_per_revolution = 1;
   std::uint32_t velocity_step_urpm = 1;  // the change of speed in 0.5 ms
-  bool encoder_reversed = false;
-  bool pulses_by_speed_before = false;  // in velocity mode a step's pulses come before its change of speed
+  std::int64_t encoder_counts = 0;       // of the encoder that sync mode follows
+  bool stops_with_encoder = false;       // sync mode, without its slope
+  bool pulses_by_speed_before = false;   // in velocity mode a step's pulses come before its change of speed
 };
 
 /// One tick: the pulses in the commanded sense.
@@ -68,17 +75,33 @@ void remember_encoder(AxisState& axis, Tick tick);
 /// Asks for the memory that a tick needs.
 void prefetch(const AxisState& axis, Tick tick);
 
-/// Velocity mode towards `target_mrpm`, from the present speed if it runs already.
-/// What it is refused for, nothing has changed then.
-motion::Cause run_velocity(AxisState& axis, std::int64_t target_mrpm);
-/// Follows the encoder from now on.
-motion::Cause follow_encoder(AxisState& axis, const motion::Follower& by);
+/// What it does, which way (0: none) and in which phase; servo_off is for the caller to tell.
+Doing doing(const AxisState& axis);
+int heading(const AxisState& axis);
+Phase phase_of(const AxisState& axis, Tick now);
 
-/// PWM mode at once, 0 to 100 percent. What it is refused for, nothing has changed then.
-motion::Cause output_pwm(AxisState& axis, std::uint8_t percent, bool needs_servo);
+/// Velocity mode towards `target_mrpm`, from the present speed if it runs already. Whether it may is for the
+/// caller to ask reactions.h; the same for the two below.
+void run_velocity(AxisState& axis, std::int64_t target_mrpm);
+/// The velocity that is wanted runs, if nothing forbids it.
+void resume_velocity(AxisState& axis);
+/// No pulse from now on; it goes on by what is wanted, once that may be.
+void halt_velocity(AxisState& axis);
+/// Follows an encoder that stands at `counts`, from now on.
+void follow_encoder(AxisState& axis, const motion::Follower& by, std::int64_t counts);
+/// Goes on following, the remainders included, whatever has stopped the motor.
+void keep_following(AxisState& axis);
+
+/// PWM mode at once, 0 to 100 percent.
+void output_pwm(AxisState& axis, std::uint8_t percent);
+/// The duty at the output: 0 while an alarm forbids it.
+std::uint8_t pwm_duty(const AxisState& axis);
 
 /// Nothing is output any more; the mode is position mode.
 void stop_drive(AxisState& axis);
+
+/// The plant's encoder stands at `raw` now.
+void count_encoder(AxisState& axis, std::int64_t raw, bool reversed);
 
 /// Homing that looks for the switch only once, in either direction, slows down there, and stays.
 motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
@@ -101,7 +124,6 @@ motion::Follower follower_by(SyncSettings settings);
 struct SpeedMeter {
   Tick window = AxisState::kSpeedWindow;  // at most that
   std::uint32_t counts_per_revolution = 1;
-  bool reversed = false;
   bool wraps = false;  // beyond 16 bits; otherwise it stays at the most they hold
 };
 

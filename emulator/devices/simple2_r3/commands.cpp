@@ -1,6 +1,7 @@
 // What Simple2-R3 is told to do: moves, homing, modes, servo and STOP, and its program. Registers and program
 // lines come here alike. What a command is dropped for, and what it does to the one before it, is said here.
 #include <algorithm>
+#include <utility>
 
 #include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/device.h"
@@ -26,10 +27,6 @@ motion::SpeedLaw Simple2R3::law_of(int axis, std::uint32_t speed_rpm, std::uint3
           .down = by_time(deceleration_10ms)};
 }
 
-void Simple2R3::refresh_signals(int axis) {
-  state_.axes[static_cast<std::size_t>(axis)].motor.signals = signals_of(axis);
-}
-
 bool Simple2R3::is_too_fast(int axis, std::int64_t milli_rpm) const {
   const std::int64_t size = milli_rpm < 0 ? -milli_rpm : milli_rpm;
   return size * resolution_of(state_, axis) > kMaxPulseRate_pps * 60'000;
@@ -40,24 +37,44 @@ bool Simple2R3::lacks_ready(int axis) const {
   return chose(kReadyNeeded) && assigned(slots.ready_assigned) && !ready(axis);
 }
 
-bool Simple2R3::is_positioning(int axis) const {
-  return state_.axes[static_cast<std::size_t>(axis)].command != Command::none;
+bool Simple2R3::lacks_servo(int axis) const {
+  return !state_.axes[static_cast<std::size_t>(axis)].motor.servo_on;
+}
+
+Event Simple2R3::way_event(int axis, int way, Event towards, Event away) const {
+  const motion::Cause why_not = state_.axes[static_cast<std::size_t>(axis)].motor.forbidden(way);
+  const bool into = why_not == motion::Cause::limit_plus || why_not == motion::Cause::limit_minus;
+  return into ? towards : away;
+}
+
+bool Simple2R3::may_begin(int axis_number, Outcome outcome, const KeptCommand& what) {
+  switch (outcome) {
+    case Outcome::begins:
+    case Outcome::changes: return true;
+    case Outcome::kept: state_.kept[static_cast<std::size_t>(axis_number)] = what; return false;
+    case Outcome::ends: stop_drive(state_.axes[static_cast<std::size_t>(axis_number)]); return false;
+    default: return false;
+  }
 }
 
 void Simple2R3::start_move(int axis_number, Command command, const MoveParameters& move) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  if (!axis.motor.servo_on || lacks_ready(axis_number)) return;
-  if (is_positioning(axis_number) && chose(kMoveWhileMovingIgnored)) return;
-  if (!chose(kAlarmIgnored) && alarm(axis_number)) return;
+  if (lacks_ready(axis_number)) return;
   if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm)) return;
   std::int64_t distance_pulses = move.distance_pulses;
   if (command == Command::incremental && chose(kIncrementalFromOldTarget)) {
     distance_pulses += axis.motor.remaining_pulses() * axis.motor.drive.direction;
   }
-  stop_drive(axis);
-  if (distance_pulses == 0) return;
   refresh_signals(axis_number);
   const int direction = distance_pulses < 0 ? -1 : +1;
+  // A distance of 0 leads into no limit.
+  const Event event = distance_pulses == 0
+                          ? Event::move_away
+                          : way_event(axis_number, direction, Event::move_towards, Event::move_away);
+  if (!may_begin(axis_number, reaction(axis_number, event), {.command = command, .move = move})) return;
+  stop_drive(axis);
+  axis.cut_short = false;
+  if (distance_pulses == 0) return;
   const motion::Cause refused = move.speed_rpm == 0
                                     ? axis.motor.hang(direction)
                                     : axis.motor.move(distance_pulses,
@@ -74,14 +91,15 @@ void Simple2R3::go_home(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   const std::uint32_t speed_rpm = state_.image[slots.home_speed];
-  if (!axis.motor.servo_on || lacks_ready(axis_number)) return;
-  if (is_positioning(axis_number) && chose(kMoveWhileMovingIgnored)) return;
-  if (!chose(kAlarmIgnored) && alarm(axis_number)) return;
+  if (lacks_ready(axis_number)) return;
   if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * speed_rpm)) return;
   if (chose(kHomeUnassignedDropped) && !assigned(slots.home_assigned)) return;
-  stop_drive(axis);
-  axis.homed = false;
   refresh_signals(axis_number);
+  if (!may_begin(axis_number, reaction(axis_number, Event::home), {.command = Command::homing})) return;
+  stop_drive(axis);
+  axis.cut_short = false;
+  axis.homed = false;
+  axis.motor.signals = axis.signals.steady;
   const std::uint32_t time_10ms = state_.image[slots.home_acc_time];
   const motion::Simple2Homing how{.way = state_.image[slots.home_direction] != 0 ? +1 : -1,
                                   .speed = law_of(axis_number, speed_rpm, time_10ms, time_10ms)};
@@ -112,12 +130,24 @@ void Simple2R3::preset_coordinate(int axis_number, std::int32_t pulses) {
 void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   refresh_signals(axis_number);
-  const bool is_dropped = (milli_rpm != 0 && lacks_ready(axis_number)) ||
-                          (is_positioning(axis_number) && chose(kModeWhileMovingIgnored)) ||
-                          (chose(kTooFastDropped) && is_too_fast(axis_number, milli_rpm)) ||
-                          simple2_r3::run_velocity(axis, milli_rpm) != motion::Cause::none;
-  if (!is_dropped && milli_rpm != 0 && chose(kHomeLeftByMotion)) axis.homed = false;
-  if (is_dropped && chose(kDroppedValueForgotten)) {
+  const bool is_refused = (milli_rpm != 0 && lacks_ready(axis_number)) ||
+                          (chose(kTooFastDropped) && is_too_fast(axis_number, milli_rpm));
+  const Event event = milli_rpm == 0 ? Event::velocity_zero
+                                     : way_event(axis_number, milli_rpm < 0 ? -1 : +1,
+                                                 Event::velocity_towards, Event::velocity_away);
+  const Outcome outcome = is_refused ? Outcome::dropped : reaction(axis_number, event);
+  switch (outcome) {
+    case Outcome::begins:
+    case Outcome::changes:
+      simple2_r3::run_velocity(axis, milli_rpm);
+      if (milli_rpm != 0 && chose(kHomeLeftByMotion)) axis.homed = false;
+      break;
+    case Outcome::waits:
+    case Outcome::slows_and_waits: axis.target_urpm = milli_rpm * 1000; break;
+    case Outcome::slows: axis.target_urpm = 0; break;
+    default: (void)may_begin(axis_number, outcome, {.mode = Mode::velocity, .value = milli_rpm});
+  }
+  if (chose(kDroppedValueForgotten) && outcome != Outcome::kept) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].velocity] =
         static_cast<std::uint32_t>(axis.target_urpm / 1000);
   }
@@ -135,17 +165,24 @@ void Simple2R3::show_pwm(int axis, std::uint8_t percent) {
 void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   refresh_signals(axis_number);
-  const bool is_dropped =
-      lacks_ready(axis_number) || (is_positioning(axis_number) && chose(kModeWhileMovingIgnored)) ||
-      simple2_r3::output_pwm(axis, percent, !chose(kPwmWithoutServo)) != motion::Cause::none;
-  if (is_dropped && chose(kDroppedValueForgotten)) {
+  const Outcome outcome = lacks_ready(axis_number)
+                              ? Outcome::dropped
+                              : reaction(axis_number, percent == 0 ? Event::pwm_zero : Event::pwm);
+  if (outcome == Outcome::waits) {
+    axis.pwm_percent = percent;
+  } else if (may_begin(axis_number, outcome, {.mode = Mode::pwm, .value = percent})) {
+    simple2_r3::output_pwm(axis, percent);
+  }
+  if (chose(kDroppedValueForgotten) && outcome != Outcome::kept) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].pwm] = axis.pwm_percent;
   }
 }
 
-void Simple2R3::follow_encoder(int axis_number) {
-  if (lacks_ready(axis_number) || (is_positioning(axis_number) && chose(kModeWhileMovingIgnored))) return;
-  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
+std::int64_t Simple2R3::followed_count(int axis) const {
+  return state_.axes[static_cast<std::size_t>(chose(kSyncFollowsOther) ? 1 - axis : axis)].encoder_counts;
+}
+
+motion::Follower Simple2R3::sync_follower(int axis_number) const {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   const std::int64_t resolution = resolution_of(state_, axis_number);
   const auto pps = [&](std::uint32_t rpm) {
@@ -163,27 +200,58 @@ void Simple2R3::follow_encoder(int axis_number) {
   const std::uint32_t slope = state_.image[slots.sync_slope];
   if (slope != 0)
     sync.slope_pps = chose(kSlopeInPulses) ? std::int64_t{slope} * 1000 / kSyncPeriod : pps(slope);
+  return follower_by(sync);
+}
+
+void Simple2R3::follow_encoder(int axis_number) {
+  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
+  if (lacks_ready(axis_number)) return;
   refresh_signals(axis_number);
-  if (simple2_r3::follow_encoder(axis, follower_by(sync)) != motion::Cause::none) return;
-  // Nothing comes out until its first period begins.
-  if (chose(kSyncEveryFifthTick)) axis.motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
+  if (!may_begin(axis_number, reaction(axis_number, Event::sync), {.mode = Mode::sync})) return;
+  begin_following(axis_number);
   if (chose(kHomeLeftByMotion)) axis.homed = false;
 }
 
-void Simple2R3::stop(int axis_number) {
+void Simple2R3::begin_following(int axis_number) {
+  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
+  simple2_r3::follow_encoder(axis, sync_follower(axis_number), followed_count(axis_number));
+  // Nothing comes out until its first period begins.
+  if (chose(kSyncEveryFifthTick)) axis.motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
+}
+
+void Simple2R3::carry_out_kept(int axis) {
+  const KeptCommand kept = std::exchange(state_.kept[static_cast<std::size_t>(axis)], {});
+  switch (kept.mode) {
+    case Mode::position:
+      if (kept.command == Command::homing) return go_home(axis);
+      if (kept.command != Command::none) start_move(axis, kept.command, kept.move);
+      return;
+    case Mode::velocity: return run_velocity(axis, kept.value);
+    case Mode::pwm: return output_pwm(axis, static_cast<std::uint8_t>(kept.value));
+    case Mode::sync: return follow_encoder(axis);
+  }
+}
+
+void Simple2R3::stop(int axis_number, Stopping how) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
+  state_.kept[static_cast<std::size_t>(axis_number)] = {};
+  if (chose(kValuesZeroAfterStop)) state_.image[slots.velocity] = state_.image[slots.pwm] = 0;
+  if (how == Stopping::by_register && reaction(axis_number, Event::stop) == Outcome::slows) {
+    axis.motor.slow_down(now());
+    return;
+  }
   const Mode mode = axis.mode;
   stop_drive(axis);
   if (mode != Mode::sync && chose(kModeStaysAfterStop)) axis.mode = mode;
-  if (chose(kValuesZeroAfterStop)) state_.image[slots.velocity] = state_.image[slots.pwm] = 0;
 }
 
 void Simple2R3::switch_servo(int axis_number, bool on) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  const bool stays = axis.mode == Mode::pwm && chose(kPwmWithoutServo);
+  const bool stays = axis.mode == Mode::pwm && reaction(axis_number, Event::servo_off) == Outcome::goes_on;
   if (!on && !stays) stop(axis_number);
   axis.motor.switch_servo(on);
+  if (on) carry_out_kept(axis_number);
 }
 
 void Simple2R3::clear_alarm(int axis_number) {

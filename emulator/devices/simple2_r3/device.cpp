@@ -190,17 +190,14 @@ void Simple2R3::step_motion(Tick tick) {
     if (alarm_latches_) axis.alarm_latched = alarm(number);
     if (alarm_takes_servo_ && axis.motor.servo_on && alarm(number)) switch_servo(number, false);
     if (state_.touched || alarm_latches_) {
-      if (const motion::Signals on = signals_of(number); on != axis.signals.steady) {
-        axis.signals.steady = on;
-        ++axis.signals.version;
-      }
+      meet(number, signals_of(number));
     }
     const std::uint32_t resolution = resolution_of(state_, number);
     const std::uint32_t acceleration = std::max(state_.image[slots.velocity_acceleration], 1U);
     const std::int64_t commanded = step_drive(axis,
                                               {.pulses_per_revolution = resolution,
                                                .velocity_step_urpm = velocity_unit_urpm_ * acceleration,
-                                               .encoder_reversed = state_.image[slots.encoder_polarity] != 0,
+                                               .encoder_counts = followed_count(number),
                                                .pulses_by_speed_before = velocity_pulses_first_},
                                               tick);
     const bool reversed = state_.image[slots.direction_polarity] != 0;
@@ -285,7 +282,8 @@ double Simple2R3::speed_pps(int axis) const {
 }
 
 void Simple2R3::set_encoder(int axis, std::int64_t counts) {
-  state_.axes[static_cast<std::size_t>(axis)].encoder_counts = counts;
+  const auto number = static_cast<std::size_t>(axis);
+  count_encoder(state_.axes[number], counts, state_.image[kAxisSlots[number].encoder_polarity] != 0);
 }
 
 }  // namespace understudy::emulator::simple2_r3

@@ -56,6 +56,30 @@ struct ProgramSpeed {
   bool operator==(const ProgramSpeed&) const = default;
 };
 
+/// Everything that a position move needs, latched when it starts (appendix A).
+struct MoveParameters {
+  std::int64_t distance_pulses = 0;
+  std::uint32_t speed_rpm = 0;
+  std::uint32_t acceleration_10ms = 0;
+  std::uint32_t deceleration_10ms = 0;
+  bool of_the_axis = false;  // the speed and times are those of its registers at 0x1002, 0x1008
+
+  bool operator==(const MoveParameters&) const = default;
+};
+
+/// A command that waits for SVON, where a choice has it wait.
+struct KeptCommand {
+  Mode mode = Mode::position;
+  Command command = Command::none;  // of position mode; none: nothing waits
+  MoveParameters move{};
+  std::int64_t value = 0;  // mRPM, percent
+
+  bool operator==(const KeptCommand&) const = default;
+};
+
+/// Who stops an axis. An instruction and SVOFF stop it forcibly.
+enum class Stopping : std::uint8_t { forcibly, by_register };
+
 struct State {
   std::array<std::uint32_t, kSlotCount> image{};
   std::array<AxisState, 2> axes;
@@ -72,7 +96,8 @@ struct State {
   std::uint8_t written_outputs = 0;               // bit n: the last level written to DOUT n
   std::uint16_t assignments = 0;                  // bit n: the register 0x0A00 + n, as it was at power-up
   std::array<ProgramSpeed, 2> program_speeds{};
-  bool touched = true;  // registers or inputs may have changed since motion looked at them
+  std::array<KeptCommand, 2> kept{};  // by axis
+  bool touched = true;                // registers or inputs may have changed since motion looked at them
 
   bool operator==(const State&) const = default;
 };
@@ -80,15 +105,6 @@ struct State {
 /// Pulses a revolution. A half of a 32-bit register may have been written alone, so it can hold anything: 0
 /// would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis);
-
-/// Everything that a position move needs, latched when it starts (appendix A).
-struct MoveParameters {
-  std::int64_t distance_pulses = 0;
-  std::uint32_t speed_rpm = 0;
-  std::uint32_t acceleration_10ms = 0;
-  std::uint32_t deceleration_10ms = 0;
-  bool of_the_axis = false;  // the speed and times are those of its registers at 0x1002, 0x1008
-};
 
 class Simple2R3 final : public Device {
  public:
@@ -148,11 +164,11 @@ class Simple2R3 final : public Device {
   void start_move(int axis, Command command, const MoveParameters& move);
   /// Homing, by the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
   void go_home(int axis);
-  /// The other modes. What is dropped (servo off, alarm, limit) leaves the mode as it was.
+  /// The other modes. What each command does to what goes on is in reactions.h.
   void run_velocity(int axis, std::int64_t milli_rpm);
   void output_pwm(int axis, std::uint8_t percent);
   void follow_encoder(int axis);
-  void stop(int axis);
+  void stop(int axis, Stopping how = Stopping::forcibly);
   void switch_servo(int axis, bool on);
   /// Speed, AccTime, DecTime or Resoultion of the axis were written.
   void speed_changed(int axis);
@@ -209,8 +225,23 @@ class Simple2R3 final : public Device {
   bool is_too_fast(int axis, std::int64_t milli_rpm) const;
   /// Where commands need Ready, and it is not there.
   bool lacks_ready(int axis) const;
-  /// A position move or homing is in progress.
-  bool is_positioning(int axis) const;
+  /// The servo is off, and matters.
+  bool lacks_servo(int axis) const;
+  /// What an axis does about an event, as it is now and as it was chosen.
+  Outcome reaction(int axis, Event event) const;
+  /// `towards` if a limit that is on forbids that way.
+  Event way_event(int axis, int way, Event towards, Event away) const;
+  /// Whether a command is carried out; otherwise what else comes of it is done.
+  bool may_begin(int axis, Outcome outcome, const KeptCommand& what);
+  void carry_out_kept(int axis);
+  /// Its limits and alarm are these from now on.
+  void meet(int axis, motion::Signals on);
+  void meet_in_sync(int axis, Outcome outcome);
+  bool ignores(motion::Signal signal) const;
+  void begin_following(int axis);
+  motion::Follower sync_follower(int axis) const;
+  /// Of the encoder that sync mode follows.
+  std::int64_t followed_count(int axis) const;
   /// The tick that a motion commanded now counts as the last one before it.
   Tick tick_before_motion() const { return chose(kMoveBeginsOneTickIn) ? now() - 1 : now(); }
   bool starts_by_itself() const;

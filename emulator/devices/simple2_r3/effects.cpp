@@ -125,9 +125,7 @@ Value read_all_inputs(const Device& device, Cell) { return self(device).state().
 
 Value read_encoder(const Device& device, Cell cell) {
   const AxisState& axis = axis_of(device, cell);
-  const bool reversed =
-      self(device).state().image[kAxisSlots[static_cast<std::size_t>(cell.argument)].encoder_polarity] != 0;
-  return (reversed ? -axis.encoder_counts : axis.encoder_counts) + axis.encoder_preset;
+  return axis.encoder_counts + axis.encoder_preset;
 }
 
 Value read_coordinate(const Device& device, Cell cell) { return axis_of(device, cell).coordinate_pulses; }
@@ -153,7 +151,6 @@ Value read_encoder_speed(const Device& device, Cell cell) {
   return encoder_rpm(axis_of(device, cell), device.now(),
                      {.window = self(device).chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow,
                       .counts_per_revolution = resolution,
-                      .reversed = image[slots.encoder_polarity] != 0,
                       .wraps = self(device).chose(kEncoderSpeedWraps)});
 }
 
@@ -256,7 +253,7 @@ void start_absolute_by_set(Device& device, Cell cell, Value set) {
 }
 
 void stop_motion(Device& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { self(device).stop(axis); });
+  for_each_axis(cell, [&](int axis) { self(device).stop(axis, Stopping::by_register); });
 }
 
 void switch_servo(Device& device, Cell cell, Value on) {

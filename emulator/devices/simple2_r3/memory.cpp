@@ -82,7 +82,7 @@ void Simple2R3::blank_state() {
   State blank;
   blank.eeprom = std::move(state_.eeprom);
   for (std::size_t i = 0; i < blank.axes.size(); ++i) {
-    blank.axes[i].encoder_counts = state_.axes[i].encoder_counts;
+    blank.axes[i].encoder_raw = state_.axes[i].encoder_raw;
   }
   state_ = std::move(blank);
 }
@@ -123,10 +123,6 @@ void Simple2R3::power_up() {
     AxisState& axis = state_.axes[static_cast<std::size_t>(i)];
     axis.motor.set(motor);
     axis.motor.servo_on = chose(kServoOnAtPowerUp);
-    // The encoder counts from 0, wherever the machine stands.
-    const bool reversed = state_.image[kAxisSlots[static_cast<std::size_t>(i)].encoder_polarity] != 0;
-    axis.encoder_preset = reversed ? axis.encoder_counts : -axis.encoder_counts;
-    axis.encoder_history.fill(axis.encoder_counts);
   }
 }
 

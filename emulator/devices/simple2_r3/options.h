@@ -50,6 +50,15 @@ inline constexpr Option kLockedWritesIgnored = option("locked_writes", "ignored"
 inline constexpr Option kLockedStartIgnored = option("locked_start", "ignored");
 // --- motion ---
 inline constexpr Option kServoOnAtPowerUp = option("servo_at_power_up", "on");
+inline constexpr Option kKeptUntilServoOn = option("command_while_servo_off", "kept_until_servo_on");
+inline constexpr Option kMoveInOtherModeIgnored = option("move_in_other_mode", "ignored");
+inline constexpr Option kStopSlowsDown = option("stop", "slows_down");
+inline constexpr Option kAfterLimitResumes = option("after_limit", "resumes");
+inline constexpr Option kIntoLimitDropped = option("command_into_limit", "dropped");
+inline constexpr Option kLimitStopsPwm = option("pwm_at_limit", "stops");
+inline constexpr Option kAfterAlarmResumes = option("after_alarm", "resumes");
+inline constexpr Option kAlarmLeavesSync = option("sync_after_alarm", "mode_left");
+inline constexpr Option kSyncFollowsOther = option("sync_encoder", "other");
 inline constexpr Option kDroppedValueForgotten = option("dropped_value", "forgotten");
 inline constexpr Option kMoveWhileMovingIgnored = option("command_while_moving", "ignored");
 inline constexpr Option kModeWhileMovingIgnored = option("mode_change_while_moving", "ignored");

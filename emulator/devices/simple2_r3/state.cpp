@@ -78,6 +78,7 @@ void StateFields::check(const AxisState& axis) {
   demand_reach(axis.alarm_clear_until);
   demand_within(axis.target_urpm, INT32_MIN * std::int64_t{1000}, INT32_MAX * std::int64_t{1000});
   demand_within(axis.velocity_phase, -kVelocityPhase, kVelocityPhase);
+  demand_encoder_count(axis.encoder_raw);
   demand_encoder_count(axis.encoder_counts);
   demand_encoder_count(axis.encoder_followed);
   demand_reach(axis.encoder_preset);

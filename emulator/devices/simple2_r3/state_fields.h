@@ -20,13 +20,17 @@ struct StateFields {
     auto& [a, b, c] = v; visit(a, b, c);
   }
   static void of(Like<AxisState> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w);
   }
   static void of(Like<ProgramSpeed> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
+  static void of(Like<MoveParameters> auto& v, auto visit) {
+    auto& [a, b, c, d, e] = v; visit(a, b, c, d, e);
+  }
+  static void of(Like<KeptCommand> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   }
   // clang-format on
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "emulator/devices/slim/parameters.h"
 #include "motion/bad_motion.h"
 #include "motion/state.h"
 
@@ -24,7 +25,7 @@ void demand_coordinate(double units) {
 }
 
 void demand_speed(double speed) {
-  demand_state(speed >= 1e-6 && speed <= 1e9, "a speed is beyond its range");
+  demand_state(speed >= kLeastSpeed && speed <= kMostSpeed, "a speed is beyond its range");
 }
 
 }  // namespace
@@ -135,6 +136,7 @@ void ChainFields::check(const Job& job) {
 void ChainFields::check(const Module& module) {
   demand_within(module.jog_way, -1, 1);
   demand_within(module.next_jog_way, -1, 1);
+  demand_within(module.held_jog_way, -1, 1);
   demand_within(module.analog, 0, kFullAnalog);
   demand_reach(module.zero_pulses);
   demand_reach(module.sent_pulses);

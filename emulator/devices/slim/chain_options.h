@@ -17,6 +17,12 @@ struct ChainOptions {
   };
   /// VM= and VJ= while a motion runs that they are the speed of. (AVM acts at once in any case.)
   enum class NewSpeed : std::uint8_t { next_motion, at_once };
+  /// PR3= of a module that is on a path.
+  enum class PathSpeedInMotion : std::uint8_t {
+    whole_path,  // the path goes at it, whichever of its modules is told
+    by_x,        // ... if X is
+    next_command
+  };
   /// The fz of SAR, where the manual breaks off.
   enum class SarHeight : std::uint8_t { relative, absolute };
 
@@ -42,6 +48,7 @@ struct ChainOptions {
   InVain in_vain = InVain::silent;
   Thrust thrust = Thrust::stands;
   NewSpeed new_speed = NewSpeed::next_motion;
+  PathSpeedInMotion path_speed_in_motion = PathSpeedInMotion::whole_path;
   SarHeight sar_height = SarHeight::relative;
   bool servo_at_power_up = true;
   std::uint8_t fifo_length = 32;  // 1 .. kFifoLength

@@ -30,7 +30,7 @@ bool Chain::serve_head(int module, Tick begin_at) {
   if (head_runs) return false;
   const Job& head = mine.fifo[0];
   switch (head.kind) {
-    case Job::Kind::output: carry_out_order(module, head.output); break;
+    case Job::Kind::output: carry_out_order(module, head.output, begin_at); break;
     case Job::Kind::servo:
       if (!head.servo_on) {
         cut(module, motion::Cause::servo_off);
@@ -39,7 +39,7 @@ bool Chain::serve_head(int module, Tick begin_at) {
       axes_[at(module)].switch_servo(head.servo_on);
       break;
     case Job::Kind::set_coordinate:
-      if (mine.activity != Activity::idle) return false;
+      if (mine.activity != Activity::idle || mine.holds_jog()) return false;
       put_coordinate(module, head.units[0]);
       break;
     case Job::Kind::move: return free_to_move(module) && start_move(module, begin_at);

@@ -4,17 +4,14 @@
 #include <utility>
 
 #include "emulator/devices/slim/chain.h"
+#include "emulator/devices/slim/parameters.h"
 #include "motion/bad_motion.h"
 
 namespace understudy::emulator::slim {
 
 namespace {
 
-/// Speeds and accelerations outside are no machine's, and may not be plannable.
-constexpr double kLeast = 1e-6;
-constexpr double kMost = 1e9;
-
-bool plannable(double speed) { return speed >= kLeast && speed <= kMost; }
+bool plannable(double speed) { return speed >= kLeastSpeed && speed <= kMostSpeed; }
 
 }  // namespace
 
@@ -76,6 +73,13 @@ Error Chain::set_acceleration(int module, double acceleration) {
 Error Chain::set_path_speed(int module, double units_s) {
   if (!plannable(units_s)) return Error::range;
   modules_[at(module)].settings.path_speed_units_s = units_s;
+  using InMotion = ChainOptions::PathSpeedInMotion;
+  Group* const group = group_of(module);
+  const bool counts =
+      group != nullptr &&
+      (options_.path_speed_in_motion == InMotion::whole_path ||
+       (options_.path_speed_in_motion == InMotion::by_x && group->motion.axis_of[0] == module));
+  if (counts) group->motion.run.set_top_speed(units_s, now_);
   return Error::none;
 }
 
@@ -133,7 +137,7 @@ void Chain::set_analog(int module, int value) {
 
 bool Chain::busy(int module) const {
   const Module& mine = modules_[at(module)];
-  return mine.activity != Activity::idle || !mine.fifo.empty();
+  return mine.activity != Activity::idle || !mine.fifo.empty() || mine.holds_jog();
 }
 
 bool Chain::moving(int module) const {
@@ -157,7 +161,7 @@ ModuleStatus Chain::status(int module) const {
   const Group* group = group_of(module);
   ModuleStatus status{.servo_on = axes_[at(module)].servo_on,
                       .moving = moving(module),
-                      .paused = paused_,
+                      .paused = held(module),
                       .homed = mine.homed,
                       .jog = mine.activity == Activity::jog,
                       .buffer_not_empty = !mine.fifo.empty()};

@@ -20,6 +20,9 @@ ChainOptions Slim::chain_options() const {
   if (chose(kIneffectivePauseRefused)) options.in_vain = ChainOptions::InVain::refused;
   if (chose(kThrustRuns)) options.thrust = ChainOptions::Thrust::runs_at_vj;
   if (chose(kNewSpeedAtOnce)) options.new_speed = ChainOptions::NewSpeed::at_once;
+  using PathSpeedInMotion = ChainOptions::PathSpeedInMotion;
+  if (chose(kPathSpeedByX)) options.path_speed_in_motion = PathSpeedInMotion::by_x;
+  if (chose(kPathSpeedOfNext)) options.path_speed_in_motion = PathSpeedInMotion::next_command;
   if (chose(kSarHeightAbsolute)) options.sar_height = ChainOptions::SarHeight::absolute;
   options.coordinate_at_rest_only = chose(kCoordinateAtRestOnly);
   options.reset_clears_coordinate = chose(kResetClearsCoordinate);
@@ -57,6 +60,11 @@ lang::ProgramOptions Slim::program_options() const {
   if (chose(kLinesFrom1)) options.first_number = 1;
   if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
   if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
+  options.check_command =
+      chose(kModuleTakenFromLetter)
+          ? [](const lang::Command& command) { return check_parameter_line(command, true); }
+          : [](const lang::Command& command) { return check_parameter_line(command, false); };
+  if (chose(kFirstLabelCounts)) options.same_label = Options::SameLabel::first_counts;
   if (chose(kListsTextOnly)) options.listing = Options::Listing::bare;
   return options;
 }
@@ -164,6 +172,7 @@ void Slim::load_program(std::string_view text) {
         error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
         : error == Error::range       ? "has a value out of range"
         : error == Error::not_allowed ? "may not stand in a program"
+        : error == Error::address     ? "begins with a label that another line has"
                                       : "is no command; expected one of `understudy describe slim commands`";
     throw ProgramError(number, what);
   }
@@ -200,8 +209,10 @@ void Slim::run_interpreters(Tick tick) {
   const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
   if (error == Error::none) return;
   // A program that goes on failing is faster than its line: what has no room is remembered only.
-  if (chose(kProgramErrorsSaid) && has_room_to_speak()) return fail(failed_module_, error);
-  remember(failed_module_, error);
+  const bool is_said = chose(kProgramErrorsSaid) && has_room_to_speak();
+  const int module = is_said ? fail(failed_module_, error) : remember(failed_module_, error);
+  // Whoever asks T0 why its program has ended is told, although the motor was another one's.
+  if (module != 0 && !state_.execution.running) note_error(0, error);
 }
 
 void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
@@ -209,7 +220,7 @@ void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
 void Slim::update_outputs(Tick) {
   for (int m = 0; m < kModules; ++m) {
     const Error late = state_.chain.take_late_error(m);
-    if (late != Error::none) remember(m, late);
+    if (late != Error::none) note_error(chose(kErrorsAreT0s) ? 0 : m, late);
   }
 }
 

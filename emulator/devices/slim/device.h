@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "emulator/devices/slim/chain.h"
+#include "emulator/devices/slim/meetings.h"
 #include "emulator/devices/slim/memory.h"
+#include "emulator/devices/slim/numbers.h"
 #include "emulator/devices/slim/options.h"
 #include "emulator/text/text_device.h"
 #include "interpreter/slim/availability.h"
@@ -138,14 +140,18 @@ class Slim final : public TextDevice, private lang::Machine {
     return state_.speech.size() < static_cast<std::size_t>(chosen_number(kPrintAhead));
   }
   void say(std::string_view text);
-  void fail(int module, Error error);
-  void remember(int module, Error error);
+  /// These two give the module that has the error in the end.
+  int fail(int module, Error error);
+  int remember(int module, Error error);
+  void note_error(int module, Error error);
   void conclude();
   void hear_command(std::string_view line);
+  bool is_heard_instead_of_number(std::string_view line) const;
   Error obey(lang::Command& command, std::vector<std::string>& lines);
 
   // commands.cpp
   Error execute(const lang::Command& command);
+  lang::Outcome::Program program_after_stop(From from) const;
   Error move_one(const lang::Command& command, int module);
   Error move_several(const lang::Command& command);
   Error switch_outputs(const lang::Command& command, int module);
@@ -155,6 +161,7 @@ class Slim final : public TextDevice, private lang::Machine {
   bool would_wait(const lang::Command& command) const;
 
   // values.cpp
+  RealForm real_form() const { return chose(kRealsWithExponent) ? RealForm::exponent : RealForm::plain; }
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
   Error set_variable(const lang::Operand& variable, double value);

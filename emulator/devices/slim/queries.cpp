@@ -93,7 +93,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
   };
   const auto real = [&](double value) {
     answer.number = value;
-    answer.text = text_of_real(value);
+    answer.text = text_of_real(value, real_form());
     return Error::none;
   };
   const auto words = [&](std::string text) {
@@ -129,7 +129,10 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
       answer.name = lang::text_of(variable);
       return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
     }
-    case Verb::query_coordinate: return real(state_.chain.coordinate(module));
+    case Verb::query_coordinate: {
+      const double units = state_.chain.coordinate(module);
+      return chose(kCoordinateOf32Bits) ? real(units) : shown_as(text_of_coordinate(units), units);
+    }
     case Verb::query_mode: {
       const Mode mode = state_.chain.status(module).mode;
       const auto code = static_cast<double>(mode);

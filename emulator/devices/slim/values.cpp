@@ -32,7 +32,7 @@ double Slim::amount(const lang::Command& command, std::size_t operand) const {
 std::string Slim::text_of(const lang::Operand& variable) const {
   return holds_integer(variable.kind) || variable.kind == lang::Operand::Kind::integer
              ? text_of_integer(value(variable))
-             : text_of_real(value(variable));
+             : text_of_real(value(variable), real_form());
 }
 
 Error Slim::set_variable(const lang::Operand& variable, double value) {
@@ -68,17 +68,18 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
 
 Error Slim::set_parameter(int module, std::string_view name, double value) {
   if (const Error error = linked(module); error != Error::none) return error;
+  const SpeedNames names = memory_form().speed_names;
+  if (const Error error = check_parameter(module, name, value, names, chose(kModuleTakenFromLetter));
+      error != Error::none) {
+    return error;
+  }
   if (name == "TM") {
-    if (!(value >= 0 && value <= 1e9)) return Error::range;
     state_.clock_zero = now() - static_cast<Tick>(std::trunc(value)) * 1000;
     return Error::none;
   }
-  const auto number = find_parameter(name, memory_form().speed_names);
-  if (!number) return Error::syntax;
+  const auto number = find_parameter(name, names);
   const ParameterDefinition& row = kParameters[*number];
-  if (row.host_only && module != 0) return Error::syntax;
   const auto fits = fitted(row, value);
-  if (!fits) return Error::range;
   if (name == "TVM" && module == 0) {  // of all linked modules at once
     if (const Error error = state_.chain.set_tvm(*fits); error != Error::none) return error;
     for (int m = 0; m < kModules; ++m) {
@@ -115,12 +116,6 @@ Error Slim::apply_parameter(int module, std::size_t number, double value) {
     case parameter("PR7"): return chain.set_smooth_corner(module, value);
     case parameter("PN50"):
       for (int m = 1; m < kModules; ++m) chain.set_linked(m, ((static_cast<int>(value) >> m) & 1) != 0);
-      return Error::none;
-    case parameter("PN37"):  // the map at the next power-up
-      for (int letter = 0; letter < kLetters; ++letter) {
-        const int nibble = (static_cast<int>(value) >> (4 * letter)) & 0xF;
-        if (nibble >= kMappable && nibble != kUnassigned) return Error::range;
-      }
       return Error::none;
     default: return Error::none;
   }
@@ -183,9 +178,9 @@ std::vector<std::string> Slim::parameter_list() const {
       const ParameterDefinition& row = kParameters[i];
       if (m > 0 && row.host_only) continue;
       const double value = state_.ram.parameters[at(m)][i];
-      lines.push_back(
-          parameter_name(m, i, memory_form().speed_names) + "=" +
-          (row.type == ParameterDefinition::Type::integer ? text_of_integer(value) : text_of_real(value)));
+      lines.push_back(parameter_name(m, i, memory_form().speed_names) + "=" +
+                      (row.type == ParameterDefinition::Type::integer ? text_of_integer(value)
+                                                                      : text_of_real(value, real_form())));
     }
   }
   return lines;

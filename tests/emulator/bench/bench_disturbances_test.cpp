@@ -147,7 +147,7 @@ TEST(BenchErrors, MemoriesAndPrograms) {
        "5: lines.b.stations[0].nv: device 'x' has the same file; expected another"},
       {and_then("", "program: ''"), at + ".program: is empty; expected a path"},
       {and_then("", "program: nowhere.lst"),
-       at + ".program: /benches/nowhere.lst cannot be read; expected a listing"},
+       at + ".program: /benches/nowhere.lst cannot be read (No such file or directory); expected a listing"},
   });
 }
 

@@ -36,7 +36,7 @@ std::string with_line(const std::string& line) { return "understudy: 1\nlines:\n
 const std::string kStation = "stations: [ { name: x, model: simple2-r3 } ]";
 
 TEST(BenchErrors, AFileThatIsNoMap) {
-  const std::string no_map = "1: bench: the file is no map; expected `understudy: 1` and `lines:`";
+  const std::string no_map = "1: bench: the file is not a map; expected `understudy: 1` and `lines:`";
   expect_complaints({
       {"", no_map},
       {" \n\n", no_map},
@@ -110,6 +110,11 @@ TEST(BenchErrors, Lines) {
       {"understudy: 1\nlines: a\n", "2: lines: expected a map, as in `key: value`"},
       {"understudy: 1\nlines:\n  a.b: {}\n",
        "3: lines.a.b: 'a.b' is no name; expected letters, digits, _ and -"},
+      // No file can be called so: ports and memories are named after them.
+      {"understudy: 1\nlines:\n  " + std::string(101, 'a') + ": { stations: [] }\n",
+       "3: lines." + std::string(101, 'a') + ": has a name of 101 characters; expected at most 100"},
+      {"understudy: 1\nlines:\n  a: { link: /tmp/" + std::string(201, 'p') + ", stations: [] }\n",
+       "3: lines.a.link: has a name of 201 characters; expected at most 200"},
       {with_line(""), "3: lines.a: 'stations' is missing; expected it here"},
       {with_line("stations: []"), "3: lines.a.stations: is empty; expected at least one station"},
       {with_line("stations: {}"), "3: lines.a.stations: expected a list, as in `[ a, b ]`"},

@@ -120,19 +120,23 @@ TEST(BenchFile, AFileIsReadAsItsText) {
     load_bench(path);
     ADD_FAILURE() << "it has an unknown key";
   } catch (const BenchError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with(path + ":2: line: ")) << error.what();
+    EXPECT_TRUE(std::string(error.what()).starts_with(path + ":2:7: line: ")) << error.what();
   }
   std::filesystem::remove_all(folder);
 }
 
 TEST(BenchFile, WhatIsNoReadableFileIsRefused) {
-  for (const std::string path : {"/nowhere/bench.yaml", "/tmp", "", "/dev/null/x"}) {
+  const std::string none = "cannot be read (No such file or directory)";
+  for (const auto& [path, why] : std::vector<std::pair<std::string, std::string>>{
+           {"/nowhere/bench.yaml", none},
+           {"/tmp", "is no regular file"},
+           {"", none},
+           {"/dev/null/x", "cannot be read (Not a directory)"}}) {
     try {
       load_bench(path);
       ADD_FAILURE() << path;
     } catch (const BenchError& error) {
-      const std::string why = path == "/tmp" ? "is no regular file" : "cannot be read";
-      EXPECT_EQ(error.what(), path + ":1: bench: " + why + "; expected a bench file");
+      EXPECT_EQ(error.what(), path + ": bench: " + why + "; expected a bench file");
     }
   }
 }

@@ -14,7 +14,7 @@ bool is_handled(const std::string& text) {
   try {
     parse(text);
   } catch (const BenchError& error) {
-    const std::string what = error.what();
+    const std::string what = without_columns(error.what());
     std::size_t at = std::string("bench.yaml:").size();
     const bool has_line = what.starts_with("bench.yaml:") && what[at] >= '1' && what[at] <= '9';
     while (at < what.size() && what[at] >= '0' && what[at] <= '9') ++at;

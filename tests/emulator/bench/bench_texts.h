@@ -4,6 +4,7 @@
 #include <string>
 
 #include "emulator/bench/bench_file.h"
+#include "tests/emulator/bench/without_columns.h"
 
 namespace understudy::emulator {
 
@@ -70,7 +71,7 @@ inline std::string complaint(const std::string& text) {
   try {
     parse(text);
   } catch (const BenchError& error) {
-    return error.what();
+    return without_columns(error.what());
   }
   return "";
 }

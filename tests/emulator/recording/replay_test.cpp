@@ -177,7 +177,7 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   EXPECT_EQ(refusal(to_line(RecordingHeader{
                         .version = "1", .bench = "understudy: 1", .options = {}, .snapshot = {}}) +
                     "\n"),
-            "a.jsonl:1: bench: bench:1: bench: 'lines' is missing; expected it here");
+            "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
   EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': is there twice; expected it once");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
             "a.jsonl:3: line: stands behind the end; expected nothing more");
@@ -199,6 +199,28 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
   EXPECT_EQ(event(R"({"t":1,"do":"program","device":0,"text":"Fly"})").substr(0, 20), "a.jsonl:2: mnemonic:");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"open\",\"line\":0}\n{\"t\":4,\"do\":\"end\"}\n"),
             "a.jsonl:3: t: goes back in time; expected the events in their order");
+}
+
+TEST(Replay, ARecordingNamesNoPaths) {
+  // It may come from anybody: what it could have read or written is refused before anything is.
+  for (const auto& [key, path] : {std::pair<std::string, std::string>{"nv", "/tmp/precious"},
+                                  {"nv", "feeder.json"},
+                                  {"program", "/etc/passwd"}}) {
+    const std::string bench = R"({"understudy":1,"lines":{"l":{"stations":[{"name":"d","model":"simple2-r3",)"
+                              R"("address":1,")" +
+                              key + R"(":")" + path + R"("}]}}})";
+    EXPECT_EQ(
+        refusal(to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) +
+                "\n"),
+        "a.jsonl:1: bench: bench:1: lines.l.stations[0]." + key +
+            ": is a path; expected none in a recording, which has everything in itself");
+  }
+  const std::string linked =
+      R"({"understudy":1,"lines":{"l":{"link":"/tmp/p","stations":[{"name":"d","model":"simple2-r3"}]}}})";
+  EXPECT_NE(
+      refusal(to_line(RecordingHeader{.version = "1", .bench = linked, .options = {}, .snapshot = {}}) + "\n")
+          .find("lines.l.link: is a path"),
+      std::string::npos);
 }
 
 }  // namespace

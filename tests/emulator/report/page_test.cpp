@@ -24,12 +24,25 @@ std::string page_of(const std::string& steps) {
   return report_page(play(scenario_of(steps), filmed()), "1.2.3");
 }
 
-/// Says what is wrong with a page: tags that do not match, names used twice, links that lead nowhere.
+/// Says what is wrong with a page: tags that do not match, names used twice, links that lead nowhere; and
+/// what those miss who hear it: landmarks, headings in their order, names of pictures, what a table's heads
+/// are of.
 constexpr const char* kReader = R"(
 import sys, html.parser
 class Reader(html.parser.HTMLParser):
-    open, names, links = [], [], []
+    open, names, links, seen, level = [], [], [], [], 0
     def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.seen.append(tag)
+        if tag in ('h1', 'h2', 'h3'):
+            if int(tag[1]) > self.level + 1: print('a heading is left out before', tag, self.getpos())
+            self.level = int(tag[1])
+        if tag == 'th' and given.get('scope') not in ('col', 'row'): print('a head of what?', self.getpos())
+        if given.get('role') in ('img', 'group') and not given.get('aria-label'):
+            print('has no name:', tag, self.getpos())
+        if tag == 'svg':
+            if given.get('role') != 'img': print('is no picture', self.getpos())
+            if self.open[-1] != 'div': print('cannot be scrolled', self.getpos())
         for name, value in attributes:
             if name == 'id': self.names.append(value)
             if name == 'href': self.links.append(value)
@@ -41,6 +54,9 @@ reader = Reader()
 reader.feed(open(sys.argv[1], encoding='utf-8').read())
 reader.close()
 if reader.open: print('left open:', reader.open)
+for once in ('h1', 'header', 'nav', 'main', 'footer'):
+    if reader.seen.count(once) != 1: print(reader.seen.count(once), 'times', once)
+if reader.seen.count('svg') != reader.seen.count('desc'): print('a picture is not described')
 if len(set(reader.names)) != len(reader.names): print('names used twice')
 for link in reader.links:
     if link[:1] != '#' or link[1:] not in reader.names: print('leads nowhere:', link)
@@ -110,6 +126,56 @@ TEST(ReportPage, MarksTheFailingMoment) {
   const std::string well = page_of(kServoOn + kExampleMove + "  - advance: 500ms\n");
   EXPECT_EQ(well.find("<line class=\"failure\""), std::string::npos);
   EXPECT_EQ(well.find("failed at "), std::string::npos);
+}
+
+/// The numbers that stand behind each `before` on the page.
+std::vector<double> numbers_behind(const std::string& page, const std::string& before) {
+  std::vector<double> numbers;
+  for (std::size_t at = page.find(before); at != std::string::npos; at = page.find(before, at + 1)) {
+    numbers.push_back(std::strtod(page.c_str() + at + before.size(), nullptr));
+  }
+  return numbers;
+}
+
+/// Where the texts of a kind stand, from the picture's top.
+std::vector<double> heights_of(const std::string& page, const std::string& kind) {
+  std::vector<double> heights;
+  const std::string begin = "<text class=\"" + kind + "\"";
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    heights.push_back(numbers_behind(page.substr(at, page.find('>', at) - at), " y=\"").at(0));
+  }
+  return heights;
+}
+
+TEST(ReportPage, TheFailingMomentCoversNoNumber) {
+  constexpr double kLetters = 11;  // how high they are
+  std::string steps = kServoOn;
+  for (int i = 0; i < 11; ++i) steps += "  - advance: 100ms\n";
+  const std::string page = page_of(steps + "  - assert: 1 == 2\n");
+  const std::vector<double> label = heights_of(page, "failed end");
+  ASSERT_EQ(label.size(), 1U);
+  EXPECT_GE(label[0], kLetters) << "it is cut off";
+  const std::vector<double> numbers = heights_of(page, "number middle");
+  EXPECT_GT(numbers.size(), 8U);
+  const std::vector<double> line = numbers_behind(page, "<line class=\"failure\" x1=\"1085.00\" y1=\"");
+  ASSERT_EQ(line.size(), 1U);
+  for (const double number : numbers) {
+    EXPECT_GE(number - kLetters, label[0]) << "the label is over it";
+    EXPECT_GT(line[0], number) << "the line is over it";
+  }
+}
+
+TEST(ReportPage, SaysWhatAPictureShows) {
+  const std::string page = page_of(kServoOn + kExampleMove +
+                                   "  - input: { feeder.DIN_10: on }\n  - advance: 3200ms\n"
+                                   "  - assert: feeder.Cord_A == 1\n");
+  EXPECT_NE(page.find("role=\"img\" aria-label=\"test: what moved and switched, from 0s to 3."),
+            std::string::npos);
+  EXPECT_NE(page.find("<desc>feeder.A.position goes from 0 to 32000 pulses, between 0 and 32000; "),
+            std::string::npos);
+  EXPECT_NE(page.find("; feeder.A.speed goes from 0 to 0 pulses/s, between 0 and 10666.67; "),
+            std::string::npos);
+  EXPECT_NE(page.find("; feeder.DIN_10 is off at first and on at the end; failed at 3."), std::string::npos);
 }
 
 TEST(ReportPage, NamesTheRecordingThatWasKept) {

@@ -1,6 +1,7 @@
 // Faults with triggers in scenarios: what the host sees of them, and where they are mended.
 #include <algorithm>
 
+#include "tests/emulator/bench/without_columns.h"
 #include "tests/emulator/scenario/played.h"
 
 namespace understudy::emulator {
@@ -74,7 +75,7 @@ TEST(ScenarioFaults, ThatAreWrongAreErrorsOfTheFile) {
     try {
       scenario_of("  - inject: " + inject + "\n");
     } catch (const FileError& error) {
-      return error.what();
+      return without_columns(error.what());
     }
     return "";
   };

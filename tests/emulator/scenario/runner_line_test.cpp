@@ -152,6 +152,30 @@ TEST(RunnerOverTheLine, ExceptionsAreExpectedOrTold) {
   EXPECT_EQ(failure.what, "read feeder.0x0999: exception 2 (illegal data address); expected it done");
 }
 
+TEST(RunnerOverTheLine, AnAnswerMayBeExpectedNotToCome) {
+  // Each of the requests of a step: the two registers are no neighbours.
+  passing(
+      "  - inject: { drop: feeder, times: 4 }\n"
+      "  - { write: { feeder.Aaxis_Speed: 200, feeder.Aaxis_Pulse: 5 }, reply: nothing }\n"
+      "  - assert: time >= 1s\n"
+      "  - { expect: { feeder.Aaxis_Speed: 1 }, reply: nothing, within: 20ms }\n"
+      "  - assert: time < 1100ms\n"
+      "  - { write: { feeder.Aaxis_SVON: 1 }, reply: nothing, within: 20ms }\n"
+      "  - expect: { feeder.Aaxis_Speed: 200, feeder.Aaxis_Pulse: 5, feeder.Aaxis_SVON: 1 }\n");
+  passing(
+      "  - power: { feeder: off }\n"
+      "  - { expect: { feeder.HW_Code: 0 }, reply: nothing, within: 50ms }\n");
+  Failure failure = failing("  - { write: { feeder.Aaxis_Speed: 200 }, reply: nothing }\n");
+  EXPECT_EQ(failure.what, "write feeder.Aaxis_Speed: done; expected no reply");
+  EXPECT_EQ(failure.expected, "write feeder.Aaxis_Speed: no reply");
+  failure = failing(
+      "  - inject: { exception: feeder, code: 4 }\n"
+      "  - { write: { feeder.Aaxis_Speed: 1 }, reply: nothing }\n");
+  EXPECT_EQ(failure.what, "write feeder.Aaxis_Speed: exception 4 (device failure); expected no reply");
+  failure = failing("  - { expect: { feeder.Aaxis_Speed: 0 }, reply: nothing }\n");
+  EXPECT_EQ(failure.what, "read feeder.Aaxis_Speed: done; expected no reply");
+}
+
 TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
   const Failure failure = failing(
       "  - write: { feeder.Aaxis_Pulse: -5, feeder.Aaxis_Speed: 200 }\n"

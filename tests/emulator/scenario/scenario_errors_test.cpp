@@ -35,9 +35,9 @@ class ScenarioErrors : public testing::Test {
 
 TEST_F(ScenarioErrors, TheFileAsAWhole) {
   expect_complaints({
-      {"", "1: scenario: the file is no map; expected `understudy: 1`, `bench:` and `steps:`"},
+      {"", "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
       {"- advance: 1ms\n",
-       "1: scenario: the file is no map; expected `understudy: 1`, `bench:` and `steps:`"},
+       "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
       {"bench: feeder.yaml\nsteps: []\n", "1: scenario: 'understudy' is missing; expected it here"},
       {"understudy: 2\nbench: feeder.yaml\nsteps: []\n",
        "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
@@ -54,7 +54,7 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
        "3: seed: '-1' is not possible; expected a whole number from 0 to 9223372036854775807"},
       {with("gap: 5"), "3: gap: '5' is no duration; expected one such as 250ms"},
       {with("name: [ a ]"), "3: name: expected a word or a number"},
-      {"understudy: 1\n---\nunderstudy: 1\n", "3: scenario: a second document begins here; expected one"},
+      {"understudy: 1\n---\nunderstudy: 1\n", "2: scenario: a second document begins here; expected one"},
   });
 }
 
@@ -79,13 +79,15 @@ TEST_F(ScenarioErrors, TheBench) {
       {with("nv: after.json"), "3: nv: expected a map, as in `key: value`"},
   });
   // What is wrong elsewhere is told of where it is.
-  EXPECT_EQ(folder_.complaint("understudy: 1\nbench: none.yaml\nsteps: []\n"),
-            "none.yaml:1: bench: cannot be read; expected a bench file");
+  EXPECT_EQ(
+      folder_.complaint("understudy: 1\nbench: none.yaml\nsteps: []\n"),
+      "scenario.yaml:2: bench: none.yaml cannot be read (No such file or directory); expected a bench file");
   folder_.write("bad.yaml", "understudy: 1\nlines: {}\n");
   EXPECT_EQ(folder_.complaint("understudy: 1\nbench: bad.yaml\nsteps: []\n"),
             "bad.yaml:2: lines: has no line; expected at least one");
   EXPECT_EQ(folder_.complaint(with("nv: { feeder: none.json }")),
-            "scenario.yaml:3: nv.feeder: none.json cannot be read; expected an NV image");
+            "scenario.yaml:3: nv.feeder: none.json cannot be read (No such file or directory); expected an "
+            "NV image");
   folder_.write("torn.json", "{ \"understudy\": 1,");
   EXPECT_TRUE(folder_.complaint(with("nv: { feeder: torn.json }")).starts_with("torn.json: "));
 }
@@ -114,9 +116,9 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
       {with("cases: [ { a: 1, a: 2 } ]\n" + used), "3: cases[0].a: is given twice; expected it once"},
       {with("gap: ${a}"), "3: gap: column 1 of 'a': no parameter is called 'a'; there are none"},
       {"understudy: 1\nbench: feeder.yaml\nparameters: { a: 1 }\nsteps: [ { say: ${a} } ]\n",
-       "4: scenario: is not YAML: end of map flow not found; expected quotes around a ${...} between braces "
-       "or "
-       "brackets"},
+       "4: scenario: is not YAML: a '{' inside braces begins a map; expected quotes around a ${...} between "
+       "braces or "
+       "brackets  (the line is 'steps: [ { say: ${a} } ]')"},
   });
 }
 
@@ -128,7 +130,19 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
       {"{ advance: 1ms, say: x }", ".say: is a second step in one; expected `- ` before it"},
       {"{ advance: 1ms, exception: 3 }", ".exception: is no key here; expected one of advance"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, exeption: 3 }",
-       ".exeption: is no key here; expected one of write, exception (the nearest is 'exception')"},
+       ".exeption: is no key here; expected one of write, exception, reply, within (the nearest is "
+       "'exception')"},
+      {"{ write: { feeder.Aaxis_SVON: 1 }, reply: 1 }",
+       ".reply: '1' is unknown; expected nothing (what is read is compared without `reply`)"},
+      {"{ write: { feeder.Aaxis_SVON: 1 }, within: 1s }",
+       ".within: is for `reply: nothing` only; expected that beside it"},
+      {"{ write: { feeder.Aaxis_SVON: 1 }, reply: nothing, within: 0s }",
+       ".within: is no time at all; expected some"},
+      {"{ expect: { feeder.HW_Code: 1 }, reply: nothing, exception: 2 }",
+       ".reply: an exception is a reply; expected one of both"},
+      {"{ write: { feeder.DOUT_ALL.1: 1 }, reply: nothing }",
+       ".write.feeder.DOUT_ALL.1: a bit's register is read before it is written; expected whole registers "
+       "with `reply: nothing`"},
       {"{ say: x, say: y }", ".say: is given twice; expected it once"},
       {"advance: 0ms", ".advance: is no time at all; expected some"},
       {"advance: 250", ".advance: '250' is no duration; expected one such as 250ms"},
@@ -270,8 +284,10 @@ TEST_F(ScenarioErrors, FromOutside) {
       {"clear: jam", ".clear: no fault in force here is called 'jam'; there is none"},
       {"power: { feeder: down }", ".power.feeder: 'down' is unknown; expected on, off or cycle"},
       {"power: { feder: on }", ".power.feder: no device is called 'feder'; the nearest is 'feeder'"},
-      {"program: { feeder: none.lst }", ".program.feeder: none.lst cannot be read; expected a listing"},
-      {"memory: { feeder: none.json }", ".memory.feeder: none.json cannot be read; expected an NV image"},
+      {"program: { feeder: none.lst }",
+       ".program.feeder: none.lst cannot be read (No such file or directory); expected a listing"},
+      {"memory: { feeder: none.json }",
+       ".memory.feeder: none.json cannot be read (No such file or directory); expected an NV image"},
       {"save: { feeder: nowhere/x.json }", ".save.feeder: nowhere is no folder; expected one to write in"},
       {"save: { feder: x.json }", ".save.feder: no device is called 'feder'; the nearest is 'feeder'"},
   });
@@ -319,7 +335,8 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
        ".for.as: names a value, but there are rows, whose values have names; expected no `as`"},
       {"for: { each: [ 1, 2 ], as: n, steps: [ advance: \"${m}ms\" ] }",
        ".for.steps[0].advance: column 1 of 'm': no parameter is called 'm'; expected 'n'"},
-      {"include: none.yaml", ".include: none.yaml cannot be read; expected a file of steps"},
+      {"include: none.yaml",
+       ".include: none.yaml cannot be read (No such file or directory); expected a file of steps"},
       {"include: ''", ".include: is empty; expected a path"},
   });
   const auto complaint = [&](const std::string& steps) {

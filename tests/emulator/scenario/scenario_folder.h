@@ -11,6 +11,7 @@
 
 #include "emulator/memory/nv_image.h"
 #include "emulator/scenario/scenario_file.h"
+#include "tests/emulator/bench/without_columns.h"
 
 namespace understudy::emulator {
 
@@ -61,7 +62,7 @@ class ScenarioFolder {
       parse(text);
       return "";
     } catch (const FileError& error) {
-      std::string what = error.what();
+      std::string what = without_columns(error.what());
       for (std::size_t at = 0; (at = what.find(path_ + "/")) != std::string::npos;) {
         what.erase(at, path_.size() + 1);
       }

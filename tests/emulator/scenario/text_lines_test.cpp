@@ -3,6 +3,7 @@
 
 #include "emulator/scenario/real_stage.h"
 #include "emulator/scenario/text_lines_heard.h"
+#include "tests/emulator/bench/without_columns.h"
 #include "tests/emulator/scenario/played.h"
 #include "tests/emulator/text/echo_box.h"
 
@@ -38,7 +39,7 @@ std::string refusal(const std::string& steps) {
   try {
     parse_scenarios(text_scenario(steps), "test.yaml");
   } catch (const FileError& error) {
-    return error.what();
+    return without_columns(error.what());
   }
   return "";
 }
@@ -175,7 +176,7 @@ TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
     parse_scenarios(modbus, "test.yaml");
     ADD_FAILURE();
   } catch (const FileError& error) {
-    EXPECT_EQ(std::string(error.what()),
+    EXPECT_EQ(without_columns(error.what()),
               "test.yaml:4: steps[0].send: line 'a' carries Modbus frames; expected a line of text here, or "
               "`bytes`");
   }

@@ -15,6 +15,7 @@
 #include "emulator/recording/recorder.h"
 #include "emulator/recording/replay.h"
 #include "emulator/trace/trace.h"
+#include "tests/emulator/bench/without_columns.h"
 #include "tests/emulator/control/daemon_rig.h"
 #include "tests/emulator/text/echo_box.h"
 
@@ -38,7 +39,7 @@ std::string refusal(const std::string& bench) {
   try {
     parse_bench(bench, "b.yaml", ".");
   } catch (const FileError& error) {
-    return error.what();
+    return without_columns(error.what());
   }
   return "";
 }

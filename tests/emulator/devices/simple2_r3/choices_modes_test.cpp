@@ -201,8 +201,8 @@ TEST(ChoicesModes, DroppedValueIsStoredOrForgotten) {
     feeder.input(2, true);
     feeder.run(1);
     feeder.set("Aaxis_DirectmRPM", -700);
-    feeder.set("Aaxis_DirectmRPM", 5000);  // into the limit
-    EXPECT_EQ(feeder.get("Aaxis_DirectmRPM"), stored ? 5000 : -700) << option;
+    feeder.set("Aaxis_DirectmRPM", 5000);  // into the limit: it counts as 0
+    EXPECT_EQ(feeder.get("Aaxis_DirectmRPM"), stored ? 5000 : 0) << option;
     feeder.set("Aaxis_SVON", 0);
     feeder.set("Aaxis_DirectmRPM", 5000);
     feeder.set("Aaxis_DirectPWM", 40);

@@ -39,6 +39,11 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
       "homing_sequence", "home_unassigned", "home_coordinate", "home_bit", "moving_bit", "velocity_unit",
       "velocity_commit", "velocity_step", "mode_after_stop", "values_after_stop", "dropped_value",
       "pwm_servo", "sync_ratio", "sync_slope", "sync_lost_pulses", "sync_period", "encoder_speed",
+      // reactions_test.cpp, and scenarios/choices/simple2-r3/
+      "after_limit", "command_into_limit", "pwm_at_limit", "after_alarm", "sync_after_alarm",
+      "move_in_other_mode", "command_while_servo_off", "stop",
+      // scenarios/choices/simple2-r3/
+      "sync_encoder",
       // choices_operands_test.cpp, choices_program_test.cpp, choices_program_run_test.cpp
       "logic_operand", "read_only_parameter", "timers_at_power_up", "timer1_defect", "undefined_operand",
       "undefined_parameter", "value_out_of_range", "program_speed", "program_pulse", "wait_slot",

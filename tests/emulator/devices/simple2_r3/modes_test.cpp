@@ -146,6 +146,11 @@ TEST(EncoderSpeed, IsTheCountsOfTheLast100Milliseconds) {
   }
   EXPECT_EQ(feeder.get("ENCA_RPM"), 100);
   feeder.set("Axis_ENC_Polarity", 1);
+  EXPECT_EQ(feeder.get("ENCA_RPM"), 100) << "what is counted is counted";
+  for (int i = 301; i <= 400; ++i) {
+    feeder.device().set_encoder(0, 10 * i);
+    feeder.run(1);
+  }
   EXPECT_EQ(feeder.get("ENCA_RPM"), -100);
   feeder.run(300);
   EXPECT_EQ(feeder.get("ENCA_RPM"), 0);

@@ -6,6 +6,7 @@
 #include "emulator/scenario/state_text.h"
 #include "emulator/trace/trace.h"
 #include "tests/emulator/devices/slim/dialogue_script.h"
+#include "tests/emulator/bench/without_columns.h"
 
 namespace understudy::emulator::slim {
 
@@ -50,7 +51,7 @@ TEST(SlimSeen, TheAnalogInputIsANumber) {
       const World world(parse_bench(text, "b.yaml", "."), WorldOptions{}, [](const std::string&) {});
       return state_text(world).back();
     } catch (const std::exception& error) {
-      return std::string(error.what());
+      return without_columns(error.what());
     }
   };
   EXPECT_EQ(bench("300"), "robot: AIN 300");

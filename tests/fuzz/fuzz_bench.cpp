@@ -1,0 +1,33 @@
+// What may stand in a bench file: anything. It is refused by an error of one line, or it is a bench, and
+// then the bench as text reads as the same bench.
+#include <cstdint>
+#include <string>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/bench/bench_text.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+
+constexpr std::size_t kLongest = 4096;
+const std::string kFolder = "/nonexistent";  // what it names by a path is not there
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > kLongest) return 0;
+  std::string written;
+  try {
+    written = emulator::to_text(
+        emulator::parse_bench(std::string(fuzzing::text_of(data, size)), "bench.yaml", kFolder));
+  } catch (const emulator::FileError& error) {
+    demand(error.what()[0] != '\0', "an error says something");
+    return 0;
+  }
+  const emulator::Bench again = emulator::parse_bench(written, "again.yaml", kFolder);
+  demand(emulator::to_text(again) == written, "a bench as text is the same bench");
+  return 0;
+}

@@ -1,0 +1,75 @@
+// What may come over the control socket: lines of anything. Each that is answered gets one line of JSON, and
+// the daemon stays as it was where it was refused. A line that would write or read a file is left out: a
+// search shall not touch the machine that it runs on.
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/control/messages.h"
+#include "emulator/edge/daemon.h"
+#include "emulator/world/snapshot.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+
+constexpr std::size_t kLongest = 4096;
+
+emulator::DaemonOptions options() {
+  emulator::DaemonOptions made;
+  made.speed = {.kind = emulator::Speed::Kind::manual};
+  made.has_control = false;
+  made.watch_signals = false;
+  return made;
+}
+
+/// One daemon for all inputs, restored to what it was.
+struct Rig {
+  Rig()
+      : daemon(emulator::parse_bench(
+                   "understudy: 1\n"
+                   "lines:\n"
+                   "  rs485: { stations: [ { name: a, model: simple2-r3 } ] }\n"
+                   "  serial: { stations: [ { name: b, model: slim } ] }\n"
+                   "plant: { a.A: { travel: [-900, 900], limits: { lower: -800, upper: 800 } } }\n",
+                   "bench.yaml", "/nonexistent"),
+               options(), [](const std::string&) {}),
+        as_made(save(daemon.world())) {}
+  emulator::Daemon daemon;
+  emulator::WorldState as_made;
+};
+
+bool names_a_file(const std::string& line) {
+  return line.find("file") != std::string::npos || line.find("\\u") != std::string::npos;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static Rig rig;
+  if (size > kLongest) return 0;
+  rig.daemon.pause();
+  rig.daemon.restore(rig.as_made);
+  std::istringstream text{std::string(fuzzing::text_of(data, size))};
+  for (std::string line; std::getline(text, line);) {
+    if (names_a_file(line)) continue;
+    int replies = 0;
+    bool is_refused = false;
+    const emulator::WorldState before = save(rig.daemon.world());
+    emulator::handle_message(rig.daemon, line, [&](const std::string& reply) {
+      ++replies;
+      demand(reply.find('\n') == std::string::npos, "a reply is one line");
+      const auto json = nlohmann::json::parse(reply, nullptr, false);
+      demand(json.is_object() && json.contains("ok"), "a reply says whether it was obeyed");
+      is_refused = json["ok"] == false;
+    });
+    demand(replies <= 1, "a message gets one reply");
+    if (is_refused) demand(save(rig.daemon.world()) == before, "a message that is refused changes nothing");
+    rig.daemon.pause();  // an advance that is under way ends
+  }
+  return 0;
+}

@@ -1,0 +1,53 @@
+// What may stand in the file of a memory: anything. It is refused, or it is an image that reads the same when
+// it is written again; and a device that takes it has a memory that it takes back.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "emulator/device.h"
+#include "emulator/memory/nv_image.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+
+constexpr std::size_t kLongest = 8192;
+
+/// One device of each model, without power: it is given one memory after the other.
+emulator::Device* device_of(const std::string& name) {
+  static std::map<std::string, std::unique_ptr<emulator::Device>> devices = [] {
+    std::map<std::string, std::unique_ptr<emulator::Device>> made;
+    for (const emulator::Model* model : emulator::all_models()) {
+      emulator::DeviceSettings settings;
+      settings.name = "device";
+      auto device = emulator::make_device(*model, settings);
+      device->switch_power(false);
+      made.emplace(model->name, std::move(device));
+    }
+    return made;
+  }();
+  const auto found = devices.find(name);
+  return found == devices.end() ? nullptr : found->second.get();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > kLongest) return 0;
+  try {
+    const emulator::NvImage image = emulator::parse_nv_image(std::string(fuzzing::text_of(data, size)));
+    demand(emulator::parse_nv_image(emulator::to_json(image)) == image, "an image reads as it was written");
+    emulator::Device* device = device_of(image.model);
+    if (device == nullptr) return 0;
+    device->load_nv(image);
+    const emulator::NvImage kept = device->nv_image();
+    device->load_nv(kept);
+    demand(device->nv_image() == kept, "a memory takes back what it has given");
+  } catch (const emulator::NvError& error) {
+    demand(error.what()[0] != '\0', "an error says something");
+  }
+  return 0;
+}

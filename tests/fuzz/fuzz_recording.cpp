@@ -1,0 +1,77 @@
+// What may stand in a recording: anything, behind a header that is right or not. It is refused, or played
+// again: every eighth is, for half a second of its time.
+//
+// An input that begins with '{' is a whole recording. Otherwise its lines are events behind a header of ours.
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/bench/bench_text.h"
+#include "emulator/recording/recording.h"
+#include "emulator/recording/replay.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kLongest = 4096;
+constexpr emulator::SimTime kUntil = 500ms;
+
+const std::string& our_header() {
+  static const std::string line = [] {
+    emulator::RecordingHeader header;
+    header.version = "0.1.0";
+    header.bench = emulator::to_text(emulator::parse_bench(
+        "understudy: 1\n"
+        "lines:\n"
+        "  rs485: { baud: 115200, timing: instant, stations: [ { name: a, model: simple2-r3 } ] }\n"
+        "  serial: { stations: [ { name: b, model: slim } ] }\n"
+        "plant: { a.A: { travel: [-900, 900], limits: { lower: -800, upper: 800 } } }\n",
+        "bench.yaml", "/nonexistent"));
+    return emulator::to_line(header);
+  }();
+  return line;
+}
+
+const emulator::World& our_world() {
+  static const emulator::World world(
+      emulator::parse_bench(emulator::parse_header(our_header()).bench, "bench.yaml", "/nonexistent"),
+      emulator::WorldOptions{}, {});
+  return world;
+}
+
+/// Events that are taken are written as they are read.
+void check_events(std::istringstream text) {
+  const emulator::World& world = our_world();
+  for (std::string line; std::getline(text, line);) {
+    try {
+      const auto event = emulator::parse_event(line, world.known(), world.line_count());
+      const std::string written = emulator::to_line(event, world.known());
+      demand(emulator::to_line(emulator::parse_event(written, world.known(), world.line_count()),
+                               world.known()) == written,
+             "an event reads as it was written");
+    } catch (const emulator::RecordingError&) {
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > kLongest) return 0;
+  const std::string text(fuzzing::text_of(data, size));
+  const bool is_whole = text.starts_with("{");
+  if (!is_whole) check_events(std::istringstream(text));
+  if (!fuzzing::is_checked_wholly({data, size})) return 0;
+  std::istringstream recording(is_whole ? text : our_header() + "\n" + text);
+  try {
+    emulator::replay(recording, "recording", kUntil);
+  } catch (const emulator::RecordingError& error) {
+    demand(error.what()[0] != '\0', "an error says something");
+  }
+  return 0;
+}

@@ -1,0 +1,31 @@
+// What may stand in a scenario file: anything. It is refused by an error, or it is a list of scenarios that
+// have a name and steps. (They are checked, not played: what a course may do is for the fuzzers of lines.)
+#include <cstdint>
+#include <string>
+
+#include "emulator/scenario/scenario_file.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+
+constexpr std::size_t kLongest = 4096;
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size > kLongest) return 0;
+  try {
+    const auto scenarios =
+        emulator::parse_scenarios(std::string(fuzzing::text_of(data, size)), "/nonexistent/scenario.yaml");
+    demand(!scenarios.empty(), "a file that is accepted has a scenario");
+    for (const emulator::Scenario& scenario : scenarios) {
+      demand(!scenario.name.empty(), "a scenario has a name");
+    }
+  } catch (const emulator::FileError& error) {
+    demand(error.what()[0] != '\0', "an error says something");
+  }
+  return 0;
+}

@@ -1,0 +1,54 @@
+// What may be given to a SLIM as its program: anything. It is refused with its line, or the program that it
+// then has is one that it takes again; and it runs for a while.
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/world/snapshot.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kLongest = 4096;
+constexpr emulator::SimTime kRun = 100ms;
+
+struct Chain {
+  Chain()
+      : world(emulator::parse_bench("understudy: 1\n"
+                                    "lines: { serial: { timing: instant, stations: [ { name: t, model: slim, "
+                                    "modules: 3 } ] } }\n",
+                                    "bench.yaml", "/nonexistent"),
+              emulator::WorldOptions{}, {}),
+        as_made(save(world)) {}
+  emulator::World world;
+  emulator::WorldState as_made;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static Chain chain;
+  if (size > kLongest) return 0;
+  restore(chain.world, chain.as_made);
+  try {
+    chain.world.load_program(0, fuzzing::text_of(data, size));
+  } catch (const emulator::ProgramError& error) {
+    demand(error.what()[0] != '\0', "an error says something");
+    demand(save(chain.world) == chain.as_made, "a program that is refused changes nothing");
+    return 0;
+  }
+  const std::string text = chain.world.device(0).program_text();
+  chain.world.load_program(0, text);
+  demand(chain.world.device(0).program_text() == text, "a program that it has is one that it takes");
+  if (!fuzzing::is_checked_wholly({data, size})) return 0;
+  const std::string_view start = "G\r";
+  chain.world.line(0).line.receive({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()},
+                                   chain.world.now());
+  chain.world.advance_to(chain.world.now() + kRun);
+  return 0;
+}

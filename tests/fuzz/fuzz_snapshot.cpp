@@ -1,0 +1,102 @@
+// What may stand in a snapshot: anything. Text is refused or read; a state that has a right checksum but
+// wrong bytes is refused and changes nothing, or it is a state: saved again it is the same, and the world
+// goes on.
+//
+// An input that begins with '{' is the text of a snapshot. Otherwise it changes a state that a busy world has
+// given: groups of four bytes are a part, two bytes of a place in it, and the value that is put there.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "emulator/bench/bench_file.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/snapshot_file.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kLongest = 4096;
+
+/// Both models in motion, with a program each, on a machine with an end.
+struct Busy {
+  Busy() : bench(make_bench()), world(bench, emulator::WorldOptions{}, {}) {
+    world.advance_to(180ms);
+    state = save(world);
+    hash = emulator::bench_hash(bench);
+  }
+  static emulator::Bench make_bench() {
+    return emulator::parse_bench(
+        "understudy: 1\n"
+        "lines:\n"
+        "  rs485:\n"
+        "    stations:\n"
+        "      - name: a\n"
+        "        model: simple2-r3\n"
+        "        set: { Aaxis_SVON: 1, Aaxis_Pulse: 9000, Aaxis_Speed: 60, Aaxis_Move_INC: 1, "
+        "DIN2_Aaxis_UP_Limit: 1, PROG_MAIN_RunTime_START: 1 }\n"
+        "        program: |\n"
+        "          again: Out DOUT_5 ON\n"
+        "                 Delay_mSec 50\n"
+        "                 Jump again\n"
+        "  serial: { stations: [ { name: b, model: slim, modules: 2 } ] }\n"
+        "plant: { a.A: { travel: [-900, 900], limits: { upper: 800 }, encoder: { per_revolution: 4000 } } }\n"
+        "faults: [ { lost_steps: a.A, one_in: 50 } ]\n",
+        "bench.yaml", "/nonexistent");
+  }
+  emulator::Bench bench;
+  emulator::World world;
+  emulator::WorldState state;
+  std::uint64_t hash = 0;
+};
+
+Busy& busy() {
+  static Busy one;
+  return one;
+}
+
+void check_state(const emulator::WorldState& state) {
+  emulator::World& world = busy().world;
+  restore(world, busy().state);
+  try {
+    restore(world, state);
+  } catch (const emulator::StateError&) {
+    demand(save(world) == busy().state, "a state that is refused changes nothing");
+    return;
+  }
+  const emulator::WorldState taken = save(world);
+  restore(world, taken);
+  demand(save(world) == taken, "a state that was saved is taken back");
+  try {
+    world.advance_to(world.now() + 20ms);
+  } catch (const std::exception&) {
+    // A plausible state that no world comes to: told, and the world is not used any more.
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0 || size > kLongest) return 0;
+  if (data[0] == '{') {
+    try {
+      check_state(emulator::parse_snapshot(std::string(fuzzing::text_of(data, size)), busy().hash));
+    } catch (const emulator::SnapshotError& error) {
+      demand(error.what()[0] != '\0', "an error says something");
+    }
+    return 0;
+  }
+  emulator::WorldState state = busy().state;
+  for (std::span<const std::uint8_t> rest(data, size); rest.size() >= 4; rest = rest.subspan(4)) {
+    auto& bytes = state.parts[rest[0] % state.parts.size()].bytes;
+    if (bytes.empty()) continue;
+    const std::size_t place = (std::size_t{rest[1]} << 8 | rest[2]) % bytes.size();
+    bytes[place] = std::byte{rest[3]};
+  }
+  check_state(state);
+  return 0;
+}

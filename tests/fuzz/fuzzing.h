@@ -1,0 +1,38 @@
+// What the fuzz targets share: how they complain, and how they share out the time of a search.
+//
+// A search lives from many runs: worlds are made once and restored to what they were, and what costs a
+// multiple of a plain run (the same in single ticks, a second station) is done for every eighth input. A
+// corpus that is replayed has all of it done.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+#include <string_view>
+
+namespace understudy::fuzzing {
+
+inline void demand(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "violated: %s\n", what);
+  std::abort();
+}
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+/// Whether this input is one that everything is checked with. Depends on the input alone.
+inline bool is_checked_wholly([[maybe_unused]] std::span<const std::uint8_t> input) {
+#ifdef UNDERSTUDY_REPLAYS_CORPUS
+  return true;
+#else
+  std::uint32_t sum = 0;
+  for (const std::uint8_t byte : input) sum = sum * 31 + byte;
+  return (sum >> 3) % 8 == 0;
+#endif
+}
+
+}  // namespace understudy::fuzzing
