@@ -11,8 +11,19 @@ test_packages=(python3                                   # counts the results
                python3-pymodbus python3-serial-asyncio)  # a host, which only recommends the second and needs it
 heavy_host_packages=(libqt5serialbus5-dev)               # with UNDERSTUDY_HEAVY_HOSTS=1
 
-# install_missing PACKAGE...: says what is missing and installs that; silent when nothing is.
+# Whether packages can be installed here: by apt-get, as root.
+can_install() {
+  command -v apt-get >/dev/null && command -v dpkg-query >/dev/null || return 1
+  [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null
+}
+
+# install_missing PACKAGE...: says what is missing and installs that; silent when nothing is. Where that cannot be done
+# it lists what is needed, and what is there is used.
 install_missing() {
+  if ! can_install; then
+    echo "nothing can be installed here (no apt-get, or not root); needed, by Debian 12's names: $*"
+    return 0
+  fi
   local missing=() package
   for package in "$@"; do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")

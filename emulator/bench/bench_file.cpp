@@ -225,6 +225,15 @@ class BenchReader {
       }
     }
     if (fields.has("baud")) line.baud = static_cast<int>(fields.at("baud").integer(kBaudForm));
+    if (fields.has("baud_tolerance")) {
+      const YamlFields tolerance = fields.at("baud_tolerance");
+      const auto ppm = parse_baud_tolerance(tolerance.text());
+      if (!ppm) {
+        tolerance.fail(emulator::quoted(tolerance.text()) + " is not a share of the speed; " +
+                       std::string(kBaudToleranceExpected));
+      }
+      line.baud_tolerance_ppm = *ppm;
+    }
     if (fields.has("timing")) {
       const YamlFields timing = fields.at("timing");
       if (timing.text() != "wire" && timing.text() != "instant") {

@@ -2,6 +2,7 @@
 
 #include "emulator/bench/bench_file.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/yaml_files.h"
 #include "emulator/edge/nv_keeper.h"
 #include "emulator/one_line.h"
 #include "emulator/scenario/scenario_file.h"
@@ -50,7 +51,7 @@ std::string checked(const std::string& file, const std::string& save_below) {
 
 int check_files(const std::vector<std::string>& files, const std::string& save_below) {
   int code = kExitWell;
-  for (const std::string& file : files) {
+  for (const std::string& file : with_folders_opened(files)) {
     try {
       std::printf("%s: %s\n", file.c_str(), checked(file, save_below).c_str());
     } catch (const FileError& error) {

@@ -1,17 +1,18 @@
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cinttypes>
 #include <cstdio>
-#include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/command_line/run_recordings.h"
+#include "emulator/command_line/result_file.h"
+#include "emulator/command_line/run_files.h"
+#include "emulator/command_line/terminal.h"
+#include "emulator/command_line/yaml_files.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
 #include "emulator/one_line.h"
@@ -23,18 +24,36 @@
 #include "emulator/scenario/scenario_file.h"
 #include "emulator/scenario/shared_reading.h"
 #include "emulator/scenario/suite.h"
-#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
 namespace {
 
-/// All scenarios of all files; each file's first error is told. Nothing if there is one.
+/// The files that are played: of a folder its scenarios, and neither its benches nor steps to include.
+std::vector<std::string> files_of(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  std::vector<std::string> files = yaml_files_below(path);
+  std::erase_if(files, [](const std::string& file) { return kind_of_file(file) != FileKind::scenario; });
+  if (files.empty()) throw FileError(path + ": folder: has no scenario; expected at least one");
+  return files;
+}
+
+/// All scenarios of all files; what is wrong with each is told. Nothing if anything is.
 std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   std::vector<Scenario> scenarios;
+  std::vector<std::string> files;
   SharedReading shared;
   bool is_well = true;
-  for (const std::string& file : arguments.scenarios) {
+  for (const std::string& path : arguments.scenarios) {
+    try {
+      const auto more = files_of(path);
+      files.insert(files.end(), more.begin(), more.end());
+    } catch (const FileError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      is_well = false;
+    }
+  }
+  for (const std::string& file : files) {
     try {
       for (Scenario& scenario : load_scenarios(file, arguments.save_below, shared)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
@@ -66,6 +85,13 @@ std::vector<Scenario> choose_some(std::vector<Scenario> scenarios, const RunArgu
   return choose(std::move(scenarios), arguments.filter, shard);
 }
 
+RunFolders folders_of(const RunArguments& arguments) {
+  return {.recordings = arguments.record,
+          .traces = arguments.trace,
+          .captures = arguments.capture,
+          .trace_also = arguments.trace_also};
+}
+
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
 void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
                       const RunArguments& arguments) {
@@ -79,10 +105,14 @@ void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
   }
   demand_output(claims, "--junit", arguments.junit);
   demand_output(claims, "--report", arguments.report);
-  if (arguments.record.empty()) return;
-  if (const std::string why = claims.objection_to_folder(arguments.record, RunRecordings::file_endings());
-      !why.empty()) {
-    throw UsageError("--record: " + arguments.record + ": " + why);
+  demand_folders(claims, folders_of(arguments));
+  if (arguments.trace_also.empty()) return;
+  for (const Scenario& scenario : scenarios) {
+    try {
+      trace_signals(World(scenario.bench, {}, {}), arguments.trace_also);
+    } catch (const NameError& error) {
+      throw UsageError("--trace-also: " + scenario.file + ": " + error.what());
+    }
   }
 }
 
@@ -100,63 +130,9 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
-/// Opened before anything is played, so that a wrong path is told at once. What has no end, such as
-/// /dev/stdout, is written as well.
-class ResultFile {
- public:
-  /// Nothing is written if the path is empty.
-  ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
-    if (path_.empty()) return;
-    try {
-      if (!is_stream(path_)) {
-        file_.emplace(path_);
-        return;
-      }
-      stream_ = pty::Descriptor(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-    } catch (const pty::OutputError& error) {
-      refuse(error.what());
-    }
-    if (!stream_) refuse(errno == ENXIO ? "nobody reads the pipe" : std::strerror(errno));
-    ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
-  }
-  bool is_wanted() const { return !path_.empty(); }
-  /// What was there is gone: nobody takes it for the result of a run that breaks off.
-  void empty() {
-    if (file_) begin("");
-  }
-  void write(const std::string& text) {
-    if (file_) return begin(text);
-    for (std::string_view rest = text; !rest.empty();) {
-      const ssize_t size = ::write(stream_.get(), rest.data(), rest.size());
-      if (size < 0 && errno != EINTR) refuse(std::strerror(errno));
-      if (size > 0) rest.remove_prefix(static_cast<std::size_t>(size));
-    }
-  }
-
- private:
-  static bool is_stream(const std::string& path) {
-    struct stat status = {};
-    return ::stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
-  }
-  void begin(const std::string& text) {
-    try {
-      file_->begin(text);
-    } catch (const pty::OutputError& error) {
-      refuse(error.what());
-    }
-  }
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw GrowingFileError(flag_ + ": " + path_ + " cannot be written: " + why);
-  }
-  std::string flag_;
-  std::string path_;
-  std::optional<pty::OutputFile> file_;
-  pty::Descriptor stream_;
-};
-
 void print(const std::vector<ScenarioResult>& results, bool with_hash) {
   for (const ScenarioResult& result : results) {
-    std::printf("%s\n", verdict_line(result).c_str());
+    std::printf("%s\n", coloured_verdict(verdict_line(result), wants_colour(STDOUT_FILENO)).c_str());
     if (with_hash && result.verdict != ScenarioResult::Verdict::not_reached) {
       std::printf("hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
     }
@@ -180,7 +156,7 @@ int run_scenarios(const RunArguments& arguments) {
   demand_own_files(std::move(claims), scenarios, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
-  RunRecordings recordings(arguments.record, arguments.real_time, arguments.version);
+  RunFiles files(folders_of(arguments), arguments.real_time, arguments.version);
   junit.empty();
   report.empty();
   std::vector<ScenarioResult> all;
@@ -194,14 +170,17 @@ int run_scenarios(const RunArguments& arguments) {
   }
   const auto options_for = [&](const Scenario& scenario) {
     PlayOptions of_one = options;
-    of_one.onlookers.push_back([&](World& world) { return recordings.record(world, scenario); });
+    for (OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
     return of_one;
   };
-  play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
-    for (ScenarioResult& result : results) recordings.settle(result);
-    print(results, arguments.hash);
-    all.insert(all.end(), results.begin(), results.end());
-  });
+  {
+    ProgressLine progress(scenarios.size());
+    play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
+      for (ScenarioResult& result : results) files.settle(result);
+      progress.one_done([&] { print(results, arguments.hash); });
+      all.insert(all.end(), results.begin(), results.end());
+    });
+  }
   std::printf("%s\n", summary_line(all).c_str());
   for (const ScenarioResult& result : all) {
     for (const std::string& finding : result.manners) {

@@ -12,6 +12,7 @@
 
 #include "emulator/bench/bench_text.h"
 #include "emulator/control/messages.h"
+#include "emulator/control/sockets.h"
 #include "emulator/one_line.h"
 #include "emulator/world/snapshot_file.h"
 
@@ -28,6 +29,9 @@ constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
 // What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
+
+// For whoever looks: some seconds of a busy line.
+constexpr std::size_t kFramesKept = 1024;
 
 // In simulated time, which may run fast beside the host's.
 SimTime patience_at(const Speed& speed) {
@@ -46,6 +50,8 @@ WorldOptions world_options(const DaemonOptions& options) {
 Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log)
     : log_(std::move(log)),
       world_(bench, world_options(options), log_),
+      frames_(world_, kFramesKept),
+      bench_path_(options.bench_path),
       bench_hash_(emulator::bench_hash(bench)),
       files_(options.files),
       pacer_(options.speed, wall_now()) {
@@ -60,13 +66,13 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
 }
 
 Daemon::~Daemon() {
+  helper_.reset();
   control_.reset();
   ports_.clear();
   memories_.reset();
   trace_.reset();
-  trace_file_.reset();
   recording_.reset();
-  finish_capture();
+  capture_.reset();
   if (signals_ >= 0) close(signals_);
   if (posted_signal_ >= 0) close(posted_signal_);
 }
@@ -74,7 +80,7 @@ Daemon::~Daemon() {
 void Daemon::open_control(const std::string& asked_path) {
   const bool asked_for = !asked_path.empty();
   try {
-    const std::string path = asked_for ? asked_path : default_control_path();
+    const std::string path = asked_for ? asked_path : own_control_path();
     control_ = std::make_unique<ControlServer>(
         loop_, path, [this](const std::string& line, const ControlServer::Reply& reply) {
           handle_message(*this, line, reply);
@@ -112,6 +118,10 @@ bool Daemon::post(std::function<void()> act) {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t put = write(posted_signal_, &one, sizeof one);
   return true;
+}
+
+void Daemon::do_aside(std::function<std::function<void()>()> work) {
+  helper_->give([this, work = std::move(work)] { post(work()); });
 }
 
 bool Daemon::is_over() {
@@ -161,17 +171,17 @@ void Daemon::claim_own_places() {
 
 /// All are open before any is emptied.
 void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
-  const auto open = [&](const std::string& path, const char* what) {
-    return path.empty() ? nullptr : std::make_unique<GrowingFile>(path, what, log_);
-  };
   if (!options.capture_path.empty()) {
-    capture_ = std::make_unique<pty::CaptureFile>(options.capture_path, log_);
+    capture_ = std::make_unique<WorldCapture>(world_, options.capture_path, log_);
   }
-  std::unique_ptr<GrowingFile> recording = open(options.record_path, "the recording");
-  trace_file_ = open(options.trace_path, "the trace");
-  std::vector<TraceSignal> signals;
-  if (trace_file_) signals = trace_signals(world_, options.trace_also);
-  if (capture_) start_capture();
+  std::unique_ptr<GrowingFile> recording;
+  if (!options.record_path.empty()) {
+    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  }
+  if (!options.trace_path.empty()) {
+    trace_ = std::make_unique<TraceFile>(world_, options.trace_path, options.trace_also, log_);
+  }
+  if (capture_) capture_->begin();
   if (recording) {
     const RecordingHeader header{.version = options.version,
                                  .bench = to_text(bench),
@@ -181,33 +191,7 @@ void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
     recording_ = std::make_unique<RecordingSpool>(world_, header, std::move(recording),
                                                   options.record_cap_bytes, log_);
   }
-  if (trace_file_) start_trace(std::move(signals), options.trace_path.ends_with(".vcd"));
-}
-
-void Daemon::start_capture() {
-  std::vector<pty::CapturedLine> lines;
-  for (const auto& port : ports_) {
-    const pty::Line& line = world_.line(port->line_number()).line;
-    lines.push_back({line.name(), line.options().settings.baud});
-  }
-  capture_->begin(std::move(lines));
-  for (std::size_t i = 0; i < ports_.size(); ++i) {
-    World::OneLine& line = world_.line(ports_[i]->line_number());
-    captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); },
-        line.protocol == Protocol::text));
-    line.line.add_observer(*captured_lines_.back());
-  }
-}
-
-void Daemon::start_trace(std::vector<TraceSignal> signals, bool is_vcd) {
-  const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
-  trace_ = std::make_unique<Trace>(world_, std::move(signals), is_vcd ? vcd_format(take) : csv_format(take));
-}
-
-void Daemon::finish_capture() {
-  for (const auto& line : captured_lines_) line->finish();
-  if (capture_) capture_->finish();
+  if (trace_) trace_->begin();
 }
 
 void Daemon::catch_up() { catch_up(kWorkSlice); }
@@ -313,6 +297,7 @@ std::string_view Daemon::why_no_restore() const {
 
 void Daemon::restore(const WorldState& state) {
   emulator::restore(world_, state);
+  frames_.begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());
@@ -336,6 +321,9 @@ void Daemon::wait() {
     if (look && (!wake || *look < *wake)) wake = look;
   }
   if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  if (control_) {
+    if (const auto look = control_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  }
   loop_.wait(wake);
 }
 
@@ -359,6 +347,7 @@ void Daemon::run() {
       port->flush();
     }
     memories_->look(now);
+    if (control_) control_->look(now);
     if (recording_) recording_->look();
   }
   // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something

@@ -3,6 +3,7 @@
 
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
+#include "emulator/scenario/requests.h"
 #include "emulator/scenario/step_forms.h"
 #include "emulator/scenario/step_readers.h"
 #include "emulator/scenario/steps_reader.h"
@@ -12,12 +13,36 @@ namespace understudy::emulator {
 
 namespace {
 
-std::optional<int> read_exception(const YamlFields& step) {
-  if (!step.has("exception")) return std::nullopt;
-  return static_cast<int>(step.at("exception").integer(kExceptionForm));
+/// A time to wait for something.
+SimTime read_within(const YamlFields& field) {
+  const SimTime within = field.duration();
+  if (within <= SimTime{0}) field.fail("is no time at all; expected some");
+  return within;
 }
 
-/// "write feeder.A=1, feeder.B=2", and "(exception 3)" behind it.
+Answer read_answer(const YamlFields& step) {
+  Answer answer;
+  if (step.has("exception")) {
+    answer.exception = static_cast<int>(step.at("exception").integer(kExceptionForm));
+  }
+  if (step.has("reply")) {
+    const YamlFields reply = step.at("reply");
+    if (reply.text() != kNothing.front()) {
+      reply.fail(quoted(reply.text()) +
+                 " is unknown; expected nothing (what is read is compared without `reply`)");
+    }
+    if (answer.exception) reply.fail("an exception is a reply; expected one of both");
+    answer.silence = SendStep{}.within;
+  }
+  if (step.has("within")) {
+    const YamlFields within = step.at("within");
+    if (!answer.silence) within.fail("is for `reply: nothing` only; expected that beside it");
+    answer.silence = read_within(within);
+  }
+  return answer;
+}
+
+/// "write feeder.A=1, feeder.B=2", and "(exception 3)" or "(no reply)" behind it.
 struct Sentence {
   std::string text;
   bool is_first = true;
@@ -25,8 +50,9 @@ struct Sentence {
     text += (is_first ? " " : ", ") + part;
     is_first = false;
   }
-  std::string finished(std::optional<int> exception) const {
-    return exception ? text + " (exception " + std::to_string(*exception) + ")" : text;
+  std::string finished(const Answer& answer) const {
+    if (answer.silence) return text + " (no reply)";
+    return answer.exception ? text + " (exception " + std::to_string(*answer.exception) + ")" : text;
   }
 };
 
@@ -72,7 +98,7 @@ std::vector<std::uint8_t> read_bytes(const YamlFields& field) {
 
 void read_write(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
   WriteStep write;
-  write.exception = read_exception(step);
+  write.answer = read_answer(step);
   Sentence sentence{"write"};
   for (const auto& [name, field] : demand_registers(value)) {
     Target target = reader.trial().target(field, name);
@@ -80,26 +106,33 @@ void read_write(StepsReader& reader, const YamlFields& step, const YamlFields& v
       field.fail(name +
                  " is no register, and is not written over the line so; expected `send: { text: ... }`");
     }
-    std::string what = reader.trial().value_to_write(field, target, write.exception.has_value());
+    if (write.answer.silence && is_bit(target)) {
+      field.fail(
+          "a bit's register is read before it is written; expected whole registers with `reply: nothing`");
+    }
+    std::string what = reader.trial().value_to_write(field, target, write.answer.exception.has_value());
     sentence.add(name + "=" + on_one_line(what));
     write.entries.push_back({.target = std::move(target), .value = std::move(what)});
   }
-  const std::string text = sentence.finished(write.exception);
+  const std::string text = sentence.finished(write.answer);
   reader.add(step, text, std::move(write));
 }
 
 void read_expect(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
   ExpectStep expect;
-  expect.exception = read_exception(step);
+  expect.answer = read_answer(step);
   Sentence sentence{"expect"};
   for (const auto& [name, field] : demand_registers(value)) {
     Target target = reader.trial().target(field, name);
-    if (target.is_value && expect.exception) field.fail(name + " is no register; expected no exception");
+    if (target.is_value && expect.answer.exception)
+      field.fail(name + " is no register; expected no exception");
+    if (target.is_value && expect.answer.silence)
+      field.fail(name + " is no register, and is looked at past the line; expected no `reply`");
     Tolerance wanted = reader.trial().value_to_expect(field, target);
     sentence.add(name + ": " + wanted.text);
     expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});
   }
-  const std::string text = sentence.finished(expect.exception);
+  const std::string text = sentence.finished(expect.answer);
   reader.add(step, text, std::move(expect));
 }
 
@@ -116,8 +149,7 @@ void read_send(StepsReader& reader, const YamlFields& step, const YamlFields& va
     send.reply = is_nothing ? std::vector<std::uint8_t>() : read_bytes(reply);
     text += ", reply " + on_one_line(reply.text());
   }
-  if (value.has("within")) send.within = value.at("within").duration();
-  if (send.within <= SimTime{0}) value.at("within").fail("is no time at all; expected some");
+  if (value.has("within")) send.within = read_within(value.at("within"));
   reader.add(step, text, std::move(send));
 }
 

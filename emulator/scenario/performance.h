@@ -92,8 +92,10 @@ class Performance {
   void perform(const TextStep& step);  // performance_text.cpp
   /// The words of each target, one after the other.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
-                                                         std::optional<int> exception);
-  void demand(const HostReply& reply, std::optional<int> exception, const std::string& request);
+                                                         const Answer& answer);
+  void demand(const HostReply& reply, const Answer& answer, const std::string& what);
+  void demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
+                      const std::string& what);
   std::vector<Words> words_of_all(const std::vector<Target>& targets, std::vector<bool>& low_word_first);
 
   // performance_time.cpp: what passes time, or looks at every tick

@@ -2,13 +2,12 @@
 #include <cmath>
 
 #include "emulator/scenario/frame_text.h"
+#include "emulator/scenario/modbus_host.h"
 #include "emulator/scenario/performance.h"
 
 namespace understudy::emulator {
 
 namespace {
-
-bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
 
 Value demand_whole(const std::string& name, Number number) {
   if (number.is_whole()) return number.whole();
@@ -48,13 +47,25 @@ std::string bytes_text(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-void Performance::demand(const HostReply& reply, std::optional<int> exception, const std::string& request) {
+void Performance::demand(const HostReply& reply, const Answer& answer, const std::string& what) {
+  const auto& exception = answer.exception;
   const bool is_good = exception ? reply.kind == HostReply::Kind::exception && reply.exception == *exception
-                                 : reply.kind == HostReply::Kind::good;
+                       : answer.silence ? reply.kind == HostReply::Kind::silence
+                                        : reply.kind == HostReply::Kind::good;
   if (is_good) return;
-  const std::string expected = exception ? "exception " + exception_text(*exception) : "it done";
-  throw StepError(request + ": " + to_text(reply) + "; expected " + expected, request + ": " + expected,
-                  request + ": " + to_text(reply));
+  const std::string expected = exception        ? "exception " + exception_text(*exception)
+                               : answer.silence ? "no reply"
+                                                : "it done";
+  throw StepError(what + ": " + to_text(reply) + "; expected " + expected, what + ": " + expected,
+                  what + ": " + to_text(reply));
+}
+
+/// A host that gives up after `within`, whatever comes.
+void Performance::demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
+                                 const std::string& what) {
+  moment_in(within);  // there is such a moment
+  const auto reply = stage_->exchange(place.line, request, SIZE_MAX, within);
+  demand(judge_reply(request, reply), {.silence = within}, what);
 }
 
 std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
@@ -73,16 +84,22 @@ std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
 }
 
 std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::vector<Target>& targets,
-                                                                    std::optional<int> exception) {
+                                                                    const Answer& answer) {
   std::vector<bool> low_word_first;
   const std::vector<Words> words = words_of_all(targets, low_word_first);
   std::vector<std::vector<std::uint16_t>> read(targets.size());
   for (const Request& request : read_requests(words)) {
     const Place& place = places_[request.words.device];
+    const std::string what = "read " + names_of(targets, request);
+    if (answer.silence) {
+      demand_silence(place, read_request(place.station, request.words.first, request.words.count),
+                     *answer.silence, what);
+      continue;
+    }
     const HostReply reply =
         stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
-    demand(reply, exception, "read " + names_of(targets, request));
-    if (exception) continue;
+    demand(reply, answer, what);
+    if (answer.exception) continue;
     for (const std::size_t entry : request.entries) {
       const auto first = reply.words.begin() + (words[entry].first - request.words.first);
       read[entry].assign(first, first + words[entry].count);
@@ -112,14 +129,19 @@ void Performance::perform(const WriteStep& step) {
       if (is_bit(targets[entry])) {
         const HostReply reply =
             stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
-        demand(reply, std::nullopt, "read " + targets[entry].name + " to write it");
+        demand(reply, {}, "read " + targets[entry].name + " to write it");
         present = reply.words;
       }
       const auto part = words_with(targets[entry], values[entry], low_word_first[entry], present);
       brought.insert(brought.end(), part.begin(), part.end());
     }
-    demand(stage_->write_registers(place.line, place.station, request.words.first, brought), step.exception,
-           what);
+    if (step.answer.silence) {
+      demand_silence(place, write_request(place.station, request.words.first, brought), *step.answer.silence,
+                     what);
+    } else {
+      demand(stage_->write_registers(place.line, place.station, request.words.first, brought), step.answer,
+             what);
+    }
   }
 }
 
@@ -130,8 +152,8 @@ void Performance::perform(const ExpectStep& step) {
   }
   std::vector<bool> low_word_first;
   words_of_all(targets, low_word_first);
-  const auto words = read_over_line(targets, step.exception);
-  if (step.exception) return;
+  const auto words = read_over_line(targets, step.answer);
+  if (!step.answer.is_good()) return;
   std::vector<std::string> expected;
   std::vector<std::string> came;
   std::vector<std::string> details;

@@ -20,6 +20,9 @@ struct Words {
   int end() const { return first + count; }
 };
 
+/// Whether one bit of a register is meant: its others are read before it is written.
+inline bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
+
 /// Where a target lies. `low_word_first`: as its device has it at this moment. A bit lies where its register
 /// does.
 Words words_of(const Target& target, bool low_word_first);

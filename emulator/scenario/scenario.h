@@ -30,25 +30,33 @@ struct Target {
   bool is_value = false;      // of a device without registers: looked at past the line
 };
 
+/// What a device is to answer to each request of a step: that it is done, an exception, or nothing.
+struct Answer {
+  std::optional<int> exception{};
+  std::optional<SimTime> silence{};  // nothing may come for so long
+  bool is_good() const { return !exception && !silence; }
+};
+
 /// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, and exception: 3 beside it where the
-/// device is to refuse. Over the line, in this order; ascending neighbours share a request.
+/// device is to refuse, or reply: nothing where no answer may come. Over the line, in this order; ascending
+/// neighbours share a request.
 struct WriteStep {
   struct Entry {
     Target target;
     std::string value;  // an expression, evaluated when the step is played
   };
   std::vector<Entry> entries;
-  std::optional<int> exception;
+  Answer answer{};
 };
 
-/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception: as with write.
+/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception, reply: as with write.
 struct ExpectStep {
   struct Entry {
     Target target;
     Tolerance value;
   };
   std::vector<Entry> entries;
-  std::optional<int> exception;
+  Answer answer{};
 };
 
 /// wait: { until: EXPRESSION, within: 4s, takes: 3050ms +- 2ms, poll: 20ms }

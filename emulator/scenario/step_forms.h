@@ -9,8 +9,12 @@
 namespace understudy::emulator {
 
 inline constexpr Form kExceptionForm = integer_form(1, 255);
-inline constexpr std::array kExceptionKeys{
-    KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm}};
+inline constexpr std::array<std::string_view, 1> kNothing{"nothing"};
+inline constexpr Form kNothingForm = words_form(kNothing);
+inline constexpr std::array kAnswerKeys{
+    KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm},
+    KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
+    KeyRow{"within", "For how long none may come (500ms).", &kDuration}};
 
 inline constexpr std::array kWaitKeys{
     KeyRow{"until", "The condition, looked at in every tick without the line.", &kText, true},

@@ -10,10 +10,10 @@ std::span<const StepRow> step_rows() {
       // Over the line.
       StepRow{{"write", "Writes registers over the line, in this order.", &kTextByName},
               read_write,
-              kExceptionKeys},
+              kAnswerKeys},
       StepRow{{"expect", "Reads registers over the line and compares.", &kTextByName},
               read_expect,
-              kExceptionKeys},
+              kAnswerKeys},
       StepRow{{"send", "Sends bytes as they are, or a line of text, and compares the reply.", &kSendForm},
               read_send},
       StepRow{{"hear", "Hears lines that a device says unasked.", &kHearForm}, read_hear},

@@ -48,7 +48,8 @@ World::World(const Bench& bench, const WorldOptions& options,
   for (const LineSetup& setup : bench.lines) {
     pty::LineOptions line_options{.settings = devices_[setup.stations.front()]->line_settings(),
                                   .timing = setup.timing,
-                                  .enforce_settings = options.enforce_settings};
+                                  .enforce_settings = options.enforce_settings,
+                                  .baud_tolerance_ppm = setup.baud_tolerance_ppm};
     lines_.push_back(std::make_unique<OneLine>(OneLine{pty::Line(setup.name, line_options, log), {}, {}}));
     OneLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {

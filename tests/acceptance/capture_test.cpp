@@ -253,5 +253,34 @@ TEST(Tshark, DecodesTheCaptureAsModbusRtu) {
   EXPECT_TRUE(decoded[8].ends_with("|dropped: bad CRC")) << decoded[8];
 }
 
+TEST(Capture, TellsWhatFaultsDid) {
+  for (const std::string name : {"a.txt", "a.pcapng"}) {
+    Capturing capturing(name);
+    for (const Words& fault :
+         {Words{"inject", "drop", "device", "nth=1"}, Words{"inject", "corrupt_checksum", "device", "nth=1"},
+          Words{"inject", "drop", "device", "of=request", "function=6"}}) {
+      EXPECT_EQ(capturing.daemon().ctl(fault).exit_code, 0);
+    }
+    capturing.send_in_vain(kReadHardwareCode);
+    capturing.exchange(kReadHardwareCode, hex("01 03 02 C0 01 29 7B"));
+    capturing.send_in_vain(kSetSpeed200);
+    const std::string status = capturing.daemon().ctl({"status"}).output;
+    EXPECT_NE(status.find("\nfault 1 drop device nth=1: seen 2, matched 2, hit 1\n"), std::string::npos)
+        << status;
+    const std::string file = capturing.stop();
+    for (const char* comment : {"fault 1 drop: not said", "fault 2 corrupt_checksum: last byte inverted",
+                                "fault 3 drop: not heard"}) {
+      EXPECT_NE(file.find(comment), std::string::npos) << name << ": " << comment;
+    }
+    if (name == "a.txt") continue;
+    const PcapngFile capture = read_pcapng(file);
+    ASSERT_EQ(capture.packets.size(), 6U);
+    EXPECT_EQ(capture.packets[1].bytes, Bytes{});
+    EXPECT_EQ(capture.packets[1].flags, kOutbound);
+    EXPECT_EQ(capture.packets[5].bytes, Bytes{});
+    EXPECT_EQ(capture.packets[5].flags, kInbound);
+  }
+}
+
 }  // namespace
 }  // namespace understudy::acceptance

@@ -83,6 +83,14 @@ TEST_F(Installation, BringsBenchesThatAreValidAndPagesThatReadmeLinksTo) {
   EXPECT_TRUE(fs::exists(documentation + "copyright"));
 }
 
+TEST_F(Installation, BringsCompletionForShells) {
+  for (const auto* const file :
+       {"bash-completion/completions/understudy", "zsh/vendor-completions/_understudy",
+        "fish/vendor_completions.d/understudy.fish"}) {
+    EXPECT_NE(contents(prefix() + "/share/" + file).find("frames"), std::string::npos) << file;
+  }
+}
+
 TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
   std::string text = run({"zcat", page()}).output;
   for (const auto& [roff, plain] : {std::pair<const char*, const char*>{"\\\\-", "-"},
@@ -178,6 +186,38 @@ lines:
   EXPECT_EQ(ModbusHost(port).read(kHardwareCode), Registers{0xC001});
 }
 
+/// With nothing on PATH but these programs.
+Finished with_programs(const Words& programs, const std::string& script) {
+  const PrivateFolder folder;
+  for (const std::string& program : programs) {
+    std::string path = run({"which", program}).output;
+    path.pop_back();
+    fs::create_symlink(path, folder / program);
+  }
+  return run({"bash", "-uec",
+              "PATH=" + folder.path() + "; . " PROJECT_FOLDER "/packaging/debian_packages.sh; " + script});
+}
+
+TEST(DebianPackages, AreListedWhereTheyCannotBeInstalled) {
+  const Finished listed = with_programs({"id"}, "install_missing g++ no-such-package; echo on we go");
+  EXPECT_EQ(listed.exit_code, 0) << listed.errors;
+  EXPECT_EQ(listed.output,
+            "nothing can be installed here (no apt-get, or not root); needed, by Debian 12's names: g++ "
+            "no-such-package\non we go\n");
+  EXPECT_EQ(listed.errors, "");
+}
+
+TEST(DebianPackages, OfTheBuildAreNamedOnThePage) {
+  const Finished packages =
+      run({"bash", "-uec",
+           ". " PROJECT_FOLDER "/packaging/debian_packages.sh; printf '%s\n' ${build_packages[@]}"});
+  const std::string page = contents(PROJECT_FOLDER "/docs/install.md");
+  ASSERT_GT(lines_of(packages.output).size(), 5U);
+  for (const std::string& package : lines_of(packages.output)) {
+    EXPECT_NE(page.find(" " + package), std::string::npos) << package;
+  }
+}
+
 TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   if (!is_here("dpkg-shlibdeps") || !is_here("file")) GTEST_SKIP() << "dpkg-dev and file are not installed";
   const PrivateFolder folder;
@@ -193,6 +233,17 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
   for (const char* library : {"libc6", "libstdc++6", "libmodbus5", "libyaml-cpp", "libspdlog"})
     EXPECT_NE(needed.find(library), std::string::npos) << needed;
   EXPECT_EQ(run({"dpkg-deb", "-f", package, "Package"}).output, "understudy\n");
+  // The pages name them all, where the package was made for the Debian that they tell of.
+  if (needed.find("libyaml-cpp0.7") != std::string::npos) {
+    const std::regex name("([a-z][-a-z0-9.+]*) \\(");
+    for (std::sregex_iterator it(needed.begin(), needed.end(), name), end; it != end; ++it) {
+      for (const char* page : {"/docs/ci.md", "/docs/install.md"}) {
+        EXPECT_NE(contents(PROJECT_FOLDER + std::string(page)).find("`" + (*it)[1].str() + "`"),
+                  std::string::npos)
+            << page << " " << (*it)[1];
+      }
+    }
+  }
 
   ASSERT_EQ(run({"dpkg-deb", "-x", package, folder / "root"}).exit_code, 0);
   EXPECT_EQ(run({folder / "root/usr/bin/understudy", "models"}).output, understudy({"models"}).output);

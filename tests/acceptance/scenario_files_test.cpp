@@ -39,8 +39,43 @@ TEST(ScenarioFiles, ABadOneIsToldOfWithItsLine) {
   EXPECT_EQ(finished.exit_code, 2);
   EXPECT_EQ(finished.output, "");
   EXPECT_EQ(finished.errors, path +
-                                 ":5: steps[0].write.feeder.Aaxis_Sped: feeder: no register is called "
+                                 ":5:33: steps[0].write.feeder.Aaxis_Sped: feeder: no register is called "
                                  "'Aaxis_Sped'; the nearest is 'Aaxis_Speed'  (speed=100)\n");
+}
+
+TEST(ScenarioFiles, OfAFolderAreAllPlayed) {
+  const PrivateFolder folder;
+  for (const char* below : {"tests", "tests/benches", "tests/more", "tests/.git"}) {
+    std::filesystem::create_directory(folder / below);
+  }
+  const std::string stations = "{ a: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n";
+  folder.write("tests/bench.yaml", "understudy: 1\nlines: " + stations);
+  folder.write("tests/benches/other.yml", "understudy: 1\nlines: " + stations);
+  folder.write("tests/rest.yaml", kRest);
+  folder.write("tests/notes.txt", "nothing for us\n");
+  folder.write("tests/.git/torn.yaml", "[");
+  folder.write("tests/b.yaml", "understudy: 1\nbench: bench.yaml\nsteps: [ include: rest.yaml ]\n");
+  folder.write("tests/more/a.yml", "understudy: 1\nbench: ../bench.yaml\nsteps: [ advance: 1ms ]\n");
+  const Finished played = understudy({"run", folder / "tests"});
+  EXPECT_EQ(played.exit_code, 0) << played.errors;
+  const auto lines = lines_of(played.output);
+  ASSERT_EQ(lines.size(), 3U) << played.output;
+  EXPECT_EQ(lines[0].find("ok    " + (folder / "tests/b.yaml") + ": b ("), 0U) << lines[0];
+  EXPECT_EQ(lines[1].find("ok    " + (folder / "tests/more/a.yml") + ": a ("), 0U) << lines[1];
+  const Finished checked = understudy({"check", folder / "tests"});
+  EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  EXPECT_EQ(lines_of(checked.output).size(), 5U) << checked.output;
+
+  const Finished none = understudy({"run", folder / "tests/benches"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.errors, (folder / "tests/benches") + ": folder: has no scenario; expected at least one\n");
+  std::filesystem::create_directory(folder / "empty");
+  EXPECT_EQ(understudy({"run", folder / "empty"}).errors,
+            (folder / "empty") + ": folder: has no .yaml file; expected at least one\n");
+  folder.write("tests/torn.yaml", "a: [");
+  const Finished torn = understudy({"run", folder / "tests"});
+  EXPECT_EQ(torn.exit_code, 2);
+  EXPECT_EQ(torn.errors.find((folder / "tests/torn.yaml") + ":1:1: file: is not YAML: "), 0U) << torn.errors;
 }
 
 TEST(ScenarioFiles, TheirSchemaIsPrinted) {

@@ -95,7 +95,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
   };
   const auto real = [&](double value) {
     answer.number = value;
-    if (answer.has_words) answer.text = text_of_real(value);
+    if (answer.has_words) answer.text = text_of_real(value, real_form());
     return Error::none;
   };
   const auto words = [&](std::string text) {
@@ -125,13 +125,17 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
       const unsigned bits = status_bits(module);
       return chose(kStatusInHexadecimal) ? shown_as(hexadecimal(bits), bits) : whole(bits);
     }
-    case Verb::query_version: return words(version_text(firmware()));
+    case Verb::query_version:
+      return chose(kVersionIsNumber) ? whole(firmware()) : words(version_text(firmware()));
     case Verb::query_variable: {
       const lang::Operand& variable = command.operands.front();
       answer.name = lang::text_of(variable);
       return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
     }
-    case Verb::query_coordinate: return real(state_.chain.coordinate(module));
+    case Verb::query_coordinate: {
+      const double units = state_.chain.coordinate(module);
+      return chose(kCoordinateOf32Bits) ? real(units) : shown_as(text_of_coordinate(units), units);
+    }
     case Verb::query_mode: {
       const Mode mode = state_.chain.status(module).mode;
       const auto code = static_cast<double>(mode);
@@ -143,7 +147,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
       const Tick seconds = (now() - state_.powered_at) / 1000;
       return chose(kTimeInSeconds) ? whole(static_cast<double>(seconds)) : words(time_text(seconds));
     }
-    case Verb::query_motor_version: return words("1");
+    case Verb::query_motor_version: return whole(chosen_number(kMotorVersion));
     // Not modelled; kGaps says so.
     case Verb::query_voltage: return electrical(chosen_number(kVoltage));
     case Verb::query_temperature: return electrical(chosen_number(kTemperature));
@@ -155,9 +159,13 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     default: break;
   }
   if (command.name == "TM") return whole(static_cast<double>(clock_s()));
-  const auto found = find_parameter(command.name, memory_form().speed_names);
+  const auto found = find_parameter(meant(command.name), memory_form().speed_names);
   if (!found || (kParameters[*found].host_only && module != 0)) return Error::syntax;
   const double held = state_.ram.parameters[static_cast<std::size_t>(module)][*found];
+  const Chain& chain = state_.chain;
+  if (*found == parameter("VM") && chain.analog_speed(module) && chose(kShownSpeedIsAnalog)) {
+    return real(held * chain.analog(module) / kFullAnalog);
+  }
   return kParameters[*found].type == ParameterDefinition::Type::integer ? whole(held) : real(held);
 }
 

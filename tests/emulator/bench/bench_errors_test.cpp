@@ -82,7 +82,7 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {"understudy: 1\nlines: {}\nlines: {}\n", "3: lines: is given twice; expected it once"},
       {"understudy: 1\nunderstudy: 1\n", "2: understudy: is given twice; expected it once"},
       {with_line("speed: 1"),
-       "3: lines.a.speed: is no key here; expected one of link, baud, timing, stations"},
+       "3: lines.a.speed: is no key here; expected one of link, baud, baud_tolerance, timing, stations"},
       {with("adress: 2"),
        "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, "
        "modules, set, "
@@ -122,6 +122,8 @@ TEST(BenchErrors, Lines) {
        "3: lines.a.baud: '0' is not possible; expected a whole number from 1 to 4000000"},
       {with_line("baud: 9600, " + kStation),
        "3: lines.a.stations[0]: baud: 9600 is no speed of simple2-r3; expected one of 19200, 115200"},
+      {with_line("baud_tolerance: 11%"),
+       "3: lines.a.baud_tolerance: '11%' is not a share of the speed; expected 0% to 10%, as in 2%"},
       {with_line("timing: fast"), "3: lines.a.timing: 'fast' is no timing; expected wire or instant"},
       {with_line("link: ''"), "3: lines.a.link: is empty; expected a path"},
       {with_line("link: \"a\\nb\""), "3: lines.a.link: has a control character; expected a path without"},

@@ -152,6 +152,30 @@ TEST(RunnerOverTheLine, ExceptionsAreExpectedOrTold) {
   EXPECT_EQ(failure.what, "read feeder.0x0999: exception 2 (illegal data address); expected it done");
 }
 
+TEST(RunnerOverTheLine, AnAnswerMayBeExpectedNotToCome) {
+  // Each of the requests of a step: the two registers are no neighbours.
+  passing(
+      "  - inject: { drop: feeder, times: 4 }\n"
+      "  - { write: { feeder.Aaxis_Speed: 200, feeder.Aaxis_Pulse: 5 }, reply: nothing }\n"
+      "  - assert: time >= 1s\n"
+      "  - { expect: { feeder.Aaxis_Speed: 1 }, reply: nothing, within: 20ms }\n"
+      "  - assert: time < 1100ms\n"
+      "  - { write: { feeder.Aaxis_SVON: 1 }, reply: nothing, within: 20ms }\n"
+      "  - expect: { feeder.Aaxis_Speed: 200, feeder.Aaxis_Pulse: 5, feeder.Aaxis_SVON: 1 }\n");
+  passing(
+      "  - power: { feeder: off }\n"
+      "  - { expect: { feeder.HW_Code: 0 }, reply: nothing, within: 50ms }\n");
+  Failure failure = failing("  - { write: { feeder.Aaxis_Speed: 200 }, reply: nothing }\n");
+  EXPECT_EQ(failure.what, "write feeder.Aaxis_Speed: done; expected no reply");
+  EXPECT_EQ(failure.expected, "write feeder.Aaxis_Speed: no reply");
+  failure = failing(
+      "  - inject: { exception: feeder, code: 4 }\n"
+      "  - { write: { feeder.Aaxis_Speed: 1 }, reply: nothing }\n");
+  EXPECT_EQ(failure.what, "write feeder.Aaxis_Speed: exception 4 (device failure); expected no reply");
+  failure = failing("  - { expect: { feeder.Aaxis_Speed: 0 }, reply: nothing }\n");
+  EXPECT_EQ(failure.what, "read feeder.Aaxis_Speed: done; expected no reply");
+}
+
 TEST(RunnerOverTheLine, AnUnexpectedValueIsToldWithWhatWentBefore) {
   const Failure failure = failing(
       "  - write: { feeder.Aaxis_Pulse: -5, feeder.Aaxis_Speed: 200 }\n"
@@ -223,6 +247,19 @@ TEST(RunnerOverTheLine, TheGapKeepsRequestsApart) {
   // Twice 9,916,666, and t3.5 between.
   EXPECT_EQ(end_of(""), SimTime{2 * 9'916'666 + 2'005'209});
   EXPECT_EQ(end_of("gap: 15ms\n"), SimTime{2 * 9'916'666 + 2'005'209 + 15'000'000});
+}
+
+TEST(RunnerLine, AFailureTellsWhatFaultsDid) {
+  const Failure failure = failing(
+      "  - inject: { drop: feeder, function: 3, nth: 1 }\n"
+      "  - inject: { stall: feeder.A }\n"
+      "  - send: { bytes: 01 03 00 01 00 01 +crc, reply: 01 03 02 C0 01 +crc, within: 20ms }\n");
+  ASSERT_EQ(failure.frames.size(), 2U);
+  EXPECT_NE(failure.frames[0].find("-> read 0x0001 feeder.HW_Code"), std::string::npos) << failure.frames[0];
+  EXPECT_TRUE(failure.frames[1].ends_with("rs485 <- (fault 1 drop: not said)")) << failure.frames[1];
+  ASSERT_GE(failure.state.size(), 2U);
+  EXPECT_EQ(failure.state.rbegin()[1], "fault 1 drop feeder function=3 nth=1: hit 1 of 1 that matched");
+  EXPECT_EQ(failure.state.back(), "fault 2 stall feeder.A: in force");
 }
 
 }  // namespace

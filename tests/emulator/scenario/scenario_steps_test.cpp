@@ -35,7 +35,7 @@ TEST_F(ScenarioSteps, WriteKeepsTheOrderWritten) {
   EXPECT_EQ(write.entries[1].target.device, 0U);
   ASSERT_TRUE(write.entries[1].target.place);
   EXPECT_EQ(write.entries[1].target.place->place.address(), 0x1014);  // Aaxis_SVON
-  EXPECT_EQ(write.exception, std::nullopt);
+  EXPECT_EQ(write.answer.exception, std::nullopt);
 }
 
 TEST_F(ScenarioSteps, TargetsAreNamesHalvesBitsAndNumbers) {
@@ -69,8 +69,8 @@ TEST_F(ScenarioSteps, TargetsAreNamesHalvesBitsAndNumbers) {
 
 TEST_F(ScenarioSteps, WriteTakesWhatADeviceRefusesWhereThatIsMeant) {
   // Aaxis_AccTime goes to 3000, HW_Code is read-only.
-  EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3001 }\n    exception: 3").exception, 3);
-  EXPECT_EQ(only<WriteStep>("write: { feeder.HW_Code: 1 }\n    exception: 2").exception, 2);
+  EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3001 }\n    exception: 3").answer.exception, 3);
+  EXPECT_EQ(only<WriteStep>("write: { feeder.HW_Code: 1 }\n    exception: 2").answer.exception, 2);
   EXPECT_EQ(only<WriteStep>("write: { feeder.Aaxis_AccTime: 3000 }").entries.at(0).value, "3000");
 }
 

@@ -1,0 +1,43 @@
+#include "emulator/command_line/yaml_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "emulator/file_error.h"
+
+namespace understudy::emulator {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> yaml_files_below(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const fs::path& path = it->path();
+    const bool is_hidden = path.filename().string().starts_with(".");
+    if (is_hidden && it->is_directory()) it.disable_recursion_pending();
+    if (is_hidden || it->is_directory()) continue;
+    if (path.extension() == ".yaml" || path.extension() == ".yml") files.push_back(path.string());
+  }
+  if (error) throw FileError(folder + ": folder: cannot be read (" + error.message() + "); expected one");
+  if (files.empty()) throw FileError(folder + ": folder: has no .yaml file; expected at least one");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    const auto below = yaml_files_below(path);
+    files.insert(files.end(), below.begin(), below.end());
+  }
+  return files;
+}
+
+}  // namespace understudy::emulator
