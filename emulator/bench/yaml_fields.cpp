@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "emulator/bench/complaints.h"
 #include "emulator/bench/yaml_document.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
@@ -72,29 +73,37 @@ void YamlFields::for_each_entry(Take take) const {
   }
 }
 
-void YamlFields::demand_map() const {
+void YamlFields::demand_map() const { demand_keys_of(nullptr); }
+
+void YamlFields::demand_keys(std::span<const KeyRow> known) const { demand_keys_of(&known); }
+
+void YamlFields::demand_keys_of(const std::span<const KeyRow>* known) const {
+  Complaints complaints;
   std::set<std::string> seen;
-  for_each_entry([&](const std::string& key, const YamlNode& value) {
-    if (!seen.insert(key).second) part(value, field_of(key)).fail("is given twice; expected it once");
+  const auto is_known = [&](const std::string& key) {
+    return known == nullptr ||
+           std::any_of(known->begin(), known->end(), [&](const KeyRow& row) { return row.key == key; });
+  };
+  complaints.demand([&] {
+    for_each_entry([&](const std::string& key, const YamlNode& value) {
+      if (!seen.insert(key).second) {
+        complaints.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });
+      } else if (!is_known(key)) {
+        complaints.attempt([&] { part(value, field_of(key)).refuse_key(key, *known); });
+      }
+    });
   });
 }
 
-void YamlFields::demand_keys(std::span<const KeyRow> known) const {
-  demand_map();
-  for_each_entry([&](const std::string& key, const YamlNode& value) {
-    const auto is_it = [&](const KeyRow& row) { return row.key == key; };
-    if (std::any_of(known.begin(), known.end(), is_it)) return;
-    std::vector<std::string> names;
-    std::string list;
-    for (const KeyRow& row : known) {
-      names.emplace_back(row.key);
-      list += (list.empty() ? "" : ", ") + names.back();
-    }
-    const auto nearest = near_word(key, names);
-    part(value, field_of(key))
-        .fail("is no key here; expected one of " + list +
-              (nearest ? " (the nearest is '" + *nearest + "')" : ""));
-  });
+void YamlFields::refuse_key(const std::string& key, std::span<const KeyRow> known) const {
+  std::vector<std::string> names;
+  std::string list;
+  for (const KeyRow& row : known) {
+    names.emplace_back(row.key);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  const auto nearest = near_word(key, names);
+  fail("is no key here; expected one of " + list + (nearest ? " (the nearest is '" + *nearest + "')" : ""));
 }
 
 std::optional<YamlFields> YamlFields::find(std::string_view key) const {

@@ -51,7 +51,7 @@ class YamlFields {
   bool is_list() const;
   bool is_scalar() const;
 
-  /// Demands a map without duplicate keys.
+  /// Demands a map without duplicate keys. All that is wrong is thrown together.
   void demand_map() const;
   /// And whose keys are all `known`.
   void demand_keys(std::span<const KeyRow> known) const;
@@ -84,6 +84,8 @@ class YamlFields {
   /// Of a map: each of its keys, as read, with the value. Calls take(key, value).
   template <typename Take>
   void for_each_entry(Take take) const;
+  void demand_keys_of(const std::span<const KeyRow>* known) const;
+  [[noreturn]] void refuse_key(const std::string& key, std::span<const KeyRow> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
   // Both are shared with all that is in it.
