@@ -80,21 +80,22 @@ void YamlFields::demand_keys(std::span<const KeyRow> known) const { demand_keys_
 void YamlFields::demand_keys_of(const std::span<const KeyRow>* known) const {
   Complaints complaints;
   std::set<std::string> seen;
+  const auto is_known = [&](const std::string& key) {
+    return known == nullptr ||
+           std::any_of(known->begin(), known->end(), [&](const KeyRow& row) { return row.key == key; });
+  };
   complaints.demand([&] {
     for_each_entry([&](const std::string& key, const YamlNode& value) {
-      complaints.attempt([&] {
-        const auto field = [&] { return part(value, field_of(key)); };
-        if (!seen.insert(key).second) field().fail("is given twice; expected it once");
-        const auto is_it = [&](const KeyRow& row) { return row.key == key; };
-        if (known != nullptr && std::none_of(known->begin(), known->end(), is_it)) {
-          field().fail_unknown(key, *known);
-        }
-      });
+      if (!seen.insert(key).second) {
+        complaints.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });
+      } else if (!is_known(key)) {
+        complaints.attempt([&] { part(value, field_of(key)).refuse_key(key, *known); });
+      }
     });
   });
 }
 
-void YamlFields::fail_unknown(const std::string& key, std::span<const KeyRow> known) const {
+void YamlFields::refuse_key(const std::string& key, std::span<const KeyRow> known) const {
   std::vector<std::string> names;
   std::string list;
   for (const KeyRow& row : known) {

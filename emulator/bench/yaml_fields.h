@@ -81,11 +81,11 @@ class YamlFields {
              std::string field);
   YamlFields part(const YamlNode& node, std::string field) const;
   std::string read_scalar(const YamlNode& node) const;
-  void demand_keys_of(const std::span<const KeyRow>* known) const;
-  [[noreturn]] void fail_unknown(const std::string& key, std::span<const KeyRow> known) const;
   /// Of a map: each of its keys, as read, with the value. Calls take(key, value).
   template <typename Take>
   void for_each_entry(Take take) const;
+  void demand_keys_of(const std::span<const KeyRow>* known) const;
+  [[noreturn]] void refuse_key(const std::string& key, std::span<const KeyRow> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
   // Both are shared with all that is in it.
