@@ -147,6 +147,8 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
+  if (!arguments.bench.empty())
+    options.bench_path = std::filesystem::weakly_canonical(arguments.bench).string();
   options.files = claims_of(serving.bench, arguments.control);
   options.capture_path = demand_capture(options.files, arguments.capture);
   options.record_path = demand_recording(arguments.record, options.files);

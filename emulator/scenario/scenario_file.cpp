@@ -49,26 +49,34 @@ bool is_below(const std::string& path, const std::string& folder) {
 
 class ScenarioReader {
  public:
-  ScenarioReader(const YamlFields& root, std::string path, const std::string& save_below)
-      : root_(root), path_(std::move(path)), save_below_(save_below.empty() ? root_.folder() : save_below) {}
+  ScenarioReader(const YamlFields& root, std::string path, const std::string& save_below,
+                 SharedReading& shared)
+      : root_(root),
+        path_(std::move(path)),
+        save_below_(save_below.empty() ? root_.folder() : save_below),
+        file_{.shared = shared} {}
 
   std::vector<Scenario> read() {
-    root_.demand_keys(kScenarioKeys);
-    root_.at("understudy").integer(kVersionForm);
     std::vector<Scenario> scenarios;
     std::set<std::string> names;
-    for (const Case& row : read_cases()) {
-      try {
-        scenarios.push_back(read_case(row));
-      } catch (const FileError& error) {
-        // What is wrong may be so in one case only.
-        throw FileError(error.what() + (row.values.empty() ? "" : "  " + to_text(row)));
+    Complaints all;
+    all.demand([&] {
+      all.attempt([&] { root_.demand_keys(kScenarioKeys); });
+      all.attempt([&] { root_.at("understudy").integer(kVersionForm); });
+      for (const Case& row : read_cases()) {
+        try {
+          Scenario scenario = read_case(row);
+          if (!names.insert(scenario.name).second) {
+            row.where->fail("makes a second scenario called " + emulator::quoted(scenario.name) +
+                            "; expected other values than before");
+          }
+          scenarios.push_back(std::move(scenario));
+        } catch (const FileError& error) {
+          // What is wrong may be so in one case only.
+          all.add(error, row.values.empty() ? "" : "  " + to_text(row));
+        }
       }
-      if (!names.insert(scenarios.back().name).second) {
-        row.where->fail("makes a second scenario called " + emulator::quoted(scenarios.back().name) +
-                        "; expected other values than before");
-      }
-    }
+    });
     return scenarios;
   }
 
@@ -136,9 +144,16 @@ class ScenarioReader {
     for (const auto& [name, value] : root_.at("parameters").entries()) demand_used(name, value);
   }
 
+  Bench bench_at(const YamlFields& field) const {
+    auto& benches = file_.shared.benches;
+    auto it = benches.find(field.path());
+    if (it == benches.end()) it = benches.emplace(field.path(), load_bench(field)).first;
+    return it->second;
+  }
+
   Bench read_its_bench(const YamlFields& root) const {
     const YamlFields field = root.at("bench");
-    Bench bench = field.is_map() ? read_bench(field, field.folder()) : load_bench(field);
+    Bench bench = field.is_map() ? read_bench(field, field.folder()) : bench_at(field);
     if (root.has("nv")) {
       const YamlFields nv = root.at("nv");
       nv.demand_map();
@@ -186,26 +201,33 @@ class ScenarioReader {
     Scenario scenario;
     scenario.file = path_;
     scenario.name = std::filesystem::path(path_).stem().string();
-    bool is_named_by_case = false;
-    if (root.has("name")) {
-      scenario.name = on_one_line(root.at("name").text());
-      is_named_by_case = scenario.name != root_.at("name").text();
-    }
-    if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
+    // Without its bench nothing can be said of the steps.
     scenario.bench = read_its_bench(root);
-    if (root.has("gap")) scenario.gap = root.at("gap").duration();
-    if (root.has("seed")) {
-      scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
-    }
-    scenario.seed = scenario.bench.seed;
     for (const DeviceSetup& device : scenario.bench.devices) {
       if (device.nv_path.empty()) continue;
       scenario.files.push_back(
           {device.nv_path, "the memory that " + emulator::quoted(device.settings.name) + " begins with"});
     }
     const Trial trial = make_trial(root, scenario.bench);
+    Complaints all;
+    bool is_named_by_case = false;
+    all.attempt([&] {
+      if (!root.has("name")) return;
+      scenario.name = on_one_line(root.at("name").text());
+      is_named_by_case = scenario.name != root_.at("name").text();
+    });
+    if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
+    all.attempt([&] {
+      if (root.has("gap")) scenario.gap = root.at("gap").duration();
+    });
+    all.attempt([&] {
+      if (!root.has("seed")) return;
+      scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
+    });
+    scenario.seed = scenario.bench.seed;
     StepsReader steps(trial, file_, path_);
-    scenario.steps = steps.read(root.at("steps"), parameters);
+    all.attempt([&] { scenario.steps = steps.read(root.at("steps"), parameters); });
+    all.throw_if_any();
     demand_all_used(row, parameters);
     scenario.files.push_back({path_, "the scenario itself"});
     for (const auto& files : {scenario.bench.files, steps.files()}) {
@@ -262,20 +284,36 @@ class ScenarioReader {
 
 }  // namespace
 
-std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path,
-                                      const std::string& save_below) {
+namespace {
+
+std::vector<Scenario> parse_with(SharedReading& shared, const std::string& text, const std::string& path,
+                                 const std::string& save_below) {
   const YamlFields root = YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
   if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
     throw FileError({path, 1, 1},
                     "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   }
-  return ScenarioReader(root, path, save_below).read();
+  return ScenarioReader(root, path, save_below, shared).read();
+}
+
+}  // namespace
+
+std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path,
+                                      const std::string& save_below) {
+  SharedReading shared;
+  return parse_with(shared, text, path, save_below);
+}
+
+std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
+                                     SharedReading& shared) {
+  const auto text = read_text_file(path);
+  if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
+  return parse_with(shared, *text, path, save_below);
 }
 
 std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below) {
-  const auto text = read_text_file(path);
-  if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
-  return parse_scenarios(*text, path, save_below);
+  SharedReading shared;
+  return load_scenarios(path, save_below, shared);
 }
 
 FileKind kind_of_file(const std::string& path) {

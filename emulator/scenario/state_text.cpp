@@ -51,6 +51,8 @@ std::string axis_text(const World& world, std::size_t number, std::size_t axis) 
   std::string text = "pulses " + std::to_string(world.sent_pulses(number, a)) + ", speed " +
                      number_text(Number(world.device(number).speed_pps(a))) + ", position " +
                      std::to_string(plant.position_pulses());
+  const int duty_percent = world.device(number).duty_percent(a).value_or(0);
+  if (duty_percent != 0) text += ", PWM " + std::to_string(duty_percent) + " %";
   if (plant.lost_pulses() != 0) text += ", lost " + std::to_string(plant.lost_pulses());
   if (plant.at_home()) text += ", at home";
   if (plant.at_upper_limit()) text += ", at the upper limit";

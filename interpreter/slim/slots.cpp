@@ -95,13 +95,15 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
     case Kind::get_real: return for_integer ? Error::syntax : Error::none;
     case Kind::analog:
     case Kind::clock: return Error::none;
+    case Kind::quantity: return dialect.quantities ? Error::none : Error::syntax;
     default: return Error::syntax;
   }
 }
 
 /// What an assignment gives. A real variable takes integers, too; a parameter takes any number.
 Error check_data(Operand& operand, const Operand* target, const Dialect& dialect) {
-  const bool is_number = is_constant(operand) || is_variable(operand.kind) || operand.kind == Kind::analog ||
+  const bool is_number = is_constant(operand) || (operand.kind == Kind::quantity && dialect.quantities) ||
+                         is_variable(operand.kind) || operand.kind == Kind::analog ||
                          operand.kind == Kind::clock || asks_host(operand.kind);
   if (!is_number) return Error::syntax;
   if (target == nullptr) {
@@ -179,8 +181,18 @@ class Matching {
       default: break;
     }
     Item item = next_item();
-    if (item.error == Error::none) item.error = check_slot(slot, row_, item.operand, dialect_);
+    if (item.error == Error::none) {
+      item.error = is_printed_constant(slot, item.operand)
+                       ? check_slot(Slot::real, row_, item.operand, dialect_)
+                       : check_slot(slot, row_, item.operand, dialect_);
+    }
     add(std::move(item));
+  }
+
+  /// The form of SAA is printed with Rx,Ry and fa,fz, and explained with four variables.
+  bool is_printed_constant(Slot slot, const Operand& operand) const {
+    return row_.verb == Verb::helix_absolute && slot == Slot::real_variable && is_constant(operand) &&
+           result_.operands.size() >= 2 && dialect_.helix_constants;
   }
 
   Item next_item() {

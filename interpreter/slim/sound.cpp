@@ -24,8 +24,8 @@ bool is_sound(const Event& event, int number, const Dialect& dialect) {
     command.operands.push_back({.kind = Operand::Kind::condition, .index = word});
     command.operands.insert(command.operands.end(), event.operands.begin(), event.operands.end());
     const bool has_known_kinds = std::ranges::none_of(event.operands, [](const Operand& operand) {
-      return operand.kind >=
-             Operand::Kind::event;  // no condition has one, and their text needs a right index
+      // No condition has one, and their text needs a right index.
+      return operand.kind >= Operand::Kind::event && operand.kind != Operand::Kind::quantity;
     });
     if (!has_known_kinds || !reads_back(command, dialect)) return false;
   }

@@ -75,7 +75,10 @@ Item parse_name(const std::string& word) {
     if (index < form.least || index > form.most) return wrong(Error::range);
     return right({.kind = form.kind, .index = index});
   }
-  return wrong(Error::syntax);
+  // Whether there is such a thing, and whether it may stand there, is another question.
+  const bool is_word = !word.empty() && is_letter(word.front()) &&
+                       std::ranges::all_of(word, [](char c) { return is_letter(c) || is_digit(c); });
+  return is_word ? right({.kind = Kind::quantity, .text = word}) : wrong(Error::syntax);
 }
 
 // U+201C, U+201D and U+FF02.

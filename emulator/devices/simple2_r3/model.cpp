@@ -16,6 +16,13 @@ namespace {
 // Every version that the manual tells a difference of; 1.52 is the manual's own.
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
+constexpr std::array<std::string_view, 2> kGaps{
+    "PWM is its duty (`feeder.A.pwm`) and the pulses' form its name (`feeder.pulse_format`): no levels on "
+    "the "
+    "pulse terminals. A duty does not move a machine.",
+    "An encoder's edges are counts: the lines A and B are not terminals.",
+};
+
 constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on
 constexpr std::array<std::uint8_t, 4> kFunctions{0x03, 0x04, 0x06, 0x10};
 
@@ -120,7 +127,7 @@ const Model& model() {
       .terminals = kTerminals,
       .axes = kAxes,
       .state_registers = kStateRegisters,
-      .gaps = {},
+      .gaps = kGaps,
       .rtu = {.bauds = kBauds,
               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
               .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds

@@ -60,6 +60,7 @@ struct ArcOrder {
   double centre_y_units = 0;
   double sweep_deg = 0;  // > 0 counter-clockwise
   std::optional<double> height_units{};
+  std::optional<double> radius_units{};  // by choice: the centre is the end, and this tells the sweep
 };
 
 class Chain {
@@ -104,7 +105,7 @@ class Chain {
   /// Two to four coordinates: X, Y, Z, W.
   Error line(std::span<const double> units, bool absolute);
   Error arc(const ArcOrder& order);
-  /// `growth_units`: of the radius, a turn or in all.
+  /// `growth_units`: of the radius, a turn or in all. By choice `sweep_deg` is the radius at its end.
   Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units);
   /// CM 0, 1, 2.
   Error set_continuous_path(int mode);
@@ -130,6 +131,7 @@ class Chain {
   Error set_jog_speed(int module, double speed);
   Error set_acceleration(int module, double acceleration);
   Error set_path_speed(int module, double units_s);          // PR3 of one, and of the path that it is on
+  Error set_line_speed(int module, double units_s);          // PR4, the same of lines of two axes by choice
   Error set_tvm(double units_s);                             // of all linked ones, and at once
   Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: what runs keeps its own
   Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180
@@ -236,6 +238,9 @@ class Chain {
   bool at_all_places(const Job& job, std::size_t place) const;
   bool free_to_move(int module) const;
   const ModuleSettings& path_settings(const Job& job) const;
+  bool goes_by_line_speed(const Job& job) const;
+  double path_speed(const Job& job, const ModuleSettings& settings) const;
+  void tell_path(int module, double units_s, bool of_lines);
   bool within_reach(const Job& job, const motion::Path& path) const;
   motion::Point begin_of(const Job& job) const;
   void carry_out_order(int module, const OutputOrder& order, Tick begin_at);

@@ -78,6 +78,10 @@ Error Chain::enqueue(Job job) {
   for (const std::int8_t module : job.module_of) {
     if (module >= 0 && full(module)) return Error::buffer_full;
   }
+  for (const std::int8_t module : job.module_of) {
+    if (module < 0 || !options_.motion_ends_thrust || !job.moves()) continue;
+    if (modules_[at(module)].activity == Activity::thrust) stop_jog(module);
+  }
   job.number = ++last_number_;
   for (const std::int8_t module : job.module_of) {
     if (module >= 0) modules_[at(module)].fifo.push(job);
@@ -196,7 +200,7 @@ void Chain::begin_jog(int module, int way, Tick begin_at) {
   const int direction = mine.settings.jog_speed < 0 ? -way : way;
   if (mine.settings.jog_speed == 0) {
     axes_[at(module)].hang(direction);
-  } else if (mine.analog_factor() == 0) {
+  } else if (mine.jog_law(options_).top_speed_u_s == 0) {
     mine.starved = true;
   } else {
     axes_[at(module)].run(direction, mine.jog_law(options_), begin_at - 1);

@@ -87,8 +87,9 @@ void ChainFields::check(const motion::UnitScale& scale) {
 
 void ChainFields::check(const ModuleSettings& settings) {
   demand_within(settings.pulses_per_revolution, 1, INT32_MAX);
-  for (const double speed : {settings.working_speed, settings.acceleration,
-                             settings.path_acceleration_units_s2, settings.path_speed_units_s}) {
+  for (const double speed :
+       {settings.working_speed, settings.acceleration, settings.path_acceleration_units_s2,
+        settings.path_speed_units_s, settings.line_speed_units_s}) {
     demand_speed(speed);
   }
   if (settings.jog_speed != 0) demand_speed(std::abs(settings.jog_speed));

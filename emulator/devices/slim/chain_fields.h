@@ -12,12 +12,13 @@ namespace understudy::emulator::slim {
 struct ChainFields {
   // clang-format off
   static void of(Like<ChainOptions> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag,
+           ah] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag, ah);
   }
   static void of(Like<motion::UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<ModuleSettings> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
+    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
   }
   static void of(Like<Output> auto& v, auto visit) {
     auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
@@ -29,7 +30,8 @@ struct ChainFields {
     auto& [a, b, c, d] = v; visit(a, b, c, d);
   }
   static void of(Like<Job> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   }
   static void of(Like<Module> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = v;

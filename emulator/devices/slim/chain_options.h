@@ -44,6 +44,15 @@ struct ChainOptions {
   bool analog_speed_jogs = false;             // AVM begins a jog
   bool only_moves_reserved = false;           // jogs, homing and thrust by number go with a letter, too
 
+  bool arcs_by_radius = false;               // AA: end point and radius, not centre and angle
+  bool spiral_to_radius = false;             // SPI's R is the radius at its end, not a sweep
+  bool spiral_centre_relative = false;       // SPI's X, Y
+  bool lines_of_two_have_own_speed = false;  // PR4 instead of PR3
+  bool clear_keeps_half_done = false;        // CLR BUF in a pause, as out of one
+  bool analog_leaves_jogs = false;           // AVM is of VM alone
+  bool motion_ends_thrust = false;           // a move given behind FT
+  bool done_waits_for_all = false;           // DN: for jogs, thrust and pulses of outputs, too
+
   UnequalSpeeds unequal_speeds = UnequalSpeeds::refused;
   InVain in_vain = InVain::silent;
   Thrust thrust = Thrust::stands;

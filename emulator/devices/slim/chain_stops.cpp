@@ -116,7 +116,7 @@ void Chain::slow_for_discard(int module) {
 }
 
 Error Chain::clear_queues() {
-  if (paused_ || queues_paused_) {
+  if ((paused_ || queues_paused_) && !options_.clear_keeps_half_done) {
     queues_paused_ = false;
     for (int module = 0; module < kModules; ++module) {
       if (!in_pause_scope(module)) continue;
@@ -140,7 +140,9 @@ Error Chain::clear_queues() {
     if (!in_pause_scope(module)) continue;
     const Activity activity = modules_[at(module)].activity;
     const Group* group = group_of(module);
-    const bool head_runs = activity == Activity::move || activity == Activity::home;
+    const auto& fifo = modules_[at(module)].fifo;
+    const bool is_half_done = options_.clear_keeps_half_done && !fifo.empty() && fifo[0].begun;
+    const bool head_runs = activity == Activity::move || activity == Activity::home || is_half_done;
     forget_queue(module, group != nullptr ? group->paths : head_runs ? 1 : 0);
   }
   serve(now_ + 1);

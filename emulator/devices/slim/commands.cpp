@@ -241,6 +241,7 @@ Error Slim::move_several(const lang::Command& command) {
                    .centre_y_units = amount(command, 1),
                    .sweep_deg = amount(command, 2)};
     if (rises) order.height_units = amount(command, 3);
+    if (absolute && !rises && chose(kArcsByRadius)) order.radius_units = amount(command, 2);
     return chain.arc(order);
   };
   switch (command.verb) {

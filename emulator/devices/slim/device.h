@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -120,6 +121,7 @@ class Slim final : public TextDevice, private lang::Machine {
     std::string name{};
     std::string text{};
     std::optional<double> number{};  // of a query that has one
+    bool has_words = true;           // false: only the number is wanted
   };
 
   // Of a program: interpreter/slim/machine.h.
@@ -127,6 +129,7 @@ class Slim final : public TextDevice, private lang::Machine {
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
+  const std::optional<lang::Command>& query_named(std::string_view name) const;
   int chosen_number(std::size_t row) const { return number_of(kChoices[row], choice(row)); }
 
   // dialogue.cpp
@@ -165,6 +168,23 @@ class Slim final : public TextDevice, private lang::Machine {
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
   Error set_variable(const lang::Operand& variable, double value);
+  /// PR4 is another name of PR3, unless it is a speed of its own.
+  std::string_view meant(std::string_view parameter) const {
+    return parameter == "PR4" && !chose(kPr4OfItsOwn) ? "PR3" : parameter;
+  }
+  /// By number: so many pulses are so many user units.
+  struct UserUnit {
+    std::size_t pulses = parameter("PN45");
+    std::size_t units = parameter("PN46");
+  };
+  UserUnit user_unit() const {
+    if (chose(kUnitOfPn44AndPn45)) return {parameter("PN44"), parameter("PN45")};
+    return chose(kUnitOfPn46AndPn45) ? UserUnit{parameter("PN46"), parameter("PN45")} : UserUnit{};
+  }
+  bool is_of_user_unit(std::size_t number) const {
+    return number == user_unit().pulses || number == user_unit().units;
+  }
+  Error set_scale(int module, std::size_t number, double value);
   Error set_parameter(int module, std::string_view name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
@@ -191,6 +211,10 @@ class Slim final : public TextDevice, private lang::Machine {
   MemoryForm memory_form() const;
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
+  void write_history(NvImage& image) const;
+  std::array<Errors, kModules> read_history(NvImage& image) const;
+  /// By PZ.
+  bool program_is_held() const { return chose(kPauseHoldsProgram) && state_.chain.queues_paused(); }
   void reboot();
   /// As if all ticks up to now had been run one by one.
   State settled() const;
@@ -202,6 +226,8 @@ class Slim final : public TextDevice, private lang::Machine {
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
   int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
+  // Queries by their names: not state, it only saves reading the words again.
+  mutable std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
   State state_;
 };
 

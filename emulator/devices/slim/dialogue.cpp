@@ -1,4 +1,5 @@
 // SLIM's dialogue: what becomes of a line, and what is answered.
+#include <algorithm>
 #include <utility>
 
 #include "emulator/devices/slim/device.h"
@@ -44,6 +45,7 @@ int Slim::remember(int module, Error error) {
 void Slim::note_error(int module, Error error) {
   Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   errors.present = error;
+  if (chose(kHistoryIsKept)) ++state_.kept_revision;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
   if (errors.history.size() > history_length()) errors.history.pop_back();
 }
@@ -129,6 +131,10 @@ void Slim::hear_command(std::string_view line) {
 Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
   using lang::Verb;
   if (const Error error = resolve_indices(command, *this); error != Error::none) return error;
+  const bool has_quantity = std::ranges::any_of(command.operands, [](const lang::Operand& operand) {
+    return operand.kind == lang::Operand::Kind::quantity;
+  });
+  if (has_quantity && of_programs().check_command(command) != Error::none) return Error::syntax;
   if (lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) {
     Answer answer;
     const Error error = query(command, answer);

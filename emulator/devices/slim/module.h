@@ -33,6 +33,7 @@ struct ModuleSettings {
   double path_acceleration_units_s2 = 1000;  // PR2, > 0
   double path_speed_units_s = 100;           // PR3, > 0
   double smooth_corner_deg = 0;              // PR7; module 0's counts
+  double line_speed_units_s = 100;           // PR4, > 0, where lines of two axes go by it
 
   bool operator==(const ModuleSettings&) const = default;
 };

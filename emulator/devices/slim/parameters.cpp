@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "interpreter/slim/parse.h"
+
 namespace understudy::emulator::slim {
 
 std::optional<double> fitted(const ParameterDefinition& row, double value) {
@@ -53,9 +55,33 @@ Error check_parameter(int module, std::string_view name, std::optional<double> v
                                                                                    : Error::none;
 }
 
+namespace {
+
+using interpreter::slim::Operand;
+using interpreter::slim::Verb;
+
+/// A function that is the value of a query: of one that there is, and whose answer is a number.
+bool is_quantity(const Operand& operand) {
+  const auto parsed = interpreter::slim::parse_line("?" + operand.text);
+  if (parsed.error != Error::none || !parsed.line.command) return false;
+  const interpreter::slim::Command& query = *parsed.line.command;
+  switch (query.verb) {
+    case Verb::query_version:
+    case Verb::query_error_history:
+    case Verb::query_time: return false;
+    case Verb::query_parameter:
+      return check_parameter(query.module, query.name, std::nullopt, SpeedNames::pn10_is_vm, false) ==
+             Error::none;
+    default: return true;
+  }
+}
+
+}  // namespace
+
 Error check_parameter_line(const interpreter::slim::Command& command, bool module_taken_from_letter) {
-  using interpreter::slim::Operand;
-  using interpreter::slim::Verb;
+  for (const Operand& operand : command.operands) {
+    if (operand.kind == Operand::Kind::quantity && !is_quantity(operand)) return Error::syntax;
+  }
   const bool is_speed = command.verb == Verb::set_path_speed;
   if (command.verb != Verb::set_parameter && !is_speed) return Error::none;
   const Operand& given = command.operands.front();

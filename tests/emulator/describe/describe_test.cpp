@@ -177,11 +177,11 @@ TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
     const char* name;
     const char* width;
   };
-  constexpr Named kNamed[] = {{"PN10", "VM", "32"},   {"PN14", "VJ", "32"},   {"", "FU", "16"},
-                              {"", "VA", "32"},       {"", "LL", "32"},       {"", "EL", "32"},
-                              {"PN37", "PN37", "16"}, {"PN44", "PN44", "32"}, {"PN45", "PN45", "32"},
-                              {"PN46", "PN46", "32"}, {"PN50", "PN50", "16"}, {"PR2", "TVA", "32"},
-                              {"PR3", "TVM", "32"},   {"PR7", "CMA", "32"},   {"", "SYN", "16"}};
+  constexpr Named kNamed[] = {
+      {"PN10", "VM", "32"},   {"PN14", "VJ", "32"},   {"", "FU", "16"},       {"", "VA", "32"},
+      {"", "LL", "32"},       {"", "EL", "32"},       {"PN37", "PN37", "16"}, {"PN44", "PN44", "32"},
+      {"PN45", "PN45", "32"}, {"PN46", "PN46", "32"}, {"PN50", "PN50", "16"}, {"PR2", "TVA", "32"},
+      {"PR3", "TVM", "32"},   {"PR4", "PR4", "32"},   {"PR7", "CMA", "32"},   {"", "SYN", "16"}};
   const Csv csv("parameters", *find_model("slim"));
   EXPECT_EQ(csv.header, "number,name,address,width,persistent");
   ASSERT_EQ(csv.rows.size(), std::size(kNamed));
