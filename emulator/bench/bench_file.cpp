@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <system_error>
+#include <tuple>
 
 #include "emulator/bench/bench_form.h"
 #include "emulator/bench/complaints.h"
@@ -227,6 +229,7 @@ class BenchReader {
     for (const auto& [name, fields] : plant.entries()) {
       all_.attempt([&, &called = name, &machine = fields] { read_machine_of(called, machine); });
     }
+    demand_own_inputs(plant);
   }
 
   void read_machine_of(const std::string& name, const YamlFields& fields) {
@@ -240,9 +243,27 @@ class BenchReader {
                   "; expected one of " + axes);
     }
     bench_.machines.push_back(
-        {.device = device,
-         .axis = axis,
-         .plant = read_machine(fields, model.axes[static_cast<std::size_t>(axis)], all_)});
+        {.device = device, .axis = axis, .plant = read_machine(fields, model, axis, all_)});
+  }
+
+  /// A switch that is wired elsewhere may come upon another one.
+  void demand_own_inputs(const YamlFields& plant) const {
+    std::map<std::pair<std::size_t, int>, std::string> taken;
+    for (const MachineSetup& machine : bench_.machines) {
+      const DeviceSetup& device = bench_.devices[machine.device];
+      const AxisRow& axis = device.model->axes[static_cast<std::size_t>(machine.axis)];
+      const std::string name = device.settings.name + "." + std::string(axis.name);
+      for (std::size_t i = 0; i < kContactNames.size(); ++i) {
+        const int input = input_of(axis, PlantAxis(machine.plant), static_cast<Contact>(i));
+        if (input < 0) continue;
+        const std::string contact = name + "." + std::string(kContactNames[i]);
+        const auto [other, is_free] = taken.emplace(std::pair(machine.device, input), contact);
+        if (is_free) continue;
+        plant.at(name).fail(contact + " and " + other->second + " are both wired to " +
+                            std::string(device.model->terminals[static_cast<std::size_t>(input)].name) +
+                            "; expected one contact on an input, and `wires` for more");
+      }
+    }
   }
 
   std::pair<std::size_t, int> demand_terminal(const YamlFields& field, const std::string& name,
@@ -270,17 +291,44 @@ class BenchReader {
   void read_wire(const YamlFields& wire) {
     const std::string text = wire.text();
     const std::size_t arrow = text.find("->");
-    if (arrow == std::string::npos) wire.fail("expected `DEVICE.OUTPUT -> DEVICE.INPUT`");
+    if (arrow == std::string::npos)
+      wire.fail("expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`");
     const auto trimmed = [](std::string part) {
       part.erase(0, part.find_first_not_of(' '));
       return part.substr(0, part.find_last_not_of(' ') + 1);
     };
-    const auto [from, output] = demand_terminal(wire, trimmed(text.substr(0, arrow)),
-                                                TerminalRow::Kind::digital_out, "feeder.DOUT_4");
-    const auto [to, input] = demand_terminal(wire, trimmed(text.substr(arrow + 2)),
-                                             TerminalRow::Kind::digital_in, "turner.DIN_10");
-    bench_.wires.push_back(
-        {.from_device = from, .from_terminal = output, .to_device = to, .to_terminal = input});
+    WireSetup made;
+    const std::string from = trimmed(text.substr(0, arrow));
+    if (!find_contact(wire, from, made)) {
+      std::tie(made.from_device, made.from_terminal) =
+          demand_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
+    }
+    std::tie(made.to_device, made.to_terminal) = demand_terminal(
+        wire, trimmed(text.substr(arrow + 2)), TerminalRow::Kind::digital_in, "turner.DIN_10");
+    bench_.wires.push_back(made);
+  }
+
+  /// "feeder.A.upper_limit": whether it begins with an axis, so that a contact of its machine must be meant.
+  bool find_contact(const YamlFields& wire, const std::string& name, WireSetup& made) const {
+    const std::size_t dot = name.find_last_of('.');
+    if (dot == std::string::npos || name.find('.') == dot) return false;
+    const auto [device, axis_name] = split(wire, name.substr(0, dot), "feeder.A.home");
+    const int axis = find_axis(*bench_.devices[device].model, axis_name);
+    if (axis < 0) return false;
+    const std::string word = name.substr(dot + 1);
+    const auto* const found = std::find(kContactNames.begin(), kContactNames.end(), word);
+    if (found == kContactNames.end()) {
+      const std::vector<std::string> names(kContactNames.begin(), kContactNames.end());
+      wire.fail(emulator::quoted(word) + " is no switch of a machine" + suggestion(word, names));
+    }
+    made.from_device = device;
+    made.from_axis = axis;
+    made.from_contact = static_cast<Contact>(found - kContactNames.begin());
+    for (const MachineSetup& machine : bench_.machines) {
+      if (machine.device != device || machine.axis != axis) continue;
+      if (PlantAxis(machine.plant).has_contact(made.from_contact)) return true;
+    }
+    wire.fail("the machine on " + name.substr(0, dot) + " has no " + word + "; expected it in `plant`");
   }
 
   // --- what only the model can judge -------------------------------------------------------------

@@ -11,7 +11,7 @@ namespace understudy::emulator {
 class World;
 
 /// One entry of `plant`: the machine on an axis. What is wrong with it is kept.
-PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis, Complaints& complaints);
+PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Complaints& complaints);
 /// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
 InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
 /// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` may be there as well, for

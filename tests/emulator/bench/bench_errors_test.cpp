@@ -97,7 +97,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "program, "
        "nv"},
       {and_then("plant:\n  x.A: { travels: [0, 1] }\n"),
-       "7: plant.x.A.travels: is no key here; expected one of travel, home, limits, encoder, drive (the "
+       "7: plant.x.A.travels: is no key here; expected one of position, travel, home, limits, encoder, drive "
+       "(the "
        "nearest is "
        "'travel')"},
       {and_then("plant:\n  x.A: {}\n  x.A: {}\n"), "8: plant.x.A: is given twice; expected it once"},
@@ -252,7 +253,8 @@ TEST(BenchErrors, Machines) {
 TEST(BenchErrors, Wires) {
   const auto wires = [](const std::string& text) { return and_then("wires: " + text + "\n"); };
   expect_complaints({
-      {wires("[ x.DOUT_4 ]"), "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`"},
+      {wires("[ x.DOUT_4 ]"),
+       "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`"},
       {wires("[ y.DOUT_4 -> x.DIN_1 ]"), "6: wires[0]: no device is called 'y'; expected 'x'"},
       {wires("[ x.DIN_4 -> x.DIN_1 ]"),
        "6: wires[0]: 'DIN_4' is no output of simple2-r3; expected one of DOUT_0, DOUT_1, DOUT_2, DOUT_3, "
