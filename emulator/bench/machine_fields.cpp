@@ -48,38 +48,49 @@ void read_encoder(const YamlFields& encoder, PlantSetup& setup) {
   if (encoder.has("reversed")) setup.encoder_reversed = read_word(encoder.at("reversed"), "true", "false");
 }
 
+void read_travel(const YamlFields& travel, PlantSetup& setup) {
+  const PulseSpan span = read_span(travel);
+  if (span.first == span.last) travel.fail("is no way at all; expected two positions that differ");
+  if (span.first > 0 || span.last < 0) {
+    travel.fail("does not hold position 0, where the machine starts; expected it inside");
+  }
+  setup.travel = span;
+}
+
+void read_home(const YamlFields& home, PlantSetup& setup) {
+  home.demand_keys(kHomeKeys);
+  const std::int64_t at = home.at("at").integer(kPositionForm);
+  setup.home = PulseSpan{at, at + home.at("width").integer(kWidthForm) - 1};
+  if (home.has("hysteresis")) setup.home_hysteresis_pulses = home.at("hysteresis").integer(kHysteresisForm);
+}
+
+void read_limits(const YamlFields& limits, PlantSetup& setup) {
+  limits.demand_keys(kLimitKeys);
+  if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(kPositionForm);
+  if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(kPositionForm);
+  if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
+    limits.fail("the lower limit is not below the upper one; expected it below");
+  }
+  if (limits.has("hysteresis"))
+    setup.limit_hysteresis_pulses = limits.at("hysteresis").integer(kHysteresisForm);
+}
+
 }  // namespace
 
-PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis) {
-  fields.demand_keys(kMachineKeys);
+PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis, Complaints& complaints) {
   PlantSetup setup;
-  if (fields.has("travel")) {
-    setup.travel = read_span(fields.at("travel"));
-    if (setup.travel->first > 0 || setup.travel->last < 0) {
-      fields.at("travel").fail("does not hold position 0, where the machine starts; expected it inside");
-    }
-  }
-  if (fields.has("home")) {
-    const YamlFields home = fields.at("home");
-    home.demand_keys(kHomeKeys);
-    const std::int64_t at = home.at("at").integer(kPositionForm);
-    setup.home = PulseSpan{at, at + home.at("width").integer(kWidthForm) - 1};
-    if (home.has("hysteresis")) setup.home_hysteresis_pulses = home.at("hysteresis").integer(kHysteresisForm);
-  }
-  if (fields.has("limits")) {
-    const YamlFields limits = fields.at("limits");
-    limits.demand_keys(kLimitKeys);
-    if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(kPositionForm);
-    if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(kPositionForm);
-    if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
-      limits.fail("the lower limit is not below the upper one; expected it below");
-    }
-    if (limits.has("hysteresis"))
-      setup.limit_hysteresis_pulses = limits.at("hysteresis").integer(kHysteresisForm);
-  }
   setup.pulses_per_revolution = axis.pulses_per_revolution;
-  if (fields.has("encoder")) read_encoder(fields.at("encoder"), setup);
-  if (fields.has("drive")) setup.drive = read_drive(fields.at("drive"));
+  complaints.attempt([&] { fields.demand_keys(kMachineKeys); });
+  const auto read = [&](const char* key, const auto& how) {
+    complaints.attempt([&] {
+      if (const auto field = fields.find(key)) how(*field, setup);
+    });
+  };
+  read("travel", read_travel);
+  read("home", read_home);
+  read("limits", read_limits);
+  read("encoder", read_encoder);
+  read("drive", [](const YamlFields& drive, PlantSetup& of) { of.drive = read_drive(drive); });
   return setup;
 }
 

@@ -110,23 +110,40 @@ struct PlotArguments {
 };
 int plot_trace(const PlotArguments& arguments);
 
+/// Which of the running daemons is meant; nothing: the only one.
+struct WhichDaemon {
+  std::string socket;  // its control socket
+  std::string bench;   // the file that it serves
+  std::string port;    // one of its ports, or the link to it
+};
+
 struct ControlArguments {
-  std::string socket;
+  WhichDaemon which;
   bool json = false;
   std::string verb;
   std::vector<std::string> operands;
   std::string within = "1h";  // of simulated time, for `run-until`
 };
 int control(const ControlArguments& arguments);
-/// Where the control socket is: what was given, or UNDERSTUDY_CONTROL, or the private one.
-std::string socket_path(const std::string& given);
 
 struct WatchArguments {
-  std::string socket;
-  std::string every = "200ms";  // of wall time
-  int times = 0;                // 0: until it is interrupted
+  WhichDaemon which;
+  std::vector<std::string> names;  // none: everything
+  std::string every = "200ms";     // of wall time
+  int times = 0;                   // 0: until it is interrupted
 };
 int watch(const WatchArguments& arguments);
+
+struct FramesArguments {
+  WhichDaemon which;
+  bool json = false;
+  int last = 10;  // how many of those that have gone before are shown at first
+  bool once = false;
+  std::string every = "100ms";  // of wall time
+  int times = 0;                // 0: until it is interrupted
+};
+/// What goes over the lines, a line for each frame.
+int follow_frames(const FramesArguments& arguments);
 
 struct PollArguments {
   std::string port;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 
@@ -33,6 +34,7 @@ int serve_from(const Replayed& replayed, const WorldState& state, const std::str
   options.patience = replayed.header.options.patience;
   options.enforce_settings = replayed.header.options.enforce_settings;
   options.control_path = control;
+  options.bench_path = std::filesystem::weakly_canonical(recording).string();
   options.files.add({recording, "the recording itself"});
   Daemon daemon(bench, options, log_line);
   daemon.restore(state);
@@ -51,7 +53,8 @@ int replay_recording(const ReplayArguments& arguments) {
   if (!arguments.until.empty()) {
     until = parse_duration(arguments.until);
     if (!until)
-      throw UsageError("--until: " + quoted(arguments.until) + " is no duration; expected one such as 2.5s");
+      throw UsageError("--until: " + emulator::quoted(arguments.until) +
+                       " is no duration; expected one such as 2.5s");
   }
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");

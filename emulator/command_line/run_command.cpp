@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -9,6 +11,7 @@
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_files.h"
+#include "emulator/command_line/terminal.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
@@ -129,7 +132,7 @@ int jobs_of(const RunArguments& arguments) {
 
 void print(const std::vector<ScenarioResult>& results, bool with_hash) {
   for (const ScenarioResult& result : results) {
-    std::printf("%s\n", verdict_line(result).c_str());
+    std::printf("%s\n", coloured_verdict(verdict_line(result), wants_colour(STDOUT_FILENO)).c_str());
     if (with_hash && result.verdict != ScenarioResult::Verdict::not_reached) {
       std::printf("hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
     }
@@ -170,11 +173,14 @@ int run_scenarios(const RunArguments& arguments) {
     for (OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
     return of_one;
   };
-  play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
-    for (ScenarioResult& result : results) files.settle(result);
-    print(results, arguments.hash);
-    all.insert(all.end(), results.begin(), results.end());
-  });
+  {
+    ProgressLine progress(scenarios.size());
+    play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
+      for (ScenarioResult& result : results) files.settle(result);
+      progress.one_done([&] { print(results, arguments.hash); });
+      all.insert(all.end(), results.begin(), results.end());
+    });
+  }
   std::printf("%s\n", summary_line(all).c_str());
   for (const ScenarioResult& result : all) {
     for (const std::string& finding : result.manners) {

@@ -164,6 +164,7 @@ RunFiles::RunFiles(RunFolders folders, bool real_time, std::string version)
     if (error) refuse(kind.flag, folder, error);
   }
   remove_abandoned_spools();
+  remove_left_overs();
   // It gets its name when it is locked: before, others would take it for abandoned.
   const std::string unlocked = private_folder_.path() + "/unlocked";
   spool_ = private_folder_.path() + "/" + kSpool;

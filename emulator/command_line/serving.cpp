@@ -147,6 +147,8 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
+  if (!arguments.bench.empty())
+    options.bench_path = std::filesystem::weakly_canonical(arguments.bench).string();
   options.files = claims_of(serving.bench, arguments.control);
   options.capture_path = demand_capture(options.files, arguments.capture);
   options.record_path = demand_recording(arguments.record, options.files);
@@ -183,11 +185,11 @@ void say_how_to_have_parity(const Daemon& daemon) {
 }  // namespace
 
 void say_ready(const Daemon& daemon) {
+  say_how_to_have_parity(daemon);
   for (const auto& port : daemon.ports()) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
                 port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }
-  say_how_to_have_parity(daemon);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
   }

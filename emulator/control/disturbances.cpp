@@ -140,7 +140,7 @@ Json clear_message(Daemon& daemon, const Json& message) {
   daemon.catch_up();
   World& world = daemon.world();
   if (!message.contains("number")) {
-    while (!world.faults().empty()) world.clear_fault(world.faults().begin()->first);
+    world.clear_faults();
     return Json{{"ok", true}};
   }
   const std::int64_t number = demand_integer(message["number"], "number");

@@ -12,6 +12,7 @@
 
 #include "emulator/bench/bench_text.h"
 #include "emulator/control/messages.h"
+#include "emulator/control/sockets.h"
 #include "emulator/one_line.h"
 #include "emulator/world/snapshot_file.h"
 
@@ -28,6 +29,9 @@ constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
 // What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
+
+// For whoever looks: some seconds of a busy line.
+constexpr std::size_t kFramesKept = 1024;
 
 // In simulated time, which may run fast beside the host's.
 SimTime patience_at(const Speed& speed) {
@@ -46,6 +50,8 @@ WorldOptions world_options(const DaemonOptions& options) {
 Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log)
     : log_(std::move(log)),
       world_(bench, world_options(options), log_),
+      frames_(world_, kFramesKept),
+      bench_path_(options.bench_path),
       bench_hash_(emulator::bench_hash(bench)),
       files_(options.files),
       pacer_(options.speed, wall_now()) {
@@ -60,6 +66,7 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
 }
 
 Daemon::~Daemon() {
+  helper_.reset();
   control_.reset();
   ports_.clear();
   memories_.reset();
@@ -73,7 +80,7 @@ Daemon::~Daemon() {
 void Daemon::open_control(const std::string& asked_path) {
   const bool asked_for = !asked_path.empty();
   try {
-    const std::string path = asked_for ? asked_path : default_control_path();
+    const std::string path = asked_for ? asked_path : own_control_path();
     control_ = std::make_unique<ControlServer>(
         loop_, path, [this](const std::string& line, const ControlServer::Reply& reply) {
           handle_message(*this, line, reply);
@@ -111,6 +118,10 @@ bool Daemon::post(std::function<void()> act) {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t put = write(posted_signal_, &one, sizeof one);
   return true;
+}
+
+void Daemon::do_aside(std::function<std::function<void()>()> work) {
+  helper_->give([this, work = std::move(work)] { post(work()); });
 }
 
 bool Daemon::is_over() {
@@ -286,6 +297,7 @@ std::string_view Daemon::why_no_restore() const {
 
 void Daemon::restore(const WorldState& state) {
   emulator::restore(world_, state);
+  frames_.begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());
@@ -309,6 +321,9 @@ void Daemon::wait() {
     if (look && (!wake || *look < *wake)) wake = look;
   }
   if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  if (control_) {
+    if (const auto look = control_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  }
   loop_.wait(wake);
 }
 
@@ -332,6 +347,7 @@ void Daemon::run() {
       port->flush();
     }
     memories_->look(now);
+    if (control_) control_->look(now);
     if (recording_) recording_->look();
   }
   // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something

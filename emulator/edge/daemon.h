@@ -12,12 +12,14 @@
 #include "emulator/bench/bench.h"
 #include "emulator/control/server.h"
 #include "emulator/edge/event_loop.h"
+#include "emulator/edge/helper_thread.h"
 #include "emulator/edge/nv_keeper.h"
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/file_claims.h"
 #include "emulator/recording/recording_spool.h"
+#include "emulator/scenario/frame_log.h"
 #include "emulator/trace/trace_file.h"
 #include "emulator/trace/world_capture.h"
 #include "emulator/world/snapshot.h"
@@ -31,7 +33,8 @@ struct DaemonOptions {
   std::optional<SimTime> patience{};  // with half a frame; without it, as the speed has it
   bool enforce_settings = true;
   bool has_control = true;   // a control socket
-  std::string control_path;  // empty: the default one, if it is free
+  std::string control_path;  // empty: one of its own (control/sockets.h)
+  std::string bench_path;    // the file that is served; empty if there is none
   bool watch_signals = true;
   std::string capture_path;  // empty: no capture
   std::string record_path;   // empty: no recording
@@ -58,6 +61,8 @@ class Daemon {
   /// may put the world into another state; simulated time goes on from there. Once run() has left, however it
   /// did, nothing is called any more: what still waits is dropped, and this returns false.
   bool post(std::function<void()> act);
+  /// Has `work` done on a helper thread, and posts what comes of it. For what would make the devices wait.
+  void do_aside(std::function<std::function<void()>()> work);
   /// Whether run() has left.
   bool is_over();
   /// For what else is to be waited for.
@@ -68,6 +73,9 @@ class Daemon {
   const Pacer& pacer() const { return pacer_; }
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
   const std::string& control_path() const;
+  const std::string& bench_path() const { return bench_path_; }
+  /// The last ones that went over the lines.
+  const FrameLog& frames() const { return frames_; }
 
   /// An advance that is under way ends here.
   void pause();
@@ -111,6 +119,8 @@ class Daemon {
   EventLoop loop_;
   std::function<void(const std::string&)> log_;
   World world_;
+  FrameLog frames_;
+  std::string bench_path_;
   std::uint64_t bench_hash_;
   FileClaims files_;
   std::unique_ptr<WorldCapture> capture_;
@@ -126,6 +136,7 @@ class Daemon {
   std::mutex posted_mutex_;
   std::vector<std::function<void()>> posted_;
   bool is_over_ = false;  // under the same mutex
+  std::unique_ptr<HelperThread> helper_ = std::make_unique<HelperThread>();
   bool stopping_ = false;
   std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
   std::optional<WallTime> behind_since_;  // since when it has worked to catch up; nothing: it has caught up

@@ -29,6 +29,16 @@ Number number_of(double value) {
   return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 }
 
+// What every device has.
+constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replies", "exceptions"};
+
+/// Registers, terminals, axes (of "A.pulses"), and what every device has.
+bool has_name(const KnownDevice& device, std::string_view name) {
+  return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
+         device.model->registers.find(name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
+         (name.find('.') != std::string_view::npos && find_axis(*device.model, at_dot(name).first) >= 0);
+}
+
 }  // namespace
 
 NamedNumber Probes::resolve(std::string_view name) const {
@@ -95,12 +105,6 @@ Probes::Probe Probes::find(std::string_view name) const {
       return probe;
     }
   }
-  static constexpr std::array<std::pair<std::string_view, What>, 4> kOfDevice{{
-      {"power", What::power},
-      {"requests", What::requests},
-      {"replies", What::replies},
-      {"exceptions", What::exceptions},
-  }};
   // Where there is one device its name may be left out.
   const KnownDevices& known = world_.known();
   std::string_view rest = name;
@@ -109,10 +113,12 @@ Probes::Probe Probes::find(std::string_view name) const {
     probe.device = i;
     rest = behind;
   }
-  if (rest == name && known.size() != 1) find_device(known, first);  // throws: no such device
-  for (const auto& [word, what] : kOfDevice) {
-    if (word != rest) continue;
-    probe.what = what;
+  if (rest == name && known.size() != 1) throw name_without_device(known, name, has_name, "NAME");
+  static constexpr std::array<What, kOfDevice.size()> kWhatOfDevice{What::power, What::requests,
+                                                                    What::replies, What::exceptions};
+  for (std::size_t i = 0; i < kOfDevice.size(); ++i) {
+    if (kOfDevice[i] != rest) continue;
+    probe.what = kWhatOfDevice[i];
     return probe;
   }
   if (rest == "pulse_format" && !world_.device(probe.device).pulse_formats().empty()) {
@@ -133,6 +139,7 @@ Probes::Probe Probes::find(std::string_view name) const {
     if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
     return probe;
   }
+  if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
   if (device.model->protocol() != Protocol::text) {
     throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
   }
@@ -141,6 +148,12 @@ Probes::Probe Probes::find(std::string_view name) const {
   probe.what = What::named;
   probe.value_name = rest;
   return probe;
+}
+
+std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
+  const Probe& probe = probes_[static_cast<std::size_t>(handle)];
+  if (probe.what != What::reg && probe.what != What::named) return std::nullopt;
+  return probe.device;
 }
 
 std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const {

@@ -2,7 +2,7 @@
 // `ctl run-until`, traces. Looking changes nothing.
 //
 //   time                       simulated time, a duration
-//   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment
+//   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
 //   robot.T2PE                 values of devices without registers (Device::value_named)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
 //                              of the same name comes first
@@ -20,6 +20,7 @@
 //   rs485.bytes_in, .bytes_out, .collisions   of a line
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,8 @@ class Probes final : public NameResolver, public ValueSource {
   NamedNumber resolve(std::string_view name) const override;
   /// A register of a device without power is 0. NameError for what nobody keeps here.
   Number value(std::int32_t handle) const override;
+  /// The device whose register or value it is: without power it has none.
+  std::optional<std::size_t> device_read(std::int32_t handle) const;
 
  private:
   enum class What : std::uint8_t {

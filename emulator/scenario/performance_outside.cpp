@@ -52,7 +52,7 @@ void Performance::perform(const ClearStep& step) {
   bool was_there = step.name.empty();
   stage_->with_world([&](World& world) {
     if (step.name.empty()) {
-      while (!world.faults().empty()) world.clear_fault(world.faults().begin()->first);
+      world.clear_faults();
       faults_.clear();
     }
     std::erase_if(faults_, [&](const auto& fault) {

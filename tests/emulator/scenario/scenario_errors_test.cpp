@@ -38,8 +38,8 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
       {"", "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
       {"- advance: 1ms\n",
        "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
-      {"bench: feeder.yaml\nsteps: []\n", "1: scenario: 'understudy' is missing; expected it here"},
-      {"understudy: 2\nbench: feeder.yaml\nsteps: []\n",
+      {"bench: feeder.yaml\nsteps: [ say: x ]\n", "1: scenario: 'understudy' is missing; expected it here"},
+      {"understudy: 2\nbench: feeder.yaml\nsteps: [ say: x ]\n",
        "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
       {"understudy: 1\nsteps: [ advance: 1ms ]\n", "1: scenario: 'bench' is missing; expected it here"},
       {"understudy: 1\nbench: feeder.yaml\n", "1: scenario: 'steps' is missing; expected it here"},
@@ -61,7 +61,8 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
 TEST_F(ScenarioErrors, TheBench) {
   expect_complaints({
       {"understudy: 1\nbench: ''\nsteps: []\n", "2: bench: is empty; expected a path"},
-      {"understudy: 1\nbench: { line: {} }\nsteps: []\n",
+      {"understudy: 1\nbench: { line: {}, lines: { a: { stations: [ { name: x, model: simple2-r3 } ] } } "
+       "}\nsteps: [ say: x ]\n",
        "2: bench.line: is no key here; expected one of lines, devices, plant, wires, inputs, faults, "
        "seed (the nearest is 'lines')"},
       {"understudy: 1\nbench: { lines: { a: { stations: [ { name: x, model: simple2-r4 } ] } } }\nsteps: "
@@ -112,7 +113,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
       {with("cases: [ { a: 1, b: 2 }, { a: 2 } ]\nname: ${a}${b}"),
        "4: name: column 1 of 'b': no parameter is called 'b'; expected 'a'  (a=2)"},
       {with("cases: [ { a: 1 }, { a: 1 } ]\n" + used),
-       "3: cases[1]: makes a second scenario called '1'; expected other values than before"},
+       "3: cases[1]: makes a second scenario called '1'; expected other values than before  (a=1)"},
       {with("cases: [ { a: 1, a: 2 } ]\n" + used), "3: cases[0].a: is given twice; expected it once"},
       {with("gap: ${a}"), "3: gap: column 1 of 'a': no parameter is called 'a'; there are none"},
       {"understudy: 1\nbench: feeder.yaml\nparameters: { a: 1 }\nsteps: [ { say: ${a} } ]\n",
@@ -160,14 +161,16 @@ TEST_F(ScenarioErrors, Registers) {
       {"write: { feder.Aaxis_SVON: 1 }",
        ".write.feder.Aaxis_SVON: no device is called 'feder'; the nearest is 'feeder'"},
       {"write: { Aaxis_SVON: 1 }",
-       ".write.Aaxis_SVON: no device is called 'Aaxis_SVON'; expected one of feeder, turner"},
+       ".write.Aaxis_SVON: 'Aaxis_SVON' needs its device in front; expected one of feeder.Aaxis_SVON, "
+       "turner.Aaxis_SVON"},
       {"write: { feeder.STATUS.16: 1 }",
        ".write.feeder.STATUS.16: feeder: register 'STATUS' has no bit '16'; expected 0 to 15"},
       {"write: { feeder.0x10000: 1 }",
        ".write.feeder.0x10000: '0x10000' is no number of a register; expected 0 to 0xFFFF"},
       {"write: { feeder.12.3: 1 }",
        ".write.feeder.12.3: '12.3' is no number of a register; expected 0 to 0xFFFF"},
-      {"write: { 0x1014: 1 }", ".write.0x1014: no device is called '0x1014'; expected one of feeder, turner"},
+      {"write: { 0x1014: 1 }",
+       ".write.0x1014: '0x1014' needs its device in front; expected one of feeder.0x1014, turner.0x1014"},
       {"write: { feeder.Aaxis_SVON: 1, feeder.Aaxis_SVON: 0 }",
        ".write.feeder.Aaxis_SVON: is given twice; expected it once"},
       {"write: { 'feeder[\"Cord_A\"': 1 }",
