@@ -30,4 +30,18 @@ int find_axis(const Model& model, std::string_view name) {
   return -1;
 }
 
+int input_of(const AxisRow& axis, const PlantAxis& machine, Contact contact) {
+  if (!machine.has_contact(contact)) return -1;
+  const PlantSetup& setup = machine.setup();
+  const auto chosen = [](int own, int models) { return own >= 0 ? own : models; };
+  switch (contact) {
+    case Contact::home: return chosen(setup.home_input, axis.home_input);
+    case Contact::lower_limit: return chosen(setup.lower_limit_input, axis.lower_limit_input);
+    case Contact::upper_limit: return chosen(setup.upper_limit_input, axis.upper_limit_input);
+    case Contact::alarm: return axis.alarm_input;
+    case Contact::ready: return axis.ready_input;
+  }
+  return -1;
+}
+
 }  // namespace understudy::emulator

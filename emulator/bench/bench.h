@@ -38,10 +38,13 @@ struct MachineSetup {
   PlantSetup plant;
 };
 
-/// An output of one device joined to an input of another, by numbers of terminals.
+/// An output of one device, or a contact of the machine on one of its axes, joined to an input of another; by
+/// numbers of terminals.
 struct WireSetup {
   std::size_t from_device = 0;
   int from_terminal = 0;
+  int from_axis = -1;  // the machine's contact instead
+  Contact from_contact = Contact::home;
   std::size_t to_device = 0;
   int to_terminal = 0;
 };
@@ -71,5 +74,8 @@ inline constexpr std::string_view kBaudToleranceExpected = "expected 0% to 10%, 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);
 int find_axis(const Model& model, std::string_view name);
+
+/// The input that a contact of the machine on an axis is wired to; -1 if it is wired to none.
+int input_of(const AxisRow& axis, const PlantAxis& machine, Contact contact);
 
 }  // namespace understudy::emulator

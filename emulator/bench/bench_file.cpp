@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
-#include <sstream>
+#include <system_error>
+#include <tuple>
 
 #include "emulator/bench/bench_form.h"
+#include "emulator/bench/complaints.h"
+#include "emulator/bench/device_fields.h"
 #include "emulator/bench/machine_fields.h"
 #include "emulator/bench/names.h"
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/device.h"
 #include "emulator/one_line.h"
-#include "emulator/parse_real.h"
 #include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 #include "emulator/world/world.h"
@@ -20,165 +24,63 @@ namespace understudy::emulator {
 
 namespace {
 
-// Ports and memories are files that are named after lines and devices; a link has a lock beside it.
-constexpr std::size_t kLongestName = 100;
-constexpr std::size_t kLongestLinkName = 200;
-
-/// A name that other names can be joined to with a dot.
-void demand_name(const YamlFields& field, const std::string& name) {
-  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  if (!plain) field.fail(emulator::quoted(name) + " is no name; expected letters, digits, _ and -");
-  if (name.size() > kLongestName) {
-    field.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
-               std::to_string(kLongestName));
-  }
-}
+constexpr std::string_view kTime = "time";     // a name in conditions already
+constexpr std::size_t kLongestLinkName = 200;  // a link has a lock beside it
 
 class BenchReader {
  public:
-  BenchReader(std::string folder, const std::string& links)
+  /// Paths are relative to `folder`, links to `links`, if that is given. Without a folder paths are refused.
+  explicit BenchReader(std::optional<std::string> folder, const std::string& links = "")
       : folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
 
-  /// From here on every path is refused.
-  void refuse_paths() { has_paths_ = false; }
-
-  Bench read(const YamlFields& root) {
-    if (root.has("devices")) read_devices(root.at("devices"));
-    read_lines(root.at("lines"));
-    if (root.has("plant")) read_plant(root.at("plant"));
-    if (root.has("wires")) read_wires(root.at("wires"));
-    if (root.has("seed")) bench_.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
-    check_devices();
-    read_disturbances(root);
-    if (root.has("faults")) check_faults(root.at("faults").elements());
+  /// Throws all that is wrong, with what was wrong before.
+  Bench read(const YamlFields& root, Complaints complaints) {
+    all_ = std::move(complaints);
+    all_.demand([&] { read_all(root); });
     return std::move(bench_);
   }
 
  private:
+  void read_all(const YamlFields& root) {
+    const auto read_part = [&](const char* key, const auto& read) {
+      all_.attempt([&] {
+        if (const auto field = root.find(key)) read(*field);
+      });
+    };
+    read_part("devices", [&](const YamlFields& devices) { read_devices(devices); });
+    all_.attempt([&] { read_lines(root.at("lines")); });
+    read_part("plant", [&](const YamlFields& plant) { read_plant(plant); });
+    read_part("wires", [&](const YamlFields& wires) { read_wires(wires); });
+    read_part("seed", [&](const YamlFields& seed) {
+      bench_.seed = static_cast<std::uint64_t>(seed.integer(kSeedForm));
+    });
+    check_devices();
+    if (unknown_.empty()) read_disturbances(root);
+    if (all_.count() == 0 && root.has("faults")) check_faults(root.at("faults").elements());
+  }
+
   // --- devices -------------------------------------------------------------------------------
-  std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
-    demand_name(name_field, name);
-    if (find_device(name) >= 0)
-      name_field.fail("two devices are called " + emulator::quoted(name) + "; expected a new name");
-    DeviceSetup device;
-    device.settings.name = name;
-    const YamlFields model = fields.at("model");
-    device.model = find_model(model.text());
-    if (device.model == nullptr) {
-      std::vector<std::string> names;
-      for (const Model* known : all_models()) names.emplace_back(known->name);
-      model.fail(emulator::quoted(model.text()) + " is no model" + suggestion(model.text(), names));
-    }
-    if (fields.has("firmware")) {
-      const YamlFields firmware = fields.at("firmware");
-      device.settings.firmware = parse_firmware(firmware.text());
-      if (device.settings.firmware == 0)
-        firmware.fail(emulator::quoted(firmware.text()) + " is no version; expected one like \"1.52\"");
-    }
-    if (fields.has("modules")) {
-      device.settings.modules = static_cast<int>(fields.at("modules").integer(kModulesForm));
-    }
-    if (fields.has("set")) {
-      fields.at("set").demand_map();
-      for (const auto& [register_name, value] : fields.at("set").entries()) {
-        if (device.model->protocol() == Protocol::text) {
-          device.settings.assignments.emplace_back(register_name, demand_real(value));
-          continue;
-        }
-        device.settings.set.emplace_back(register_name, value.integer(kRegisterValueForm));
-      }
-    }
-    if (fields.has("dip")) {
-      fields.at("dip").demand_map();
-      for (const auto& [dip, level] : fields.at("dip").entries()) {
-        device.settings.dip[dip] = level.on_or_off();
-      }
-    }
-    if (fields.has("program")) read_program(fields.at("program"), device.settings);
-    if (fields.has("nv")) read_nv(fields.at("nv"), device);
-    if (fields.has("choices")) {
-      fields.at("choices").demand_map();
-      for (const auto& [id, option] : fields.at("choices").entries())
-        device.settings.choices[id] = option.text();
-    }
-    bench_.devices.push_back(device);
-    device_fields_.push_back(fields);
-    on_a_line_.push_back(false);
-    return bench_.devices.size() - 1;
-  }
-
-  static double demand_real(const YamlFields& field) {
-    if (const auto value = parse_real(field.text())) return *value;
-    field.fail(emulator::quoted(field.text()) + " is no number; expected one");
-  }
-
-  std::string path_in(const std::string& folder, const YamlFields& field) const {
-    if (!has_paths_) field.fail("is a path; expected none in a recording, which has everything in itself");
-    if (field.text().empty()) field.fail("is empty; expected a path");
-    return (std::filesystem::path(folder) / field.text()).lexically_normal().string();
-  }
-
-  /// The path of a listing, or the listing itself if it has several lines.
-  void read_program(const YamlFields& field, DeviceSettings& settings) {
-    if (field.text().find('\n') != std::string::npos) {
-      settings.program = field.text();
-      settings.program_name = settings.name + ".program";
-      return;
-    }
-    const std::string path = path_in(folder_, field);
-    const auto text = read_text_file(path);
-    if (!text) field.fail(path + " " + text.why + "; expected a listing");
-    settings.program = *text;
-    settings.program_name = path;
-    bench_.files.push_back({path, "the program of " + emulator::quoted(settings.name)});
-  }
-
-  /// Of a model without registers: a whole number, a real one (it has a point), or the program.
-  static void read_value_of_memory(const std::string& name, const YamlFields& value, NvImage& image) {
-    const std::string text = value.text();
-    if (name == "program") {
-      std::istringstream lines(text);
-      for (std::string line; std::getline(lines, line);) image.program.push_back(line);
-    } else if (text.find_first_of(".eE") == std::string::npos) {
-      image.registers.emplace_back(name, value.integer(kRegisterValueForm));
-    } else {
-      image.reals.emplace_back(name, demand_real(value));
-    }
-  }
-
-  /// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
-  /// the run.
-  void read_nv(const YamlFields& field, DeviceSetup& device) const {
-    if (field.is_map()) {
-      NvImage image{.model = std::string(device.model->name), .firmware = {}, .registers = {}};
-      field.demand_map();
-      for (const auto& [register_name, value] : field.entries()) {
-        if (device.model->protocol() == Protocol::text) {
-          read_value_of_memory(register_name, value, image);
-          continue;
-        }
-        image.registers.emplace_back(register_name, value.integer(kRegisterValueForm));
-      }
-      device.settings.nv = std::move(image);
-      return;
-    }
-    device.nv_path = path_in(folder_, field);
-    for (const DeviceSetup& other : bench_.devices) {
-      if (other.nv_path == device.nv_path) {
-        field.fail("device " + emulator::quoted(other.settings.name) +
-                   " has the same file; expected another");
-      }
-    }
-  }
-
   void read_devices(const YamlFields& devices) {
     devices.demand_map();
     for (const auto& [name, fields] : devices.entries()) {
-      fields.demand_keys(kDeviceKeys);
-      add_device(fields, name, fields);
+      all_.attempt([&, &keys = fields] { keys.demand_keys(kDeviceKeys); });
+      all_.attempt([&, &called = name, &keys = fields] { add_device(keys, called, keys); });
     }
+  }
+
+  std::size_t add_device(const YamlFields& name_field, const std::string& name, const YamlFields& fields) {
+    demand_name(name_field, name);
+    if (name == kTime) name_field.fail("is what conditions call the time; expected another name");
+    if (find_device(name) >= 0)
+      name_field.fail("two devices are called " + emulator::quoted(name) + "; expected a new name");
+    unknown_.insert(name);
+    const std::size_t before = all_.count();
+    bench_.devices.push_back(read_device(fields, name, folder_, bench_, all_));
+    unknown_.erase(name);
+    device_fields_.push_back(fields);
+    on_a_line_.push_back(false);
+    is_sound_.push_back(all_.count() == before);
+    return bench_.devices.size() - 1;
   }
 
   int find_device(const std::string& name) const {
@@ -191,6 +93,7 @@ class BenchReader {
   std::size_t demand_device(const YamlFields& field, const std::string& name) const {
     const int found = find_device(name);
     if (found >= 0) return static_cast<std::size_t>(found);
+    if (unknown_.contains(name)) throw Untold();
     std::vector<std::string> names;
     for (const DeviceSetup& device : bench_.devices) names.push_back(device.settings.name);
     field.fail("no device is called " + emulator::quoted(name) + suggestion(name, names));
@@ -200,62 +103,85 @@ class BenchReader {
   void read_lines(const YamlFields& lines) {
     lines.demand_map();
     if (lines.entries().empty()) lines.fail("has no line; expected at least one");
-    for (const auto& [name, fields] : lines.entries()) read_line(name, fields);
+    for (const auto& [name, fields] : lines.entries()) {
+      all_.attempt([&, &called = name, &keys = fields] { read_line(called, keys); });
+    }
   }
 
   void read_line(const std::string& name, const YamlFields& fields) {
-    fields.demand_keys(kLineKeys);
-    demand_name(fields, name);
+    all_.attempt([&] { fields.demand_keys(kLineKeys); });
+    all_.attempt([&] { demand_name(fields, name); });
     LineSetup line{.name = name, .link = {}, .stations = {}};
-    if (fields.has("link")) {
-      const YamlFields link = fields.at("link");
-      line.link = path_in(links_, link);
-      if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without");
-      if (const auto size = std::filesystem::path(line.link).filename().string().size();
-          size > kLongestLinkName) {
-        link.fail("has a name of " + std::to_string(size) + " characters; expected at most " +
-                  std::to_string(kLongestLinkName));
+    all_.attempt([&] {
+      if (const auto link = fields.find("link")) read_link(*link, line);
+    });
+    all_.attempt([&] {
+      if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudForm));
+    });
+    all_.attempt([&] {
+      if (const auto tolerance = fields.find("baud_tolerance")) {
+        line.baud_tolerance_ppm = read_baud_tolerance(*tolerance);
       }
-      const auto absolute = [](const std::string& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
-      };
-      for (const LineSetup& other : bench_.lines) {
-        if (!other.link.empty() && absolute(other.link) == absolute(line.link))
-          link.fail("line " + emulator::quoted(other.name) + " has the same link; expected another path");
-      }
-    }
-    if (fields.has("baud")) line.baud = static_cast<int>(fields.at("baud").integer(kBaudForm));
-    if (fields.has("baud_tolerance")) {
-      const YamlFields tolerance = fields.at("baud_tolerance");
-      const auto ppm = parse_baud_tolerance(tolerance.text());
-      if (!ppm) {
-        tolerance.fail(emulator::quoted(tolerance.text()) + " is not a share of the speed; " +
-                       std::string(kBaudToleranceExpected));
-      }
-      line.baud_tolerance_ppm = *ppm;
-    }
-    if (fields.has("timing")) {
-      const YamlFields timing = fields.at("timing");
-      if (timing.text() != "wire" && timing.text() != "instant") {
-        timing.fail(emulator::quoted(timing.text()) + " is no timing; expected wire or instant");
-      }
-      line.timing = timing.text() == "wire" ? pty::Timing::wire : pty::Timing::instant;
-    }
+    });
+    all_.attempt([&] {
+      if (const auto timing = fields.find("timing")) line.timing = read_timing(*timing);
+    });
     std::set<std::int64_t> addresses;
     const auto stations = fields.at("stations").elements();
     if (stations.empty()) fields.at("stations").fail("is empty; expected at least one station");
-    for (const YamlFields& station : stations) read_station(station, line, addresses);
+    for (const YamlFields& station : stations) {
+      all_.attempt([&] { read_station(station, line, addresses); });
+    }
     bench_.lines.push_back(std::move(line));
+  }
+
+  static pty::Timing read_timing(const YamlFields& timing) {
+    if (timing.text() != "wire" && timing.text() != "instant") {
+      timing.fail(emulator::quoted(timing.text()) + " is no timing; expected wire or instant");
+    }
+    return timing.text() == "wire" ? pty::Timing::wire : pty::Timing::instant;
+  }
+
+  static std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
+    if (const auto ppm = parse_baud_tolerance(tolerance.text())) return *ppm;
+    tolerance.fail(emulator::quoted(tolerance.text()) + " is not a share of the speed; " +
+                   std::string(kBaudToleranceExpected));
+  }
+
+  void read_link(const YamlFields& link, LineSetup& line) const {
+    namespace fs = std::filesystem;
+    const std::string written = link.text();
+    if (written.find("://") != std::string::npos)
+      link.fail(emulator::quoted(written) +
+                " is an address of a network; expected a path, for a serial port");
+    line.link = path_in(links_, link);
+    if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without");
+    const std::string name = fs::path(line.link).filename().string();
+    if (name.size() > kLongestLinkName) {
+      link.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
+                std::to_string(kLongestLinkName));
+    }
+    std::error_code ignored;
+    const fs::file_type there = fs::symlink_status(line.link, ignored).type();
+    if (name.empty() || name == "." || name == ".." || there == fs::file_type::directory)
+      link.fail(emulator::quoted(written) + " is a folder; expected a path for the link in it");
+    if (there == fs::file_type::character || there == fs::file_type::block)
+      link.fail(emulator::quoted(written) + " is a device of this machine; expected a path that is free");
+    const auto absolute = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
+    for (const LineSetup& other : bench_.lines) {
+      if (!other.link.empty() && absolute(other.link) == absolute(line.link))
+        link.fail("line " + emulator::quoted(other.name) + " has the same link; expected another path");
+    }
   }
 
   void read_station(const YamlFields& station, LineSetup& line, std::set<std::int64_t>& addresses) {
     if (!station.is_map()) station.fail("expected a map, as in `key: value`");
     std::size_t device = 0;
     if (station.has("device")) {
-      station.demand_keys(kPlacedStationKeys);
+      all_.attempt([&] { station.demand_keys(kPlacedStationKeys); });
       device = demand_device(station.at("device"), station.at("device").text());
     } else {
-      station.demand_keys(kStationKeys);
+      all_.attempt([&] { station.demand_keys(kStationKeys); });
       device = add_device(station.at("name"), station.at("name").text(), station);
     }
     if (on_a_line_[device]) station.fail("the device is on a line already; expected it on one line");
@@ -301,18 +227,42 @@ class BenchReader {
   void read_plant(const YamlFields& plant) {
     plant.demand_map();
     for (const auto& [name, fields] : plant.entries()) {
-      const auto [device, axis_name] = split(fields, name, "feeder.A");
-      const Model& model = *bench_.devices[device].model;
-      const int axis = find_axis(model, axis_name);
-      if (axis < 0) {
-        std::string axes;
-        for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
-        fields.fail(emulator::quoted(axis_name) + " is no axis of " + std::string(model.name) +
-                    "; expected one of " + axes);
+      all_.attempt([&, &called = name, &machine = fields] { read_machine_of(called, machine); });
+    }
+    demand_own_inputs(plant);
+  }
+
+  void read_machine_of(const std::string& name, const YamlFields& fields) {
+    const auto [device, axis_name] = split(fields, name, "feeder.A");
+    const Model& model = *bench_.devices[device].model;
+    const int axis = find_axis(model, axis_name);
+    if (axis < 0) {
+      std::string axes;
+      for (const AxisRow& row : model.axes) axes += (axes.empty() ? "" : ", ") + std::string(row.name);
+      fields.fail(emulator::quoted(axis_name) + " is no axis of " + std::string(model.name) +
+                  "; expected one of " + axes);
+    }
+    bench_.machines.push_back(
+        {.device = device, .axis = axis, .plant = read_machine(fields, model, axis, all_)});
+  }
+
+  /// A switch that is wired elsewhere may come upon another one.
+  void demand_own_inputs(const YamlFields& plant) const {
+    std::map<std::pair<std::size_t, int>, std::string> taken;
+    for (const MachineSetup& machine : bench_.machines) {
+      const DeviceSetup& device = bench_.devices[machine.device];
+      const AxisRow& axis = device.model->axes[static_cast<std::size_t>(machine.axis)];
+      const std::string name = device.settings.name + "." + std::string(axis.name);
+      for (std::size_t i = 0; i < kContactNames.size(); ++i) {
+        const int input = input_of(axis, PlantAxis(machine.plant), static_cast<Contact>(i));
+        if (input < 0) continue;
+        const std::string contact = name + "." + std::string(kContactNames[i]);
+        const auto [other, is_free] = taken.emplace(std::pair(machine.device, input), contact);
+        if (is_free) continue;
+        plant.at(name).fail(contact + " and " + other->second + " are both wired to " +
+                            std::string(device.model->terminals[static_cast<std::size_t>(input)].name) +
+                            "; expected one contact on an input, and `wires` for more");
       }
-      bench_.machines.push_back({.device = device,
-                                 .axis = axis,
-                                 .plant = read_machine(fields, model.axes[static_cast<std::size_t>(axis)])});
     }
   }
 
@@ -334,37 +284,75 @@ class BenchReader {
 
   void read_wires(const YamlFields& wires) {
     for (const YamlFields& wire : wires.elements()) {
-      const std::string text = wire.text();
-      const std::size_t arrow = text.find("->");
-      if (arrow == std::string::npos) wire.fail("expected `DEVICE.OUTPUT -> DEVICE.INPUT`");
-      const auto trimmed = [](std::string part) {
-        part.erase(0, part.find_first_not_of(' '));
-        return part.substr(0, part.find_last_not_of(' ') + 1);
-      };
-      const auto [from, output] = demand_terminal(wire, trimmed(text.substr(0, arrow)),
-                                                  TerminalRow::Kind::digital_out, "feeder.DOUT_4");
-      const auto [to, input] = demand_terminal(wire, trimmed(text.substr(arrow + 2)),
-                                               TerminalRow::Kind::digital_in, "turner.DIN_10");
-      bench_.wires.push_back(
-          {.from_device = from, .from_terminal = output, .to_device = to, .to_terminal = input});
+      all_.attempt([&] { read_wire(wire); });
     }
   }
 
+  void read_wire(const YamlFields& wire) {
+    const std::string text = wire.text();
+    const std::size_t arrow = text.find("->");
+    if (arrow == std::string::npos)
+      wire.fail("expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`");
+    const auto trimmed = [](std::string part) {
+      part.erase(0, part.find_first_not_of(' '));
+      return part.substr(0, part.find_last_not_of(' ') + 1);
+    };
+    WireSetup made;
+    const std::string from = trimmed(text.substr(0, arrow));
+    if (!find_contact(wire, from, made)) {
+      std::tie(made.from_device, made.from_terminal) =
+          demand_terminal(wire, from, TerminalRow::Kind::digital_out, "feeder.DOUT_4");
+    }
+    std::tie(made.to_device, made.to_terminal) = demand_terminal(
+        wire, trimmed(text.substr(arrow + 2)), TerminalRow::Kind::digital_in, "turner.DIN_10");
+    bench_.wires.push_back(made);
+  }
+
+  /// "feeder.A.upper_limit": whether it begins with an axis, so that a contact of its machine must be meant.
+  bool find_contact(const YamlFields& wire, const std::string& name, WireSetup& made) const {
+    const std::size_t dot = name.find_last_of('.');
+    if (dot == std::string::npos || name.find('.') == dot) return false;
+    const auto [device, axis_name] = split(wire, name.substr(0, dot), "feeder.A.home");
+    const int axis = find_axis(*bench_.devices[device].model, axis_name);
+    if (axis < 0) return false;
+    const std::string word = name.substr(dot + 1);
+    const auto* const found = std::find(kContactNames.begin(), kContactNames.end(), word);
+    if (found == kContactNames.end()) {
+      const std::vector<std::string> names(kContactNames.begin(), kContactNames.end());
+      wire.fail(emulator::quoted(word) + " is no switch of a machine" + suggestion(word, names));
+    }
+    made.from_device = device;
+    made.from_axis = axis;
+    made.from_contact = static_cast<Contact>(found - kContactNames.begin());
+    for (const MachineSetup& machine : bench_.machines) {
+      if (machine.device != device || machine.axis != axis) continue;
+      if (PlantAxis(machine.plant).has_contact(made.from_contact)) return true;
+    }
+    wire.fail("the machine on " + name.substr(0, dot) + " has no " + word + "; expected it in `plant`");
+  }
+
   // --- what only the model can judge -------------------------------------------------------------
-  void check_devices() const {
+  void check_devices() {
+    const bool has_all_lines = all_.count() == 0;  // a station that could not be read may have had the device
     for (std::size_t i = 0; i < bench_.devices.size(); ++i) {
-      if (!on_a_line_[i])
-        device_fields_[i].fail("the device is on no line; expected a station that names it");
-      try {
-        make_device(*bench_.devices[i].model, bench_.devices[i].settings);
-      } catch (const SettingError& error) {
-        device_fields_[i].fail(error.what());
-      } catch (const NvError& error) {
-        device_fields_[i].fail(std::string("nv: ") + error.what());
-      } catch (const ProgramError& error) {
-        throw FileError(bench_.devices[i].settings.program_name + ":" + std::to_string(error.line) + ": " +
-                        error.what());
-      }
+      all_.attempt([&] {
+        if (!on_a_line_[i] && has_all_lines)
+          device_fields_[i].fail("the device is on no line; expected a station that names it");
+        if (is_sound_[i]) check_device(i);
+      });
+    }
+  }
+
+  void check_device(std::size_t number) const {
+    const DeviceSetup& device = bench_.devices[number];
+    try {
+      make_device(*device.model, device.settings);
+    } catch (const SettingError& error) {
+      device_fields_[number].fail(error.what());
+    } catch (const NvError& error) {
+      device_fields_[number].fail(std::string("nv: ") + error.what());
+    } catch (const ProgramError& error) {
+      throw FileError(device.settings.program_name + ":" + std::to_string(error.line) + ": " + error.what());
     }
   }
 
@@ -379,21 +367,25 @@ class BenchReader {
     for (const LineSetup& line : bench_.lines) {
       for (const std::size_t device : line.stations) known[device].line = line.name;
     }
-    if (root.has("inputs")) {
+    all_.attempt([&] {
+      if (!root.has("inputs")) return;
       root.at("inputs").demand_map();
       for (const auto& [name, level] : root.at("inputs").entries()) {
-        bench_.inputs.push_back(read_input(level, name, known));
+        all_.attempt([&, &called = name, &field = level] {
+          bench_.inputs.push_back(read_input(field, called, known));
+        });
       }
-    }
-    if (root.has("faults")) {
+    });
+    all_.attempt([&] {
+      if (!root.has("faults")) return;
       for (const YamlFields& fault : root.at("faults").elements()) {
-        bench_.faults.push_back(read_fault(fault, known));
+        all_.attempt([&] { bench_.faults.push_back(read_fault(fault, known)); });
       }
-    }
+    });
   }
 
   /// What faults wait for, in a world without them.
-  void check_faults(const std::vector<YamlFields>& fields) const {
+  void check_faults(const std::vector<YamlFields>& fields) {
     const auto is_simple = [this](const Fault& fault) {
       return bench_.devices[fault.device].model->protocol() == Protocol::modbus_rtu &&
              fault.trigger.when.empty() && fault.kind != Fault::Kind::encoder_noise;
@@ -402,44 +394,48 @@ class BenchReader {
     Bench whole = bench_;
     whole.faults.clear();
     const World world(whole, {}, {});
-    for (std::size_t i = 0; i < fields.size(); ++i) demand_possible(fields[i], world, bench_.faults[i]);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      all_.attempt([&] { demand_possible(fields[i], world, bench_.faults[i]); });
+    }
   }
 
-  std::string folder_;
-  std::string links_;
-  bool has_paths_ = true;
+  std::optional<std::string> folder_;
+  std::optional<std::string> links_;
+  Complaints all_;
   Bench bench_;
+  std::set<std::string> unknown_;          // devices that could not be read
+  std::vector<bool> is_sound_;             // by device: nothing is wrong with what is said of it
   std::vector<YamlFields> device_fields_;  // where each device was described
   std::vector<bool> on_a_line_;
 };
 
-YamlFields root_of(const std::string& text, const std::string& name) {
+Bench read_whole(const std::string& text, const std::string& name, BenchReader reader) {
   const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
   if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
     throw FileError({name, 1, 1},
                     "bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
   }
-  root.demand_keys(kBenchKeys);
-  root.at("understudy").integer(kVersionForm);
-  return root;
+  Complaints complaints;
+  complaints.attempt([&] { root.demand_keys(kBenchKeys); });
+  complaints.attempt([&] { root.at("understudy").integer(kVersionForm); });
+  return reader.read(root, std::move(complaints));
 }
 
 }  // namespace
 
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
                   const std::string& links) {
-  return BenchReader(folder, links).read(root_of(text, name));
+  return read_whole(text, name, BenchReader(folder, links));
 }
 
 Bench parse_recorded_bench(const std::string& text) {
-  BenchReader reader("", "");
-  reader.refuse_paths();
-  return reader.read(root_of(text, "bench"));
+  return read_whole(text, "bench", BenchReader(std::nullopt));
 }
 
 Bench read_bench(const YamlFields& fields, const std::string& folder) {
-  fields.demand_keys(kInlineBenchKeys);
-  return BenchReader(folder, "").read(fields);
+  Complaints complaints;
+  complaints.attempt([&] { fields.demand_keys(kInlineBenchKeys); });
+  return BenchReader(folder).read(fields, std::move(complaints));
 }
 
 namespace {

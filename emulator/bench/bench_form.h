@@ -72,22 +72,34 @@ inline constexpr Form kWidthForm = integer_form(1, kFarthestPulse);
 inline constexpr Form kHysteresisForm = integer_form(0, kFarthestPulse);
 inline constexpr Form kPerRevolutionForm = integer_form(1, 10'000'000);
 inline constexpr KeyRow kHysteresisKey{"hysteresis", "Pulses between on and off.", &kHysteresisForm};
+inline constexpr std::array<std::string_view, 2> kContacts{"opens", "closes"};
+inline constexpr Form kContactForm = words_form(kContacts);
+inline constexpr KeyRow kContactKey{"contact", "What it does where it is on: closes (without it), or opens.",
+                                    &kContactForm};
 inline constexpr std::array kHomeKeys{
     KeyRow{"at", "The first position where the switch is on.", &kPositionForm, true},
-    KeyRow{"width", "How many positions it is on for.", &kWidthForm, true}, kHysteresisKey};
+    KeyRow{"width", "How many positions it is on for.", &kWidthForm, true}, kHysteresisKey, kContactKey,
+    KeyRow{"input", "The input that it is wired to; the controller's own without it.", &kText}};
 inline constexpr std::array kLimitKeys{
     KeyRow{"lower", "The lower switch is on there and below.", &kPositionForm},
-    KeyRow{"upper", "The upper switch is on there and above.", &kPositionForm}, kHysteresisKey};
+    KeyRow{"upper", "The upper switch is on there and above.", &kPositionForm},
+    kHysteresisKey,
+    kContactKey,
+    KeyRow{"lower_input", "The input that the lower one is wired to; the controller's own without it.",
+           &kText},
+    KeyRow{"upper_input", "The input that the upper one is wired to; the controller's own without it.",
+           &kText}};
 inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
 inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
+inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
+inline constexpr Form kEncoderPlaceForm = words_form(kEncoderPlaces);
 inline constexpr std::array kEncoderKeys{
     KeyRow{"per_revolution", "Its counts for a revolution.", &kPerRevolutionForm, true},
     KeyRow{"motor_pulses_per_revolution", "The motor's pulses for one.", &kPerRevolutionForm},
-    KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm}};
+    KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
+    KeyRow{"on", "What turns it: the machine (without it), or a hand wheel.", &kEncoderPlaceForm}};
 inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
 inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
-inline constexpr std::array<std::string_view, 2> kContacts{"opens", "closes"};
-inline constexpr Form kContactForm = words_form(kContacts);
 inline constexpr std::array kDriveKeys{
     KeyRow{"ready_after", "From its enabling to `ready`.", &kDuration},
     KeyRow{"enabled_by", "The servo output's level that enables it.", &kOnOrOffForm},
@@ -97,9 +109,12 @@ inline constexpr Form kLimitsForm = keys_form(kLimitKeys);
 inline constexpr Form kEncoderForm = keys_form(kEncoderKeys);
 inline constexpr Form kDriveForm = keys_form(kDriveKeys);
 inline constexpr std::array kMachineKeys{
+    KeyRow{"position", "Where the machine stands at first (0).", &kPositionForm},
     KeyRow{"travel", "The hard stops; pulses beyond are lost.", &kTravelForm},
-    KeyRow{"home", "The home switch.", &kHomeForm}, KeyRow{"limits", "The limit switches.", &kLimitsForm},
-    KeyRow{"encoder", "The encoder.", &kEncoderForm}, KeyRow{"drive", "The servo drive.", &kDriveForm}};
+    KeyRow{"home", "The home switch.", &kHomeForm},
+    KeyRow{"limits", "The limit switches.", &kLimitsForm},
+    KeyRow{"encoder", "The encoder.", &kEncoderForm},
+    KeyRow{"drive", "The servo drive.", &kDriveForm}};
 
 // --- the whole -----------------------------------------------------------------------------------
 inline constexpr Form kLineForm = keys_form(kLineKeys);
@@ -116,8 +131,9 @@ inline constexpr KeyRow kLinesKey{"lines", "The serial lines, by names of yours.
 inline constexpr KeyRow kDevicesKey{"devices", "Devices with more to say, by names of yours.", &kDevicesForm};
 inline constexpr KeyRow kPlantKey{"plant", "The machine on each axis: feeder.A and what it is like.",
                                   &kPlantForm};
-inline constexpr KeyRow kWiresKey{"wires", "From an output to an input: feeder.DOUT_4 -> turner.DIN_10.",
-                                  &kTextList};
+inline constexpr KeyRow kWiresKey{
+    "wires", "From an output, or a machine's switch, to an input: feeder.DOUT_4 -> turner.DIN_10.",
+    &kTextList};
 inline constexpr KeyRow kInputsKey{"inputs", "What inputs are given at first.", &kTextByName};
 inline constexpr KeyRow kFaultsKey{"faults", "What is broken at first: { stall: feeder.A }.", &kFaultsForm};
 

@@ -63,21 +63,29 @@ Json line_text(const Bench& bench, const LineSetup& line) {
   return text;
 }
 
-Json machine_text(const PlantSetup& plant) {
+Json machine_text(const PlantSetup& plant, const Model& model) {
   Json text = Json::object();
+  const auto input = [&](int terminal) { return model.terminals[static_cast<std::size_t>(terminal)].name; };
+  if (plant.position_pulses != 0) text["position"] = plant.position_pulses;
   if (plant.travel) text["travel"] = {plant.travel->first, plant.travel->last};
   if (plant.home) {
     text["home"] = Json{{"at", plant.home->first},
                         {"width", plant.home->last - plant.home->first + 1},
                         {"hysteresis", plant.home_hysteresis_pulses}};
   }
+  if (plant.home_opens) text["home"]["contact"] = "opens";
+  if (plant.home_input >= 0) text["home"]["input"] = input(plant.home_input);
   if (plant.lower_limit) text["limits"]["lower"] = *plant.lower_limit;
   if (plant.upper_limit) text["limits"]["upper"] = *plant.upper_limit;
   if (plant.limit_hysteresis_pulses != 0) text["limits"]["hysteresis"] = plant.limit_hysteresis_pulses;
+  if (plant.limits_open) text["limits"]["contact"] = "opens";
+  if (plant.lower_limit_input >= 0) text["limits"]["lower_input"] = input(plant.lower_limit_input);
+  if (plant.upper_limit_input >= 0) text["limits"]["upper_input"] = input(plant.upper_limit_input);
   if (plant.encoder_counts_per_revolution != 0) {
     text["encoder"] = Json{{"per_revolution", plant.encoder_counts_per_revolution},
                            {"motor_pulses_per_revolution", plant.pulses_per_revolution},
                            {"reversed", plant.encoder_reversed}};
+    if (plant.has_wheel) text["encoder"]["on"] = "wheel";
   }
   if (plant.drive) {
     text["drive"] = Json{{"ready_after", std::to_string(plant.drive->ready_after) + "ms"},
@@ -103,11 +111,20 @@ std::string to_text(const Bench& bench) {
   for (const MachineSetup& machine : bench.machines) {
     const auto& axes = bench.devices[machine.device].model->axes;
     const std::string_view axis = axes[static_cast<std::size_t>(machine.axis)].name;
-    text["plant"][known[machine.device].name + "." + std::string(axis)] = machine_text(machine.plant);
+    text["plant"][known[machine.device].name + "." + std::string(axis)] =
+        machine_text(machine.plant, *bench.devices[machine.device].model);
   }
   for (const WireSetup& wire : bench.wires) {
-    text["wires"].push_back(terminal(wire.from_device, wire.from_terminal) + " -> " +
-                            terminal(wire.to_device, wire.to_terminal));
+    std::string from;
+    if (wire.from_axis < 0) {
+      from = terminal(wire.from_device, wire.from_terminal);
+    } else {
+      const auto& axes = bench.devices[wire.from_device].model->axes;
+      from = known[wire.from_device].name + "." +
+             std::string(axes[static_cast<std::size_t>(wire.from_axis)].name) + "." +
+             std::string(kContactNames[static_cast<std::size_t>(wire.from_contact)]);
+    }
+    text["wires"].push_back(from + " -> " + terminal(wire.to_device, wire.to_terminal));
   }
   for (const InputSetup& input : bench.inputs) {
     text["inputs"][terminal(input.device, input.terminal)] = input.level;

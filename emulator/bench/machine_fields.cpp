@@ -3,6 +3,7 @@
 #include "emulator/bench/bench_form.h"
 #include "emulator/bench/level.h"
 #include "emulator/one_line.h"
+#include "emulator/suggestion.h"
 #include "emulator/world/check_fault.h"
 
 namespace understudy::emulator {
@@ -45,41 +46,81 @@ void read_encoder(const YamlFields& encoder, PlantSetup& setup) {
     setup.pulses_per_revolution =
         static_cast<int>(encoder.at("motor_pulses_per_revolution").integer(kPerRevolutionForm));
   }
+  if (encoder.has("on")) setup.has_wheel = read_word(encoder.at("on"), "wheel", "machine");
   if (encoder.has("reversed")) setup.encoder_reversed = read_word(encoder.at("reversed"), "true", "false");
+}
+
+void read_travel(const YamlFields& travel, PlantSetup& setup) {
+  const PulseSpan span = read_span(travel);
+  if (span.first == span.last) travel.fail("is no way at all; expected two positions that differ");
+  const std::int64_t start = setup.position_pulses;
+  if (span.first > start || span.last < start) {
+    travel.fail("does not hold position " + std::to_string(start) +
+                ", where the machine starts; expected it inside");
+  }
+  setup.travel = span;
+}
+
+/// A digital input of the machine's own controller. (A wire goes to another's.)
+int read_own_input(const YamlFields& field, const Model& model) {
+  const std::string name = field.text();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    if (model.terminals[i].kind != TerminalRow::Kind::digital_in) continue;
+    if (model.terminals[i].name == name) return static_cast<int>(i);
+    names.emplace_back(model.terminals[i].name);
+  }
+  field.fail(quoted(name) + " is no input of " + std::string(model.name) + suggestion(name, names));
+}
+
+void read_home(const YamlFields& home, const Model& model, PlantSetup& setup) {
+  home.demand_keys(kHomeKeys);
+  const std::int64_t at = home.at("at").integer(kPositionForm);
+  setup.home = PulseSpan{at, at + home.at("width").integer(kWidthForm) - 1};
+  if (home.has("hysteresis")) setup.home_hysteresis_pulses = home.at("hysteresis").integer(kHysteresisForm);
+  if (home.has("contact")) setup.home_opens = read_word(home.at("contact"), "opens", "closes");
+  if (home.has("input")) setup.home_input = read_own_input(home.at("input"), model);
+}
+
+void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup) {
+  limits.demand_keys(kLimitKeys);
+  const auto read = [&](const char* side, std::optional<std::int64_t>& position, int& input) {
+    const std::string input_key = std::string(side) + "_input";
+    if (limits.has(side)) position = limits.at(side).integer(kPositionForm);
+    if (!limits.has(input_key)) return;
+    if (!position) {
+      limits.at(input_key).fail("there is no " + std::string(side) + " limit switch; expected `" + side +
+                                "` as well");
+    }
+    input = read_own_input(limits.at(input_key), model);
+  };
+  read("lower", setup.lower_limit, setup.lower_limit_input);
+  read("upper", setup.upper_limit, setup.upper_limit_input);
+  if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
+    limits.fail("the lower limit is not below the upper one; expected it below");
+  }
+  if (limits.has("hysteresis"))
+    setup.limit_hysteresis_pulses = limits.at("hysteresis").integer(kHysteresisForm);
+  if (limits.has("contact")) setup.limits_open = read_word(limits.at("contact"), "opens", "closes");
 }
 
 }  // namespace
 
-PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis) {
-  fields.demand_keys(kMachineKeys);
+PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Complaints& complaints) {
   PlantSetup setup;
-  if (fields.has("travel")) {
-    setup.travel = read_span(fields.at("travel"));
-    if (setup.travel->first > 0 || setup.travel->last < 0) {
-      fields.at("travel").fail("does not hold position 0, where the machine starts; expected it inside");
-    }
-  }
-  if (fields.has("home")) {
-    const YamlFields home = fields.at("home");
-    home.demand_keys(kHomeKeys);
-    const std::int64_t at = home.at("at").integer(kPositionForm);
-    setup.home = PulseSpan{at, at + home.at("width").integer(kWidthForm) - 1};
-    if (home.has("hysteresis")) setup.home_hysteresis_pulses = home.at("hysteresis").integer(kHysteresisForm);
-  }
-  if (fields.has("limits")) {
-    const YamlFields limits = fields.at("limits");
-    limits.demand_keys(kLimitKeys);
-    if (limits.has("lower")) setup.lower_limit = limits.at("lower").integer(kPositionForm);
-    if (limits.has("upper")) setup.upper_limit = limits.at("upper").integer(kPositionForm);
-    if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
-      limits.fail("the lower limit is not below the upper one; expected it below");
-    }
-    if (limits.has("hysteresis"))
-      setup.limit_hysteresis_pulses = limits.at("hysteresis").integer(kHysteresisForm);
-  }
-  setup.pulses_per_revolution = axis.pulses_per_revolution;
-  if (fields.has("encoder")) read_encoder(fields.at("encoder"), setup);
-  if (fields.has("drive")) setup.drive = read_drive(fields.at("drive"));
+  setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
+  complaints.attempt([&] { fields.demand_keys(kMachineKeys); });
+  const auto read = [&](const char* key, const auto& how) {
+    complaints.attempt([&] {
+      if (const auto field = fields.find(key)) how(*field);
+    });
+  };
+  read("position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionForm); });
+  read("travel", [&](const YamlFields& field) { read_travel(field, setup); });
+  read("home", [&](const YamlFields& field) { read_home(field, model, setup); });
+  read("limits", [&](const YamlFields& field) { read_limits(field, model, setup); });
+  read("encoder", [&](const YamlFields& field) { read_encoder(field, setup); });
+  read("drive", [&](const YamlFields& field) { setup.drive = read_drive(field); });
   return setup;
 }
 

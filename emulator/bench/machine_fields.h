@@ -2,6 +2,7 @@
 #pragma once
 
 #include "emulator/bench/bench.h"
+#include "emulator/bench/complaints.h"
 #include "emulator/bench/names.h"
 #include "emulator/bench/yaml_fields.h"
 
@@ -9,8 +10,8 @@ namespace understudy::emulator {
 
 class World;
 
-/// One entry of `plant`: the machine on an axis.
-PlantSetup read_machine(const YamlFields& fields, const AxisRow& axis);
+/// One entry of `plant`: the machine on an axis. What is wrong with it is kept.
+PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Complaints& complaints);
 /// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
 InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
 /// One element of `faults`: "{ lost_steps: feeder.A, one_in: 50 }". `other_key` may be there as well, for

@@ -185,11 +185,11 @@ void say_how_to_have_parity(const Daemon& daemon) {
 }  // namespace
 
 void say_ready(const Daemon& daemon) {
+  say_how_to_have_parity(daemon);
   for (const auto& port : daemon.ports()) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
                 port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }
-  say_how_to_have_parity(daemon);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
   }

@@ -74,11 +74,13 @@ void set_field(const FaultFieldRow& row, const std::string& text, Fault& fault) 
     case Form::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
     case Form::level: fault.*row.number = field_level(row.name, text); break;
     case Form::duration: fault.*row.number = field_duration(row.name, text, SimTime{0}).count(); break;
-    case Form::ticks: {
+    case Form::ticks:
+    case Form::even_ticks: {
       const SimTime time = field_duration(row.name, text, row.lowest * kTickLength);
-      if (time % (2 * kTickLength) != SimTime{0}) {
-        throw NameError(std::string(row.name) + ": " + quoted(text) +
-                        " is not possible; expected an even number of milliseconds");
+      const bool is_even = row.form == Form::even_ticks;
+      if (time % ((is_even ? 2 : 1) * kTickLength) != SimTime{0}) {
+        throw NameError(std::string(row.name) + ": " + quoted(text) + " is not possible; expected " +
+                        (is_even ? "an even number of milliseconds" : "whole milliseconds"));
       }
       fault.*row.number = time / kTickLength;
       break;
@@ -92,7 +94,8 @@ std::string expected_of(const FaultFieldRow& row) {
   switch (row.form) {
     case Form::level: return "on or off";
     case Form::duration:
-    case Form::ticks: return "a duration such as 250ms";
+    case Form::ticks:
+    case Form::even_ticks: return "a duration such as 250ms";
     default: return std::to_string(row.lowest) + " to " + std::to_string(row.highest);
   }
 }
@@ -104,7 +107,8 @@ std::string text_of(const FaultFieldRow& row, const Fault& fault) {
     case Form::level: return std::to_string(fault.*row.number);
     case Form::duration:
       return row.required || fault.*row.number != 0 ? format_duration(SimTime{fault.*row.number}) : "";
-    case Form::ticks: return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
+    case Form::ticks:
+    case Form::even_ticks: return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
     case Form::bytes: return hex_text(fault.*row.bytes);
     case Form::side: {
       const auto side = static_cast<std::size_t>(fault.side);
@@ -176,7 +180,7 @@ Fault find_fault(const KnownDevices& devices, const FaultText& text) {
     if (fault.kind == Fault::Kind::noise && fault.before.empty() && fault.after.empty()) {
       throw NameError("before and after are missing; expected one of them");
     }
-    if (fault.kind == Fault::Kind::slip && fault.trigger.lasts != SimTime{0}) {
+    if (is_done_at_once(fault.kind) && fault.trigger.lasts != SimTime{0}) {
       throw NameError("for: it is over at once; expected none");
     }
   } catch (const NameError& error) {

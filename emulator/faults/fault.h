@@ -23,6 +23,7 @@ struct Fault {
     alarm,       // the drive is in alarm; with a drive it stays so until the controller clears it afterwards
     stuck,       // an input stays at the level `amount`, whatever drives it
     encoder_noise,  // the encoder counts `amount` too many, then too few, half a `period_ticks` each
+    turn,        // the wheel of an encoder of its own is turned by `amount` counts, over `over_ticks`
     // of a device
     power_cut,  // it has no power
     slow,       // it carries out each request `amount` ns late
@@ -43,6 +44,7 @@ struct Fault {
   int place = 0;           // an axis, or for `stuck` a terminal
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
+  std::int64_t over_ticks = 0;
   bool on_line = false;  // all of its line is meant
   enum class Side : std::uint8_t { reply, request, both } side = Side::reply;
   std::vector<std::uint8_t> before{};
@@ -56,6 +58,10 @@ struct Fault {
 constexpr bool is_of_wire(Fault::Kind kind) { return kind >= Fault::Kind::drop || kind == Fault::Kind::slow; }
 /// What is done to a request or its reply: it needs frames, whatever its trigger says.
 constexpr bool is_of_frames(Fault::Kind kind) { return kind >= Fault::Kind::slow; }
+/// What is done to the machine and not wrong with it: it cannot be cleared.
+constexpr bool is_done_at_once(Fault::Kind kind) {
+  return kind == Fault::Kind::slip || kind == Fault::Kind::turn;
+}
 /// Whether something must happen before it strikes: a frame, a time, a condition.
 bool waits(const Fault& fault);
 

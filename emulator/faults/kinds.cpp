@@ -22,11 +22,15 @@ constexpr FaultFieldRow kBy{.name = "by", .form = Form::duration};
 constexpr std::array kLostSteps{FaultFieldRow{.name = "one_in", .lowest = 1, .highest = kFar}};
 constexpr std::array kSlip{
     FaultFieldRow{.name = "pulses", .lowest = -kFarthestSlip, .highest = kFarthestSlip}};
+constexpr std::array kTurn{
+    FaultFieldRow{.name = "counts", .lowest = -kFarthestSlip, .highest = kFarthestSlip},
+    FaultFieldRow{
+        .name = "in", .form = Form::ticks, .required = false, .lowest = 1, .number = &Fault::over_ticks}};
 constexpr std::array kStuck{FaultFieldRow{.name = "level", .form = Form::level, .highest = 1}};
 constexpr std::array kEncoderNoise{
     FaultFieldRow{.name = "counts", .lowest = -kMostCounts, .highest = kMostCounts},
     FaultFieldRow{.name = "period",
-                  .form = Form::ticks,
+                  .form = Form::even_ticks,
                   .required = false,
                   .lowest = 2,
                   .number = &Fault::period_ticks}};
@@ -40,13 +44,14 @@ constexpr std::array kDuplicate{FaultFieldRow{.name = "after", .form = Form::dur
 constexpr std::array kNoise{bytes_row("before", &Fault::before), bytes_row("after", &Fault::after), kOf};
 constexpr std::array kCollision{bytes_row("with", &Fault::before), kOf};
 
-constexpr std::array<FaultKindRow, 18> kKinds{{
+constexpr std::array<FaultKindRow, 19> kKinds{{
     {"stall", Kind::stall, Place::axis, {}, "begins"},
     {"lost_steps", Kind::lost_steps, Place::axis, kLostSteps, "begins"},
     {"slip", Kind::slip, Place::axis, kSlip, "pushed"},
     {"alarm", Kind::alarm, Place::axis, {}, "begins"},
     {"stuck", Kind::stuck, Place::input, kStuck, "begins"},
     {"encoder_noise", Kind::encoder_noise, Place::axis, kEncoderNoise, "begins"},
+    {"turn", Kind::turn, Place::axis, kTurn, "turned"},
     {"power_cut", Kind::power_cut, Place::device, {}, "begins"},
     {"slow", Kind::slow, Place::device, kSlow, "carried out later"},
     {"busy", Kind::busy, Place::device_or_line, {}, "refused"},

@@ -13,7 +13,7 @@ namespace understudy::emulator {
 
 /// A field that a kind has besides its trigger, and what it sets.
 struct FaultFieldRow {
-  enum class Form : std::uint8_t { number, level, duration, ticks, bytes, side };
+  enum class Form : std::uint8_t { number, level, duration, ticks, even_ticks, bytes, side };
   std::string_view name;
   Form form = Form::number;
   bool required = true;

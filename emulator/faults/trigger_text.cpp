@@ -21,7 +21,7 @@ struct NumberRow {
 };
 constexpr std::array<NumberRow, 5> kNumbers{{
     {"function", &FaultTrigger::function, 0, 255},
-    {"station", &FaultTrigger::station, 0, 255},
+    {"station", &FaultTrigger::station, 0, 247},
     {"every", &FaultTrigger::every, 1, kMany},
     {"times", &FaultTrigger::times, 1, kMany},
     {"seed", &FaultTrigger::seed, 0, INT64_MAX},

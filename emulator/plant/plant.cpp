@@ -19,6 +19,7 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
     shift(state_.faults.slipped_pulses);
     state_.faults.slipped_pulses = 0;
   }
+  turn_wheel();
   // What moves in this tick is decided by the drive as it was at its beginning.
   const std::int64_t steps = pulses_that_step(pulses);
   state_.lost_pulses += std::abs(pulses - steps);
@@ -55,11 +56,46 @@ void PlantAxis::step_drive(Tick tick, DriveInputs inputs) {
 }
 
 Tick PlantAxis::next_active_tick(Tick done) const {
-  if (state_.faults.slipped_pulses != 0) return done + 1;
+  if (state_.faults.slipped_pulses != 0 || state_.ticks_to_turn != 0) return done + 1;
   if (setup_.drive && state_.enabled_at != kNever && !state_.ready) {
     return std::max(done + 1, state_.enabled_at + setup_.drive->ready_after);
   }
   return kNever;
+}
+
+void PlantAxis::turn(std::int64_t counts, Tick ticks) {
+  state_.counts_to_turn += counts;
+  state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
+}
+
+void PlantAxis::turn_wheel() {
+  if (state_.ticks_to_turn == 0) return;
+  const std::int64_t now = state_.counts_to_turn / state_.ticks_to_turn;
+  state_.wheel_counts += now;
+  state_.counts_to_turn -= now;
+  --state_.ticks_to_turn;
+}
+
+bool PlantAxis::has_contact(Contact which) const {
+  switch (which) {
+    case Contact::home: return setup_.home.has_value();
+    case Contact::lower_limit: return setup_.lower_limit.has_value();
+    case Contact::upper_limit: return setup_.upper_limit.has_value();
+    case Contact::alarm:
+    case Contact::ready: return setup_.drive.has_value();
+  }
+  return false;
+}
+
+bool PlantAxis::contact(Contact which) const {
+  if (which == Contact::alarm) return in_alarm() != (setup_.drive && setup_.drive->alarm_opens);
+  if (!has_contact(which)) return false;
+  switch (which) {
+    case Contact::home: return at_home() != setup_.home_opens;
+    case Contact::lower_limit: return at_lower_limit() != setup_.limits_open;
+    case Contact::upper_limit: return at_upper_limit() != setup_.limits_open;
+    default: return ready();
+  }
 }
 
 void PlantAxis::move(std::int64_t steps) { state_.lost_pulses += std::abs(steps - shift(steps)); }
@@ -96,6 +132,10 @@ void PlantAxis::check(const State& state) {
     demand_reach(pulses);
   }
   demand_reach(state.faults.slipped_pulses);
+  demand_reach(state.wheel_counts);
+  demand_reach(state.counts_to_turn);
+  demand_state(state.ticks_to_turn >= 0, "a wheel has less than no time to turn");
+  demand_reach(state.ticks_to_turn);
   demand_reach(state.faults.encoder_noise_counts);
   if (state.enabled_at != kNever) demand_reach(state.enabled_at);
 }
@@ -107,7 +147,7 @@ void PlantAxis::restore(const State& state) {
 
 std::int64_t PlantAxis::encoder_counts() const {
   // Whole revolutions and the rest of one, so that nothing overflows but the count itself.
-  const std::int64_t at = state_.position_pulses;
+  const std::int64_t at = state_.position_pulses - setup_.position_pulses;
   const std::int64_t per_revolution = setup_.pulses_per_revolution;
   const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);
   const std::int64_t rest = at - revolutions * per_revolution;
@@ -115,6 +155,7 @@ std::int64_t PlantAxis::encoder_counts() const {
   std::uint64_t counts = static_cast<std::uint64_t>(revolutions) * counts_per_revolution;
   counts +=
       static_cast<std::uint64_t>(rest) * counts_per_revolution / static_cast<std::uint64_t>(per_revolution);
+  if (setup_.has_wheel) counts = static_cast<std::uint64_t>(state_.wheel_counts);
   if (setup_.encoder_reversed) counts = 0 - counts;
   counts += static_cast<std::uint64_t>(state_.faults.encoder_noise_counts);
   return static_cast<std::int64_t>(counts << 2) >> 2;  // its low 62 bits, with their sign

@@ -1,10 +1,12 @@
 // The machine around a controller's axis: how far it travels, where its switches are, what its encoder
-// counts, and the drive that turns its motor. Positions are pulses of the motor, 0 where the machine stood at
-// power-up.
+// counts, and the drive that turns its motor. Positions are pulses of the motor, by a
+// scale of the machine's own: where it stands at first is part of its setup.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "emulator/simulated_time.h"
 
@@ -26,7 +28,14 @@ struct DriveSetup {
   bool alarm_opens = false;
 };
 
+/// The contacts around an axis, by the names that a bench calls them.
+enum class Contact : std::uint8_t { home, lower_limit, upper_limit, alarm, ready };
+inline constexpr std::array<std::string_view, 5> kContactNames{"home", "lower_limit", "upper_limit", "alarm",
+                                                               "ready"};
+
 struct PlantSetup {
+  /// Where the machine stands at first.
+  std::int64_t position_pulses = 0;
   /// Hard stops: the machine does not pass them, pulses beyond are lost steps.
   std::optional<PulseSpan> travel;
   /// Where the home switch is on.
@@ -37,9 +46,18 @@ struct PlantSetup {
   /// A switch that is on lets go only so far outside the place where it came on.
   std::int64_t home_hysteresis_pulses = 0;
   std::int64_t limit_hysteresis_pulses = 0;
+  /// Whether the switch opens where it is on (and is closed elsewhere).
+  bool home_opens = false;
+  bool limits_open = false;
+  /// The controller's inputs that the switches are wired to, by their terminals; -1: the model's own.
+  int home_input = -1;
+  int lower_limit_input = -1;
+  int upper_limit_input = -1;
   int encoder_counts_per_revolution = 0;  // 0: no encoder
   int pulses_per_revolution = 1;
   bool encoder_reversed = false;
+  /// The encoder is on a wheel of its own, that turn() turns and no motor.
+  bool has_wheel = false;
   std::optional<DriveSetup> drive;
 };
 
@@ -61,12 +79,18 @@ struct DriveInputs {
 
 class PlantAxis {
  public:
-  explicit PlantAxis(PlantSetup setup = {}) : setup_(setup) { move_switches(); }
+  explicit PlantAxis(PlantSetup setup = {}) : setup_(setup) {
+    state_.position_pulses = setup_.position_pulses;
+    move_switches();
+  }
 
   /// So many steps, as far as the stops let it; the rest is lost.
   void move(std::int64_t steps);
   /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
+  /// The wheel of the encoder, evenly over so many ticks from the next one on; what is left of a turn before
+  /// joins it.
+  void turn(std::int64_t counts, Tick ticks);
   MachineFaults& faults() { return state_.faults; }
   void set_faults(const MachineFaults& faults) { state_.faults = faults; }
   const MachineFaults& faults() const { return state_.faults; }
@@ -79,12 +103,14 @@ class PlantAxis {
   bool at_upper_limit() const { return state_.at_upper_limit; }
   bool has_drive() const { return setup_.drive.has_value(); }
   bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
-  /// The level of the alarm contact.
-  bool alarm_contact() const { return in_alarm() != (setup_.drive && setup_.drive->alarm_opens); }
   bool ready() const { return state_.ready; }
+  /// Whether a contact is closed. One that the machine does not have is open.
+  bool contact(Contact which) const;
+  bool has_contact(Contact which) const;
   bool has_encoder() const { return setup_.encoder_counts_per_revolution != 0; }
-  /// Rounded towards minus infinity, so that a slow turn through 0 counts evenly; a reversed encoder counts
-  /// the same edges the other way. Wraps at 62 bits, so that the difference of two fits.
+  /// From where the machine stood at first. Rounded towards minus infinity, so that a slow turn through 0
+  /// counts evenly; a reversed encoder counts the same edges the other way. Wraps at 62 bits, so that the
+  /// difference of two fits.
   std::int64_t encoder_counts() const;
 
   /// The first tick after `done` at which something changes by itself; kNever if nothing does.
@@ -106,6 +132,9 @@ class PlantAxis {
     bool ready = false;
     Tick enabled_at = kNever;
     MachineFaults faults;
+    std::int64_t wheel_counts = 0;
+    std::int64_t counts_to_turn = 0;  // in the ticks that are left
+    Tick ticks_to_turn = 0;
     bool operator==(const State&) const = default;
   };
   const State& save() const { return state_; }
@@ -119,6 +148,7 @@ class PlantAxis {
   std::int64_t shift(std::int64_t steps);
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);
+  void turn_wheel();
   void move_switches();
 
   PlantSetup setup_;

@@ -117,7 +117,7 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
   } catch (const RecordingError& error) {
     throw fail(error.what());
   } catch (const BenchError& error) {
-    throw fail(std::string("bench: ") + error.what());
+    throw fail("bench: " + error.complaints().front().text);
   }
   World world(replayed.bench, replayed.header.options, {});
   if (!replayed.header.snapshot.empty()) {

@@ -62,6 +62,7 @@ void read_repeat(StepsReader& reader, const YamlFields& /*step*/, const YamlFiel
     Parameters inner(reader.parameters());
     if (as) define(*as, inner, as->text(), std::to_string(round));
     reader.read_here(steps, inner);
+    if (reader.has_complaints()) return;
   }
 }
 
@@ -81,6 +82,7 @@ void read_for(StepsReader& reader, const YamlFields& /*step*/, const YamlFields&
       define(as ? *as : value, inner, value.at("as").text(), row.text());
     }
     reader.read_here(steps, inner);
+    if (reader.has_complaints()) return;
   }
 }
 

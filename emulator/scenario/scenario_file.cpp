@@ -57,22 +57,26 @@ class ScenarioReader {
         file_{.shared = shared} {}
 
   std::vector<Scenario> read() {
-    root_.demand_keys(kScenarioKeys);
-    root_.at("understudy").integer(kVersionForm);
     std::vector<Scenario> scenarios;
     std::set<std::string> names;
-    for (const Case& row : read_cases()) {
-      try {
-        scenarios.push_back(read_case(row));
-      } catch (const FileError& error) {
-        // What is wrong may be so in one case only.
-        throw FileError(error.what() + (row.values.empty() ? "" : "  " + to_text(row)));
+    Complaints all;
+    all.demand([&] {
+      all.attempt([&] { root_.demand_keys(kScenarioKeys); });
+      all.attempt([&] { root_.at("understudy").integer(kVersionForm); });
+      for (const Case& row : read_cases()) {
+        try {
+          Scenario scenario = read_case(row);
+          if (!names.insert(scenario.name).second) {
+            row.where->fail("makes a second scenario called " + emulator::quoted(scenario.name) +
+                            "; expected other values than before");
+          }
+          scenarios.push_back(std::move(scenario));
+        } catch (const FileError& error) {
+          // What is wrong may be so in one case only.
+          all.add(error, row.values.empty() ? "" : "  " + to_text(row));
+        }
       }
-      if (!names.insert(scenarios.back().name).second) {
-        row.where->fail("makes a second scenario called " + emulator::quoted(scenarios.back().name) +
-                        "; expected other values than before");
-      }
-    }
+    });
     return scenarios;
   }
 
@@ -197,26 +201,33 @@ class ScenarioReader {
     Scenario scenario;
     scenario.file = path_;
     scenario.name = std::filesystem::path(path_).stem().string();
-    bool is_named_by_case = false;
-    if (root.has("name")) {
-      scenario.name = on_one_line(root.at("name").text());
-      is_named_by_case = scenario.name != root_.at("name").text();
-    }
-    if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
+    // Without its bench nothing can be said of the steps.
     scenario.bench = read_its_bench(root);
-    if (root.has("gap")) scenario.gap = root.at("gap").duration();
-    if (root.has("seed")) {
-      scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
-    }
-    scenario.seed = scenario.bench.seed;
     for (const DeviceSetup& device : scenario.bench.devices) {
       if (device.nv_path.empty()) continue;
       scenario.files.push_back(
           {device.nv_path, "the memory that " + emulator::quoted(device.settings.name) + " begins with"});
     }
     const Trial trial = make_trial(root, scenario.bench);
+    Complaints all;
+    bool is_named_by_case = false;
+    all.attempt([&] {
+      if (!root.has("name")) return;
+      scenario.name = on_one_line(root.at("name").text());
+      is_named_by_case = scenario.name != root_.at("name").text();
+    });
+    if (!row.values.empty() && !is_named_by_case) scenario.name += " " + to_text(row);
+    all.attempt([&] {
+      if (root.has("gap")) scenario.gap = root.at("gap").duration();
+    });
+    all.attempt([&] {
+      if (!root.has("seed")) return;
+      scenario.bench.seed = static_cast<std::uint64_t>(root.at("seed").integer(kSeedForm));
+    });
+    scenario.seed = scenario.bench.seed;
     StepsReader steps(trial, file_, path_);
-    scenario.steps = steps.read(root.at("steps"), parameters);
+    all.attempt([&] { scenario.steps = steps.read(root.at("steps"), parameters); });
+    all.throw_if_any();
     demand_all_used(row, parameters);
     scenario.files.push_back({path_, "the scenario itself"});
     for (const auto& files : {scenario.bench.files, steps.files()}) {

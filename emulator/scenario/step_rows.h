@@ -18,6 +18,8 @@ struct StepRow {
   /// Adds the step that `value` describes. It stands in the map `step`, with keys of `beside` at most.
   void (*read)(StepsReader& reader, const YamlFields& step, const YamlFields& value);
   std::span<const KeyRow> beside{};
+  /// Where it cannot be read: whether others may want a name that it would have given, or it one of theirs.
+  enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 
 /// In the order of the documentation.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "emulator/scenario/step_rows.h"
@@ -15,6 +16,15 @@ namespace {
 const StepRow* find_row(std::string_view key) {
   for (const StepRow& row : step_rows()) {
     if (row.key.key == key) return &row;
+  }
+  return nullptr;
+}
+
+/// What kind of step it is, by its first key that is one; null: by none.
+const StepRow* row_of(const YamlFields& step) {
+  if (!step.is_map()) step.fail("expected a step, as in `- advance: 250ms`");
+  for (const auto& [key, value] : step.entries()) {
+    if (const StepRow* const row = find_row(key)) return row;
   }
   return nullptr;
 }
@@ -62,14 +72,14 @@ StepsReader::StepsReader(const Trial& trial, FileReading& file, std::string path
 Steps StepsReader::read(const YamlFields& list, const Parameters& parameters) {
   Steps steps;
   into_ = &steps;
-  read_here(list, parameters);
+  complaints_.demand([&] { read_here(list, parameters); });
   return steps;
 }
 
 void StepsReader::count(const YamlFields& where) {
   if (++file_.steps > FileReading::kMostSteps) {
-    where.fail("is one step too many; expected at most " + std::to_string(FileReading::kMostSteps) +
-               " with all loops and cases");
+    throw LastError(where.place(), where.field() + ": is one step too many; expected at most " +
+                                       std::to_string(FileReading::kMostSteps) + " with all loops and cases");
   }
 }
 
@@ -89,16 +99,38 @@ void StepsReader::read_here(const YamlFields& list, const Parameters& parameters
   const Parameters* const outer = std::exchange(parameters_, &parameters);
   const auto steps = list.with_rule(&parameters).elements();
   if (steps.empty()) list.fail("is empty; expected at least one step");
-  for (const YamlFields& step : steps) read_step(step);
+  for (const YamlFields& step : steps) read_or_complain(step);
   parameters_ = outer;
   --depth_;
+}
+
+/// What a step that cannot be read has begun is undone.
+void StepsReader::read_or_complain(const YamlFields& step) {
+  const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
+  const StepRow* row = nullptr;
+  const bool is_read = complaints_.attempt([&] {
+    row = row_of(step);
+    try {
+      read_step(step, row);
+    } catch (const LastError&) {
+      throw;
+    } catch (const FileError&) {
+      if (lacks_names_ && row != nullptr && row->names == StepRow::Names::wants) throw Untold();
+      throw;
+    }
+  });
+  if (is_read) return;
+  lacks_names_ = lacks_names_ || row == nullptr || row->names == StepRow::Names::gives;
+  std::size_t paths = 0;
+  std::tie(parameters_, into_, paths, depth_) = before;
+  paths_.resize(paths);
 }
 
 Steps StepsReader::read_branch(const YamlFields& list) {
   Steps steps;
   Steps* const outer = std::exchange(into_, &steps);
   const Story before = story_;
-  read_here(list, *parameters_);
+  complaints_.attempt([&] { read_here(list, *parameters_); });
   story_ = before;
   into_ = outer;
   return steps;
@@ -125,23 +157,17 @@ void StepsReader::read_included(const YamlFields& field) {
   paths_.pop_back();
 }
 
-void StepsReader::read_step(const YamlFields& step) {
-  if (!step.is_map()) step.fail("expected a step, as in `- advance: 250ms`");
+void StepsReader::read_step(const YamlFields& step, const StepRow* row) {
   step.demand_map();
-  const auto entries = step.entries();
-  const auto is_kind = [](const auto& entry) { return find_row(entry.first) != nullptr; };
-  const auto entry = std::find_if(entries.begin(), entries.end(), is_kind);
-  if (entry == entries.end()) fail_without_row(step);
-  const StepRow& row = *find_row(entry->first);
-  std::vector<KeyRow> known{row.key};
-  known.insert(known.end(), row.beside.begin(), row.beside.end());
-  for (const auto& other : entries) {
-    if (other.first != entry->first && is_kind(other)) {
-      other.second.fail("is a second step in one; expected `- ` before it");
-    }
+  if (row == nullptr) fail_without_row(step);
+  std::vector<KeyRow> known{row->key};
+  known.insert(known.end(), row->beside.begin(), row->beside.end());
+  for (const auto& [key, value] : step.entries()) {
+    if (key != row->key.key && find_row(key) != nullptr)
+      value.fail("is a second step in one; expected `- ` before it");
   }
   step.demand_keys(known);
-  row.read(*this, step, entry->second);
+  row->read(*this, step, step.at(row->key.key));
 }
 
 }  // namespace understudy::emulator

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/bench/complaints.h"
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/one_line.h"
 #include "emulator/scenario/parameters.h"
@@ -26,10 +27,13 @@ struct FileReading {
   SharedReading& shared;
 };
 
+struct StepRow;
+
 class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, std::string path);
 
+  /// Throws all that is wrong with them.
   Steps read(const YamlFields& list, const Parameters& parameters);
 
   // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
@@ -55,9 +59,12 @@ class StepsReader {
   /// The steps of a list, from the story so far, which goes on as if they had not been.
   Steps read_branch(const YamlFields& list);
   void read_included(const YamlFields& path);
+  /// Whether a step could not be read: another round of a loop would tell the same.
+  bool has_complaints() const { return complaints_.count() > 0; }
 
  private:
-  void read_step(const YamlFields& step);
+  void read_or_complain(const YamlFields& step);
+  void read_step(const YamlFields& step, const StepRow* row);
   void count(const YamlFields& where);
   void count_bytes(const YamlFields& where, const Step& step);
 
@@ -70,6 +77,8 @@ class StepsReader {
   std::vector<std::pair<std::string, YamlFields>> saved_;
   std::vector<std::string> paths_;  // of the files that include each other here
   int depth_ = 0;
+  Complaints complaints_;
+  bool lacks_names_ = false;  // a step that could not be read may have given some
 };
 
 }  // namespace understudy::emulator

@@ -45,6 +45,8 @@ void read_span(StepsReader& reader, const YamlFields& step, const YamlFields& va
   reader.add(step, text, std::move(span));
 }
 
+constexpr SimTime kShortestPoll = kTickLength;
+
 }  // namespace
 
 void read_wait(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
@@ -59,6 +61,10 @@ void read_wait(StepsReader& reader, const YamlFields& step, const YamlFields& va
   }
   if (value.has("poll")) {
     wait.poll = read_some_time(value.at("poll"));
+    if (*wait.poll < kShortestPoll) {
+      value.at("poll").fail(format_duration(*wait.poll) +
+                            " is less than any request takes; expected 1ms or more");
+    }
     reader.trial().demand_registers_only(value.at("until"));
     text += ", polled every " + format_duration(*wait.poll);
   }

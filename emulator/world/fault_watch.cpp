@@ -143,6 +143,12 @@ void check_fault(const World& world, const Fault& fault) {
                     std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
                     " has no encoder; expected one in `plant`");
   }
+  if (fault.kind == Kind::turn && !world.plant(fault.device, fault.place).setup().has_wheel) {
+    const KnownDevice& device = world.known()[fault.device];
+    throw NameError(device.name + "." +
+                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
+                    " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
+  }
   demand_of_protocol(world.known()[fault.device], fault);
   if (fault.trigger.when.empty()) return;
   const Probes probes(world);
@@ -220,7 +226,8 @@ void FaultWatch::look(SimTime now, bool is_tick) {
     } else {
       strikes = strikes_time(fault.trigger, course, now, *this, stream(number));
     }
-    course.is_news = course.is_news || (fault.kind == Kind::slip ? strikes : course.in_force != was_in_force);
+    course.is_news =
+        course.is_news || (is_done_at_once(fault.kind) ? strikes : course.in_force != was_in_force);
   }
 }
 
@@ -302,7 +309,7 @@ FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
     if (!is_hit(number, armed, frame)) continue;
     strikes.push_back(strike_of(number, fault, true));
     course.is_news = true;
-    if (fault.kind == Kind::slip) continue;
+    if (is_done_at_once(fault.kind)) continue;
     course.in_force = true;
     if (fault.trigger.lasts == SimTime{0}) course.until = kForever;
     if (fault.kind == Kind::power_cut) treatment.is_answered = false;

@@ -88,7 +88,9 @@ void check_fault_value(const World& world, const Fault& fault) {
   const bool is_of_input = fault.kind == Fault::Kind::stuck;
   const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
   demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
-  demand_state(fault.kind != Fault::Kind::slip || waits(fault), "a slip lasts");
+  demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
+  demand_state(fault.over_ticks >= 0, "a turn takes less than no time");
+  demand_reach(fault.over_ticks);
   demand_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
                "a fault contradicts itself");
   check_fault(world, fault);

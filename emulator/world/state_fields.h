@@ -12,7 +12,7 @@ struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
     // What it is made of, and who looks at it, is no state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
-    auto& [known, devices, lines, text_lines, plants, sent_pulses, inputs, supplies, wires, watchers,
+    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires, watchers,
            listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed,
            bulk_ticks] = world;
     return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
@@ -22,7 +22,7 @@ struct WorldFields {
   static void of(Like<World::Input> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<World::Supply> auto& v, auto visit) { auto& [a] = v; visit(a); }
   static void of(Like<Fault> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
   }
   static void of(Like<FaultTrigger> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
@@ -33,7 +33,7 @@ struct WorldFields {
   static void of(Like<ArmedFault> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<MachineFaults> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
   static void of(Like<PlantAxis::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
 
   static void of(Like<pty::LineSettings> auto& v, auto visit) {
@@ -63,7 +63,7 @@ struct WorldFields {
 /// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
-    auto& [known, devices, lines, text_lines, plants, sent_pulses, inputs, supplies, wires, watchers,
+    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires, watchers,
            listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed,
            bulk_ticks] = world;
     return visit(ticks_run, ticks_crossed);

@@ -1,13 +1,32 @@
 #include "emulator/world/world.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "emulator/large_pages.h"
 #include "emulator/modbus/rtu_station.h"
 #include "emulator/prefetch.h"
 #include "emulator/text/text_station.h"
 #include "emulator/world/fault_watch.h"
 
 namespace understudy::emulator {
+
+namespace {
+
+/// Devices that are made one after the other lie one behind the other, with what belongs to them between.
+void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
+  constexpr std::size_t kCrowd = 100;
+  constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
+  if (devices.size() < kCrowd) return;
+  const auto by_address = [](const auto& a, const auto& b) { return std::less<>()(a.get(), b.get()); };
+  const auto [low, high] = std::minmax_element(devices.begin(), devices.end(), by_address);
+  const auto* const first = reinterpret_cast<const char*>(low->get());
+  const auto* const last = reinterpret_cast<const char*>(high->get());
+  if (last - first < kMostOfOne * static_cast<std::ptrdiff_t>(devices.size()))
+    ask_for_large_pages(first, last);
+}
+
+}  // namespace
 
 World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
@@ -22,6 +41,7 @@ World::World(const Bench& bench, const WorldOptions& options,
       inputs_.back()[i].external = devices_.back()->input(static_cast<int>(i));  // its switches
     }
   }
+  keep_together(devices_);
   for (const MachineSetup& machine : bench.machines) {
     plants_[machine.device][static_cast<std::size_t>(machine.axis)] = PlantAxis(machine.plant);
   }
@@ -58,12 +78,38 @@ World::World(const Bench& bench, const WorldOptions& options,
   }
   for (const Fault& fault : bench.faults) inject(fault);
   // A machine may stand on a switch at power-up.
-  for (std::size_t d = 0; d < devices_.size(); ++d) step_plant(d);
+  for (std::size_t d = 0; d < devices_.size(); ++d) {
+    wire_contacts(d);
+    step_plant(d);
+  }
+  const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
+  if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
   // What they say at power-up: nobody could have looked on yet, so it begins with the first tick.
   look_for_speech(kTickLength);
 }
 
 World::~World() = default;
+
+/// The contacts that the machines have. An alarm without a drive is injected; where its input is another's,
+/// it has none.
+void World::wire_contacts(std::size_t number) {
+  const auto rows = devices_[number]->model().axes;
+  auto& wired = contacts_.emplace_back();
+  std::vector<ContactWire> alarms;
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    for (std::size_t i = 0; i < kContactNames.size(); ++i) {
+      const auto contact = static_cast<Contact>(i);
+      const int input = input_of(rows[a], plants_[number][a], contact);
+      if (input >= 0) wired.push_back({a, contact, input});
+    }
+    const bool has_drive = plants_[number][a].has_drive();
+    if (!has_drive && rows[a].alarm_input >= 0) alarms.push_back({a, Contact::alarm, rows[a].alarm_input});
+  }
+  for (const ContactWire& alarm : alarms) {
+    const auto is_its = [&](const ContactWire& other) { return other.input == alarm.input; };
+    if (std::none_of(wired.begin(), wired.end(), is_its)) wired.push_back(alarm);
+  }
+}
 
 const PlantAxis& World::plant(std::size_t device, int axis) const {
   return plants_[device][static_cast<std::size_t>(axis)];
@@ -205,24 +251,25 @@ void World::step_plant(std::size_t number) {
       const auto driven = [&](int terminal) { return terminal >= 0 && device.output(terminal); };
       outputs = {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)};
     }
-    const std::int64_t position_before = plant.position_pulses();
+    const PlantAxis::State& state = plant.save();
+    const std::pair before(state.position_pulses, state.wheel_counts);
     plant.step(done_, pulses, outputs);
-    if (plant.has_encoder() && plant.position_pulses() != position_before) {
+    if (plant.has_encoder() && std::pair(state.position_pulses, state.wheel_counts) != before) {
       device.set_encoder(static_cast<int>(a), plant.encoder_counts());
     }
-    const auto drive = [&](int terminal, bool level) {
-      if (terminal < 0) return;
-      bool& is_on = inputs_[number][static_cast<std::size_t>(terminal)].plant;
-      if (is_on == level) return;
-      is_on = level;
-      apply_input(number, terminal);
-    };
-    drive(axis.home_input, plant.at_home());
-    drive(axis.lower_limit_input, plant.at_lower_limit());
-    drive(axis.upper_limit_input, plant.at_upper_limit());
-    drive(axis.alarm_input, plant.alarm_contact());
-    drive(axis.ready_input, plant.ready());
   }
+  for (const ContactWire& wire : contacts_[number]) {
+    bool& is_on = inputs_[number][static_cast<std::size_t>(wire.input)].plant;
+    const bool level = plants_[number][wire.axis].contact(wire.contact);
+    if (is_on == level) continue;
+    is_on = level;
+    apply_input(number, wire.input);
+  }
+}
+
+bool World::level_of(const WireSetup& wire) const {
+  if (wire.from_axis < 0) return devices_[wire.from_device]->output(wire.from_terminal);
+  return plants_[wire.from_device][static_cast<std::size_t>(wire.from_axis)].contact(wire.from_contact);
 }
 
 void World::latch_wires() {
@@ -232,7 +279,7 @@ void World::latch_wires() {
   }
   for (const WireSetup& wire : wires_) {
     Input& input = inputs_[wire.to_device][static_cast<std::size_t>(wire.to_terminal)];
-    input.wired = input.wired || devices_[wire.from_device]->output(wire.from_terminal);
+    input.wired = input.wired || level_of(wire);
   }
   for (const WireSetup& wire : wires_) apply_input(wire.to_device, wire.to_terminal);
 }

@@ -131,6 +131,13 @@ class World {
     std::optional<bool> stuck{};
   };
 
+  /// A contact of the machine on an axis, and the input of its device that it is wired to.
+  struct ContactWire {
+    std::size_t axis = 0;
+    Contact contact = Contact::home;
+    int input = 0;
+  };
+
   /// Of a device's power.
   struct Supply {
     bool is_switched_on = true;
@@ -146,6 +153,9 @@ class World {
   void prefetch_device(std::size_t number) const;
   void step_plant(std::size_t number);
   void latch_wires();
+  void wire_contacts(std::size_t number);
+  bool level_of(const WireSetup& wire) const;
+  void move_by_hand(const Fault& fault);
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
   void remove_fault(std::map<std::size_t, ArmedFault>::iterator fault);
@@ -159,8 +169,9 @@ class World {
   KnownDevices known_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<std::unique_ptr<OneLine>> lines_;
-  std::vector<OneLine*> text_lines_;            // those of them whose devices may speak unasked
-  std::vector<std::vector<PlantAxis>> plants_;  // [device][axis]
+  std::vector<OneLine*> text_lines_;                // those of them whose devices may speak unasked
+  std::vector<std::vector<PlantAxis>> plants_;      // [device][axis]
+  std::vector<std::vector<ContactWire>> contacts_;  // by device; as the bench has them
   std::vector<std::vector<std::int64_t>> sent_pulses_;
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]
   std::vector<Supply> supplies_;            // by device

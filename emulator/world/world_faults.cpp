@@ -13,8 +13,8 @@ std::size_t World::inject(const Fault& fault) {
   if (listener_ != nullptr) listener_->on_inject(fault);
   disturbed_ = true;
   const std::size_t number = next_fault_++;
-  if (fault.kind == Fault::Kind::slip && !waits(fault)) {
-    plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
+  if (is_done_at_once(fault.kind) && !waits(fault)) {
+    move_by_hand(fault);
     return number;
   }
   ArmedFault armed{.fault = fault};
@@ -23,6 +23,12 @@ std::size_t World::inject(const Fault& fault) {
   arm_faults();
   settle_faults();
   return number;
+}
+
+void World::move_by_hand(const Fault& fault) {
+  PlantAxis& plant = plants_[fault.device][static_cast<std::size_t>(fault.place)];
+  if (fault.kind == Fault::Kind::turn) return plant.turn(fault.amount, fault.over_ticks);
+  plant.faults().slipped_pulses += fault.amount;
 }
 
 bool World::clear_fault(std::size_t number) {
@@ -94,8 +100,7 @@ void World::settle_faults() {
     disturbed_ = true;
     switch (fault.kind) {
       case Fault::Kind::slip:
-        plants_[fault.device][static_cast<std::size_t>(fault.place)].faults().slipped_pulses += fault.amount;
-        break;
+      case Fault::Kind::turn: move_by_hand(fault); break;
       case Fault::Kind::power_cut: settle_power(fault.device); break;
       default: apply_faults(fault.device); break;
     }

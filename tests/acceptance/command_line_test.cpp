@@ -110,7 +110,9 @@ lines:
 void write_benches(const PrivateFolder& folder) {
   folder.write("good.yaml", kGoodBench);
   folder.write("play.yaml", "understudy: 1\nbench: good.yaml\nsteps: [ advance: 1ms ]\n");
-  folder.write("unknown-key.yaml", "understudy: 1\nlines:\n  bus:\n    baudrate: 19200\n    stations: []\n");
+  folder.write("unknown-key.yaml",
+               "understudy: 1\nlines:\n  bus:\n    baudrate: 19200\n    stations: [ { name: a, model: "
+               "simple2-r3 } ]\n");
   folder.write("unknown-model.yaml",
                "understudy: 1\nlines:\n  bus:\n    stations:\n      - { name: a, model: simple2-r4 }\n");
   folder.write("comma.yaml", ",");

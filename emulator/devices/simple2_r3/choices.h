@@ -95,8 +95,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "the register stands for the output, so it shows what is on it"},
     {"input_sampling", "輸入輸出相關", "when inputs, limits and the home switch are looked at", "every_1ms",
      kProposal,
-     "once a tick, so an axis overruns a switch by what it does in a tick: 43 pulses at 1000 RPM and the "
-     "factory's resolution"},
+     "once a tick: at 1000 RPM and the factory's resolution an axis overruns a switch by up to 53 pulses"},
     {"unassigned_input_status", "狀態相關", "alarm, Ready and limit bits of STATUS without an assigned input",
      "zero|level_of_pin", kProposal,
      "nothing is connected that could say so; the pin's level has no effect either way"},

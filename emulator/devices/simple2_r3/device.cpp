@@ -270,7 +270,7 @@ void Simple2R3::prefetch(Tick tick) const {
   if (tick % interpreter::simple2::kSlotMs == 0) {
     emulator::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
     emulator::prefetch(state_.image[slot("Counter1_Value")]);
-    emulator::prefetch(&state_.program, 256);
+    emulator::prefetch(&state_.program, 64);
   }
   emulator::prefetch(state_.execution);
   emulator::prefetch(state_.eeprom);

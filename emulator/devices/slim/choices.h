@@ -133,8 +133,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"pause_and_program", "PZ", "whether PZ pauses the program as well", "program_goes_on|program_pauses_too",
      kProposal,
      "the example ON EV1,$PPZ has a routine do it, which could not come to its REDO otherwise; what moves "
-     "waits "
-     "in any case"},
+     "waits in any case"},
     {"clear_buffer_in_pause", "CLR BUF", "what CLR BUF drops in a pause", "what_is_half_done_too|what_waits",
      kProposal,
      "as TAUPZ; in motion what is half done is finished, and what_waits has that done after REDO, too"},
@@ -161,8 +160,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"emergency_stop_program", "TASTOP", "what becomes of a program that runs",
      "ends_unless_it_stops_by_its_own_line|ends_also_by_its_own_line|goes_on", kProposal,
      "DN would let it go on with its next move at once; its own line may have more to say: an event's "
-     "routine "
-     "runs to its RET, and what it has interrupted does not go on"},
+     "routine runs to its RET, and what it has interrupted does not go on"},
     {"acceleration_in_motion", "TVA", "TVA while something is coordinated", "error_3|next_command", kLikely,
      "it may not change in motion; what is issued already keeps its own"},
     {"path_speed_in_motion", "PR3", "PR3= of one module, not TVM=, while it is on a path",
@@ -188,9 +186,8 @@ inline constexpr ChoiceRow kChoices[] = {
     {"pulses_per_revolution", "VM", "pulses of a revolution of the motor", "10000|4000|2000|1000", kProposal,
      "not said; speeds are in revolutions"},
     {"pwm_resolution", "PWM", "how fine PWM is", "milliseconds", kProposal,
-     "outputs change with the millisecond: 100 Hz at 25 % is on for 3 of 10, above 500 Hz the level that "
-     "prevails "
-     "stays; ?-less, it has no other effect to be seen"},
+     "outputs change with the millisecond: 100 Hz at 25 % is on for 3 of 10, and above 500 Hz the level that "
+     "prevails stays"},
     {"pwm_units", "PWM", "units of PWM", "hz_and_percent|khz_and_percent", kProposal, "not said"},
     // --- modules and numbers ---
     {"module_count", "T1H", "how many modules there are", "8", kFollows,

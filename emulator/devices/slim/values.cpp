@@ -152,10 +152,10 @@ void Slim::keep_axis_map() {
   state_.ram.parameters[0][parameter("PN37")] = map;
 }
 
-/// DF. While something moves it would change units under way.
+/// DF. While anything has something to do it would change units under way.
 Error Slim::restore_factory_parameters() {
   for (int m = 0; m < kModules; ++m) {
-    if (state_.chain.moving(m) || state_.chain.queued(m) > 0) return Error::not_allowed;
+    if (state_.chain.busy(m)) return Error::not_allowed;
   }
   state_.ram.parameters = factory().parameters;
   apply_all_parameters();

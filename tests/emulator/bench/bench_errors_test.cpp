@@ -34,6 +34,7 @@ std::string and_then(const std::string& more) {
 std::string with_line(const std::string& line) { return "understudy: 1\nlines:\n  a: { " + line + " }\n"; }
 
 const std::string kStation = "stations: [ { name: x, model: simple2-r3 } ]";
+const std::string kLines = "lines: { a: { " + kStation + " } }\n";
 
 TEST(BenchErrors, AFileThatIsNoMap) {
   const std::string no_map = "1: bench: the file is not a map; expected `understudy: 1` and `lines:`";
@@ -63,25 +64,26 @@ TEST(BenchErrors, AFileThatIsNoYaml) {
 
 TEST(BenchErrors, TheFormatsVersion) {
   expect_complaints({
-      {"lines: {}\n", "1: bench: 'understudy' is missing; expected it here"},
-      {"understudy: 2\nlines: {}\n",
-       "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
-      {"understudy: one\n", "1: understudy: 'one' is not possible; expected a whole number from 1 to 1"},
-      {"understudy: [1]\n", "1: understudy: expected a word or a number"},
-      {"understudy: 1.0\n", "1: understudy: '1.0' is not possible; expected a whole number from 1 to 1"},
-      {"understudy: 99999999999999999999\n",
+      {kLines, "1: bench: 'understudy' is missing; expected it here"},
+      {"understudy: 2\n" + kLines, "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
+      {"understudy: one\n" + kLines,
+       "1: understudy: 'one' is not possible; expected a whole number from 1 to 1"},
+      {"understudy: [1]\n" + kLines, "1: understudy: expected a word or a number"},
+      {"understudy: 1.0\n" + kLines,
+       "1: understudy: '1.0' is not possible; expected a whole number from 1 to 1"},
+      {"understudy: 99999999999999999999\n" + kLines,
        "1: understudy: '99999999999999999999' is not possible; expected a whole number from 1 to 1"},
   });
 }
 
 TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
   expect_complaints({
-      {"understudy: 1\nline: {}\n",
+      {"understudy: 1\nline: {}\n" + kLines,
        "2: line: is no key here; expected one of understudy, lines, devices, plant, wires, inputs, faults, "
        "seed (the nearest is 'lines')"},
-      {"understudy: 1\nlines: {}\nlines: {}\n", "3: lines: is given twice; expected it once"},
-      {"understudy: 1\nunderstudy: 1\n", "2: understudy: is given twice; expected it once"},
-      {with_line("speed: 1"),
+      {"understudy: 1\n" + kLines + "lines: {}\n", "3: lines: is given twice; expected it once"},
+      {"understudy: 1\nunderstudy: 1\n" + kLines, "2: understudy: is given twice; expected it once"},
+      {with_line("speed: 1, " + kStation),
        "3: lines.a.speed: is no key here; expected one of link, baud, baud_tolerance, timing, stations"},
       {with("adress: 2"),
        "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, "
@@ -95,7 +97,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "program, "
        "nv"},
       {and_then("plant:\n  x.A: { travels: [0, 1] }\n"),
-       "7: plant.x.A.travels: is no key here; expected one of travel, home, limits, encoder, drive (the "
+       "7: plant.x.A.travels: is no key here; expected one of position, travel, home, limits, encoder, drive "
+       "(the "
        "nearest is "
        "'travel')"},
       {and_then("plant:\n  x.A: {}\n  x.A: {}\n"), "8: plant.x.A: is given twice; expected it once"},
@@ -108,26 +111,40 @@ TEST(BenchErrors, Lines) {
       {"understudy: 1\nlines: {}\n", "2: lines: has no line; expected at least one"},
       {"understudy: 1\nlines: [ a ]\n", "2: lines: expected a map, as in `key: value`"},
       {"understudy: 1\nlines: a\n", "2: lines: expected a map, as in `key: value`"},
-      {"understudy: 1\nlines:\n  a.b: {}\n",
+      {"understudy: 1\nlines:\n  a.b: { " + kStation + " }\n",
        "3: lines.a.b: 'a.b' is no name; expected letters, digits, _ and -"},
       // No file can be called so: ports and memories are named after them.
-      {"understudy: 1\nlines:\n  " + std::string(101, 'a') + ": { stations: [] }\n",
+      {"understudy: 1\nlines:\n  " + std::string(101, 'a') + ": { " + kStation + " }\n",
        "3: lines." + std::string(101, 'a') + ": has a name of 101 characters; expected at most 100"},
-      {"understudy: 1\nlines:\n  a: { link: /tmp/" + std::string(201, 'p') + ", stations: [] }\n",
+      {"understudy: 1\nlines:\n  a: { link: /tmp/" + std::string(201, 'p') + ", " + kStation + " }\n",
        "3: lines.a.link: has a name of 201 characters; expected at most 200"},
       {with_line(""), "3: lines.a: 'stations' is missing; expected it here"},
       {with_line("stations: []"), "3: lines.a.stations: is empty; expected at least one station"},
       {with_line("stations: {}"), "3: lines.a.stations: expected a list, as in `[ a, b ]`"},
-      {with_line("baud: 0"),
+      {with_line("baud: 0, " + kStation),
        "3: lines.a.baud: '0' is not possible; expected a whole number from 1 to 4000000"},
       {with_line("baud: 9600, " + kStation),
        "3: lines.a.stations[0]: baud: 9600 is no speed of simple2-r3; expected one of 19200, 115200"},
-      {with_line("baud_tolerance: 11%"),
+      {with_line("baud_tolerance: 11%, " + kStation),
        "3: lines.a.baud_tolerance: '11%' is not a share of the speed; expected 0% to 10%, as in 2%"},
-      {with_line("timing: fast"), "3: lines.a.timing: 'fast' is no timing; expected wire or instant"},
-      {with_line("link: ''"), "3: lines.a.link: is empty; expected a path"},
-      {with_line("link: \"a\\nb\""), "3: lines.a.link: has a control character; expected a path without"},
-      {with_line("link: [ a ]"), "3: lines.a.link: expected a word or a number"},
+      {with_line("timing: fast, " + kStation),
+       "3: lines.a.timing: 'fast' is no timing; expected wire or instant"},
+      {with_line("link: '', " + kStation), "3: lines.a.link: is empty; expected a path"},
+      {with_line("link: \"a\\nb\", " + kStation),
+       "3: lines.a.link: has a control character; expected a path without"},
+      {with_line("link: [ a ], " + kStation), "3: lines.a.link: expected a word or a number"},
+      {with_line("link: \"tcp://:1502\", " + kStation),
+       "3: lines.a.link: 'tcp://:1502' is an address of a network; expected a path, for a serial port"},
+      {with_line("link: /, " + kStation),
+       "3: lines.a.link: '/' is a folder; expected a path for the link in it"},
+      {with_line("link: ., " + kStation),
+       "3: lines.a.link: '.' is a folder; expected a path for the link in it"},
+      {with_line("link: /tmp, " + kStation),
+       "3: lines.a.link: '/tmp' is a folder; expected a path for the link in it"},
+      {with_line("link: /dev/null, " + kStation),
+       "3: lines.a.link: '/dev/null' is a device of this machine; expected a path that is free"},
+      {with_station("{ name: time, model: simple2-r3 }"),
+       "5: lines.a.stations[0].name: is what conditions call the time; expected another name"},
       {with_line("link: ./p, " + kStation) +
            "  b: { link: sub/../p, stations: [ { name: y, model: simple2-r3 } ] }\n",
        "4: lines.b.link: line 'a' has the same link; expected another path"},
@@ -236,7 +253,8 @@ TEST(BenchErrors, Machines) {
 TEST(BenchErrors, Wires) {
   const auto wires = [](const std::string& text) { return and_then("wires: " + text + "\n"); };
   expect_complaints({
-      {wires("[ x.DOUT_4 ]"), "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`"},
+      {wires("[ x.DOUT_4 ]"),
+       "6: wires[0]: expected `DEVICE.OUTPUT -> DEVICE.INPUT`, or `DEVICE.AXIS.SWITCH -> DEVICE.INPUT`"},
       {wires("[ y.DOUT_4 -> x.DIN_1 ]"), "6: wires[0]: no device is called 'y'; expected 'x'"},
       {wires("[ x.DIN_4 -> x.DIN_1 ]"),
        "6: wires[0]: 'DIN_4' is no output of simple2-r3; expected one of DOUT_0, DOUT_1, DOUT_2, DOUT_3, "
@@ -255,7 +273,7 @@ TEST(BenchErrors, AreOneLineWhateverIsQuotedInThem) {
   for (const std::string& text :
        {with_station("{ name: x, model: \"a\\nb\" }"), with_station("{ name: \"a\\nb\", model: simple2-r3 }"),
         with("set: { \"a\\nb\": 1 }"), with("firmware: \"1\\n2\""), with("address: \"1\\n2\""),
-        std::string("understudy: 1\n\"li\\nnes\": 1\n"), and_then("wires: [ \"x.DOUT\\n -> x.DIN_1\" ]\n"),
+        "understudy: 1\n\"li\\nnes\": 1\n" + kLines, and_then("wires: [ \"x.DOUT\\n -> x.DIN_1\" ]\n"),
         and_then("plant:\n  \"x.\\nA\": {}\n"), with("choices: { stop: \"a\\nb\" }")}) {
     const std::string got = complaint(text);
     EXPECT_NE(got, "");

@@ -115,7 +115,8 @@ TEST(BenchFile, AFileIsReadAsItsText) {
   const std::string path = folder + "/bench.yaml";
   std::ofstream(path) << kFullBench;
   EXPECT_EQ(load_bench(path).lines.at(0).link, folder + "/feeder.port");
-  std::ofstream(path) << "understudy: 1\nline: {}\n";
+  std::ofstream(path)
+      << "understudy: 1\nline: {}\nlines: { a: { stations: [ { name: x, model: simple2-r3 } ] } }\n";
   try {
     load_bench(path);
     ADD_FAILURE() << "it has an unknown key";

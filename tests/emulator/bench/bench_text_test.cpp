@@ -40,13 +40,18 @@ plant:
     limits: { lower: -18000, upper: 28000, hysteresis: 3 }
     encoder: { per_revolution: 4000, motor_pulses_per_revolution: 3200, reversed: true }
     drive: { ready_after: 120ms, enabled_by: off, alarm_contact: opens }
-  turner.B: { limits: { upper: 10 } }
-wires: [ feeder.DOUT_4 -> turner.DIN_10, turner.DOUT_0 -> third.DIN_1 ]
+  turner.B:
+    position: -300
+    home: { at: 1, width: 2, contact: opens, input: DIN_7 }
+    limits: { lower: -900, upper: 10, contact: opens, lower_input: DIN_8, upper_input: DIN_9 }
+    encoder: { per_revolution: 100, on: wheel }
+wires: [ feeder.DOUT_4 -> turner.DIN_10, turner.DOUT_0 -> third.DIN_1, turner.B.upper_limit -> third.DIN_5 ]
 inputs: { turner.DIN_3: on, feeder.AIN_A: 2.5V, third.DIN_2: off }
 faults:
   - { stall: turner.A }
   - { lost_steps: feeder.B, one_in: 50 }
   - { stuck: third.DIN_4, level: 1 }
+  - { turn: turner.B, counts: 70, in: 12ms, at: 3s }
   - { drop: other, when: 'feeder["Cord_A"] > 5 and time >= 1s', nth: 3.., chance: 0.5%, seed: 9 }
   - { noise: feeder, before: FF 00, after: "0A", of: both, address: Aaxis_Speed, from: 1s, to: 1500ms }
   - { encoder_noise: feeder.A, counts: 3, period: 10ms, at: 250ms, for: 1s }
@@ -85,10 +90,18 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(plant.drive->ready_after, 120);
   EXPECT_FALSE(plant.drive->enabled_by);
   EXPECT_TRUE(plant.drive->alarm_opens);
-  EXPECT_EQ(again.wires.size(), 2U);
+  const PlantSetup& other = again.machines.at(1).plant;
+  EXPECT_EQ(other.position_pulses, -300);
+  EXPECT_TRUE(other.home_opens && other.limits_open && other.has_wheel);
+  EXPECT_EQ(other.home_input, bench.machines.at(1).plant.home_input);
+  EXPECT_EQ(other.lower_limit_input, bench.machines.at(1).plant.lower_limit_input);
+  EXPECT_EQ(other.upper_limit_input, bench.machines.at(1).plant.upper_limit_input);
+  ASSERT_EQ(again.wires.size(), 3U);
+  EXPECT_EQ(again.wires[2].from_axis, 1);
+  EXPECT_EQ(again.wires[2].from_contact, Contact::upper_limit);
   EXPECT_EQ(again.inputs.size(), 3U);
   EXPECT_EQ(again.faults, bench.faults);
-  EXPECT_EQ(again.faults.size(), 7u);
+  EXPECT_EQ(again.faults.size(), 8u);
   EXPECT_EQ(again.seed, 77u);
   EXPECT_EQ(again.lines[0].baud_tolerance_ppm, 305);
   EXPECT_EQ(again.lines[1].baud_tolerance_ppm, 20'000);

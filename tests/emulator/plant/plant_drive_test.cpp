@@ -122,17 +122,17 @@ TEST(PlantDrive, AnAlarmLastsUntilItIsClearedAndNotWhileItsCauseLasts) {
 TEST(PlantDrive, ItsAlarmContactOpensOrCloses) {
   for (const bool opens : {false, true}) {
     PlantAxis axis(with_drive({.alarm_opens = opens}));
-    EXPECT_EQ(axis.alarm_contact(), opens) << "closed without an alarm, if it opens with one";
+    EXPECT_EQ(axis.contact(Contact::alarm), opens) << "closed without an alarm, if it opens with one";
     axis.step(1, 0, kOn);
-    EXPECT_EQ(axis.alarm_contact(), opens);
+    EXPECT_EQ(axis.contact(Contact::alarm), opens);
     axis.faults().alarm = true;
-    EXPECT_EQ(axis.alarm_contact(), !opens);
+    EXPECT_EQ(axis.contact(Contact::alarm), !opens);
     axis.step(2, 0, kOn);
     axis.faults().alarm = false;
     axis.step(3, 0, kOn);
-    EXPECT_EQ(axis.alarm_contact(), !opens) << "latched";
+    EXPECT_EQ(axis.contact(Contact::alarm), !opens) << "latched";
     axis.step(4, 0, kOnAndClear);
-    EXPECT_EQ(axis.alarm_contact(), opens);
+    EXPECT_EQ(axis.contact(Contact::alarm), opens);
   }
 }
 
@@ -141,14 +141,14 @@ TEST(PlantDrive, WithoutOneAnAlarmIsThereAsLongAsItsCauseAndNothingIsReady) {
   axis.step(1, 5, kOn);
   EXPECT_FALSE(axis.has_drive());
   EXPECT_FALSE(axis.ready());
-  EXPECT_FALSE(axis.alarm_contact());
+  EXPECT_FALSE(axis.contact(Contact::alarm));
   EXPECT_EQ(axis.position_pulses(), 5) << "every pulse is a step";
   axis.faults().alarm = true;
   axis.step(2, 5, kOn);
-  EXPECT_TRUE(axis.alarm_contact());
+  EXPECT_TRUE(axis.contact(Contact::alarm));
   EXPECT_EQ(axis.position_pulses(), 5);
   axis.faults().alarm = false;
-  EXPECT_FALSE(axis.alarm_contact());
+  EXPECT_FALSE(axis.contact(Contact::alarm));
   axis.step(3, 5, kOn);
   EXPECT_EQ(axis.position_pulses(), 10);
   EXPECT_EQ(axis.lost_pulses(), 5);

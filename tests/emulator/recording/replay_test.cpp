@@ -212,7 +212,8 @@ TEST(Replay, ARecordingNamesNoPaths) {
     EXPECT_EQ(
         refusal(to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) +
                 "\n"),
-        "a.jsonl:1: bench: bench:1: lines.l.stations[0]." + key +
+        "a.jsonl:1: bench: bench:1:" + std::to_string(bench.find("\"" + path) + 1) +
+            ": lines.l.stations[0]." + key +
             ": is a path; expected none in a recording, which has everything in itself");
   }
   const std::string linked =

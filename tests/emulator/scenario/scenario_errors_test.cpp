@@ -38,8 +38,8 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
       {"", "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
       {"- advance: 1ms\n",
        "1: scenario: the file is not a map; expected `understudy: 1`, `bench:` and `steps:`"},
-      {"bench: feeder.yaml\nsteps: []\n", "1: scenario: 'understudy' is missing; expected it here"},
-      {"understudy: 2\nbench: feeder.yaml\nsteps: []\n",
+      {"bench: feeder.yaml\nsteps: [ say: x ]\n", "1: scenario: 'understudy' is missing; expected it here"},
+      {"understudy: 2\nbench: feeder.yaml\nsteps: [ say: x ]\n",
        "1: understudy: '2' is not possible; expected a whole number from 1 to 1"},
       {"understudy: 1\nsteps: [ advance: 1ms ]\n", "1: scenario: 'bench' is missing; expected it here"},
       {"understudy: 1\nbench: feeder.yaml\n", "1: scenario: 'steps' is missing; expected it here"},
@@ -61,7 +61,8 @@ TEST_F(ScenarioErrors, TheFileAsAWhole) {
 TEST_F(ScenarioErrors, TheBench) {
   expect_complaints({
       {"understudy: 1\nbench: ''\nsteps: []\n", "2: bench: is empty; expected a path"},
-      {"understudy: 1\nbench: { line: {} }\nsteps: []\n",
+      {"understudy: 1\nbench: { line: {}, lines: { a: { stations: [ { name: x, model: simple2-r3 } ] } } "
+       "}\nsteps: [ say: x ]\n",
        "2: bench.line: is no key here; expected one of lines, devices, plant, wires, inputs, faults, "
        "seed (the nearest is 'lines')"},
       {"understudy: 1\nbench: { lines: { a: { stations: [ { name: x, model: simple2-r4 } ] } } }\nsteps: "
@@ -112,7 +113,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
       {with("cases: [ { a: 1, b: 2 }, { a: 2 } ]\nname: ${a}${b}"),
        "4: name: column 1 of 'b': no parameter is called 'b'; expected 'a'  (a=2)"},
       {with("cases: [ { a: 1 }, { a: 1 } ]\n" + used),
-       "3: cases[1]: makes a second scenario called '1'; expected other values than before"},
+       "3: cases[1]: makes a second scenario called '1'; expected other values than before  (a=1)"},
       {with("cases: [ { a: 1, a: 2 } ]\n" + used), "3: cases[0].a: is given twice; expected it once"},
       {with("gap: ${a}"), "3: gap: column 1 of 'a': no parameter is called 'a'; there are none"},
       {"understudy: 1\nbench: feeder.yaml\nparameters: { a: 1 }\nsteps: [ { say: ${a} } ]\n",
