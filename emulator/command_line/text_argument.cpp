@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace understudy::emulator {
@@ -16,7 +17,10 @@ FileText read_text_argument(const std::string& path) {
   while (true) {
     const ssize_t size = ::read(STDIN_FILENO, piece.data(), piece.size());
     if (size < 0 && errno == EINTR) continue;
-    if (size < 0) return text;
+    if (size < 0) {
+      text.why = std::string("cannot be read (") + std::strerror(errno) + ")";
+      return text;
+    }
     if (size == 0) break;
     if (bytes.size() + static_cast<std::size_t>(size) > kMostTextBytes) {
       text.why = "is larger than " + std::to_string(kMostTextBytes >> 20) + " MiB";

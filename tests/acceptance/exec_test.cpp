@@ -90,8 +90,9 @@ TEST_F(Exec, LeavesItsInputAndItsSignalsAsTheyWere) {
 TEST_F(Exec, KeepsItsPlacesToItselfAndTidiesUp) {
   const Finished finished = script("dirname $UNDERSTUDY_PORT; ls -A $(dirname $UNDERSTUDY_PORT) | sort");
   const auto lines = lines_of(finished.output);
-  ASSERT_EQ(lines.size(), 4U) << finished.output;
-  EXPECT_EQ(lines[1] + lines[2] + lines[3], "controlrecordingrs485.port");
+  ASSERT_EQ(lines.size(), 5U) << finished.output;
+  EXPECT_EQ(lines[1] + " " + lines[2] + " " + lines[3] + " " + lines[4],
+            ".rs485.port.lock control recording rs485.port");
   EXPECT_FALSE(fs::exists(lines[0]));
   EXPECT_FALSE(fs::exists(folder() / "never-made.port"));
 }

@@ -216,7 +216,8 @@ TEST(RunningDaemon, WhatIsNoSnapshotIsRefusedAndChangesNothing) {
   Running daemon;
   const std::string file = daemon.rig.folder.path + "/state.json";
   const std::string restore = Json{{"do", "restore"}, {"file", file}}.dump();
-  EXPECT_EQ(daemon.ask(restore)["error"], file + ": file: cannot be read; expected a snapshot");
+  EXPECT_EQ(daemon.ask(restore)["error"],
+            file + ": file: cannot be read (No such file or directory); expected a snapshot");
   for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
            {"", "file: is torn or no JSON; expected a snapshot"},
            {std::string(100'000, '['),
