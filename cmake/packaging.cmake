@@ -38,6 +38,7 @@ install(CODE "
   set(PROGRAMS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR})
   set(MANUALS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1)
   set(DOCUMENTATION \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR})
+  set(COMPLETIONS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR})
   set(SCENARIOS \${CMAKE_INSTALL_PREFIX}/${scenarios_folder})
   # systemd looks here below /usr and /usr/local, whatever the libraries' folder is called.
   set(UNITS \${CMAKE_INSTALL_PREFIX}/lib/systemd/system)")

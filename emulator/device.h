@@ -137,6 +137,11 @@ class Device {
   virtual double speed_pps(int axis) const = 0;
   /// The form in which they leave, as the manual calls it; empty if there is but one.
   virtual std::string_view pulse_format() const { return {}; }
+  /// All forms that it knows, and which of them it is.
+  virtual std::span<const std::string_view> pulse_formats() const { return {}; }
+  virtual std::size_t pulse_format_number() const { return 0; }
+  /// What an axis puts out in PWM mode, 0 in all others; nothing if it has no such mode.
+  virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
   /// The count of the encoder on the axis, absolute, as the plant sees it.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
 

@@ -25,6 +25,13 @@ std::string target_of(const std::string& path) {
   return (error ? target.lexically_normal() : canonical).string();
 }
 
+/// The place that the path names, itself not followed where it is a link.
+std::string place_of(const std::string& path) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error).lexically_normal();
+  return (fs::weakly_canonical(absolute.parent_path(), error) / absolute.filename()).string();
+}
+
 struct Found {
   bool is_there = false;
   bool is_special = false;  // there, but no regular file
@@ -52,9 +59,15 @@ void FileClaims::add(const std::vector<FileClaim>& claims) {
   for (const FileClaim& claim : claims) add(claim);
 }
 
+void FileClaims::add_place(const FileClaim& claim) {
+  if (!claim.path.empty()) of_places_.emplace(place_of(claim.path), claim.what);
+}
+
 std::string FileClaims::objection_to(const std::string& path) const {
+  if (path.empty()) return "";
+  if (const auto it = of_places_.find(place_of(path)); it != of_places_.end()) return objection(it->second);
   const Found found = find(path);
-  if (path.empty() || found.is_special) return "";
+  if (found.is_special) return "";
   if (found.is_there) {
     if (const auto it = of_files_.find(found.file); it != of_files_.end()) return objection(it->second);
   }

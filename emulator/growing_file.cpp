@@ -1,10 +1,5 @@
 #include "emulator/growing_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstring>
 #include <utility>
 
@@ -14,36 +9,46 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 16 << 20;  // bytes
 
+[[noreturn]] void refuse(const std::string& path, const std::string& what, const pty::OutputError& error) {
+  throw GrowingFileError(path + ": " + what + " cannot be written: " + error.what());
+}
+
+pty::OutputFile open_file(const std::string& path, const std::string& what) {
+  try {
+    return pty::OutputFile(path);
+  } catch (const pty::OutputError& error) {
+    refuse(path, what, error);
+  }
+}
+
 }  // namespace
 
 GrowingFile::GrowingFile(const std::string& path, std::string what,
                          std::function<void(const std::string&)> log)
-    : path_(path),
-      what_(std::move(what)),
-      log_(std::move(log)),
-      file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666)) {
-  const auto refuse = [&](const std::string& why) {
-    return GrowingFileError(path + ": " + what_ + " cannot be written: " + why);
-  };
-  struct stat status = {};
-  if (!file_) throw refuse(std::strerror(errno));
-  if (::fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
-    throw refuse("it is no regular file; expected one, or a free path");
-  }
-  if (::ftruncate(file_.get(), 0) != 0) throw refuse(std::strerror(errno));
-  writer_ = std::make_unique<pty::BackgroundWriter>(kMostWaiting,
-                                                    [this](std::string_view piece) { return write(piece); });
-}
+    : path_(path), what_(std::move(what)), log_(std::move(log)), file_(open_file(path, what_)) {}
 
 GrowingFile::~GrowingFile() { finish(); }
 
 void GrowingFile::take(std::string_view line) {
-  if (has_given_up_ || !writer_) return;
+  if (has_given_up_) return;
+  if (!has_begun_) return begin(line);
+  if (!writer_) return;
   switch (writer_->append(line)) {
     case pty::BackgroundWriter::Outcome::taken: return;
     case pty::BackgroundWriter::Outcome::full: return give_up("the disk is too slow");
     case pty::BackgroundWriter::Outcome::failed: return give_up(std::strerror(writer_->failure().error));
   }
+}
+
+void GrowingFile::begin(std::string_view line) {
+  try {
+    file_.begin(line);
+  } catch (const pty::OutputError& error) {
+    refuse(path_, what_, error);
+  }
+  has_begun_ = true;
+  writer_ = std::make_unique<pty::BackgroundWriter>(
+      kMostWaiting, [this](std::string_view piece) { return file_.write(piece); });
 }
 
 void GrowingFile::give_up(const std::string& why) {
@@ -56,16 +61,6 @@ void GrowingFile::finish() {
   writer_->finish();
   if (const int error = writer_->failure().error; error != 0) give_up(std::strerror(error));
   writer_.reset();
-}
-
-int GrowingFile::write(std::string_view piece) {
-  while (!piece.empty()) {
-    const ssize_t size = ::write(file_.get(), piece.data(), piece.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size < 0) return errno;
-    piece.remove_prefix(static_cast<std::size_t>(size));
-  }
-  return 0;
 }
 
 }  // namespace understudy::emulator

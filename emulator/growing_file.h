@@ -1,4 +1,5 @@
-// A file that grows while a world runs, written by a helper thread: a recording, a trace.
+// A file that grows while a world runs, written by a helper thread: a recording, a trace. Which files may be
+// written, and when what was there is gone, is for pty/output_file.h.
 #pragma once
 
 #include <functional>
@@ -8,7 +9,7 @@
 #include <string_view>
 
 #include "pty/background_writer.h"
-#include "pty/descriptor.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -19,26 +20,29 @@ struct GrowingFileError : std::runtime_error {
 
 class GrowingFile {
  public:
-  /// `what` it is, for messages: "the recording". A regular file that is there is overwritten. Throws
-  /// GrowingFileError.
+  /// `what` it is, for messages: "the recording". Opened and locked; what is there stays until the first line
+  /// comes. Throws GrowingFileError.
   GrowingFile(const std::string& path, std::string what, std::function<void(const std::string&)> log);
   ~GrowingFile();  // finishes
 
-  /// Whole lines. Once one could not be taken (the disk is full, or too slow) the recording ends there, with
-  /// a word to the log: one with a gap would be worth nothing.
+  /// Whole lines. The first is written at once, in place of what was there: throws GrowingFileError if that
+  /// fails. Once one could not be taken (the disk is full, or too slow) the recording ends there, with a word
+  /// to the log: one with a gap would be worth nothing.
   void take(std::string_view line);
   /// Waits until all is written.
   void finish();
-  const std::string& path() const { return path_; }
+  /// Where it really is.
+  const std::string& target() const { return file_.target(); }
 
  private:
-  int write(std::string_view piece);  // on the helper thread
+  void begin(std::string_view line);
   void give_up(const std::string& why);
 
   std::string path_;
   std::string what_;
   std::function<void(const std::string&)> log_;
-  pty::Descriptor file_;
+  pty::OutputFile file_;
+  bool has_begun_ = false;
   bool has_given_up_ = false;
   std::unique_ptr<pty::BackgroundWriter> writer_;  // last: its thread uses the others
 };

@@ -49,6 +49,14 @@ struct InstructionRow {
   std::string_view mnemonic;
   std::string_view data1;
   std::string_view data2;
+  std::string_view meaning{};
+};
+
+/// A section of a manual that is written in another language than English: the rows of a model name it as the
+/// manual does.
+struct SectionRow {
+  std::string_view name;
+  std::string_view in_english;
 };
 
 /// A row of a model's table of text commands.
@@ -138,6 +146,7 @@ struct Model {
   std::span<const InstructionRow> instructions;
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
+  std::span<const SectionRow> sections{};
   std::span<const TerminalRow> terminals;
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that tell best what it is doing

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pty/descriptor.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -93,14 +94,21 @@ std::string why_not_readable(const std::string& path) {
   return why;
 }
 
-int replace_text_file(const std::string& path, const std::string& contents) {
+std::string replace_text_file(const std::string& path, const std::string& contents) {
+  std::string target;
+  try {
+    target = pty::output_target(path);
+  } catch (const pty::OutputError& error) {
+    return error.what();
+  }
   std::string beside;
-  const int file = make_beside(path, beside);
-  if (file < 0) return errno;
+  const int file = make_beside(target, beside);
+  if (file < 0) return std::strerror(errno);
   int error = write_whole(file, contents);
-  if (error == 0 && std::rename(beside.c_str(), path.c_str()) != 0) error = errno;
-  if (error != 0) unlink(beside.c_str());
-  return error;
+  if (error == 0 && std::rename(beside.c_str(), target.c_str()) != 0) error = errno;
+  if (error == 0) return "";
+  unlink(beside.c_str());
+  return std::strerror(error);
 }
 
 }  // namespace understudy::emulator

@@ -22,7 +22,8 @@ FileText read_text_file(const std::string& path);
 std::string why_not_readable(const std::string& path);
 
 /// Puts a file there as a whole, in place of what was there: written beside it, under a name that is free,
-/// and on the disk before it gets its own. 0, or the error (errno), and what was there stays.
-int replace_text_file(const std::string& path, const std::string& contents);
+/// and on the disk before it gets its own. pty/output_file.h has what may be replaced. Empty, or else why it
+/// could not be, and what was there stays.
+std::string replace_text_file(const std::string& path, const std::string& contents);
 
 }  // namespace understudy::emulator

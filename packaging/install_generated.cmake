@@ -18,3 +18,12 @@ zip("${STAGING}/changelog.Debian" "${DOCUMENTATION}")
 
 configure_file("${PACKAGING}/understudy@.service.in" "${STAGING}/understudy@.service" @ONLY)
 file(INSTALL "${STAGING}/understudy@.service" DESTINATION "${UNITS}")
+
+function(completion shell folder file)
+  execute_process(COMMAND "${PROGRAM}" completion ${shell}
+                  OUTPUT_FILE "${STAGING}/${file}" COMMAND_ERROR_IS_FATAL ANY)
+  file(INSTALL "${STAGING}/${file}" DESTINATION "${COMPLETIONS}/${folder}")
+endfunction()
+completion(bash bash-completion/completions understudy)
+completion(zsh zsh/vendor-completions _understudy)
+completion(fish fish/vendor_completions.d understudy.fish)

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "pty/line_settings.h"
+#include "pty/line_observer.h"
 
 namespace understudy::pty {
 
@@ -46,7 +46,14 @@ struct CapturedPacket {
   std::span<const std::uint8_t> bytes;
   Remark remark = Remark::none;
   bool is_text = false;  // of a line of text, and no Modbus frame
+  std::string_view
+      faults{};  // what they have done to it; without bytes: to one that is not here, or was before
 };
+
+/// "fault 1 drop: not said; fault 2 delay: said later".
+std::string text_of(std::span<const Strike> strikes);
+/// All that is to be said about it; empty if that is nothing.
+std::string comment_of(const CapturedPacket& packet);
 
 /// A line of a capture.
 struct CapturedLine {

@@ -1,11 +1,5 @@
 #include "pty/capture_file.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -20,46 +14,39 @@ constexpr std::size_t kMostWaiting = 4
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// Open and empty, and ours alone.
-Descriptor open_file(const std::string& path) {
-  const auto refuse = [&path](const std::string& what) -> CaptureError {
-    return CaptureError(path + ": the capture cannot be written: " + what);
-  };
-  // Not emptied before it is plain what it is; and a pipe that nobody reads is no reason to wait.
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0666));
-  const std::string expected = "it is no regular file; expected one, or a free path";
-  if (!file) throw refuse(errno == EISDIR || errno == ENXIO ? expected : error_text(errno));
-  struct stat status = {};
-  if (::fstat(file.get(), &status) != 0) throw refuse(error_text(errno));
-  if (!S_ISREG(status.st_mode)) throw refuse(expected);
-  if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    throw refuse("another one is being written there; expected a path of its own");
+[[noreturn]] void refuse(const std::string& path, const OutputError& error) {
+  throw CaptureError(path + ": the capture cannot be written: " + error.what());
+}
+
+OutputFile open_file(const std::string& path) {
+  try {
+    return OutputFile(path);
+  } catch (const OutputError& error) {
+    refuse(path, error);
   }
-  if (::ftruncate(file.get(), 0) != 0) throw refuse(error_text(errno));
-  return file;
 }
 
 }  // namespace
 
-CaptureFile::CaptureFile(const std::string& path, std::vector<CapturedLine> lines,
-                         std::function<void(const std::string&)> log)
-    : path_(path),
-      is_pcapng_(path.ends_with(".pcapng")),
-      lines_(std::move(lines)),
-      log_(std::move(log)),
-      file_(open_file(path)),
-      lost_before_(lines_.size()) {
+CaptureFile::CaptureFile(const std::string& path, std::function<void(const std::string&)> log)
+    : path_(path), is_pcapng_(path.ends_with(".pcapng")), log_(std::move(log)), file_(open_file(path)) {}
+
+void CaptureFile::begin(std::vector<CapturedLine> lines) {
+  lines_ = std::move(lines);
+  lost_before_.resize(lines_.size());
   if (is_pcapng_) {
     append_pcapng_head(piece_, lines_);
   } else {
     append_text_head(piece_);
   }
-  // At once: a capture that nothing can be written to should not start.
-  if (const int error = write(piece_); error != 0) {
-    throw CaptureError(path_ + ": the capture cannot be written: " + error_text(error));
+  try {
+    file_.begin(piece_);
+  } catch (const OutputError& error) {
+    refuse(path_, error);
   }
+  // A packet is one write, so that whoever reads meanwhile, and a kill, find whole ones.
   writer_ = std::make_unique<BackgroundWriter>(kMostWaiting,
-                                               [this](std::string_view bytes) { return write(bytes); });
+                                               [this](std::string_view bytes) { return file_.write(bytes); });
 }
 
 CaptureFile::~CaptureFile() { finish(); }
@@ -93,29 +80,10 @@ void CaptureFile::tell_failure() {
 }
 
 void CaptureFile::finish() {
-  if (!file_) return;
+  if (!writer_ || std::exchange(is_finished_, true)) return;
   writer_->finish();
   tell_failure();
   if (lost() > 0) log_(path_ + ": " + std::to_string(lost()) + " packets are missing from the capture");
-  file_.close();
-}
-
-/// A packet is one write, so that whoever reads meanwhile, and a kill, find whole ones.
-int CaptureFile::write(std::string_view piece) {
-  const std::uint64_t end = written_ + piece.size();
-  while (!piece.empty()) {
-    const ssize_t size = ::write(file_.get(), piece.data(), piece.size());
-    if (size < 0 && errno == EINTR) continue;
-    if (size < 0) {
-      const int error = errno;
-      // Half a packet would make what came before unreadable.
-      [[maybe_unused]] const int ignored = ::ftruncate(file_.get(), static_cast<off_t>(written_));
-      return error;
-    }
-    piece.remove_prefix(static_cast<std::size_t>(size));
-  }
-  written_ = end;
-  return 0;
 }
 
 }  // namespace understudy::pty

@@ -11,7 +11,7 @@
 
 #include "pty/background_writer.h"
 #include "pty/capture.h"
-#include "pty/descriptor.h"
+#include "pty/output_file.h"
 
 namespace understudy::pty {
 
@@ -22,35 +22,34 @@ struct CaptureError : std::runtime_error {
 
 class CaptureFile {
  public:
-  /// `path` ends in .pcapng, or the capture is text. A file that is there is overwritten if it is a regular
-  /// one, and no other capture writes it. `log` gets a sentence when packets are lost; it is called by
-  /// add() and finish() only. Throws CaptureError.
-  CaptureFile(const std::string& path, std::vector<CapturedLine> lines,
-              std::function<void(const std::string&)> log);
+  /// `path` ends in .pcapng, or the capture is text. Opens it (output_file.h has which files may be); `log`
+  /// gets a sentence when packets are lost; it is called by add() and finish() only. Throws CaptureError.
+  CaptureFile(const std::string& path, std::function<void(const std::string&)> log);
   ~CaptureFile();  // finishes
 
+  /// What was there before is gone now, and packets of these lines may be added. Throws CaptureError.
+  void begin(std::vector<CapturedLine> lines);
   void add(const CapturedPacket& packet);
 
   /// Waits until all is written; nothing may be added afterwards.
   void finish();
 
   /// Packets that are not in the file: the disk was too slow, or full.
-  std::uint64_t lost() const { return lost_ + writer_->failure().lost; }
+  std::uint64_t lost() const { return lost_ + (writer_ ? writer_->failure().lost : 0); }
 
  private:
   void tell_failure();
-  int write(std::string_view piece);  // on the helper thread
 
   std::string path_;
   bool is_pcapng_;
   std::vector<CapturedLine> lines_;
   std::function<void(const std::string&)> log_;
-  Descriptor file_;
-  std::uint64_t written_ = 0;               // bytes; the helper thread's own
+  OutputFile file_;
   std::vector<std::uint64_t> lost_before_;  // of each line, since its last packet in the file
   std::uint64_t lost_ = 0;
   bool has_told_slow_ = false;
   bool has_told_failure_ = false;
+  bool is_finished_ = false;
   std::string piece_;
   std::unique_ptr<BackgroundWriter> writer_;  // last: its thread uses the others
 };

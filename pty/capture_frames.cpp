@@ -28,12 +28,14 @@ CaptureFrames::CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bo
     : line_(line), sink_(std::move(sink)), framer_(framing), is_text_(is_text) {}
 
 void CaptureFrames::on_start_bit(SimTime at) {
+  give_strikes();
   if (is_text_) return;
   framer_.start_bit(at);
   give_what_was_dropped();
 }
 
 void CaptureFrames::on_character(const TimedByte& character, bool is_heard) {
+  give_strikes();
   if (is_heard != is_heard_) {
     finish();  // the host has changed its speed
     is_heard_ = is_heard;
@@ -59,7 +61,31 @@ void CaptureFrames::on_speech(const Speech& speech) {
   const Remark remark = speech.has_collided  ? Remark::collided
                         : speech.is_for_host ? Remark::none
                                              : Remark::to_nobody;
-  sink_({line_, Way::to_host, speech.start, speech.bytes, remark, is_text_});
+  sink_({line_, Way::to_host, speech.start, speech.bytes, remark, is_text_, faults_});
+  faults_.clear();
+}
+
+/// A reply of a text station is said in pieces, and not at once.
+void CaptureFrames::on_strike(const StruckMessage& message) {
+  give_strikes();
+  faults_ = text_of(message.strikes);
+  struck_at_ = message.time;
+  if (message.is_said && !is_text_) return;
+  sink_({line_,
+         message.is_reply ? Way::to_host : Way::from_host,
+         message.time,
+         {},
+         Remark::none,
+         is_text_,
+         faults_});
+  faults_.clear();
+}
+
+/// Nothing was said after all.
+void CaptureFrames::give_strikes() {
+  if (faults_.empty()) return;
+  sink_({line_, Way::to_host, struck_at_, {}, Remark::none, is_text_, faults_});
+  faults_.clear();
 }
 
 void CaptureFrames::run(SimTime now) {
@@ -79,6 +105,7 @@ void CaptureFrames::run(SimTime now) {
 }
 
 void CaptureFrames::finish() {
+  give_strikes();
   if (is_text_) return give_text();
   framer_.give_up_waiting();
   run(SimTime::max());

@@ -25,6 +25,7 @@ class CaptureFrames final : public LineObserver {
   void on_character(const TimedByte& character, bool is_heard) override;
   void on_nothing_more() override;
   void on_speech(const Speech& speech) override;
+  void on_strike(const StruckMessage& message) override;
   std::optional<SimTime> due() const override { return framer_.due(); }  // none on a line of text
   void run(SimTime now) override;
 
@@ -33,6 +34,7 @@ class CaptureFrames final : public LineObserver {
 
  private:
   void give_text();
+  void give_strikes();
   void give_packet(std::size_t count, Remark remark);
   void give_dropped(std::size_t count);
   void give_what_was_dropped();
@@ -43,6 +45,8 @@ class CaptureFrames final : public LineObserver {
   bool is_text_;
   std::vector<TimedByte> waiting_;  // characters that are in no packet yet
   bool is_heard_ = true;            // all of them
+  std::string faults_;              // of the reply that is said next
+  SimTime struck_at_{0};            // the reply
 };
 
 }  // namespace understudy::pty

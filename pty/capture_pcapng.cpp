@@ -91,12 +91,12 @@ void put_number_tag(std::string& to, std::uint16_t tag, std::uint32_t number) {
   put_big_endian(to, number);
 }
 
-/// Text, and what is no frame, is shown as bytes; a whole request with a wrong checksum is worth a look
-/// inside.
+/// Text, what is no frame and what is only a comment is shown as bytes; a whole request with a wrong checksum
+/// is worth a look inside.
 std::string_view padded_dissector_of(const CapturedPacket& packet) {
   using namespace std::string_view_literals;
-  const bool is_frame =
-      !packet.is_text && packet.remark != Remark::incomplete && packet.remark != Remark::not_a_frame;
+  const bool is_frame = !packet.is_text && !packet.bytes.empty() && packet.remark != Remark::incomplete &&
+                        packet.remark != Remark::not_a_frame;
   return is_frame ? "mbrtu\0\0\0"sv : "data"sv;
 }
 
@@ -159,7 +159,7 @@ void append_pcapng_packet(std::string& file, const CapturedPacket& packet, std::
   put(file, static_cast<std::uint32_t>(data.size()));  // captured,
   put(file, static_cast<std::uint32_t>(data.size()));  // and on the wire
   put_padded(file, data);
-  if (packet.remark != Remark::none) put_option(file, kComment, text_of(packet.remark));
+  if (const std::string comment = comment_of(packet); !comment.empty()) put_option(file, kComment, comment);
   put_number_option(file, kFlags, flags_of(packet));
   if (lost_before > 0) put_number_option(file, kDropCount, lost_before);
 }

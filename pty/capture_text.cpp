@@ -22,9 +22,10 @@ void append_text_packet(std::string& file, std::span<const CapturedLine> lines, 
     file += kDigits[byte >> 4];
     file += kDigits[byte & 0x0F];
   }
-  if (packet.remark != Remark::none) (file += "  # ") += text_of(packet.remark);
+  const std::string comment = comment_of(packet);
+  if (!comment.empty()) (file += "  # ") += comment;
   if (lost_before > 0) {
-    file += packet.remark == Remark::none ? "  # " : "; ";
+    file += comment.empty() ? "  # " : "; ";
     file += std::to_string(lost_before) + " packets are missing before this one";
   }
   file += '\n';

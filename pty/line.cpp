@@ -39,6 +39,10 @@ void Line::remove_observer(LineObserver& observer) {
   due_changed();
 }
 
+void Line::tell_strike(const StruckMessage& message) {
+  for (LineObserver* observer : observers_) observer->on_strike(message);
+}
+
 void Line::attach(Station& station) {
   members_.emplace_back().station = &station;
   due_changed();
@@ -214,7 +218,8 @@ void Line::begin_character(SimTime at) {
     member.is_deaf = false;
     if (is_speed_known) {
       const LineSettings expected = member.station->settings();
-      member.is_deaf = expected.baud != settings->baud || expected.stop_bits != settings->stop_bits;
+      member.is_deaf = !is_within(settings->baud, expected.baud, options_.baud_tolerance_ppm) ||
+                       expected.stop_bits != settings->stop_bits;
       if (member.is_deaf) warn_deaf(i, *settings, expected);
     }
     if (member.is_deaf) {

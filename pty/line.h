@@ -34,6 +34,7 @@ struct LineOptions {
   LineSettings settings;
   Timing timing = Timing::wire;
   bool enforce_settings = true;  // a station is deaf to a host with another baud or stop bits
+  std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // so much faster or slower is the same baud
 };
 
 struct LineCounters {
@@ -64,6 +65,8 @@ class Line {
   /// they came.
   void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
+  /// Lets them know of it; nothing else comes of it.
+  void tell_strike(const StruckMessage& message);
 
   // --- the host's side -----------------------------------------------------------------------
   /// How many bytes receive() takes at this moment; the rest must wait in the pty (bounded buffers).

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "pty/station.h"
 
@@ -16,6 +17,21 @@ struct Speech {
   SimTime start{0};                     // of the first character
   bool has_collided = false;            // ran into what another station was saying
   bool is_for_host = true;              // false: no host is there to read it
+};
+
+/// A fault that acted on a message.
+struct Strike {
+  std::uint64_t fault = 0;  // its number
+  std::string_view kind;    // "drop"
+  std::string_view effect;  // "not said"
+};
+
+/// What faults have done to one message.
+struct StruckMessage {
+  SimTime time{0};
+  bool is_reply = false;  // else a request
+  bool is_said = false;   // a reply that follows at once, as they have made it
+  std::span<const Strike> strikes;
 };
 
 class LineObserver {
@@ -37,6 +53,10 @@ class LineObserver {
 
   /// A station has begun to talk.
   virtual void on_speech(const Speech& speech) = 0;
+
+  /// Faults have acted on a message. Of a request it follows what was heard, of a reply it comes before what
+  /// is said.
+  virtual void on_strike(const StruckMessage& /*message*/) {}
 
   /// When run() wants to be called next. At equal times it comes before the stations, so that what they
   /// answer follows what they were asked.

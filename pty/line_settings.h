@@ -10,6 +10,16 @@ namespace understudy::pty {
 /// Simulated time since the world's power-up. Always whole nanoseconds, never the wall clock.
 using SimTime = std::chrono::nanoseconds;
 
+/// A receiver samples each bit in its middle, counted from the start bit: after ten or eleven bits it is
+/// still in the right one if the other end is 2 % faster or slower.
+inline constexpr std::int64_t kUsualBaudTolerancePpm = 20'000;
+
+/// Whether a receiver at `baud` hears a talker at `host_baud`.
+constexpr bool is_within(int host_baud, int baud, std::int64_t tolerance_ppm) {
+  const std::int64_t off = host_baud > baud ? std::int64_t{host_baud} - baud : std::int64_t{baud} - host_baud;
+  return off * 1'000'000 <= tolerance_ppm * baud;
+}
+
 enum class Parity : std::uint8_t { none, odd, even };
 
 struct LineSettings {

@@ -1,30 +1,76 @@
 #include "pty/port_claim.h"
 
-#include <sys/socket.h>
-#include <sys/un.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstddef>
-#include <cstdint>
+#include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace understudy::pty {
+namespace {
 
-Descriptor claim_link(const std::string& canonical_path) {
-  Descriptor claim(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (!claim) throw std::system_error(errno, std::generic_category(), "socket");
-  sockaddr_un address = {};
-  address.sun_family = AF_UNIX;
-  // A name that begins with a zero byte is abstract. Paths are longer than names may be: their FNV-1a hash.
-  std::uint64_t hash = 0xCBF29CE484222325;
-  for (const char c : canonical_path) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
-  const std::string name = std::string(1, '\0') + "understudy link " + std::to_string(hash);
-  std::copy(name.begin(), name.end(), address.sun_path);
-  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
-  if (::bind(claim.get(), reinterpret_cast<const sockaddr*>(&address), size) == 0) return claim;
-  if (errno != EADDRINUSE) throw std::system_error(errno, std::generic_category(), "bind");
-  return Descriptor();
+std::string lock_of(const std::filesystem::path& link) {
+  return (link.parent_path() / ("." + link.filename().string() + ".lock")).string();
+}
+
+[[noreturn]] void fail(int error, const std::string& path) {
+  throw std::system_error(error, std::generic_category(), path);
+}
+
+/// The lock file, made if there is none.
+Descriptor open_lock(const std::string& path) {
+  constexpr int kFlags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  while (true) {
+    // Not in one call: in /tmp that would be refused for a file that root may well lock.
+    Descriptor lock(::open(path.c_str(), kFlags));
+    if (!lock && errno == ENOENT) lock = Descriptor(::open(path.c_str(), kFlags | O_CREAT | O_EXCL, 0600));
+    if (!lock && errno == EEXIST) continue;
+    if (!lock) fail(errno, path);
+    struct stat status = {};
+    if (::fstat(lock.get(), &status) != 0) fail(errno, path);
+    if (!S_ISREG(status.st_mode) || status.st_size != 0) fail(EEXIST, path);  // a stranger's, not a lock
+    return lock;
+  }
+}
+
+/// Whoever had it before may have removed it since it was opened.
+bool is_still_there(const Descriptor& lock, const std::string& path) {
+  struct stat ours = {};
+  struct stat there = {};
+  return ::fstat(lock.get(), &ours) == 0 && ::lstat(path.c_str(), &there) == 0 &&
+         ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
+}
+
+}  // namespace
+
+PortClaim::PortClaim(const std::string& link) : path_(lock_of(link)) {
+  while (true) {
+    Descriptor lock = open_lock(path_);
+    if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EWOULDBLOCK) return;
+      fail(errno, path_);
+    }
+    if (!is_still_there(lock, path_)) continue;
+    lock_ = std::move(lock);
+    return;
+  }
+}
+
+PortClaim::~PortClaim() {
+  if (lock_) ::unlink(path_.c_str());  // still locked: nobody else takes it for theirs
+}
+
+PortClaim::PortClaim(PortClaim&& other) noexcept
+    : path_(std::move(other.path_)), lock_(std::move(other.lock_)) {}
+
+PortClaim& PortClaim::operator=(PortClaim&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(lock_, other.lock_);
+  return *this;
 }
 
 }  // namespace understudy::pty

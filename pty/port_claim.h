@@ -1,6 +1,7 @@
 // Says of a port's link, for as long as we serve it, that it is served: so that another run does not take it
-// for a stale one. An abstract Unix socket carries its name; the kernel takes it away with the process, and
-// no file is left anywhere.
+// for a stale one. It is a lock on an empty file beside the link, `.NAME.lock`: only who may make the link
+// may claim it, whoever else is on the machine. The kernel lets go of the lock with the process; a file that
+// a killed one has left is taken over by the next.
 #pragma once
 
 #include <string>
@@ -9,8 +10,22 @@
 
 namespace understudy::pty {
 
-/// Claims the link of that path until the descriptor closes. An empty one: another run serves it.
-/// Throws std::system_error if that cannot be told.
-Descriptor claim_link(const std::string& canonical_path);
+class PortClaim {
+ public:
+  PortClaim() = default;  // of nothing
+  /// Tries to claim the link of that absolute path. Throws std::system_error if whether it is in use cannot
+  /// be told.
+  explicit PortClaim(const std::string& link);
+  ~PortClaim();  // lets go
+  PortClaim(PortClaim&& other) noexcept;
+  PortClaim& operator=(PortClaim&& other) noexcept;
+
+  /// False: another run serves the link.
+  explicit operator bool() const { return static_cast<bool>(lock_); }
+
+ private:
+  std::string path_;
+  Descriptor lock_;
+};
 
 }  // namespace understudy::pty

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "pty/output_file.h"
 #include "pty/port_claim.h"
 
 namespace understudy::pty {
@@ -24,31 +25,38 @@ std::string link_target(const std::string& path) {
   return size > 0 ? std::string(target.data(), static_cast<std::size_t>(size)) : std::string();
 }
 
-std::string kind_of(mode_t mode) {
-  if (S_ISREG(mode)) return "a regular file";
-  if (S_ISDIR(mode)) return "a directory";
-  if (S_ISSOCK(mode)) return "a socket";
-  if (S_ISFIFO(mode)) return "a pipe";
-  return "a device";
+const std::string kExpected = ", not a link of ours; expected a free path or a stale link";
+
+/// Throws if there is something else than a link.
+void demand_link_or_nothing(const std::string& path, const std::string& absolute_path) {
+  struct stat status = {};
+  if (::lstat(absolute_path.c_str(), &status) != 0 || S_ISLNK(status.st_mode)) return;
+  throw PortError(path + ": is " + kind_of_file(status.st_mode) + kExpected);
 }
 
 /// Throws if what is at `absolute_path` may not be replaced.
 void demand_stale(const std::string& path, const std::string& absolute_path) {
-  struct stat status = {};
-  if (::lstat(absolute_path.c_str(), &status) != 0) return;  // gone meanwhile
-  const std::string expected = ", not a link of ours; expected a free path or a stale link";
-  if (!S_ISLNK(status.st_mode)) throw PortError(path + ": is " + kind_of(status.st_mode) + expected);
+  demand_link_or_nothing(path, absolute_path);
   const std::string target = link_target(absolute_path);
   if (target.starts_with("/dev/pts/")) return;
+  struct stat status = {};
   const bool dangles = ::stat(absolute_path.c_str(), &status) != 0 && (errno == ENOENT || errno == ENOTDIR);
-  if (!dangles) throw PortError(path + ": is a link to " + target + expected);
+  if (!dangles) throw PortError(path + ": is a link to " + target + kExpected);
+}
+
+/// A new link under the first free name; empty, and errno, if it cannot be made.
+std::string make_link_beside(const std::string& name, const std::string& target) {
+  for (int i = 1;; ++i) {
+    const std::string fresh = name + ".new" + (i == 1 ? "" : "-" + std::to_string(i));
+    if (::symlink(target.c_str(), fresh.c_str()) == 0) return fresh;
+    if (errno != EEXIST) return "";
+  }
 }
 
 /// Makes a link, over one that is there, in one step: nobody ever finds no link there. 0, or the error.
 int replace_link(const std::string& path, const std::string& target) {
-  const std::string fresh = path + "." + std::to_string(::getpid()) + ".new";
-  ::unlink(fresh.c_str());
-  if (::symlink(target.c_str(), fresh.c_str()) != 0) return errno;
+  const std::string fresh = make_link_beside(path, target);
+  if (fresh.empty()) return errno;
   if (::rename(fresh.c_str(), path.c_str()) == 0) return 0;
   const int error = errno;
   ::unlink(fresh.c_str());
@@ -75,13 +83,14 @@ PortLink::PortLink(const std::string& path, std::string target) {
   const std::filesystem::path absolute_path = std::filesystem::absolute(path);
   demand_directory(path, absolute_path);
   const std::string name = absolute_path.string();
+  demand_link_or_nothing(path, name);
   std::error_code ignored;
   const auto canonical_parent = std::filesystem::canonical(absolute_path.parent_path(), ignored);
   try {
-    claim_ = claim_link((canonical_parent / absolute_path.filename()).string());
+    claim_ = PortClaim((canonical_parent / absolute_path.filename()).string());
   } catch (const std::system_error& error) {
     throw PortError(path + ": whether the link is in use cannot be told: " + error.what() +
-                    "; expected a free descriptor and Unix sockets");
+                    "; expected to make and lock that file");
   }
   if (!claim_) {
     throw PortError(

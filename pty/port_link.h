@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "pty/descriptor.h"
+#include "pty/port_claim.h"
 
 namespace understudy::pty {
 
@@ -32,7 +32,7 @@ class PortLink {
  private:
   std::string absolute_path_;  // the working directory may change before the link is removed
   std::string target_;         // empty: no link
-  Descriptor claim_;           // says that the link is in use
+  PortClaim claim_;            // says that the link is in use
 };
 
 }  // namespace understudy::pty

@@ -1,6 +1,6 @@
 // A library to preload into a host that insists on parity (understudy exec --tty-shim). A Linux pty drops
 // parity, and libc then says EINVAL although everything else was set. Here that one answer is turned into
-// success, on a pseudo-terminal and for parity alone.
+// success, on a pseudo-terminal and for parity alone. tty_shim_ioctl.cpp has what else a serial port can.
 //
 // It lives in somebody else's process: nothing but libc, and no errors of its own.
 #include <dlfcn.h>
@@ -8,6 +8,23 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <termios.h>
+
+#include "pty/tty_shim.h"
+
+// /dev/pts: the kernel's majors 136 to 143.
+int understudy::shim::pseudo_terminal_number(int descriptor) {
+  constexpr unsigned kFirstMajor = 136;
+  constexpr unsigned kLastMajor = 143;
+  constexpr unsigned kMinorsOfAMajor = 1U << 20;
+  const int error = errno;
+  struct stat status;
+  const bool is_known = fstat(descriptor, &status) == 0;
+  errno = error;
+  if (!is_known || !S_ISCHR(status.st_mode)) return -1;
+  const unsigned number = major(status.st_rdev);
+  if (number < kFirstMajor || number > kLastMajor) return -1;
+  return static_cast<int>((number - kFirstMajor) * kMinorsOfAMajor + minor(status.st_rdev));
+}
 
 namespace {
 
@@ -20,13 +37,6 @@ SetAttributes real_tcsetattr() {
   static SetAttributes found = nullptr;
   if (found == nullptr) found = reinterpret_cast<SetAttributes>(dlsym(RTLD_NEXT, "tcsetattr"));
   return found;
-}
-
-/// /dev/pts: the kernel's majors 136 to 143.
-bool is_slave_of_pseudo_terminal(int descriptor) {
-  struct stat status;
-  if (fstat(descriptor, &status) != 0 || !S_ISCHR(status.st_mode)) return false;
-  return major(status.st_rdev) >= 136 && major(status.st_rdev) <= 143;
 }
 
 /// The speed is in c_cflag.
@@ -51,7 +61,7 @@ extern "C" __attribute__((visibility("default"))) int tcsetattr(int descriptor, 
   for (int attempt = 0; attempt < 2; ++attempt) {
     const int result = set(descriptor, actions, asked);
     if (result == 0 || errno != EINVAL) return result;
-    if ((asked->c_cflag & PARENB) == 0 || !is_slave_of_pseudo_terminal(descriptor)) break;
+    if ((asked->c_cflag & PARENB) == 0 || understudy::shim::pseudo_terminal_number(descriptor) < 0) break;
     if (all_but_parity_is_set(descriptor, *asked)) return 0;
   }
   errno = EINVAL;

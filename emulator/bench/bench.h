@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "emulator/faults/fault.h"
@@ -20,7 +22,8 @@ struct LineSetup {
   std::string link;  // path of the link to its pty; empty: none
   int baud = 0;      // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
-  std::vector<std::size_t> stations;  // devices, in the order written
+  std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
+  std::vector<std::size_t> stations;                              // devices, in the order written
 };
 
 struct DeviceSetup {
@@ -63,6 +66,10 @@ struct Bench {
   std::uint64_t seed = 0;          // where randomness begins
   std::vector<FileClaim> files{};  // that it was read from, but for memories
 };
+
+/// "2%", "0.5%", 0% to 10% in millionths; nothing if it is no such share.
+std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);
+inline constexpr std::string_view kBaudToleranceExpected = "expected 0% to 10%, as in 2%";
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);

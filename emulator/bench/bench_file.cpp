@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <tuple>
@@ -23,11 +24,13 @@ namespace understudy::emulator {
 
 namespace {
 
-constexpr std::string_view kTime = "time";  // a name in conditions already
+constexpr std::string_view kTime = "time";     // a name in conditions already
+constexpr std::size_t kLongestLinkName = 200;  // a link has a lock beside it
 
 class BenchReader {
  public:
-  BenchReader(std::string folder, const std::string& links)
+  /// Paths are relative to `folder`, links to `links`, if that is given. Without a folder paths are refused.
+  explicit BenchReader(std::optional<std::string> folder, const std::string& links = "")
       : folder_(std::move(folder)), links_(links.empty() ? folder_ : links) {}
 
   /// Throws all that is wrong, with what was wrong before.
@@ -116,6 +119,11 @@ class BenchReader {
       if (const auto baud = fields.find("baud")) line.baud = static_cast<int>(baud->integer(kBaudForm));
     });
     all_.attempt([&] {
+      if (const auto tolerance = fields.find("baud_tolerance")) {
+        line.baud_tolerance_ppm = read_baud_tolerance(*tolerance);
+      }
+    });
+    all_.attempt([&] {
       if (const auto timing = fields.find("timing")) line.timing = read_timing(*timing);
     });
     std::set<std::int64_t> addresses;
@@ -134,6 +142,12 @@ class BenchReader {
     return timing.text() == "wire" ? pty::Timing::wire : pty::Timing::instant;
   }
 
+  static std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
+    if (const auto ppm = parse_baud_tolerance(tolerance.text())) return *ppm;
+    tolerance.fail(emulator::quoted(tolerance.text()) + " is not a share of the speed; " +
+                   std::string(kBaudToleranceExpected));
+  }
+
   void read_link(const YamlFields& link, LineSetup& line) const {
     namespace fs = std::filesystem;
     const std::string written = link.text();
@@ -143,6 +157,10 @@ class BenchReader {
     line.link = path_in(links_, link);
     if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without");
     const std::string name = fs::path(line.link).filename().string();
+    if (name.size() > kLongestLinkName) {
+      link.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
+                std::to_string(kLongestLinkName));
+    }
     std::error_code ignored;
     const fs::file_type there = fs::symlink_status(line.link, ignored).type();
     if (name.empty() || name == "." || name == ".." || there == fs::file_type::directory)
@@ -381,8 +399,8 @@ class BenchReader {
     }
   }
 
-  std::string folder_;
-  std::string links_;
+  std::optional<std::string> folder_;
+  std::optional<std::string> links_;
   Complaints all_;
   Bench bench_;
   std::set<std::string> unknown_;          // devices that could not be read
@@ -391,10 +409,7 @@ class BenchReader {
   std::vector<bool> on_a_line_;
 };
 
-}  // namespace
-
-Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
-                  const std::string& links) {
+Bench read_whole(const std::string& text, const std::string& name, BenchReader reader) {
   const YamlFields root = YamlFields::parse(text, name, "bench", "`understudy: 1` and `lines:`");
   if (!root.has("lines") && (root.has("steps") || root.has("bench"))) {
     throw FileError({name, 1, 1},
@@ -403,13 +418,24 @@ Bench parse_bench(const std::string& text, const std::string& name, const std::s
   Complaints complaints;
   complaints.attempt([&] { root.demand_keys(kBenchKeys); });
   complaints.attempt([&] { root.at("understudy").integer(kVersionForm); });
-  return BenchReader(folder, links).read(root, std::move(complaints));
+  return reader.read(root, std::move(complaints));
+}
+
+}  // namespace
+
+Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
+                  const std::string& links) {
+  return read_whole(text, name, BenchReader(folder, links));
+}
+
+Bench parse_recorded_bench(const std::string& text) {
+  return read_whole(text, "bench", BenchReader(std::nullopt));
 }
 
 Bench read_bench(const YamlFields& fields, const std::string& folder) {
   Complaints complaints;
   complaints.attempt([&] { fields.demand_keys(kInlineBenchKeys); });
-  return BenchReader(folder, "").read(fields, std::move(complaints));
+  return BenchReader(folder).read(fields, std::move(complaints));
 }
 
 namespace {

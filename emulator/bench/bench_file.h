@@ -23,6 +23,10 @@ Bench load_bench(const YamlFields& path);
 Bench parse_bench(const std::string& text, const std::string& name, const std::string& folder,
                   const std::string& links = "");
 
+/// The bench that is inside a recording. It has everything in itself: whoever names a path there wants
+/// something read or written that is none of a recording's business, and is refused.
+Bench parse_recorded_bench(const std::string& text);
+
 /// One that is written inside another file, as the value of a key.
 Bench read_bench(const YamlFields& fields, const std::string& folder);
 

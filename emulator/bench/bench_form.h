@@ -60,6 +60,8 @@ inline constexpr Form kTimingForm = words_form(kTimings);
 inline constexpr std::array kLineKeys{
     KeyRow{"link", "Where hosts open it; relative to this file.", &kText},
     KeyRow{"baud", "The speed that the devices are set to; the factory's without it.", &kBaudForm},
+    KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard: 2% without it.",
+           &kText},
     KeyRow{"timing", "Whether bytes take their time.", &kTimingForm},
     KeyRow{"stations", "The devices on the line.", &kStationsForm, true}};
 

@@ -49,6 +49,10 @@ Json device_text(const DeviceSetup& device) {
 Json line_text(const Bench& bench, const LineSetup& line) {
   Json text{{"timing", line.timing == pty::Timing::wire ? "wire" : "instant"}, {"stations", Json::array()}};
   if (line.baud != 0) text["baud"] = line.baud;
+  if (line.baud_tolerance_ppm != pty::kUsualBaudTolerancePpm) {
+    const std::string part = std::to_string(10'000 + line.baud_tolerance_ppm % 10'000).substr(1);
+    text["baud_tolerance"] = std::to_string(line.baud_tolerance_ppm / 10'000) + "." + part + "%";
+  }
   for (const std::size_t device : line.stations) {
     const DeviceSettings& settings = bench.devices[device].settings;
     Json station{{"device", settings.name}};

@@ -1,5 +1,5 @@
-// A bench as text that parse_bench() reads, whatever it was made from: with its programs and memories inside, and
-// without links, so that it is the same bench in any folder.
+// A bench as text that parse_bench() reads, whatever it was made from: with its programs and memories inside,
+// and without links, so that it is the same bench in any folder.
 #pragma once
 
 #include <string>

@@ -17,13 +17,16 @@ namespace understudy::emulator {
 
 namespace {
 
+// Ports and memories are files that are named after lines and devices.
+constexpr std::size_t kLongestName = 100;
+
 double demand_real(const YamlFields& field) {
   if (const auto value = parse_real(field.text())) return *value;
   field.fail(emulator::quoted(field.text()) + " is no number; expected one");
 }
 
 /// The path of a listing, or the listing itself if it has several lines.
-void read_program(const YamlFields& field, const std::string& folder, Bench& bench,
+void read_program(const YamlFields& field, const std::optional<std::string>& folder, Bench& bench,
                   DeviceSettings& settings) {
   if (field.text().find('\n') != std::string::npos) {
     settings.program = field.text();
@@ -53,8 +56,8 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
 
 /// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
 /// the run.
-void read_nv(const YamlFields& field, const std::string& folder, const Bench& bench, DeviceSetup& device,
-             Complaints& complaints) {
+void read_nv(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
+             DeviceSetup& device, Complaints& complaints) {
   if (field.is_map()) {
     NvImage image{.model = std::string(device.model->name), .firmware = {}, .registers = {}};
     field.demand_map();
@@ -102,15 +105,20 @@ void demand_name(const YamlFields& field, const std::string& name) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
   if (!plain) field.fail(emulator::quoted(name) + " is no name; expected letters, digits, _ and -");
+  if (name.size() > kLongestName) {
+    field.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
+               std::to_string(kLongestName));
+  }
 }
 
-std::string path_in(const std::string& folder, const YamlFields& field) {
+std::string path_in(const std::optional<std::string>& folder, const YamlFields& field) {
+  if (!folder) field.fail("is a path; expected none in a recording, which has everything in itself");
   if (field.text().empty()) field.fail("is empty; expected a path");
-  return (std::filesystem::path(folder) / field.text()).lexically_normal().string();
+  return (std::filesystem::path(*folder) / field.text()).lexically_normal().string();
 }
 
-DeviceSetup read_device(const YamlFields& fields, const std::string& name, const std::string& folder,
-                        Bench& bench, Complaints& complaints) {
+DeviceSetup read_device(const YamlFields& fields, const std::string& name,
+                        const std::optional<std::string>& folder, Bench& bench, Complaints& complaints) {
   DeviceSetup device;
   DeviceSettings& settings = device.settings;
   settings.name = name;

@@ -1,6 +1,7 @@
 // What a bench file says of a device.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,12 @@ namespace understudy::emulator {
 void demand_name(const YamlFields& field, const std::string& name);
 
 /// The entry of a device without its name. What is wrong is kept, but for an unknown model, without which
-/// there is no device: that throws FileError. Paths are relative to `folder`; files that are read are added
-/// to the bench, whose devices have other memories.
-DeviceSetup read_device(const YamlFields& fields, const std::string& name, const std::string& folder,
-                        Bench& bench, Complaints& complaints);
+/// there is no device: that throws FileError. Paths are relative to `folder`, and refused without one; files
+/// that are read are added to the bench, whose devices have other memories.
+DeviceSetup read_device(const YamlFields& fields, const std::string& name,
+                        const std::optional<std::string>& folder, Bench& bench, Complaints& complaints);
 
-/// A path in `folder`.
-std::string path_in(const std::string& folder, const YamlFields& field);
+/// A path in `folder`; refused without one.
+std::string path_in(const std::optional<std::string>& folder, const YamlFields& field);
 
 }  // namespace understudy::emulator

@@ -26,33 +26,65 @@ NameError no_device(const KnownDevices& devices, std::string_view name) {
   return NameError("no device is called " + quoted(name) + suggestion(name, names));
 }
 
-Split split(const KnownDevices& devices, std::string_view name) {
+NameError only_a_device(std::string_view name, std::string_view example) {
+  return NameError(quoted(name) + " is a device; expected " + std::string(name) + "." + std::string(example));
+}
+
+/// Throws NameError where the device is not there, or left out though there are several; `has` tells of
+/// which.
+Split split(const KnownDevices& devices, std::string_view name, const HasName& has,
+            std::string_view example) {
   const std::size_t dot = name.find('.');
   if (dot != std::string_view::npos) {
     const int device = number_of(devices, name.substr(0, dot));
     if (device >= 0) return {static_cast<std::size_t>(device), name.substr(dot + 1)};
   }
-  if (devices.size() == 1) return {0, name};
-  throw no_device(devices, name.substr(0, dot));
+  if (devices.size() != 1) throw name_without_device(devices, name, has, example);
+  if (devices[0].name == name && !has(devices[0], name)) throw only_a_device(name, example);
+  return {0, name};
 }
+
+bool has_register(const KnownDevice& device, std::string_view name) {
+  return device.model->registers.find(name, device.firmware).has_value();
+}
+
+constexpr std::string_view kAnyRegister = "REGISTER";
 
 }  // namespace
 
+NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
+                              std::string_view example) {
+  if (number_of(devices, name) >= 0) return only_a_device(name, example);
+  std::string whole_names;
+  for (const KnownDevice& device : devices) {
+    if (!has(device, name)) continue;
+    whole_names += (whole_names.empty() ? "" : ", ") + device.name + "." + std::string(name);
+  }
+  if (whole_names.empty()) return no_device(devices, name.substr(0, name.find('.')));
+  const bool is_of_several = whole_names.find(", ") != std::string::npos;
+  return NameError(quoted(name) + " needs its device in front; expected " + (is_of_several ? "one of " : "") +
+                   whole_names);
+}
+
 RegisterName find_register(const KnownDevices& devices, std::string_view name) {
-  const auto [number, rest] = split(devices, name);
+  const auto [number, rest] = split(devices, name, has_register, kAnyRegister);
   const KnownDevice& device = devices[number];
   if (const auto place = device.model->registers.find(rest, device.firmware)) return {number, *place};
   throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
 }
 
 std::optional<ValueName> find_value(const KnownDevices& devices, std::string_view name) {
-  const auto [number, rest] = split(devices, name);
+  const auto [number, rest] = split(devices, name, has_register, kAnyRegister);
   if (devices[number].model->protocol() != Protocol::text) return std::nullopt;
   return ValueName{number, std::string(rest)};
 }
 
 InputName find_input(const KnownDevices& devices, std::string_view name) {
-  const auto [number, rest] = split(devices, name);
+  const auto has_input = [](const KnownDevice& device, std::string_view input) {
+    const int terminal = find_terminal(*device.model, input);
+    return terminal >= 0 && is_input(device.model->terminals[static_cast<std::size_t>(terminal)].kind);
+  };
+  const auto [number, rest] = split(devices, name, has_input, "INPUT");
   const Model& model = *devices[number].model;
   const int terminal = find_terminal(model, rest);
   if (terminal >= 0 && is_input(model.terminals[static_cast<std::size_t>(terminal)].kind)) {
@@ -75,7 +107,10 @@ void demand_level(const TerminalRow& row, std::string_view name, std::int64_t le
 }
 
 AxisName find_axis(const KnownDevices& devices, std::string_view name) {
-  const auto [number, rest] = split(devices, name);
+  const auto has_axis = [](const KnownDevice& device, std::string_view axis) {
+    return find_axis(*device.model, axis) >= 0;
+  };
+  const auto [number, rest] = split(devices, name, has_axis, "AXIS");
   const Model& model = *devices[number].model;
   if (const int axis = find_axis(model, rest); axis >= 0) return {number, axis};
   std::string axes;

@@ -2,6 +2,7 @@
 // be left out where there is only one.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -59,6 +60,13 @@ struct AxisName {
   int axis = 0;
 };
 AxisName find_axis(const KnownDevices& devices, std::string_view name);
+
+/// Whether something of that name is at a device.
+using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
+/// What is wrong with a name that begins with no device, where there are several: it is a device's itself
+/// (then `example` is what may stand behind it), or something at some of them, or unknown.
+NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
+                              std::string_view example);
 
 /// A device by its name; an empty name will do where there is only one.
 std::size_t find_device(const KnownDevices& devices, std::string_view name);

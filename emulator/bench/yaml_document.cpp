@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "emulator/file_error.h"
 #include "emulator/one_line.h"
@@ -117,36 +120,76 @@ FileError not_yaml(const Stop& stop, const std::string& file, const std::string&
           what + ": is not YAML: " + words + (has_text ? "  (the line is " + quoted(stop.line) + ")" : "")};
 }
 
-/// Sees a document go by, and where a second one begins. The library makes documents without end of a sign
-/// that cannot begin one, so that no more may be asked for.
+/// Makes nodes of a document as it goes by, and sees where a second one begins. The library makes documents
+/// without end of a sign that cannot begin one, so that no more may be asked for.
 class Passage : public YAML::EventHandler {
  public:
   struct SecondDocument {
     YAML::Mark mark;
   };
   const YAML::Mark& last_text() const { return last_text_; }
+  std::shared_ptr<const YamlNode> root() const { return {nodes_, root_}; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (std::exchange(has_begun_, true)) throw SecondDocument{mark};
   }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
-  void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t /*anchor*/) override {}
-  void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
-                const std::string& /*value*/) override {
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { make(mark, anchor, Kind::nothing); }
+  void OnAlias(const YAML::Mark& /*mark*/, YAML::anchor_t anchor) override { put(anchors_.at(anchor)); }
+  void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                const std::string& value) override {
+    make(mark, anchor, Kind::scalar).scalar = value;
     last_text_ = mark;
   }
-  void OnSequenceStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
-                       YAML::EmitterStyle::value /*style*/) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark& /*mark*/, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
-                  YAML::EmitterStyle::value /*style*/) override {}
-  void OnMapEnd() override {}
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    open_.push_back(&make(mark, anchor, Kind::list));
+  }
+  void OnSequenceEnd() override { open_.pop_back(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    open_.push_back(&make(mark, anchor, Kind::map));
+  }
+  void OnMapEnd() override { open_.pop_back(); }
 
  private:
+  using Kind = YamlNode::Kind;
+
+  YamlNode& make(const YAML::Mark& mark, YAML::anchor_t anchor, Kind kind) {
+    YamlNode& node = nodes_->emplace_back(YamlNode{.kind = kind, .line = mark.line, .column = mark.column});
+    if (anchor != YAML::NullAnchor) anchors_[anchor] = &node;
+    put(&node);
+    return node;
+  }
+  void put(const YamlNode* node) {
+    if (open_.empty()) {
+      root_ = node;
+    } else {
+      open_.back()->parts.push_back(node);
+    }
+  }
+
+  std::shared_ptr<std::deque<YamlNode>> nodes_ = std::make_shared<std::deque<YamlNode>>(1);
+  const YamlNode* root_ = &nodes_->front();  // of an empty text: nothing
+  std::vector<YamlNode*> open_;
+  std::map<YAML::anchor_t, const YamlNode*> anchors_;
   bool has_begun_ = false;
   YAML::Mark last_text_ = YAML::Mark::null_mark();
 };
+
+/// The library reads remarks letter by letter, and many a file begins with a page of them: those lines are
+/// left empty.
+std::string without_first_remarks(const std::string& text) {
+  std::string lines;
+  std::size_t at = 0;
+  while (at < text.size() && (text[at] == '#' || text[at] == '\n')) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string::npos) return lines;
+    lines += '\n';
+    at = end + 1;
+  }
+  return lines + text.substr(at);
+}
 
 /// Whether a quote at the beginning of `text` is closed. In double quotes a sign behind a backslash is any
 /// sign; in single ones two are one.
@@ -177,15 +220,16 @@ void demand_closed_quote(const std::string& text, const YAML::Mark& mark, const 
 
 }  // namespace
 
-YAML::Node parse_yaml(const std::string& text, const std::string& file, const std::string& what) {
+std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::string& file,
+                                           const std::string& what) {
   try {
-    std::istringstream input(text);
+    std::istringstream input(without_first_remarks(text));
     YAML::Parser parser(input);
     Passage passage;
     while (parser.HandleNextDocument(passage)) {
     }
     demand_closed_quote(text, passage.last_text(), file, what);
-    return YAML::Load(text);
+    return passage.root();
   } catch (const Passage::SecondDocument& second) {
     const Stop stop(text, second.mark);
     if (stop.line.starts_with("---") || std::string_view(text).find("\n...") != std::string_view::npos) {

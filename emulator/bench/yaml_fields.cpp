@@ -1,7 +1,5 @@
 #include "emulator/bench/yaml_fields.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -17,27 +15,29 @@ namespace understudy::emulator {
 
 YamlFields YamlFields::parse(const std::string& text, const std::string& file, const std::string& what,
                              const std::string& expected) {
-  const YAML::Node document = parse_yaml(text, file, what);
-  if (!document.IsMap())
+  std::shared_ptr<const YamlNode> document = parse_yaml(text, file, what);
+  if (document->kind != YamlNode::Kind::map)
     throw FileError({file, 1, 1}, what + ": the file is not a map; expected " + expected);
-  YamlFields root(file, document, what);
+  YamlFields root(std::make_shared<const std::string>(file), std::move(document), what);
   root.is_root_ = true;
   return root;
 }
 
-YamlFields::YamlFields(std::string file, const YAML::Node& node, std::string field)
-    : file_(std::move(file)), node_(std::make_shared<const YAML::Node>(node)), field_(std::move(field)) {}
+YamlFields::YamlFields(std::shared_ptr<const std::string> file, std::shared_ptr<const YamlNode> node,
+                       std::string field)
+    : file_(std::move(file)), node_(std::move(node)), field_(std::move(field)) {}
 
-YamlFields::YamlFields(const YamlFields& parent, const YAML::Node& node, const std::string& field)
-    : YamlFields(parent.file_, node, field) {
-  rule_ = parent.rule_;
+YamlFields YamlFields::part(const YamlNode& node, std::string field) const {
+  YamlFields part(file_, {node_, &node}, std::move(field));
+  part.rule_ = rule_;
+  return part;
 }
 
-int YamlFields::line() const { return node_->Mark().line + 1; }
+int YamlFields::line() const { return node_->line + 1; }
 
-FilePlace YamlFields::place() const { return {file_, line(), node_->Mark().column + 1}; }
+FilePlace YamlFields::place() const { return {*file_, line(), node_->column + 1}; }
 
-std::string YamlFields::folder() const { return std::filesystem::path(file_).parent_path().string(); }
+std::string YamlFields::folder() const { return std::filesystem::path(*file_).parent_path().string(); }
 
 void YamlFields::fail(const std::string& what) const { throw FileError(place(), field_ + ": " + what); }
 
@@ -47,19 +47,29 @@ YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
   return same;
 }
 
-bool YamlFields::is_map() const { return node_->IsMap(); }
-bool YamlFields::is_list() const { return node_->IsSequence(); }
-bool YamlFields::is_scalar() const { return node_->IsScalar(); }
+bool YamlFields::is_map() const { return node_->kind == YamlNode::Kind::map; }
+bool YamlFields::is_list() const { return node_->kind == YamlNode::Kind::list; }
+bool YamlFields::is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
 
-std::string YamlFields::read_scalar(const YAML::Node& node) const {
-  const std::string& written = node.Scalar();
-  if (rule_ == nullptr) return written;
+std::string YamlFields::read_scalar(const YamlNode& node) const {
+  const std::string& written = node.scalar;
+  if (rule_ == nullptr || written.find("${") == std::string::npos) return written;
   try {
     return rule_->apply(written);
   } catch (const FileError&) {
     throw;
   } catch (const std::runtime_error& error) {
-    YamlFields(*this, node, field_).fail(error.what());
+    part(node, field_).fail(error.what());
+  }
+}
+
+template <typename Take>
+void YamlFields::for_each_entry(Take take) const {
+  if (!is_map()) fail("expected a map, as in `key: value`");
+  for (std::size_t i = 0; i + 1 < node_->parts.size(); i += 2) {
+    const YamlNode& key = *node_->parts[i];
+    if (key.kind != YamlNode::Kind::scalar) fail("a key is not a word; expected `key: value`");
+    take(read_scalar(key), *node_->parts[i + 1]);
   }
 }
 
@@ -71,20 +81,23 @@ void YamlFields::demand_keys_of(const std::span<const KeyRow>* known) const {
   Complaints complaints;
   std::set<std::string> seen;
   complaints.demand([&] {
-    for (const auto& [key, value] : entries()) {
-      complaints.attempt([&, &name = key, &field = value] {
-        if (!seen.insert(name).second) field.fail("is given twice; expected it once");
-        if (known != nullptr) field.demand_known(name, *known);
+    for_each_entry([&](const std::string& key, const YamlNode& value) {
+      complaints.attempt([&] {
+        const auto field = [&] { return part(value, field_of(key)); };
+        if (!seen.insert(key).second) field().fail("is given twice; expected it once");
+        const auto is_it = [&](const KeyRow& row) { return row.key == key; };
+        if (known != nullptr && std::none_of(known->begin(), known->end(), is_it)) {
+          field().fail_unknown(key, *known);
+        }
       });
-    }
+    });
   });
 }
 
-void YamlFields::demand_known(const std::string& key, std::span<const KeyRow> known) const {
+void YamlFields::fail_unknown(const std::string& key, std::span<const KeyRow> known) const {
   std::vector<std::string> names;
   std::string list;
   for (const KeyRow& row : known) {
-    if (row.key == key) return;
     names.emplace_back(row.key);
     list += (list.empty() ? "" : ", ") + names.back();
   }
@@ -94,9 +107,10 @@ void YamlFields::demand_known(const std::string& key, std::span<const KeyRow> kn
 
 std::optional<YamlFields> YamlFields::find(std::string_view key) const {
   if (!is_map()) return std::nullopt;
-  for (const auto& entry : *node_) {
-    if (entry.first.IsScalar() && read_scalar(entry.first) == key) {
-      return YamlFields(*this, entry.second, field_of(std::string(key)));
+  for (std::size_t i = 0; i + 1 < node_->parts.size(); i += 2) {
+    const YamlNode& name = *node_->parts[i];
+    if (name.kind == YamlNode::Kind::scalar && read_scalar(name) == key) {
+      return part(*node_->parts[i + 1], field_of(std::string(key)));
     }
   }
   return std::nullopt;
@@ -111,20 +125,17 @@ YamlFields YamlFields::at(std::string_view key) const {
 
 std::vector<std::pair<std::string, YamlFields>> YamlFields::entries() const {
   std::vector<std::pair<std::string, YamlFields>> all;
-  if (!is_map()) fail("expected a map, as in `key: value`");
-  for (const auto& entry : *node_) {
-    if (!entry.first.IsScalar()) fail("a key is not a word; expected `key: value`");
-    const std::string key = read_scalar(entry.first);
-    all.emplace_back(key, YamlFields(*this, entry.second, field_of(key)));
-  }
+  for_each_entry([&](const std::string& key, const YamlNode& value) {
+    all.emplace_back(key, part(value, field_of(key)));
+  });
   return all;
 }
 
 std::vector<YamlFields> YamlFields::elements() const {
   if (!is_list()) fail("expected a list, as in `[ a, b ]`");
   std::vector<YamlFields> all;
-  for (std::size_t i = 0; i < node_->size(); ++i) {
-    all.push_back(YamlFields(*this, (*node_)[i], field_ + "[" + std::to_string(i) + "]"));
+  for (std::size_t i = 0; i < node_->parts.size(); ++i) {
+    all.push_back(part(*node_->parts[i], field_ + "[" + std::to_string(i) + "]"));
   }
   return all;
 }

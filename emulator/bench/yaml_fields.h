@@ -15,17 +15,16 @@
 #include "emulator/forms/form.h"
 #include "emulator/simulated_time.h"
 
-namespace YAML {
-class Node;
-}
-
 namespace understudy::emulator {
+
+struct YamlNode;  // yaml_document.h
 
 /// What is done to every scalar, keys included, before it is read.
 class ScalarRule {
  public:
   virtual ~ScalarRule() = default;
-  /// Throws a std::runtime_error of one line for a text it cannot take.
+  /// Asked only for texts with `${` in them: all others are as they are. Throws a std::runtime_error of one
+  /// line for a text it cannot take.
   virtual std::string apply(const std::string& written) const = 0;
 };
 
@@ -37,7 +36,7 @@ class YamlFields {
   static YamlFields parse(const std::string& text, const std::string& file, const std::string& what,
                           const std::string& expected);
 
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return *file_; }
   const std::string& field() const { return field_; }
   int line() const;
   FilePlace place() const;
@@ -78,15 +77,20 @@ class YamlFields {
   Tick ticks() const;
 
  private:
-  YamlFields(const YamlFields& parent, const YAML::Node& node, const std::string& field);
-  YamlFields(std::string file, const YAML::Node& node, std::string field);
-  std::string read_scalar(const YAML::Node& node) const;
+  YamlFields(std::shared_ptr<const std::string> file, std::shared_ptr<const YamlNode> node,
+             std::string field);
+  YamlFields part(const YamlNode& node, std::string field) const;
+  std::string read_scalar(const YamlNode& node) const;
   void demand_keys_of(const std::span<const KeyRow>* known) const;
-  void demand_known(const std::string& key, std::span<const KeyRow> known) const;
+  [[noreturn]] void fail_unknown(const std::string& key, std::span<const KeyRow> known) const;
+  /// Of a map: each of its keys, as read, with the value. Calls take(key, value).
+  template <typename Take>
+  void for_each_entry(Take take) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
-  std::string file_;
-  std::shared_ptr<const YAML::Node> node_;
+  // Both are shared with all that is in it.
+  std::shared_ptr<const std::string> file_;
+  std::shared_ptr<const YamlNode> node_;
   std::string field_;
   bool is_root_ = false;  // what is in it is called by its key alone
   const ScalarRule* rule_ = nullptr;

@@ -27,7 +27,7 @@ std::size_t count_steps(const Steps& steps) {
 }
 
 /// What the file is, if nothing is wrong with it.
-std::string checked(const std::string& file) {
+std::string checked(const std::string& file, const std::string& save_below) {
   switch (kind_of_file(file)) {
     case FileKind::bench: {
       Bench bench = load_bench(file);
@@ -36,7 +36,7 @@ std::string checked(const std::string& file) {
              counted(bench.devices.size(), "device");
     }
     case FileKind::scenario: {
-      const auto scenarios = load_scenarios(file);
+      const auto scenarios = load_scenarios(file, save_below);
       std::size_t steps = 0;
       for (const Scenario& scenario : scenarios) steps += count_steps(scenario.steps);
       return (scenarios.size() == 1 ? "a scenario" : std::to_string(scenarios.size()) + " scenarios") +
@@ -49,11 +49,11 @@ std::string checked(const std::string& file) {
 
 }  // namespace
 
-int check_files(const std::vector<std::string>& files) {
+int check_files(const std::vector<std::string>& files, const std::string& save_below) {
   int code = kExitWell;
   for (const std::string& file : with_folders_opened(files)) {
     try {
-      std::printf("%s: %s\n", file.c_str(), checked(file).c_str());
+      std::printf("%s: %s\n", file.c_str(), checked(file, save_below).c_str());
     } catch (const FileError& error) {
       std::fprintf(stderr, "%s\n", error.what());
       code = kExitBadInput;

@@ -44,6 +44,7 @@ struct ServeArguments {
   std::string timing;
   bool strict_framing = false;
   bool ignore_baud = false;
+  std::string baud_tolerance;
   std::string speed = "real";
   std::string control;
   std::string nv;  // the folder for memories of devices that have no file of their own
@@ -61,6 +62,7 @@ struct ExecArguments {
   std::vector<std::string> command;      // and its arguments: what stands behind --
   std::vector<std::string> stray_words;  // in front of it
   std::string with;                      // the file of a scenario that is played beside it
+  std::string save_below;                // the folder that it may save in; empty: its own
   bool tty_shim = false;
   std::string timeout;  // a duration
 };
@@ -74,7 +76,11 @@ struct RunArguments {
   bool real_time = false;
   std::string junit;
   std::string report;
-  std::string record;  // a folder
+  std::string record;  // folders, for a file of each scenario
+  std::string trace;
+  std::vector<std::string> trace_also;
+  std::string capture;
+  std::string save_below;  // the folder that scenarios may save in; empty: their own
   bool lint = false;
   bool hash = false;
   std::optional<int> jobs;  // none: one for each core
@@ -89,6 +95,10 @@ struct ReplayArguments {
   std::string recording;
   std::string until;  // a duration; then `control`
   std::string control;
+  std::string trace;  // files, as those of `serve` and `run`
+  std::vector<std::string> trace_also;
+  std::string capture;
+  std::string report;
   std::string version;  // of this program
 };
 int replay_recording(const ReplayArguments& arguments);
@@ -100,23 +110,40 @@ struct PlotArguments {
 };
 int plot_trace(const PlotArguments& arguments);
 
+/// Which of the running daemons is meant; nothing: the only one.
+struct WhichDaemon {
+  std::string socket;  // its control socket
+  std::string bench;   // the file that it serves
+  std::string port;    // one of its ports, or the link to it
+};
+
 struct ControlArguments {
-  std::string socket;
+  WhichDaemon which;
   bool json = false;
   std::string verb;
   std::vector<std::string> operands;
   std::string within = "1h";  // of simulated time, for `run-until`
 };
 int control(const ControlArguments& arguments);
-/// Where the control socket is: what was given, or UNDERSTUDY_CONTROL, or the private one.
-std::string socket_path(const std::string& given);
 
 struct WatchArguments {
-  std::string socket;
-  std::string every = "200ms";  // of wall time
-  int times = 0;                // 0: until it is interrupted
+  WhichDaemon which;
+  std::vector<std::string> names;  // none: everything
+  std::string every = "200ms";     // of wall time
+  int times = 0;                   // 0: until it is interrupted
 };
 int watch(const WatchArguments& arguments);
+
+struct FramesArguments {
+  WhichDaemon which;
+  bool json = false;
+  int last = 10;  // how many of those that have gone before are shown at first
+  bool once = false;
+  std::string every = "100ms";  // of wall time
+  int times = 0;                // 0: until it is interrupted
+};
+/// What goes over the lines, a line for each frame.
+int follow_frames(const FramesArguments& arguments);
 
 struct PollArguments {
   std::string port;
@@ -139,7 +166,7 @@ int assemble_program(const std::string& file);
 int disassemble_program(const std::string& file);
 
 /// Benches, scenarios, and files of steps that scenarios include; folders with such files.
-int check_files(const std::vector<std::string>& files);
+int check_files(const std::vector<std::string>& files, const std::string& save_below);
 /// The JSON Schema of "bench" or "scenario" files.
 int print_schema(const std::string& what);
 

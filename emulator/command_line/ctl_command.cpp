@@ -1,16 +1,17 @@
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/text_argument.h"
 #include "emulator/control/server.h"
+#include "emulator/control/value_text.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/parse_real.h"
 #include "emulator/simulated_time.h"
-#include "emulator/text_file.h"
 
 namespace understudy::emulator {
 
@@ -92,7 +93,7 @@ std::string course_text(const Json& fault) {
 }
 
 std::string listing_of(const std::string& path) {
-  const auto text = read_text_file(path);
+  const auto text = read_text_argument(path);
   if (!text) throw UsageError("ctl program: " + path + ": " + text.why + "; expected a listing");
   return *text;
 }
@@ -111,8 +112,13 @@ Json message_for(const ControlArguments& arguments) {
   Json message{{"do", verb}};
   if (verb == "get") {
     if (arguments.operands.empty())
-      throw UsageError("ctl get: nothing to read; expected the name of a register");
+      throw UsageError("ctl get: nothing to read; expected a name such as feeder.Cord_A");
     message["names"] = arguments.operands;
+  } else if (verb == "eval") {
+    if (arguments.operands.size() != 1) {
+      throw UsageError("ctl eval: expected one expression, such as 'feeder.Cord_A / 3200'");
+    }
+    message["expression"] = arguments.operands[0];
   } else if (verb == "set") {
     message["values"] = assignments(arguments);
   } else if (verb == "input") {
@@ -201,25 +207,24 @@ void print_status(const Json& status) {
     for (const auto& [axis, machine] : device.at("machines").items()) {
       std::printf("  machine %s: at %lld pulses, %lld lost", axis.c_str(),
                   machine.at("position_pulses").get<long long>(), machine.at("lost_pulses").get<long long>());
+      if (const int duty = device.at("axes").at(axis).value("pwm_percent", 0); duty != 0)
+        std::printf(", PWM %d %%", duty);
       if (machine.contains("drive"))
         std::printf(", drive %s", machine.at("drive").get<std::string>().c_str());
       std::printf("\n");
     }
   }
+  for (const Json& fault : status.at("faults")) {
+    std::printf("fault %lld %s%s\n", fault.at("number").get<long long>(),
+                fault.at("fault").get<std::string>().c_str(), course_text(fault).c_str());
+  }
 }
 
 }  // namespace
 
-std::string socket_path(const std::string& given) {
-  if (!given.empty()) return given;
-  const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
-  if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // empty is as if unset
-  return default_control_path();
-}
-
 int control(const ControlArguments& arguments) {
   const Json message = message_for(arguments);
-  const std::string path = socket_path(arguments.socket);
+  const std::string path = choose_daemon(arguments.which);
   const std::string line = ask_control(path, message.dump(-1, ' ', false, Json::error_handler_t::replace));
   try {
     const Json reply = Json::parse(line);
@@ -232,9 +237,9 @@ int control(const ControlArguments& arguments) {
     } else if (reply.contains("status")) {
       print_status(reply.at("status"));
     } else if (reply.contains("values")) {
-      for (const auto& [name, value] : reply.at("values").items()) {
-        std::printf("%s %s\n", name.c_str(), value.dump().c_str());
-      }
+      for (const std::string& text : value_lines(line)) std::printf("%s\n", text.c_str());
+    } else if (reply.contains("value")) {
+      std::printf("%s\n", value_text(line).c_str());
     } else if (reply.contains("text")) {
       std::printf("%s", reply.at("text").get<std::string>().c_str());
     } else if (reply.contains("number")) {

@@ -15,6 +15,7 @@
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
+#include "emulator/command_line/terminal.h"
 #include "emulator/edge/child.h"
 #include "emulator/edge/parent_signals.h"
 #include "emulator/edge/port_group.h"
@@ -121,7 +122,7 @@ int tell_of(const Companion& companion, const Scenario& scenario) {
   }
   int code = kExitWell;
   for (const ScenarioResult& result : companion.results()) {
-    std::fprintf(stderr, "%s\n", verdict_line(result).c_str());
+    std::fprintf(stderr, "%s\n", coloured_verdict(verdict_line(result), wants_colour(STDERR_FILENO)).c_str());
     for (const std::string& line : failure_lines(result)) std::fprintf(stderr, "      %s\n", line.c_str());
     if (result.verdict == ScenarioResult::Verdict::failed) code = kExitFailed;
   }
@@ -194,7 +195,7 @@ void demand_apart(const Scenario& scenario, const ServeArguments& serve, FileCla
     demand_output(of_scenario, flag, path);
   };
   demand("--capture", serve.capture);
-  if (!serve.record.empty()) demand("--record", serve.record + kOlderPart);
+  demand("--record", older_part_of(serve.record));
   demand("--record", serve.record);
   demand("--trace", serve.trace);
   for (const std::string& path : scenario.saved) demand_output(files, "--with: save", path);
@@ -212,9 +213,10 @@ int execute(const ExecArguments& arguments) {
   demand_variables(serving.bench);
   std::optional<Scenario> scenario;
   if (!arguments.with.empty()) {
-    scenario = load_companion(arguments.with, serving.bench);
+    scenario = load_companion(arguments.with, serving.bench, arguments.save_below);
     demand_apart(*scenario, arguments.serve, serving.options.files);
   }
+  remove_left_overs();
   PrivateFolder folder;
   use_private_places(serving, arguments, folder);
   serving.options.watch_signals = false;
@@ -225,11 +227,11 @@ int execute(const ExecArguments& arguments) {
   } catch (const ChildError& error) {
     std::fprintf(stderr, "understudy: exec: %s\n", one_line(error.what()).c_str());
   }
-  if (!arguments.serve.record.empty()) return code;
-  if (code == kExitWell || code == kExitNotStarted) {
+  const bool has_failed = code != kExitWell && code != kExitNotStarted;
+  if (!has_failed && arguments.serve.record.empty()) {
     std::error_code ignored;
     std::filesystem::remove(serving.options.record_path, ignored);
-  } else {
+  } else if (has_failed) {
     std::fprintf(stderr, "understudy: exec: to run this again: understudy replay %s\n",
                  serving.options.record_path.c_str());
   }

@@ -1,4 +1,4 @@
-// The only file that includes CLI11: it is slow to compile.
+// This file and app_words.cpp are the only ones that include CLI11: it is slow to compile.
 #include "emulator/command_line/flags.h"
 
 #include <CLI/CLI.hpp>
@@ -7,10 +7,11 @@
 #include <memory>
 #include <string_view>
 
+#include "emulator/command_line/app_words.h"
+#include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/model.h"
+#include "emulator/command_line/completion.h"
 #include "emulator/one_line.h"
-#include "emulator/suggestion.h"
 
 namespace understudy::emulator {
 
@@ -21,6 +22,8 @@ const CLI::Validator kNotEmpty(
     [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
     "");
 
+constexpr const char* kTraceAlsoHelp =
+    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A";
 constexpr const char* kLintHelp = "Tell at the end what a real controller would not forgive its host";
 
 struct CommandLine {
@@ -32,11 +35,14 @@ struct CommandLine {
   ReplayArguments replay;
   ControlArguments control;
   WatchArguments watched;
+  FramesArguments frames;
   PollArguments poll;
   PlotArguments plot;
   std::string program;
   std::string schema;
+  std::string shell;
   std::vector<std::string> files;
+  std::string save_below;
   std::function<int()> chosen;
 
   CommandLine() {
@@ -58,6 +64,7 @@ struct CommandLine {
     add_check();
     add_schema();
     add_tty_shim();
+    add_completion();
   }
 
  private:
@@ -98,6 +105,10 @@ struct CommandLine {
                      "Only silence ends a frame, as on a real line");
     command.add_flag("--ignore-baud", serving.ignore_baud,
                      "Hear hosts that set another speed or other stop bits");
+    command
+        .add_option("--baud-tolerance", serving.baud_tolerance,
+                    "How much faster or slower a host may be and still be heard [2%, or the bench's]")
+        ->check(kNotEmpty);
     command.add_option("--speed", serving.speed, "real, free, manual, or a factor such as 10x")
         ->capture_default_str();
     command.add_option("--control", serving.control, "Path of the control socket [a private one]")
@@ -118,11 +129,7 @@ struct CommandLine {
         .add_option("--trace", serving.trace,
                     "Write what moves and switches to this file: FILE.csv, or FILE.vcd for GTKWave")
         ->check(kNotEmpty);
-    command
-        .add_option("--trace-also", serving.trace_also,
-                    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A")
-        ->delimiter(',')
-        ->check(kNotEmpty);
+    command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
     command.add_flag("--lint", serving.lint, kLintHelp);
   }
 
@@ -132,6 +139,12 @@ struct CommandLine {
     command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
   }
 
+  static void add_save_below(CLI::App& command, std::string& folder) {
+    command
+        .add_option("--save-below", folder, "Let scenarios `save` below this folder [each one's own folder]")
+        ->check(kNotEmpty);
+  }
+
   void add_exec() {
     CLI::App* command =
         app.add_subcommand("exec", "Run a command with a bench to talk to: exec BENCH -- COMMAND");
@@ -139,6 +152,7 @@ struct CommandLine {
     command->add_option("COMMAND", exec.stray_words, "A program and its arguments, after --");
     command->add_option("--with", exec.with, "A scenario to play beside the command [none]")
         ->check(kNotEmpty);
+    add_save_below(*command, exec.save_below);
     command->add_flag("--tty-shim", exec.tty_shim,
                       "Preload what lets hosts that insist on parity use a pseudo-terminal");
     command
@@ -163,6 +177,18 @@ struct CommandLine {
     command
         ->add_option("--control", replay.control, "Path of the control socket, with --until [a private one]")
         ->check(kNotEmpty);
+    command
+        ->add_option("--trace", replay.trace,
+                     "Write what moved and switched to this file: FILE.csv, or FILE.vcd for GTKWave")
+        ->check(kNotEmpty);
+    command->add_option("--trace-also", replay.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    command
+        ->add_option(
+            "--capture", replay.capture,
+            "Write what went over the lines to this file: FILE.pcapng for Wireshark, else a text log")
+        ->check(kNotEmpty);
+    command->add_option("--report", replay.report, "Write a page about it to this file, as HTML")
+        ->check(kNotEmpty);
     command->callback([this] {
       replay.version = UNDERSTUDY_VERSION;
       chosen = [this] { return replay_recording(replay); };
@@ -184,6 +210,12 @@ struct CommandLine {
         ->add_option("--record", run.record,
                      "Folder for the recordings of all scenarios [those of failures, below /tmp]")
         ->check(kNotEmpty);
+    command->add_option("--trace", run.trace, "Folder for a trace of each scenario, as CSV")
+        ->check(kNotEmpty);
+    command->add_option("--trace-also", run.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
+    command->add_option("--capture", run.capture, "Folder for a capture of each scenario, for Wireshark")
+        ->check(kNotEmpty);
+    add_save_below(*command, run.save_below);
     command->add_flag("--lint", run.lint, kLintHelp);
     command->add_flag("--hash", run.hash,
                       "Print a hash of all that each scenario's devices said and did, for comparison");
@@ -203,24 +235,50 @@ struct CommandLine {
 
   void add_watch(CLI::App& of) {
     CLI::App* command = of.add_subcommand("watch", "Show all that moves, again and again, until Ctrl-C");
+    command->add_option("NAME", watched.names, "What to show, as for get [everything]");
     command->add_option("--every", watched.every, "Time between two looks")->capture_default_str();
     command->add_option("--times", watched.times, "How many looks; 0: without end")->capture_default_str();
     command->fallthrough();
     command->callback([this] {
-      watched.socket = control.socket;
+      watched.which = control.which;
       chosen = [this] { return watch(watched); };
+    });
+  }
+
+  void add_frames(CLI::App& of) {
+    CLI::App* command = of.add_subcommand("frames", "Show what goes over the lines, in words, until Ctrl-C");
+    command->add_option("--last", frames.last, "How many of those before are shown first")
+        ->capture_default_str();
+    command->add_flag("--once", frames.once, "Show these, and end");
+    command->add_option("--every", frames.every, "Time between two looks")->capture_default_str();
+    command->add_option("--times", frames.times, "How many looks; 0: without end")->capture_default_str();
+    command->fallthrough();
+    command->callback([this] {
+      frames.which = control.which;
+      frames.json = control.json;
+      chosen = [this] { return follow_frames(frames); };
     });
   }
 
   void add_control() {
     CLI::App* command = app.add_subcommand("ctl", "Look into a running `serve`, and act on it");
-    command
-        ->add_option("--control", control.socket,
-                     "Path of its control socket [UNDERSTUDY_CONTROL, or the private one]")
-        ->check(kNotEmpty);
+    CLI::Option* const socket =
+        command
+            ->add_option("--control", control.which.socket,
+                         "Path of its control socket [UNDERSTUDY_CONTROL, or that of the only one]")
+            ->check(kNotEmpty);
+    command->add_option("--bench", control.which.bench, "The one that serves this bench file")
+        ->check(kNotEmpty)
+        ->excludes(socket);
+    command->add_option("--port", control.which.port, "The one that has this port, or the link to it")
+        ->check(kNotEmpty)
+        ->excludes(socket);
     command->add_flag("--json", control.json, "Print the reply as it came: one JSON object");
     command->require_subcommand(1);
     add_watch(*command);
+    add_frames(*command);
+    command->add_subcommand("daemons", "List the running ones: control socket, bench, ports")
+        ->callback([this] { chosen = list_daemons; });
     const auto add = [&](const char* verb, const char* help, const char* operand, const char* operand_help) {
       CLI::App* sub = command->add_subcommand(verb, help);
       if (operand != nullptr) sub->add_option(operand, control.operands, operand_help);
@@ -232,7 +290,9 @@ struct CommandLine {
       return sub;
     };
     add("status", "Time, lateness, lines, stations, machines", nullptr, nullptr);
-    add("get", "Read registers", "NAME", "Such as feeder.Cord_A or feeder.STATUS.4");
+    add("get", "Read registers, axes, inputs: all that conditions can name", "NAME",
+        "Such as feeder.Cord_A, feeder.STATUS.4, feeder.0x1000, feeder.A.position, time");
+    add("eval", "Work out an expression", "EXPRESSION", "Such as 'feeder.Cord_A / 3200'");
     add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
     add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
         "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
@@ -296,7 +356,8 @@ struct CommandLine {
   void add_check() {
     CLI::App* command = app.add_subcommand("check", "Validate benches and scenarios without running them");
     command->add_option("FILE", files, "Bench and scenario files, and folders of them")->required();
-    command->callback([this] { chosen = [this] { return check_files(files); }; });
+    add_save_below(*command, save_below);
+    command->callback([this] { chosen = [this] { return check_files(files, save_below); }; });
   }
 
   void add_schema() {
@@ -304,29 +365,14 @@ struct CommandLine {
     command->add_option("WHAT", schema, "bench or scenario")->required();
     command->callback([this] { chosen = [this] { return print_schema(schema); }; });
   }
-};
 
-/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or
-/// flag it was, and what is like it; empty if that is not the trouble.
-std::string unknown_command(const CLI::App& app, int argc, char** argv, int first) {
-  for (int i = first; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word.starts_with("-")) {
-      const CLI::Option* const flag = app.get_option_no_throw(word.substr(0, word.find('=')));
-      if (flag == nullptr) return emulator::quoted(word) + " is no flag here";
-      if (flag->get_items_expected_max() > 0 && word.find('=') == std::string::npos) ++i;  // its value
-      continue;
-    }
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands(nullptr)) {
-      names.push_back(command->get_name());
-      if (word != command->get_name()) continue;
-      return command->get_subcommands(nullptr).empty() ? "" : unknown_command(*command, argc, argv, i + 1);
-    }
-    return emulator::quoted(word) + " is no command" + suggestion(word, names);
+  void add_completion() {
+    CLI::App* command =
+        app.add_subcommand("completion", "Print what makes a shell complete the words of `understudy`");
+    command->add_option("SHELL", shell, "bash, zsh or fish")->required();
+    command->callback([this] { chosen = [this] { return print_completion(words_of(app), shell); }; });
   }
-  return "";
-}
+};
 
 }  // namespace
 

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/file_claims.h"
+#include "emulator/recording/recording_spool.h"
+#include "emulator/trace/trace_file.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -16,6 +20,35 @@ inline const std::string& demand_output(FileClaims& claims, const std::string& f
   }
   claims.add({path, "what " + flag + " writes"});
   return path;
+}
+
+inline const std::string& demand_capture(FileClaims& claims, const std::string& path) {
+  if (path.ends_with(".pcap")) {
+    throw UsageError("--capture: " + path +
+                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+  }
+  return demand_output(claims, "--capture", path);
+}
+
+/// And that nothing `also` is asked for without it.
+inline const std::string& demand_trace(FileClaims& claims, const std::string& path,
+                                       const std::vector<std::string>& also) {
+  if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE beside it");
+  if (!path.empty() && !is_trace_name(path)) {
+    throw UsageError("--trace: " + path + ": is no kind of trace; expected FILE.csv or FILE.vcd");
+  }
+  return demand_output(claims, "--trace", path);
+}
+
+/// Where the older part of a recording goes once it has grown large: beside the file that is really written.
+/// Empty if there is none.
+inline std::string older_part_of(const std::string& recording) {
+  if (recording.empty()) return "";
+  try {
+    return pty::output_target(recording) + kOlderPart;
+  } catch (const pty::OutputError&) {
+    return recording + kOlderPart;  // whoever opens it is told
+  }
 }
 
 }  // namespace understudy::emulator

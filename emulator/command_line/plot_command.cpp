@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/output_paths.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/one_line.h"
 #include "emulator/text_file.h"
@@ -37,6 +38,10 @@ class WorkFolder {
 
 [[noreturn]] void throw_error(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
+}
+
+void demand_written(const std::string& what, const std::string& why_not) {
+  if (!why_not.empty()) throw GrowingFileError(what + " cannot be written: " + why_not);
 }
 
 /// Its exit code. What it has to say goes into a file.
@@ -83,13 +88,14 @@ int plot_trace(const PlotArguments& arguments) {
     throw UsageError("--output: " + output.string() +
                      ": is no kind of picture; expected FILE.png or FILE.svg");
   }
+  FileClaims claims;
+  claims.add({arguments.trace, "the trace itself"});
+  demand_output(claims, "--output", output.string());
   const TraceTable table = read_trace(arguments.trace);
   WorkFolder folder;
   const std::string script = plot_script(table, arguments.also, is_svg ? PlotFormat::svg : PlotFormat::png,
                                          folder.picture(), arguments.trace);
-  if (const int error = replace_text_file(folder.script(), script); error != 0) {
-    throw_error(error, "plot: " + folder.script() + " cannot be written");
-  }
+  demand_written("plot: " + folder.script(), replace_text_file(folder.script(), script));
   const int code = run_gnuplot(folder);
   const auto picture = read_text_file(folder.picture());
   if (code != 0 || !picture || picture->empty()) {
@@ -98,9 +104,7 @@ int plot_trace(const PlotArguments& arguments) {
                  one_line(complaint_in(said)).c_str());
     return kExitNoResource;
   }
-  if (const int error = replace_text_file(output.string(), *picture); error != 0) {
-    throw_error(error, "--output: " + output.string() + " cannot be written");
-  }
+  demand_written("--output: " + output.string(), replace_text_file(output.string(), *picture));
   std::printf("%s\n", output.c_str());
   return kExitWell;
 }

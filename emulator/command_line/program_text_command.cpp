@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/text_argument.h"
 #include "emulator/one_line.h"
-#include "emulator/text_file.h"
 #include "interpreter/simple2/listing.h"
 
 // The Simple2-R3 program as text and back. Its cells are a line of four numbers for each line of the program,
@@ -19,7 +19,7 @@ using interpreter::simple2::Lines;
 
 /// Null, and one line on standard error, if it cannot be read.
 FileText content_of(const std::string& file) {
-  auto text = read_text_file(file);
+  auto text = read_text_argument(file);
   if (!text) std::fprintf(stderr, "%s: %s; expected a file\n", file.c_str(), text.why.c_str());
   return text;
 }

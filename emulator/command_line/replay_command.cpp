@@ -2,15 +2,19 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
+#include "emulator/command_line/replay_looks.h"
+#include "emulator/command_line/result_file.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/edge/daemon.h"
 #include "emulator/one_line.h"
 #include "emulator/recording/replay.h"
+#include "emulator/report/page.h"
 #include "emulator/text_file.h"
 #include "emulator/world/snapshot.h"
 
@@ -30,6 +34,7 @@ int serve_from(const Replayed& replayed, const WorldState& state, const std::str
   options.patience = replayed.header.options.patience;
   options.enforce_settings = replayed.header.options.enforce_settings;
   options.control_path = control;
+  options.bench_path = std::filesystem::weakly_canonical(recording).string();
   options.files.add({recording, "the recording itself"});
   Daemon daemon(bench, options, log_line);
   daemon.restore(state);
@@ -48,18 +53,29 @@ int replay_recording(const ReplayArguments& arguments) {
   if (!arguments.until.empty()) {
     until = parse_duration(arguments.until);
     if (!until)
-      throw UsageError("--until: " + quoted(arguments.until) + " is no duration; expected one such as 2.5s");
+      throw UsageError("--until: " + emulator::quoted(arguments.until) +
+                       " is no duration; expected one such as 2.5s");
   }
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
+  FileClaims claims;
+  claims.add({arguments.recording, "the recording itself"});
+  demand_looks(arguments, claims);
   std::ifstream file(arguments.recording, std::ios::binary);
+  ResultFile report("--report", arguments.report);
+  ScenarioResult seen;
   std::optional<WorldState> state;
   const auto begin = std::chrono::steady_clock::now();
-  const Replayed replayed = replay(file, arguments.recording, until, {}, [&](const World& world) {
+  const auto watch = [&](World& world) { return std::make_unique<ReplayLooks>(world, arguments, seen); };
+  const Replayed replayed = replay(file, arguments.recording, until, watch, [&](const World& world) {
     if (until) state = save(world);
   });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (report.is_wanted()) {
+    const ScenarioResult shown = result_of(replayed, arguments.recording, std::move(seen));
+    report.write(report_page({&shown, 1}, arguments.version));
+  }
   if (replayed.header.version != arguments.version) {
     log_line("the recording is from version " + replayed.header.version + ", this is " + arguments.version);
   }

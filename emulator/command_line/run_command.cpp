@@ -1,15 +1,17 @@
+#include <unistd.h>
+
 #include <algorithm>
-#include <cerrno>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 #include <thread>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/command_line/run_recordings.h"
+#include "emulator/command_line/result_file.h"
+#include "emulator/command_line/run_files.h"
+#include "emulator/command_line/terminal.h"
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/file_error.h"
 #include "emulator/lint/lint.h"
@@ -20,6 +22,7 @@
 #include "emulator/scenario/real_stage.h"
 #include "emulator/scenario/result_text.h"
 #include "emulator/scenario/scenario_file.h"
+#include "emulator/scenario/shared_reading.h"
 #include "emulator/scenario/suite.h"
 
 namespace understudy::emulator {
@@ -39,6 +42,7 @@ std::vector<std::string> files_of(const std::string& path) {
 std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   std::vector<Scenario> scenarios;
   std::vector<std::string> files;
+  SharedReading shared;
   bool is_well = true;
   for (const std::string& path : arguments.scenarios) {
     try {
@@ -51,7 +55,7 @@ std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   }
   for (const std::string& file : files) {
     try {
-      for (Scenario& scenario : load_scenarios(file)) {
+      for (Scenario& scenario : load_scenarios(file, arguments.save_below, shared)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
         scenarios.push_back(std::move(scenario));
       }
@@ -81,6 +85,13 @@ std::vector<Scenario> choose_some(std::vector<Scenario> scenarios, const RunArgu
   return choose(std::move(scenarios), arguments.filter, shard);
 }
 
+RunFolders folders_of(const RunArguments& arguments) {
+  return {.recordings = arguments.record,
+          .traces = arguments.trace,
+          .captures = arguments.capture,
+          .trace_also = arguments.trace_also};
+}
+
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
 void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
                       const RunArguments& arguments) {
@@ -94,10 +105,14 @@ void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
   }
   demand_output(claims, "--junit", arguments.junit);
   demand_output(claims, "--report", arguments.report);
-  if (arguments.record.empty()) return;
-  if (const std::string why = claims.objection_to_folder(arguments.record, RunRecordings::file_endings());
-      !why.empty()) {
-    throw UsageError("--record: " + arguments.record + ": " + why);
+  demand_folders(claims, folders_of(arguments));
+  if (arguments.trace_also.empty()) return;
+  for (const Scenario& scenario : scenarios) {
+    try {
+      trace_signals(World(scenario.bench, {}, {}), arguments.trace_also);
+    } catch (const NameError& error) {
+      throw UsageError("--trace-also: " + scenario.file + ": " + error.what());
+    }
   }
 }
 
@@ -115,34 +130,9 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
-/// Opened before anything is played, so that a wrong path is told at once.
-class ResultFile {
- public:
-  /// Nothing is written if the path is empty.
-  ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
-    if (path_.empty()) return;
-    file_.open(path_, std::ios::binary | std::ios::trunc);
-    demand_good();
-  }
-  bool is_wanted() const { return !path_.empty(); }
-  void write(const std::string& text) {
-    file_ << text << std::flush;
-    demand_good();
-  }
-
- private:
-  void demand_good() const {
-    if (file_.good()) return;
-    throw std::system_error(errno, std::generic_category(), flag_ + ": " + path_ + " cannot be written");
-  }
-  std::string flag_;
-  std::string path_;
-  std::ofstream file_;
-};
-
 void print(const std::vector<ScenarioResult>& results, bool with_hash) {
   for (const ScenarioResult& result : results) {
-    std::printf("%s\n", verdict_line(result).c_str());
+    std::printf("%s\n", coloured_verdict(verdict_line(result), wants_colour(STDOUT_FILENO)).c_str());
     if (with_hash && result.verdict != ScenarioResult::Verdict::not_reached) {
       std::printf("hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
     }
@@ -166,7 +156,9 @@ int run_scenarios(const RunArguments& arguments) {
   demand_own_files(std::move(claims), scenarios, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
-  RunRecordings recordings(arguments.record, arguments.real_time, arguments.version);
+  RunFiles files(folders_of(arguments), arguments.real_time, arguments.version);
+  junit.empty();
+  report.empty();
   std::vector<ScenarioResult> all;
   PlayOptions options{.with_hash = arguments.hash};
   if (arguments.lint) {
@@ -178,14 +170,17 @@ int run_scenarios(const RunArguments& arguments) {
   }
   const auto options_for = [&](const Scenario& scenario) {
     PlayOptions of_one = options;
-    of_one.onlookers.push_back([&](World& world) { return recordings.record(world, scenario); });
+    for (OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
     return of_one;
   };
-  play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
-    for (ScenarioResult& result : results) recordings.settle(result);
-    print(results, arguments.hash);
-    all.insert(all.end(), results.begin(), results.end());
-  });
+  {
+    ProgressLine progress(scenarios.size());
+    play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
+      for (ScenarioResult& result : results) files.settle(result);
+      progress.one_done([&] { print(results, arguments.hash); });
+      all.insert(all.end(), results.begin(), results.end());
+    });
+  }
   std::printf("%s\n", summary_line(all).c_str());
   for (const ScenarioResult& result : all) {
     for (const std::string& finding : result.manners) {

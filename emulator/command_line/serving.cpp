@@ -1,9 +1,12 @@
 #include "emulator/command_line/serving.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 
 #include "emulator/bench/bench_file.h"
+#include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/device.h"
@@ -85,50 +88,44 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   if (!arguments.timing.empty()) {
     for (LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
   }
+  if (!arguments.baud_tolerance.empty()) {
+    const auto ppm = parse_baud_tolerance(arguments.baud_tolerance);
+    if (!ppm) {
+      throw UsageError("--baud-tolerance: " + emulator::quoted(arguments.baud_tolerance) +
+                       " is not a share of the speed; " + std::string(kBaudToleranceExpected));
+    }
+    for (LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
+  }
   return bench;
 }
 
-/// What the bench is made of, and the memories, which are written as well.
-FileClaims claims_of(const Bench& bench) {
+/// What the bench is made of, the memories, which are written as well, and what hosts and `ctl` open.
+FileClaims claims_of(const Bench& bench, const std::string& control) {
   FileClaims claims;
   claims.add(bench.files);
   for (const DeviceSetup& device : bench.devices) {
     claims.add({device.nv_path, "the memory of " + emulator::quoted(device.settings.name)});
   }
+  for (const LineSetup& line : bench.lines) {
+    claims.add_place({line.link, "the link of line " + emulator::quoted(line.name)});
+  }
+  claims.add_place({control, "the control socket"});
   return claims;
 }
 
-const std::string& demand_capture(const ServeArguments& arguments, FileClaims& claims) {
-  const std::string& path = arguments.capture;
-  if (path.ends_with(".pcap")) {
-    throw UsageError("--capture: " + path +
-                     ": this old format is not written; expected .pcapng, or another ending for a text log");
+/// What else is to be traced can be seen of this bench.
+void demand_names(const Bench& bench, const std::vector<std::string>& also) {
+  if (also.empty()) return;
+  try {
+    trace_signals(World(bench, {}, {}), also);
+  } catch (const NameError& error) {
+    throw UsageError(std::string("--trace-also: ") + error.what());
   }
-  return demand_output(claims, "--capture", path);
-}
-
-const std::string& demand_trace(const ServeArguments& arguments, const Bench& bench, FileClaims& claims) {
-  const std::string& path = arguments.trace;
-  if (path.empty()) {
-    if (arguments.trace_also.empty()) return path;
-    throw UsageError("--trace-also: expected --trace FILE beside it");
-  }
-  if (!path.ends_with(".csv") && !path.ends_with(".vcd")) {
-    throw UsageError("--trace: " + path + ": is no kind of trace; expected FILE.csv or FILE.vcd");
-  }
-  if (!arguments.trace_also.empty()) {
-    try {
-      trace_signals(World(bench, {}, {}), arguments.trace_also);
-    } catch (const NameError& error) {
-      throw UsageError(std::string("--trace-also: ") + error.what());
-    }
-  }
-  return demand_output(claims, "--trace", path);
 }
 
 /// And the file beside it, where its older part goes once it has grown large.
 const std::string& demand_recording(const std::string& path, FileClaims& claims) {
-  if (!path.empty()) demand_output(claims, "--record", path + kOlderPart);
+  demand_output(claims, "--record", older_part_of(path));
   return demand_output(claims, "--record", path);
 }
 
@@ -150,10 +147,13 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
   options.control_path = arguments.control;
-  options.files = claims_of(serving.bench);
-  options.capture_path = demand_capture(arguments, options.files);
+  if (!arguments.bench.empty())
+    options.bench_path = std::filesystem::weakly_canonical(arguments.bench).string();
+  options.files = claims_of(serving.bench, arguments.control);
+  options.capture_path = demand_capture(options.files, arguments.capture);
   options.record_path = demand_recording(arguments.record, options.files);
-  options.trace_path = demand_trace(arguments, serving.bench, options.files);
+  options.trace_path = demand_trace(options.files, arguments.trace, arguments.trace_also);
+  demand_names(serving.bench, arguments.trace_also);
   options.trace_also = arguments.trace_also;
   options.version = arguments.version;
   const auto speed = parse_speed(arguments.speed);
@@ -166,11 +166,30 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   return serving;
 }
 
+namespace {
+
+/// For a person only: in a script's log it would look like something gone wrong.
+void say_how_to_have_parity(const Daemon& daemon) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  for (const auto& port : daemon.ports()) {
+    const pty::Line& line = daemon.world().line(port->line_number()).line;
+    if (line.options().settings.parity == pty::Parity::none) continue;
+    log_line("line " + line.name() + " is " + pty::to_string(line.options().settings) +
+             ", and a pseudo-terminal has no parity: pyserial, minimalmodbus and pymodbus hosts that get "
+             "\"Invalid "
+             "argument\" run with LD_PRELOAD=$(understudy tty-shim)");
+    return;
+  }
+}
+
+}  // namespace
+
 void say_ready(const Daemon& daemon) {
   for (const auto& port : daemon.ports()) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
                 port->terminal().path().c_str(), port->terminal().link_path().c_str());
   }
+  say_how_to_have_parity(daemon);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw pty::PortError("standard output cannot be written; expected to say there which ports are ready");
   }

@@ -1,15 +1,15 @@
 // `understudy ctl watch`: a table that is kept up to date.
-#include <signal.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <optional>
 #include <utility>
 
+#include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
 #include "emulator/control/server.h"
 #include "emulator/control/watch_table.h"
 #include "emulator/one_line.h"
@@ -20,8 +20,6 @@ namespace understudy::emulator {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-volatile std::sig_atomic_t is_over = 0;
 
 /// The terminal's other screen, without a cursor, for as long as this lives. What the user had on the
 /// terminal is there again afterwards.
@@ -37,8 +35,8 @@ class Screen {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0) size = {24, 80, 0, 0};
     std::string text = "\x1b[H";
-    for (std::size_t i = 0; i < lines.size() && i < size.ws_row; ++i) {
-      text += (i == 0 ? "" : "\n") + lines[i].substr(0, size.ws_col) + "\x1b[K";
+    for (const std::string& line : fit_screen(lines, size.ws_row, size.ws_col)) {
+      text += (text.size() == 3 ? "" : "\n") + line + "\x1b[K";
     }
     put(text + "\x1b[J");
   }
@@ -56,41 +54,54 @@ void print(const std::vector<std::string>& lines) {
   std::fflush(stdout);
 }
 
-void watch_for_the_end() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { is_over = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+/// What is shown of one reply. Later ones may be refused, as that of a device without power: then that is
+/// shown.
+class Shown {
+ public:
+  explicit Shown(std::vector<std::string> names) : names_(std::move(names)) {}
+  std::string message() const { return names_.empty() ? R"({"do":"status"})" : get_message(names_); }
+  std::vector<std::string> lines_of(const std::string& reply, Clock::time_point asked) {
+    if (!names_.empty()) return watch_values(reply);
+    const double between_s = std::chrono::duration<double>(asked - asked_before_).count();
+    std::vector<std::string> lines = watch_table(reply, before_, between_s);
+    before_ = reply;
+    asked_before_ = asked;
+    return lines;
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::string before_;
+  Clock::time_point asked_before_{};
+};
 
 }  // namespace
 
 int watch(const WatchArguments& arguments) {
   const auto every = parse_duration(arguments.every);
   if (!every || *every < std::chrono::milliseconds(10)) {
-    throw UsageError("ctl watch: --every: " + quoted(arguments.every) + " is no time; expected 10ms or more");
+    throw UsageError("ctl watch: --every: " + emulator::quoted(arguments.every) +
+                     " is not a time; expected 10ms or more");
   }
   if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (without end) or more");
-  const std::string path = socket_path(arguments.socket);
-  std::string before;
-  Clock::time_point asked_before{};
-  // Nobody answers? That is told before the terminal is touched.
-  std::string status = ask_control(path, R"({"do":"status"})");
-  watch_for_the_end();
+  const std::string path = choose_daemon(arguments.which);
+  Shown shown(arguments.names);
+  // Nobody answers, or there is nothing of that name? That is told before the terminal is touched.
+  std::string reply = ask_control(path, shown.message());
+  if (const std::string why = why_refused(reply); !why.empty()) {
+    std::fprintf(stderr, "understudy: ctl watch: %s\n", one_line(why).c_str());
+    return kExitBadInput;
+  }
+  watch_for_interruption();
   std::optional<Screen> screen;
   if (isatty(STDOUT_FILENO) != 0) screen.emplace();
-  for (int i = 0; is_over == 0; ++i) {
+  for (int i = 0; !is_interrupted(); ++i) {
     const Clock::time_point asked = Clock::now();
-    if (i > 0) status = ask_control(path, R"({"do":"status"})");
-    const double between_s = std::chrono::duration<double>(asked - asked_before).count();
-    const auto lines = watch_table(status, before, between_s);
+    if (i > 0) reply = ask_control(path, shown.message());
+    const auto lines = shown.lines_of(reply, asked);
     screen ? Screen::show(lines) : print(lines);
-    before = std::exchange(status, {});
-    asked_before = asked;
     if (i + 1 == arguments.times) break;
-    const auto wait = std::chrono::duration_cast<std::chrono::nanoseconds>(*every);
-    timespec time{wait.count() / 1'000'000'000, wait.count() % 1'000'000'000};
-    nanosleep(&time, nullptr);  // a signal ends it early
+    wait_or_be_interrupted(*every);
   }
   return kExitWell;
 }

@@ -140,7 +140,7 @@ Json clear_message(Daemon& daemon, const Json& message) {
   daemon.catch_up();
   World& world = daemon.world();
   if (!message.contains("number")) {
-    while (!world.faults().empty()) world.clear_fault(world.faults().begin()->first);
+    world.clear_faults();
     return Json{{"ok", true}};
   }
   const std::int64_t number = demand_integer(message["number"], "number");
@@ -150,14 +150,17 @@ Json clear_message(Daemon& daemon, const Json& message) {
   return Json{{"ok", true}};
 }
 
+Json faults_message_part(const World& world) {
+  Json faults = Json::array();
+  for (const auto& [number, armed] : world.faults())
+    faults.push_back(course_of(number, armed, world.known()));
+  return faults;
+}
+
 Json list_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do"});
   daemon.catch_up();
-  Json faults = Json::array();
-  for (const auto& [number, armed] : daemon.world().faults()) {
-    faults.push_back(course_of(number, armed, daemon.world().known()));
-  }
-  return Json{{"ok", true}, {"faults", faults}};
+  return Json{{"ok", true}, {"faults", faults_message_part(daemon.world())}};
 }
 
 }  // namespace understudy::emulator

@@ -12,6 +12,7 @@
 namespace understudy::emulator {
 
 class Daemon;
+class World;
 
 using Json = nlohmann::ordered_json;
 
@@ -26,5 +27,8 @@ const Json& demand(const Json& message, const char* key);
 /// A whole number as such, else the real one.
 Json json_of(double value);
 std::string demand_text(const Json& message, const char* key);
+
+/// The faults there are, and what has come of them.
+Json faults_message_part(const World& world);
 
 }  // namespace understudy::emulator

@@ -5,13 +5,14 @@
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace understudy::emulator {
 
@@ -20,6 +21,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 64 * 1024;
 constexpr std::size_t kMostUnread = 4 * 1024 * 1024;
 constexpr std::size_t kMostClients = 256;
+constexpr WallTime kRest = std::chrono::milliseconds(250);
 
 sockaddr_un address_of(const std::string& path) {
   sockaddr_un address{};
@@ -62,10 +64,9 @@ void remove_dead_socket(const std::string& path) {
 
 struct ControlServer::Client {
   int descriptor = -1;
-  bool is_serving = false;    // serve_lines() is at work
-  bool is_awaiting = false;   // a reply is still to come
+  bool is_awaiting = false;   // a reply is still to come: nothing is read meanwhile
   bool has_said_all = false;  // it has closed its side
-  std::string input;
+  std::string input;          // the beginning of a message
   std::string output;
 };
 
@@ -87,7 +88,8 @@ ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
   }
   struct stat status {};
   if (lstat(path_.c_str(), &status) == 0) inode_ = status.st_ino;
-  loop_.watch(listener_, EventLoop::readable, [this](std::uint32_t) { accept_clients(); });
+  loop_.watch(
+      listener_, EventLoop::readable, [this](std::uint32_t) { accept_clients(); }, EventLoop::Rank::later);
 }
 
 ControlServer::~ControlServer() {
@@ -102,7 +104,11 @@ ControlServer::~ControlServer() {
 void ControlServer::accept_clients() {
   while (true) {
     const int descriptor = accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
-    if (descriptor < 0) return;
+    if (descriptor < 0) {
+      const bool is_none_there = errno == EAGAIN || errno == EINTR || errno == ECONNABORTED;
+      if (!is_none_there) rest();
+      return;
+    }
     if (clients_.size() >= kMostClients) {
       close(descriptor);
       continue;
@@ -110,58 +116,69 @@ void ControlServer::accept_clients() {
     auto client = std::make_shared<Client>();
     client->descriptor = descriptor;
     clients_[descriptor] = client;
-    loop_.watch(descriptor, EventLoop::readable,
-                [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); });
+    loop_.watch(
+        descriptor, EventLoop::readable,
+        [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); }, EventLoop::Rank::later);
   }
 }
 
+/// There are no descriptors left: who waits would be told again and again. They wait until a client has gone,
+/// or for a moment, as others may give descriptors back.
+void ControlServer::rest() {
+  loop_.change_interest(listener_, 0);
+  rests_until_ = wall_now() + kRest;
+}
+
+void ControlServer::rest_no_more() {
+  if (!rests_until_) return;
+  rests_until_.reset();
+  loop_.change_interest(listener_, EventLoop::readable);
+}
+
+void ControlServer::look(WallTime now) {
+  if (rests_until_ && now >= *rests_until_) rest_no_more();
+}
+
+/// One message a call, however many are there: the rest stays in the socket, and others have their turn.
 void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
-  if (client->has_said_all) return drop(descriptor);  // not read from any more, so it has hung up
+  if (client->is_awaiting || client->has_said_all) return drop(descriptor);  // not read from: it has hung up
   std::array<char, 4096> bytes;
-  const ssize_t count = recv(descriptor, bytes.data(), bytes.size(), 0);
+  ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
+  if (count > 0) {
+    const void* const end = std::memchr(bytes.data(), '\n', static_cast<std::size_t>(count));
+    if (end != nullptr) count = static_cast<const char*>(end) + 1 - bytes.data();
+    count = recv(descriptor, bytes.data(), static_cast<std::size_t>(count), 0);
+  }
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (count < 0) return drop(descriptor);
   if (count == 0) {
-    // It may still be waiting for a reply.
-    if (!client->is_awaiting && client->output.empty()) return drop(descriptor);
     client->has_said_all = true;
-    write_out(*client);
+    if (!write_out(*client)) drop(descriptor);
     return;
   }
   client->input.append(bytes.data(), static_cast<std::size_t>(count));
-
-  serve_lines(client);
-  if (client->descriptor >= 0 && client->input.size() > kLongestMessage &&
-      client->input.find('\n') == std::string::npos) {
+  const bool is_whole = client->input.back() == '\n';
+  if (client->input.size() > kLongestMessage + (is_whole ? 1 : 0)) {
     send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
-    drop(descriptor);
+    return drop(descriptor);
   }
+  if (is_whole) serve(client);
 }
 
-/// One after the other: a message waits until the one before it has its reply.
-void ControlServer::serve_lines(const std::shared_ptr<Client>& client) {
-  if (client->is_serving) return;
-  client->is_serving = true;
-  std::size_t end = 0;
-  while (client->descriptor >= 0 && !client->is_awaiting &&
-         (end = client->input.find('\n')) != std::string::npos) {
-    const std::string line = client->input.substr(0, end);
-    client->input.erase(0, end + 1);
-    client->is_awaiting = true;
-    handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
-      const auto alive = weak.lock();
-      if (!alive) return;
-      alive->is_awaiting = false;
-      send(alive, reply);
-      serve_lines(alive);
-      if (alive->descriptor >= 0 && !alive->is_serving && !write_out(*alive)) drop(alive->descriptor);
-    });
-  }
-  client->is_serving = false;
-  if (client->descriptor >= 0 && client->is_awaiting) write_out(*client);  // reads on, or has enough
+void ControlServer::serve(const std::shared_ptr<Client>& client) {
+  std::string line = std::exchange(client->input, {});
+  line.pop_back();
+  client->is_awaiting = true;
+  handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
+    const auto alive = weak.lock();
+    if (!alive) return;
+    alive->is_awaiting = false;
+    send(alive, reply);
+  });
+  if (client->descriptor >= 0 && client->is_awaiting) write_out(*client);  // it is not read from meanwhile
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
@@ -181,12 +198,9 @@ bool ControlServer::write_out(Client& client) {
     }
     client.output.erase(0, static_cast<std::size_t>(count));
   }
-  if (client.has_said_all && client.output.empty() && !client.is_awaiting &&
-      client.input.find('\n') == std::string::npos)
-    return false;
-  // What waits behind a message whose reply is to come is bounded, too: the rest stays in the socket.
-  const bool has_enough = client.is_awaiting && client.input.size() > kLongestMessage;
-  const std::uint32_t read = client.has_said_all || has_enough ? 0U : EventLoop::readable;
+  if (client.has_said_all && client.output.empty()) return false;
+  // What waits behind a message whose reply is to come stays in the socket.
+  const std::uint32_t read = client.has_said_all || client.is_awaiting ? 0U : EventLoop::readable;
   const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
   loop_.change_interest(client.descriptor, read | write);
   return true;
@@ -199,29 +213,27 @@ void ControlServer::drop(int descriptor) {
   close(descriptor);
   it->second->descriptor = -1;  // for whoever still holds it
   clients_.erase(it);
+  rest_no_more();
 }
 
-std::string default_control_path() {
-  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR"); runtime != nullptr && *runtime != '\0') {
-    return std::string(runtime) + "/understudy.control";
-  }
-  const std::string folder = "/tmp/understudy-" + std::to_string(getuid());
-  mkdir(folder.c_str(), 0700);
-  struct stat status {};
-  // Somebody else's folder of that name would let them read along.
-  if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
-      (status.st_mode & 077) != 0) {
-    throw ControlError(folder +
-                       ": is not a private folder of ours; expected to make it, or --control SOCKET");
-  }
-  return folder + "/understudy.control";
+bool is_answered(const std::string& path) {
+  const int descriptor = connect_to(path);
+  if (descriptor < 0) return false;
+  close(descriptor);
+  return true;
 }
 
-std::string ask_control(const std::string& path, const std::string& message) {
+std::string ask_control(const std::string& path, const std::string& message,
+                        std::optional<std::chrono::milliseconds> patience) {
   const int descriptor = connect_to(path);
   if (descriptor < 0) {
     throw ControlError(path + ": nobody answers (" + std::strerror(errno) +
                        "); expected the control socket of a running `understudy serve`");
+  }
+  if (patience) {
+    const timeval time{patience->count() / 1000, (patience->count() % 1000) * 1000};
+    setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof(time));
+    setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &time, sizeof(time));
   }
   std::string reply;
   const std::string line = message + "\n";

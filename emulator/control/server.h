@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -29,12 +30,17 @@ class ControlServer {
   ControlServer& operator=(const ControlServer&) = delete;
 
   const std::string& path() const { return path_; }
+  /// When look() should be called, though nothing is readable: new clients wait for descriptors.
+  std::optional<WallTime> next_look() const { return rests_until_; }
+  void look(WallTime now);
 
  private:
   struct Client;
   void accept_clients();
   void on_client(int descriptor, std::uint32_t ready);
-  void serve_lines(const std::shared_ptr<Client>& client);
+  void rest();
+  void rest_no_more();
+  void serve(const std::shared_ptr<Client>& client);
   void send(const std::shared_ptr<Client>& client, const std::string& line);
   bool write_out(Client& client);
   void drop(int descriptor);
@@ -45,13 +51,15 @@ class ControlServer {
   int listener_ = -1;
   std::uint64_t inode_ = 0;  // of our socket
   std::map<int, std::shared_ptr<Client>> clients_;
+  std::optional<WallTime> rests_until_;  // nobody is let in until then
 };
 
-/// Where a daemon's socket is when nobody says otherwise: in $XDG_RUNTIME_DIR, or in a private folder
-/// below /tmp.
-std::string default_control_path();
+/// Whether somebody listens at that path.
+bool is_answered(const std::string& path);
 
-/// Sends one message and waits for its reply, without the line's end. Throws ControlError.
-std::string ask_control(const std::string& path, const std::string& message);
+/// Sends one message and waits for its reply, without the line's end: as long as it takes, or for so long.
+/// Throws ControlError.
+std::string ask_control(const std::string& path, const std::string& message,
+                        std::optional<std::chrono::milliseconds> patience = {});
 
 }  // namespace understudy::emulator

@@ -1,5 +1,6 @@
 // Snapshots of the running world, in files of the user's.
 #include <cstring>
+#include <memory>
 
 #include "emulator/control/message_fields.h"
 #include "emulator/control/verbs.h"
@@ -26,6 +27,12 @@ Json reply_of(const Daemon& daemon) {
   return Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
 }
 
+void demand_restorable(const Daemon& daemon) {
+  if (const std::string_view why = daemon.why_no_restore(); !why.empty()) {
+    throw MessageError(std::string(why));
+  }
+}
+
 }  // namespace
 
 Json snapshot_message(Daemon& daemon, const Json& message) {
@@ -34,29 +41,52 @@ Json snapshot_message(Daemon& daemon, const Json& message) {
     throw MessageError(path + ": file: " + why);
   }
   daemon.catch_up();
-  if (const int error = replace_text_file(path, to_text(save(daemon.world()), daemon.bench_hash()))) {
-    throw MessageError(path + ": file: cannot be written (" + std::strerror(error) +
-                       "); expected a place for it");
+  const std::string why = replace_text_file(path, to_text(save(daemon.world()), daemon.bench_hash()));
+  if (!why.empty()) {
+    throw MessageError(path + ": file: cannot be written (" + why + "); expected a place for it");
   }
   return reply_of(daemon);
 }
 
-Json restore_message(Daemon& daemon, const Json& message) {
-  const std::string path = demand_file(message);
-  if (const std::string_view why = daemon.why_no_restore(); !why.empty()) {
-    throw MessageError(std::string(why));
-  }
+namespace {
+
+/// Read and looked through aside: the devices do not wait for a large file, or for one that is no snapshot.
+WorldState read_snapshot(const std::string& path, std::uint64_t bench_hash) {
   const auto text = read_text_file(path);
   if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");
-  daemon.catch_up();
   try {
-    daemon.restore(parse_snapshot(*text, daemon.bench_hash()));
+    return parse_snapshot(*text, bench_hash);
   } catch (const SnapshotError& error) {
     throw MessageError(path + ": " + error.what());
+  }
+}
+
+Json restored(Daemon& daemon, const std::string& path, const WorldState& state) {
+  demand_restorable(daemon);  // it may have become otherwise
+  try {
+    daemon.restore(state);
   } catch (const StateError& error) {
     throw MessageError(path + ": state: " + error.what() + "; expected a snapshot of this bench");
   }
   return reply_of(daemon);
+}
+
+}  // namespace
+
+void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  const std::string path = demand_file(message);
+  demand_restorable(daemon);
+  daemon.do_aside([&daemon, path, reply, hash = daemon.bench_hash()]() -> std::function<void()> {
+    try {
+      return [&daemon, path, reply, state = std::make_shared<WorldState>(read_snapshot(path, hash))] {
+        answer(reply, [&] { return restored(daemon, path, *state); });
+      };
+    } catch (const std::exception& error) {
+      return [reply, why = std::string(error.what())] {
+        answer(reply, [&]() -> Json { throw MessageError(why); });
+      };
+    }
+  });
 }
 
 }  // namespace understudy::emulator

@@ -1,7 +1,12 @@
+#include <unistd.h>
+
+#include <filesystem>
+
 #include "emulator/control/message_fields.h"
 #include "emulator/control/verbs.h"
 #include "emulator/edge/daemon.h"
 #include "emulator/register_map/access.h"
+#include "emulator/version.h"
 
 namespace understudy::emulator {
 
@@ -79,6 +84,7 @@ Json device_status(const World& world, std::size_t number) {
     const std::string name(device.model().axes[axis].name);
     status["axes"][name] =
         Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
+    if (const auto duty = device.duty_percent(place)) status["axes"][name]["pwm_percent"] = *duty;
     const PlantAxis& plant = world.plant(number, place);
     Json& machine = status["machines"][name];
     machine = Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
@@ -109,7 +115,25 @@ Json status_message(Daemon& daemon, const Json& message) {
   for (const auto& port : daemon.ports()) status["lines"].push_back(line_status(daemon, *port));
   status["devices"] = Json::array();
   for (std::size_t i = 0; i < world.device_count(); ++i) status["devices"].push_back(device_status(world, i));
+  status["faults"] = faults_message_part(world);
   return Json{{"ok", true}, {"status", status}};
+}
+
+Json identify_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do"});
+  Json lines = Json::array();
+  for (const auto& port : daemon.ports()) {
+    const std::string& link = port->terminal().link_path();
+    lines.push_back({{"name", daemon.world().line(port->line_number()).line.name()},
+                     {"pty", port->terminal().path()},
+                     {"link", std::filesystem::absolute(link).lexically_normal().string()}});
+  }
+  return Json{{"ok", true},
+              {"daemon",
+               {{"pid", getpid()},
+                {"version", program_version()},
+                {"bench", daemon.bench_path()},
+                {"lines", lines}}}};
 }
 
 }  // namespace understudy::emulator

@@ -7,7 +7,21 @@
 
 namespace understudy::emulator {
 
+/// Replies with what `make` makes, or with why not; null is no reply yet.
+void answer(const ControlServer::Reply& reply, const std::function<Json()>& make);
+
 Json status_message(Daemon& daemon, const Json& message);
+/// {"do":"identify"}: which daemon this is
+Json identify_message(Daemon& daemon, const Json& message);
+/// {"do":"frames","since":17}: those that went over the lines, from number 17 on; {"do":"frames","last":10}
+Json frames_message(Daemon& daemon, const Json& message);
+
+/// {"do":"get","names":["feeder.Cord_A","feeder.A.position","time"]}: whatever conditions can name
+Json get_message(Daemon& daemon, const Json& message);
+/// {"do":"eval","expression":"feeder.Cord_A / 3200"}
+Json eval_message(Daemon& daemon, const Json& message);
+/// {"do":"set","values":{"feeder.Aaxis_Speed":200}}
+Json set_message(Daemon& daemon, const Json& message);
 
 /// {"do":"input","values":{"feeder.DIN_10":1,"feeder.AIN_A":"2.5V"}}
 Json input_message(Daemon& daemon, const Json& message);
@@ -24,8 +38,9 @@ Json list_message(Daemon& daemon, const Json& message);
 
 /// {"do":"snapshot","file":"/tmp/homed.json"}: an absolute path
 Json snapshot_message(Daemon& daemon, const Json& message);
-/// {"do":"restore","file":"/tmp/homed.json"}
-Json restore_message(Daemon& daemon, const Json& message);
+/// {"do":"restore","file":"/tmp/homed.json"}. The file is read beside the daemon; the reply comes when the
+/// world is what it was.
+void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 
 /// {"do":"pause"}, {"do":"resume"}
 Json pause_message(Daemon& daemon, const Json& message);

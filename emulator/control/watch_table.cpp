@@ -8,12 +8,16 @@
 
 #include "emulator/control/message_fields.h"
 #include "emulator/control/server.h"
+#include "emulator/control/value_text.h"
+#include "emulator/one_line.h"
 
 namespace understudy::emulator {
 
 namespace {
 
 constexpr std::size_t kWidth = 100;
+constexpr const char* kNoUnderstudy =
+    "ctl watch: what answers is no understudy; expected the control socket of `understudy serve`";
 
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...) {
   std::array<char, 256> text{};
@@ -88,6 +92,9 @@ void add_device(const Json& device, std::vector<std::string>& lines) {
     lines.push_back(formatted("  %-11s%12lld pulses %12.1f pulses/s   machine at %lld", name.c_str(),
                               axis.at("pulses").get<long long>(), axis.at("speed_pps").get<double>(),
                               machine.at("position_pulses").get<long long>()) +
+                    (axis.value("pwm_percent", 0) != 0
+                         ? formatted(", PWM %d %%", axis.at("pwm_percent").get<int>())
+                         : std::string()) +
                     (machine.contains("drive") ? ", drive " + machine.at("drive").get<std::string>() : ""));
   }
   if (device.contains("registers")) {
@@ -126,9 +133,54 @@ std::vector<std::string> watch_table(const std::string& status, const std::strin
     }
     return lines;
   } catch (const Json::exception&) {
-    throw ControlError(
-        "ctl watch: what answers is no understudy; expected the control socket of `understudy serve`");
+    throw ControlError(kNoUnderstudy);
   }
+}
+
+std::string get_message(const std::vector<std::string>& names) {
+  Json asked = Json::array();
+  if (std::find(names.begin(), names.end(), "time") == names.end()) asked.push_back("time");
+  for (const std::string& name : names) asked.push_back(name);
+  return Json{{"do", "get"}, {"names", asked}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string why_refused(const std::string& reply) {
+  try {
+    const Json parsed = Json::parse(reply);
+    return parsed.at("ok").get<bool>() ? std::string() : parsed.at("error").get<std::string>();
+  } catch (const Json::exception&) {
+    throw ControlError(kNoUnderstudy);
+  }
+}
+
+std::vector<std::string> watch_values(const std::string& reply) {
+  if (const std::string why = why_refused(reply); !why.empty()) return {one_line(why)};
+  std::vector<std::string> lines;
+  std::size_t widest = 0;
+  const std::vector<std::string> values = value_lines(reply);
+  for (const std::string& value : values) widest = std::max(widest, value.rfind(' '));
+  for (const std::string& value : values) {
+    const std::size_t space = value.rfind(' ');
+    lines.push_back(value.substr(0, space) + std::string(widest - space, ' ') + "  " +
+                    value.substr(space + 1));
+  }
+  return lines;
+}
+
+std::vector<std::string> fit_screen(std::vector<std::string> lines, std::size_t rows, std::size_t columns) {
+  if (lines.size() > rows && rows > 0) {
+    const std::size_t hidden = lines.size() - rows + 1;
+    lines.resize(rows - 1);
+    lines.push_back("... " + std::to_string(hidden) +
+                    " lines more: a larger window shows them, `ctl watch NAME...` what you choose");
+  }
+  for (std::string& line : lines) {
+    if (line.size() <= columns) continue;
+    // Not in the middle of a character.
+    while (columns > 0 && (static_cast<unsigned char>(line[columns]) & 0xC0) == 0x80) --columns;
+    line.resize(columns);
+  }
+  return lines;
 }
 
 }  // namespace understudy::emulator

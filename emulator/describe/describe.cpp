@@ -42,6 +42,20 @@ std::uint16_t address_of(const RegisterRow& row, int index) {
   return static_cast<std::uint16_t>(row.address + index * row.stride);
 }
 
+/// What is English in the manual already stays as it is.
+std::string_view section_in_english(const Model& model, std::string_view section) {
+  for (const SectionRow& row : model.sections) {
+    if (row.name == section) return row.in_english;
+  }
+  return section;
+}
+
+/// "狀態相關 (status)"
+std::string section_for_people(const Model& model, std::string_view section) {
+  const std::string_view english = section_in_english(model, section);
+  return std::string(section) + (english == section ? "" : " (" + std::string(english) + ")");
+}
+
 std::string width_of(const RegisterRow& row) { return is_32_bit(row.type) ? "32" : "16"; }
 
 Sheet registers(const Model& model, SheetFormat format) {
@@ -61,7 +75,7 @@ Sheet registers(const Model& model, SheetFormat format) {
            std::string(row.unit), row.persistent ? "1" : "0", std::to_string(row.factory)});
       if (!for_people) continue;
       sheet.rows.back().push_back(row.since == 0 ? "" : version_text(row.since));
-      sheet.rows.back().emplace_back(row.section);
+      sheet.rows.back().push_back(section_for_people(model, row.section));
       sheet.rows.back().emplace_back(row.unmodelled);
     }
   }
@@ -98,10 +112,10 @@ Sheet parameters(const Model& model, SheetFormat format) {
 }
 
 Sheet instructions(const Model& model) {
-  Sheet sheet{.columns = {"opcode", "mnemonic", "data1", "data2"}, .rows = {}};
+  Sheet sheet{.columns = {"opcode", "mnemonic", "data1", "data2", "meaning"}, .rows = {}};
   for (const InstructionRow& row : model.instructions) {
     sheet.rows.push_back({hex2(static_cast<unsigned>(row.opcode)), std::string(row.mnemonic),
-                          std::string(row.data1), std::string(row.data2)});
+                          std::string(row.data1), std::string(row.data2), std::string(row.meaning)});
   }
   return sheet;
 }
@@ -117,29 +131,46 @@ Sheet commands(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-Sheet choices(const Model& model) {
-  Sheet sheet{.columns = {"id", "section", "question", "chosen", "alternatives", "confidence", "why"},
-              .rows = {}};
+std::string scenario_cell(const Model& model, const ChoiceRow& row, SheetFormat format) {
+  const std::string path = scenario_of_choice(model, row);
+  if (path.empty() || format != SheetFormat::markdown) return path;
+  return "[" + std::string(row.id) + ".yaml](../../" + path + ")";  // from docs/fidelity/
+}
+
+Sheet choices(const Model& model, SheetFormat format) {
+  const bool for_scripts = format == SheetFormat::csv || format == SheetFormat::json;
+  Sheet sheet{
+      .columns = {"id", "section", "question", "chosen", "alternatives", "confidence", "why", "scenario"},
+      .rows = {}};
+  if (for_scripts) sheet.columns.emplace_back("section_english");
   for (const ChoiceRow& row : model.choices) {
     const std::vector<std::string_view> options = options_of(row);
     std::string alternatives;
     for (std::size_t i = 1; i < options.size(); ++i)
       alternatives += (i > 1 ? "|" : "") + std::string(options[i]);
-    sheet.rows.push_back({std::string(row.id), std::string(row.section), std::string(row.question),
+    const std::string section =
+        for_scripts ? std::string(row.section) : section_for_people(model, row.section);
+    sheet.rows.push_back({std::string(row.id), section, std::string(row.question),
                           std::string(options.front()), alternatives, std::string(to_string(row.confidence)),
-                          std::string(row.why)});
+                          std::string(row.why), scenario_cell(model, row, format)});
+    if (for_scripts) sheet.rows.back().emplace_back(section_in_english(model, row.section));
   }
   return sheet;
 }
 
 }  // namespace
 
+std::string scenario_of_choice(const Model& model, const ChoiceRow& row) {
+  if (options_of(row).size() < 2) return {};
+  return "scenarios/choices/" + std::string(model.name) + "/" + std::string(row.id) + ".yaml";
+}
+
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format) {
   if (what == "registers") return registers(model, format);
   if (what == "parameters") return parameters(model, format);
   if (what == "instructions") return instructions(model);
   if (what == "commands") return commands(model, format);
-  if (what == "choices") return choices(model);
+  if (what == "choices") return choices(model, format);
   return std::nullopt;
 }
 

@@ -16,7 +16,9 @@ std::string fidelity_page(const Model& model) {
       "ask\n"
       "for one: `choices: { ID: ALTERNATIVE }`. How sure we are: *follows* from what the manual says "
       "elsewhere,\n"
-      "*likely* (the cited standard, or devices of this kind, do so), *proposal* (the manual is silent).\n\n";
+      "*likely* (the cited standard, or devices of this kind, do so), *proposal* (the manual is silent). "
+      "The\n"
+      "scenario shows what the options differ in: `understudy run` plays it with each of them.\n\n";
   page += format_sheet(*describe(model, "choices", SheetFormat::markdown), SheetFormat::markdown);
 
   Sheet missing{.columns = {"address", "register", "what is not modelled"}, .rows = {}};
@@ -27,11 +29,16 @@ std::string fidelity_page(const Model& model) {
   page += "\n## Not modelled yet\n\n";
   for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
   if (model.protocol() == Protocol::text) return page;
+  if (!model.gaps.empty()) page += "\n";
+  if (missing.rows.empty()) {
+    page += model.gaps.empty() ? "Nothing: every register does what the manual says.\n"
+                               : "Every register does what the manual says.\n";
+    return page;
+  }
   page +=
       "These registers exist, with the manual's access and range, and the daemon says so once when one is "
-      "used.\n\n";
-  page += missing.rows.empty() ? "Nothing: every register does what the manual says.\n"
-                               : format_sheet(missing, SheetFormat::markdown);
+      "used.\n\n" +
+      format_sheet(missing, SheetFormat::markdown);
   return page;
 }
 

@@ -12,6 +12,8 @@
 
 #include "emulator/bench/bench_text.h"
 #include "emulator/control/messages.h"
+#include "emulator/control/sockets.h"
+#include "emulator/one_line.h"
 #include "emulator/world/snapshot_file.h"
 
 namespace understudy::emulator {
@@ -27,6 +29,9 @@ constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
 // What they do at first before they look at the clock again.
 constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
+
+// For whoever looks: some seconds of a busy line.
+constexpr std::size_t kFramesKept = 1024;
 
 // In simulated time, which may run fast beside the host's.
 SimTime patience_at(const Speed& speed) {
@@ -45,6 +50,8 @@ WorldOptions world_options(const DaemonOptions& options) {
 Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<void(const std::string&)> log)
     : log_(std::move(log)),
       world_(bench, world_options(options), log_),
+      frames_(world_, kFramesKept),
+      bench_path_(options.bench_path),
       bench_hash_(emulator::bench_hash(bench)),
       files_(options.files),
       pacer_(options.speed, wall_now()) {
@@ -52,21 +59,20 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
   watch_posts();
   make_ports(bench);
   if (options.has_control) open_control(options.control_path);
+  claim_own_places();
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
-  // Last: a run that cannot start leaves the capture of the one before alone.
-  if (!options.capture_path.empty()) start_capture(options.capture_path);
-  if (!options.record_path.empty()) start_recording(bench, options);
-  if (!options.trace_path.empty()) start_trace(options);
+  // Last: a run that cannot start leaves the files of the one before alone.
+  open_files(bench, options);
 }
 
 Daemon::~Daemon() {
+  helper_.reset();
   control_.reset();
   ports_.clear();
   memories_.reset();
   trace_.reset();
-  trace_file_.reset();
   recording_.reset();
-  finish_capture();
+  capture_.reset();
   if (signals_ >= 0) close(signals_);
   if (posted_signal_ >= 0) close(posted_signal_);
 }
@@ -74,7 +80,7 @@ Daemon::~Daemon() {
 void Daemon::open_control(const std::string& asked_path) {
   const bool asked_for = !asked_path.empty();
   try {
-    const std::string path = asked_for ? asked_path : default_control_path();
+    const std::string path = asked_for ? asked_path : own_control_path();
     control_ = std::make_unique<ControlServer>(
         loop_, path, [this](const std::string& line, const ControlServer::Reply& reply) {
           handle_message(*this, line, reply);
@@ -114,6 +120,10 @@ bool Daemon::post(std::function<void()> act) {
   return true;
 }
 
+void Daemon::do_aside(std::function<std::function<void()>()> work) {
+  helper_->give([this, work = std::move(work)] { post(work()); });
+}
+
 bool Daemon::is_over() {
   const std::lock_guard lock(posted_mutex_);
   return is_over_;
@@ -150,43 +160,38 @@ void Daemon::make_ports(const Bench& bench) {
   }
 }
 
-void Daemon::start_capture(const std::string& path) {
-  std::vector<pty::CapturedLine> lines;
+void Daemon::claim_own_places() {
   for (const auto& port : ports_) {
-    const pty::Line& line = world_.line(port->line_number()).line;
-    lines.push_back({line.name(), line.options().settings.baud});
+    const std::string line = "of line " + emulator::quoted(world_.line(port->line_number()).line.name());
+    files_.add_place({port->terminal().link_path(), "the link " + line});
+    files_.add_place({port->terminal().path(), "the port " + line});
   }
-  capture_ = std::make_unique<pty::CaptureFile>(path, std::move(lines), log_);
-  for (std::size_t i = 0; i < ports_.size(); ++i) {
-    World::OneLine& line = world_.line(ports_[i]->line_number());
-    captured_lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { capture_->add(packet); },
-        line.protocol == Protocol::text));
-    line.line.add_observer(*captured_lines_.back());
+  files_.add_place({control_path(), "the control socket"});
+}
+
+/// All are open before any is emptied.
+void Daemon::open_files(const Bench& bench, const DaemonOptions& options) {
+  if (!options.capture_path.empty()) {
+    capture_ = std::make_unique<WorldCapture>(world_, options.capture_path, log_);
   }
-}
-
-void Daemon::start_recording(const Bench& bench, const DaemonOptions& options) {
-  const RecordingHeader header{.version = options.version,
-                               .bench = to_text(bench),
-                               .options = world_options(options),
-                               .seed = bench.seed,
-                               .snapshot = {}};
-  recording_ =
-      std::make_unique<RecordingSpool>(world_, header, options.record_path, options.record_cap_bytes, log_);
-}
-
-void Daemon::start_trace(const DaemonOptions& options) {
-  std::vector<TraceSignal> signals = trace_signals(world_, options.trace_also);
-  trace_file_ = std::make_unique<GrowingFile>(options.trace_path, "the trace", log_);
-  const TakeLine take = [this](std::string_view lines) { trace_file_->take(lines); };
-  trace_ = std::make_unique<Trace>(
-      world_, std::move(signals), options.trace_path.ends_with(".vcd") ? vcd_format(take) : csv_format(take));
-}
-
-void Daemon::finish_capture() {
-  for (const auto& line : captured_lines_) line->finish();
-  if (capture_) capture_->finish();
+  std::unique_ptr<GrowingFile> recording;
+  if (!options.record_path.empty()) {
+    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  }
+  if (!options.trace_path.empty()) {
+    trace_ = std::make_unique<TraceFile>(world_, options.trace_path, options.trace_also, log_);
+  }
+  if (capture_) capture_->begin();
+  if (recording) {
+    const RecordingHeader header{.version = options.version,
+                                 .bench = to_text(bench),
+                                 .options = world_options(options),
+                                 .seed = bench.seed,
+                                 .snapshot = {}};
+    recording_ = std::make_unique<RecordingSpool>(world_, header, std::move(recording),
+                                                  options.record_cap_bytes, log_);
+  }
+  if (trace_) trace_->begin();
 }
 
 void Daemon::catch_up() { catch_up(kWorkSlice); }
@@ -292,6 +297,7 @@ std::string_view Daemon::why_no_restore() const {
 
 void Daemon::restore(const WorldState& state) {
   emulator::restore(world_, state);
+  frames_.begin_anew();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());
@@ -315,6 +321,9 @@ void Daemon::wait() {
     if (look && (!wake || *look < *wake)) wake = look;
   }
   if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  if (control_) {
+    if (const auto look = control_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  }
   loop_.wait(wake);
 }
 
@@ -338,6 +347,7 @@ void Daemon::run() {
       port->flush();
     }
     memories_->look(now);
+    if (control_) control_->look(now);
     if (recording_) recording_->look();
   }
   // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something

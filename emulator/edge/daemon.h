@@ -12,18 +12,18 @@
 #include "emulator/bench/bench.h"
 #include "emulator/control/server.h"
 #include "emulator/edge/event_loop.h"
+#include "emulator/edge/helper_thread.h"
 #include "emulator/edge/nv_keeper.h"
 #include "emulator/edge/pacer.h"
 #include "emulator/edge/port.h"
 #include "emulator/edge/private_folder.h"
 #include "emulator/file_claims.h"
-#include "emulator/growing_file.h"
 #include "emulator/recording/recording_spool.h"
-#include "emulator/trace/trace.h"
+#include "emulator/scenario/frame_log.h"
+#include "emulator/trace/trace_file.h"
+#include "emulator/trace/world_capture.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
-#include "pty/capture_file.h"
-#include "pty/capture_frames.h"
 
 namespace understudy::emulator {
 
@@ -33,7 +33,8 @@ struct DaemonOptions {
   std::optional<SimTime> patience{};  // with half a frame; without it, as the speed has it
   bool enforce_settings = true;
   bool has_control = true;   // a control socket
-  std::string control_path;  // empty: the default one, if it is free
+  std::string control_path;  // empty: one of its own (control/sockets.h)
+  std::string bench_path;    // the file that is served; empty if there is none
   bool watch_signals = true;
   std::string capture_path;  // empty: no capture
   std::string record_path;   // empty: no recording
@@ -41,7 +42,7 @@ struct DaemonOptions {
   std::string trace_path;  // .csv or .vcd; empty: no trace
   std::vector<std::string> trace_also;
   std::string version;  // of the program, for the recording
-  FileClaims files{};   // that no snapshot may overwrite
+  FileClaims files{};   // that no snapshot may replace; what the daemon opens itself is added
 };
 
 class Daemon {
@@ -60,6 +61,8 @@ class Daemon {
   /// may put the world into another state; simulated time goes on from there. Once run() has left, however it
   /// did, nothing is called any more: what still waits is dropped, and this returns false.
   bool post(std::function<void()> act);
+  /// Has `work` done on a helper thread, and posts what comes of it. For what would make the devices wait.
+  void do_aside(std::function<std::function<void()>()> work);
   /// Whether run() has left.
   bool is_over();
   /// For what else is to be waited for.
@@ -70,6 +73,9 @@ class Daemon {
   const Pacer& pacer() const { return pacer_; }
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
   const std::string& control_path() const;
+  const std::string& bench_path() const { return bench_path_; }
+  /// The last ones that went over the lines.
+  const FrameLog& frames() const { return frames_; }
 
   /// An advance that is under way ends here.
   void pause();
@@ -100,10 +106,8 @@ class Daemon {
   void end_posts();
   void open_control(const std::string& asked_path);
   void make_ports(const Bench& bench);
-  void start_capture(const std::string& path);
-  void finish_capture();
-  void start_trace(const DaemonOptions& options);
-  void start_recording(const Bench& bench, const DaemonOptions& options);
+  void claim_own_places();
+  void open_files(const Bench& bench, const DaemonOptions& options);
   void judge_stall();
   void catch_up(WallTime longest);
   void work_towards(SimTime target, WallTime longest);
@@ -115,14 +119,14 @@ class Daemon {
   EventLoop loop_;
   std::function<void(const std::string&)> log_;
   World world_;
+  FrameLog frames_;
+  std::string bench_path_;
   std::uint64_t bench_hash_;
   FileClaims files_;
-  std::unique_ptr<pty::CaptureFile> capture_;
-  std::vector<std::unique_ptr<pty::CaptureFrames>> captured_lines_;
+  std::unique_ptr<WorldCapture> capture_;
   std::unique_ptr<NvKeeper> memories_;
   std::unique_ptr<RecordingSpool> recording_;
-  std::unique_ptr<GrowingFile> trace_file_;
-  std::unique_ptr<Trace> trace_;
+  std::unique_ptr<TraceFile> trace_;
   Pacer pacer_;
   PrivateFolder private_folder_;  // for links that nobody asked for
   std::vector<std::unique_ptr<Port>> ports_;
@@ -132,6 +136,7 @@ class Daemon {
   std::mutex posted_mutex_;
   std::vector<std::function<void()>> posted_;
   bool is_over_ = false;  // under the same mutex
+  std::unique_ptr<HelperThread> helper_ = std::make_unique<HelperThread>();
   bool stopping_ = false;
   std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
   std::optional<WallTime> behind_since_;  // since when it has worked to catch up; nothing: it has caught up

@@ -1,4 +1,5 @@
-// Waiting for descriptors and for a moment, on one thread: epoll in one small class.
+// Waiting for descriptors and for a moment, on one thread: epoll in one small class. What must not wait
+// (ports, signals) comes first in every turn; what others ask of us gets a slice of time behind it.
 #pragma once
 
 #include <chrono>
@@ -22,9 +23,14 @@ class EventLoop {
   EventLoop& operator=(const EventLoop&) = delete;
 
   enum Readiness : std::uint32_t { readable = 1, writable = 2 };
+  /// Of all that is ready, what is `later` is called when all else was, one after the other in turn, and for
+  /// kLaterSlice at most: however many there are, the rest is looked at again soon.
+  enum class Rank : std::uint8_t { first, later };
+  static constexpr WallTime kLaterSlice = std::chrono::milliseconds(1);
 
   /// Calls `ready` whenever the descriptor is ready for what is in `interest` (or has hung up).
-  void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready);
+  void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
+             Rank rank = Rank::first);
   void change_interest(int descriptor, std::uint32_t interest);
   void unwatch(int descriptor);
 
@@ -34,12 +40,16 @@ class EventLoop {
 
  private:
   struct Watch {
+    int epoll = -1;  // that it is in
     std::uint32_t interest = 0;
     std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
   };
   void wake_at(WallTime moment);
+  void call(int descriptor, std::uint32_t events);
+  void call_later_ones();
 
   int epoll_ = -1;
+  int later_ = -1;  // another epoll, in that one
   int timer_ = -1;
   WallTime alarm_{0};  // what the timer is, or was last, set for
   std::map<int, Watch> watches_;

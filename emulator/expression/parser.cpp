@@ -34,6 +34,16 @@ struct FunctionRow {
 constexpr std::array<FunctionRow, 3> kFunctions = {
     {{"abs", Operator::absolute, false}, {"max", Operator::maximum, true}, {"min", Operator::minimum, true}}};
 
+/// What the words of other languages for on and off are here; empty for others.
+std::string_view switch_word(std::string_view word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kWords = {
+      {{"yes", "on"}, {"Yes", "on"}, {"YES", "on"}, {"no", "off"}, {"No", "off"}, {"NO", "off"}}};
+  for (const auto& [foreign, ours] : kWords) {
+    if (foreign == word) return ours;
+  }
+  return {};
+}
+
 // The level that binds tighter by one.
 Level above(Level level) { return static_cast<Level>(static_cast<int>(level) + 1); }
 
@@ -224,6 +234,9 @@ Term ExpressionParser::name() {
   try {
     number = names_.resolve(token.name);
   } catch (const std::runtime_error& error) {
+    if (const std::string_view word = switch_word(token.name); !word.empty()) {
+      fail(token.begin, quoted(token.name) + " is not known here; expected " + std::string(word));
+    }
     fail(token.begin, error.what());
   }
   code_.emit_name(number, text_.substr(token.begin, token.end - token.begin), token.begin);

@@ -33,7 +33,9 @@ struct FaultKindRow {
   std::string_view name;
   Fault::Kind kind;
   Place place;
-  std::span<const FaultFieldRow> fields{};
+  std::span<const FaultFieldRow> fields;
+  std::string_view effect;               // on a message, or with one: what onlookers are told
+  std::string_view effect_on_request{};  // where it is another; empty: the same
 };
 
 /// In the order of Fault::Kind.

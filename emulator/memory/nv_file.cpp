@@ -1,10 +1,10 @@
 #include "emulator/memory/nv_file.h"
 
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
 #include "emulator/text_file.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -17,6 +17,18 @@ std::optional<NvImage> read_nv_file(const std::string& path) {
     return parse_nv_image(*text);
   } catch (const NvError& wrong) {
     throw NvError(path + ": " + wrong.what());
+  }
+}
+
+std::string why_not_replaceable_by_image(const std::string& path) {
+  try {
+    if (std::error_code ignored; !std::filesystem::exists(pty::output_target(path), ignored)) return "";
+    read_nv_file(path);
+    return "";
+  } catch (const pty::OutputError& error) {
+    return error.what();
+  } catch (const NvError&) {
+    return "it is not an NV image; expected one to replace, or a free path";
   }
 }
 
@@ -74,14 +86,13 @@ void NvWriter::run() {
 }
 
 void NvWriter::replace(const std::string& path, const std::string& contents) {
-  const int error = replace_text_file(path, contents);
+  const std::string why = replace_text_file(path, contents);
   bool& has_failed = has_failed_[path];
-  if ((error != 0) == has_failed) return;
-  has_failed = error != 0;
+  if (!why.empty() == has_failed) return;
+  has_failed = !why.empty();
   const std::lock_guard lock(mutex_);
-  news_.push_back(error == 0 ? path + ": is written again"
-                             : path + ": cannot be written (" + std::strerror(error) +
-                                   "); what it held before stays");
+  news_.push_back(path + (why.empty() ? ": is written again"
+                                      : ": cannot be written (" + why + "); what it held before stays"));
 }
 
 }  // namespace understudy::emulator

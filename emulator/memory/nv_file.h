@@ -18,6 +18,9 @@ namespace understudy::emulator {
 /// Nothing if there is no file. Throws NvError "path: field: what is wrong"; the file is left as it is.
 std::optional<NvImage> read_nv_file(const std::string& path);
 
+/// Why no image may be put there: there is something else. Empty if the path is free or has an image.
+std::string why_not_replaceable_by_image(const std::string& path);
+
 /// Writes images for an owner that may not wait: a helper thread does it.
 class NvWriter {
  public:

@@ -29,6 +29,16 @@ Number number_of(double value) {
   return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 }
 
+// What every device has.
+constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replies", "exceptions"};
+
+/// Registers, terminals, axes (of "A.pulses"), and what every device has.
+bool has_name(const KnownDevice& device, std::string_view name) {
+  return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
+         device.model->registers.find(name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
+         (name.find('.') != std::string_view::npos && find_axis(*device.model, at_dot(name).first) >= 0);
+}
+
 }  // namespace
 
 NamedNumber Probes::resolve(std::string_view name) const {
@@ -42,9 +52,10 @@ NamedNumber Probes::resolve(std::string_view name) const {
 }
 
 bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
-  static constexpr std::array<std::pair<std::string_view, What>, 12> kOfAxis{{
+  static constexpr std::array<std::pair<std::string_view, What>, 13> kOfAxis{{
       {"pulses", What::pulses},
       {"speed", What::speed},
+      {"pwm", What::pwm},
       {"greatest_speed", What::greatest_speed},
       {"greatest_acceleration", What::greatest_acceleration},
       {"position", What::position},
@@ -62,6 +73,7 @@ bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
   if (axis < 0 || what_name.empty()) return false;
   std::vector<std::string> known;
   for (const auto& [word, what] : kOfAxis) {
+    if (what == What::pwm && !world_.device(probe.device).duty_percent(axis)) continue;
     known.emplace_back(word);
     if (word != what_name) continue;
     probe.what = what;
@@ -93,12 +105,6 @@ Probes::Probe Probes::find(std::string_view name) const {
       return probe;
     }
   }
-  static constexpr std::array<std::pair<std::string_view, What>, 4> kOfDevice{{
-      {"power", What::power},
-      {"requests", What::requests},
-      {"replies", What::replies},
-      {"exceptions", What::exceptions},
-  }};
   // Where there is one device its name may be left out.
   const KnownDevices& known = world_.known();
   std::string_view rest = name;
@@ -107,10 +113,16 @@ Probes::Probe Probes::find(std::string_view name) const {
     probe.device = i;
     rest = behind;
   }
-  if (rest == name && known.size() != 1) find_device(known, first);  // throws: no such device
-  for (const auto& [word, what] : kOfDevice) {
-    if (word != rest) continue;
-    probe.what = what;
+  if (rest == name && known.size() != 1) throw name_without_device(known, name, has_name, "NAME");
+  static constexpr std::array<What, kOfDevice.size()> kWhatOfDevice{What::power, What::requests,
+                                                                    What::replies, What::exceptions};
+  for (std::size_t i = 0; i < kOfDevice.size(); ++i) {
+    if (kOfDevice[i] != rest) continue;
+    probe.what = kWhatOfDevice[i];
+    return probe;
+  }
+  if (rest == "pulse_format" && !world_.device(probe.device).pulse_formats().empty()) {
+    probe.what = What::pulse_format;
     return probe;
   }
   if (find_of_axis(rest, probe)) return probe;
@@ -127,6 +139,7 @@ Probes::Probe Probes::find(std::string_view name) const {
     if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
     return probe;
   }
+  if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
   if (device.model->protocol() != Protocol::text) {
     throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
   }
@@ -135,6 +148,12 @@ Probes::Probe Probes::find(std::string_view name) const {
   probe.what = What::named;
   probe.value_name = rest;
   return probe;
+}
+
+std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
+  const Probe& probe = probes_[static_cast<std::size_t>(handle)];
+  if (probe.what != What::reg && probe.what != What::named) return std::nullopt;
+  return probe.device;
 }
 
 std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const {
@@ -171,8 +190,10 @@ Number Probes::value(std::int32_t handle) const {
     case What::input: return device.input(probe.place);
     case What::output: return device.output(probe.place) ? 1 : 0;
     case What::power: return device.powered() ? 1 : 0;
+    case What::pulse_format: return static_cast<std::int64_t>(device.pulse_format_number());
     case What::pulses: return world_.sent_pulses(probe.device, probe.place);
     case What::speed: return device.speed_pps(probe.place);
+    case What::pwm: return device.duty_percent(probe.place).value_or(0);
     case What::greatest_speed:
     case What::greatest_acceleration: return peak_value(probe);
     case What::requests: return count(count_of_stations(probe.device, &StationCounters::requests));

@@ -10,20 +10,19 @@
 
 namespace understudy::emulator {
 
-RecordingSpool::RecordingSpool(World& world, RecordingHeader header, std::string path, std::size_t cap_bytes,
-                               std::function<void(const std::string&)> log)
+RecordingSpool::RecordingSpool(World& world, RecordingHeader header, std::unique_ptr<GrowingFile> file,
+                               std::size_t cap_bytes, std::function<void(const std::string&)> log)
     : world_(world),
       header_(std::move(header)),
-      path_(std::move(path)),
       cap_bytes_(cap_bytes),
-      log_(std::move(log)) {
+      log_(std::move(log)),
+      file_(std::move(file)) {
   begin();
 }
 
 RecordingSpool::~RecordingSpool() = default;
 
 void RecordingSpool::begin() {
-  file_ = std::make_unique<GrowingFile>(path_, "the recording", log_);
   bytes_ = 0;
   recorder_ = std::make_unique<Recorder>(world_, header_, [this](std::string_view line) {
     bytes_ += line.size();
@@ -31,18 +30,28 @@ void RecordingSpool::begin() {
   });
 }
 
+/// Its name is free then for the next one. Throws GrowingFileError.
+void RecordingSpool::put_aside() {
+  const std::string path = file_->target();
+  const std::string kept = path + kOlderPart;
+  const auto fail = [&](const std::string& why) {
+    return GrowingFileError("it cannot be put aside as " + kept + " (" + why + ")");
+  };
+  try {
+    if (std::rename(path.c_str(), pty::output_target(kept).c_str()) != 0) throw fail(std::strerror(errno));
+  } catch (const pty::OutputError& error) {
+    throw fail(error.what());
+  }
+  before_ = std::move(file_);
+  file_ = std::make_unique<GrowingFile>(path, "the recording", log_);
+}
+
 void RecordingSpool::look() {
   if (!recorder_ || bytes_ < cap_bytes_) return;
   recorder_.reset();  // it says that it ends here
-  const std::string kept = path_ + kOlderPart;
-  if (std::rename(path_.c_str(), kept.c_str()) != 0) {
-    log_(path_ + ": the recording ends here: it cannot be put aside as " + kept + " (" +
-         std::strerror(errno) + ")");
-    return;
-  }
-  before_ = std::move(file_);
-  header_.snapshot = to_text(save(world_), bench_hash(parse_bench(header_.bench, "bench", "")));
   try {
+    put_aside();
+    header_.snapshot = to_text(save(world_), bench_hash(parse_recorded_bench(header_.bench)));
     begin();
   } catch (const GrowingFileError& error) {
     log_(std::string("the recording ends here: ") + error.what());

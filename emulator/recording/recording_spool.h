@@ -18,9 +18,9 @@ inline constexpr const char* kOlderPart = ".1";
 
 class RecordingSpool {
  public:
-  /// The world must outlive it. Throws GrowingFileError.
-  RecordingSpool(World& world, RecordingHeader header, std::string path, std::size_t cap_bytes,
-                 std::function<void(const std::string&)> log);
+  /// Begins the file. The world must outlive it. Throws GrowingFileError.
+  RecordingSpool(World& world, RecordingHeader header, std::unique_ptr<GrowingFile> file,
+                 std::size_t cap_bytes, std::function<void(const std::string&)> log);
   ~RecordingSpool();
   RecordingSpool(const RecordingSpool&) = delete;
   RecordingSpool& operator=(const RecordingSpool&) = delete;
@@ -30,10 +30,10 @@ class RecordingSpool {
 
  private:
   void begin();
+  void put_aside();
 
   World& world_;
   RecordingHeader header_;
-  std::string path_;
   std::size_t cap_bytes_;
   std::function<void(const std::string&)> log_;
   std::size_t bytes_ = 0;

@@ -102,7 +102,7 @@ std::string compare(const World& world, Speeches& speeches, const RecordedEvent&
 }  // namespace
 
 Replayed replay(std::istream& recording, const std::string& name, std::optional<SimTime> until,
-                const std::function<void(World&)>& world_made, const std::function<void(World&)>& done) {
+                const ReplayWatcherMaker& watch, const std::function<void(World&)>& done) {
   std::size_t line_number = 1;
   const auto fail = [&](const std::string& what) {
     return RecordingError(name + ":" + std::to_string(line_number) + ": " + what);
@@ -113,7 +113,7 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
   ReplayResult& result = replayed.result;
   try {
     replayed.header = parse_header(line);
-    replayed.bench = parse_bench(replayed.header.bench, "bench", "");
+    replayed.bench = parse_recorded_bench(replayed.header.bench);
   } catch (const RecordingError& error) {
     throw fail(error.what());
   } catch (const BenchError& error) {
@@ -129,7 +129,7 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
       throw fail(std::string("snapshot: ") + error.what());
     }
   }
-  if (world_made) world_made(world);
+  const std::unique_ptr<ReplayWatcher> watcher = watch ? watch(world) : nullptr;
   Speeches speeches(world);
   const auto expect_silence = [&] {
     if (speeches.waiting().empty()) return;
@@ -157,6 +157,7 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
     // All that was due was said before the next thing came from outside.
     expect_silence();
     result.has_end = event.what == What::end;
+    if (watcher && result.difference.empty()) watcher->happened(event, line_number);
     try {
       if (result.difference.empty()) apply(world, event);
     } catch (const std::runtime_error& error) {
@@ -175,6 +176,7 @@ Replayed replay(std::istream& recording, const std::string& name, std::optional<
   } else if (is_stopped) {
     result.verdict = ReplayResult::Verdict::stopped;
   }
+  if (watcher) watcher->ended();
   if (done) done(world);
   return replayed;
 }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -29,11 +30,20 @@ struct Replayed {
   ReplayResult result;
 };
 
+/// Looks on while a recording runs: made when the world is as the recording begins, gone before the world is.
+class ReplayWatcher {
+ public:
+  virtual ~ReplayWatcher() = default;
+  /// At the world's present time, before it is done to the world; `line_number` in the recording.
+  virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
+  /// The recording was played as far as it goes, or to where it differs.
+  virtual void ended() {}
+};
+using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;
+
 /// `name` stands for the file in messages: RecordingError "name:line: field: what". `until`: goes no further
-/// than that. `world_made` gets the world when it is new, and may watch it; it lasts as long as the call.
-/// `done` gets it when all is over.
+/// than that. `watch` may give a watcher. `done` gets the world when all is over.
 Replayed replay(std::istream& recording, const std::string& name, std::optional<SimTime> until,
-                const std::function<void(World&)>& world_made = {},
-                const std::function<void(World&)>& done = {});
+                const ReplayWatcherMaker& watch = {}, const std::function<void(World&)>& done = {});
 
 }  // namespace understudy::emulator

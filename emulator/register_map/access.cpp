@@ -108,7 +108,8 @@ Refusal judge(Change& change, const MapPolicy& policy) {
   return Refusal::none;
 }
 
-/// What each register would hold, and whether that may be. Addresses are judged before values.
+/// What each register would hold, and whether that may be. Addresses are judged before values. Behind a
+/// refusal only those changes are left that are made all the same.
 Refusal gather(const Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words,
                Changes& changes) {
   const RegisterMap& map = device.registers();
@@ -133,7 +134,10 @@ Refusal gather(const Device& device, Table table, std::uint16_t first, std::span
     if (place.part == Place::Part::high) change.high = true;
   }
   for (std::size_t i = 0; i < changes.count; ++i) {
-    if (const Refusal refusal = judge(changes.all[i], policy); refusal != Refusal::none) return refusal;
+    if (const Refusal refusal = judge(changes.all[i], policy); refusal != Refusal::none) {
+      changes.count = policy.partly == MapPolicy::Partly::up_to_the_refused ? i : 0;
+      return refusal;
+    }
   }
   return Refusal::none;
 }
@@ -229,7 +233,8 @@ Refusal read_words(const Device& device, Table table, std::uint16_t first, std::
 Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words) {
   return with_room_for(words.size(), [&](Changes& changes) {
     const Refusal refusal = gather(device, table, first, words, changes);
-    if (refusal == Refusal::none) carry_out(device, changes);
+    if (refusal == Refusal::none || (refusal == Refusal::bad_value && changes.count > 0))
+      carry_out(device, changes);
     return refusal;
   });
 }

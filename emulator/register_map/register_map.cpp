@@ -87,6 +87,27 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
   return place;
 }
 
+namespace {
+
+/// "0x1000": the address that a name is.
+std::optional<std::uint16_t> address_of(std::string_view name) {
+  std::uint16_t address = 0;
+  if (!name.starts_with("0x") || name.size() < 3) return std::nullopt;
+  const auto [end, error] = std::from_chars(name.data() + 2, name.data() + name.size(), address, 16);
+  if (error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+  return address;
+}
+
+/// The word there, in the first table that has one; empty if none has. The model's own order of words counts.
+Place word_at(const RegisterMap& map, std::uint16_t address, Firmware firmware) {
+  for (const Table table : {Table::holding, Table::coil, Table::input, Table::discrete}) {
+    if (const Place place = map.at(table, address, firmware, map.policy().low_word_first)) return place;
+  }
+  return {};
+}
+
+}  // namespace
+
 std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firmware) const {
   NamedPlace found;
   if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) {
@@ -95,9 +116,14 @@ std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firm
     if (error != std::errc{} || end != digits.data() + digits.size() || found.bit < 0) return std::nullopt;
     name = name.substr(0, dot);
   }
-  const auto it = names_.find(std::string(name));
-  if (it == names_.end() || firmware < it->second.row->since) return std::nullopt;
-  found.place = it->second;
+  if (const auto address = address_of(name)) {
+    found.place = word_at(*this, *address, firmware);
+    if (!found.place) return std::nullopt;
+  } else {
+    const auto it = names_.find(std::string(name));
+    if (it == names_.end() || firmware < it->second.row->since) return std::nullopt;
+    found.place = it->second;
+  }
   const bool whole_32 = is_32_bit(found.place.row->type) && found.place.part == Place::Part::whole;
   if (found.bit >= (whole_32 ? 32 : 16)) return std::nullopt;
   return found;
@@ -119,6 +145,12 @@ std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const
     return "register " + quoted(base) + " has no bit " +
            quoted(name.substr(std::min(base.size() + 1, name.size()))) + "; expected 0 to " +
            (whole_32 ? "31" : "15");
+  }
+  if (const auto address = address_of(base)) {
+    if (find(base, firmware)) {
+      return std::string(base) + " has no bit " + quoted(name.substr(base.size() + 1)) + "; expected 0 to 15";
+    }
+    return "no register is at " + std::string(base);
   }
   return "no register is called " + quoted(name) + suggestion(base, names_in_order_);
 }

@@ -164,6 +164,8 @@ struct MapPolicy {
     come_whole
   } halves = Halves::may_be_written_alone;
   enum class OutOfRange : std::uint8_t { refused, clamped } out_of_range = OutOfRange::refused;
+  /// What a request with a value out of range leaves: nothing, or the registers before that one.
+  enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
   /// Whether the registers of one request take effect once all of them are stored, or each in its turn.
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;

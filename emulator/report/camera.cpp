@@ -88,17 +88,20 @@ void Camera::on_tick(Tick tick) {
 
 void Camera::add(const pty::CapturedPacket& packet) {
   const bool is_from_host = packet.way == pty::Way::from_host;
+  const bool is_frame = !packet.bytes.empty();
   auto& request = requests_[packet.line];
   SeenFrame frame{.time = packet.time,
                   .line = world_.line(packet.line).line.name(),
                   .is_from_host = is_from_host,
-                  .text = is_from_host ? request_text(world_, packet.line, packet.bytes)
-                                       : reply_text(world_, packet.line, request, packet.bytes),
+                  .text = !is_frame      ? std::string()
+                          : is_from_host ? request_text(world_, packet.line, packet.bytes)
+                                         : reply_text(world_, packet.line, request, packet.bytes),
                   .bytes = hex_text(packet.bytes),
-                  .remark = std::string(text_of(packet.remark))};
-  if (is_from_host) {
+                  .remark = comment_of(packet),
+                  .is_struck = !packet.faults.empty()};
+  if (is_frame && is_from_host) {
     request.assign(packet.bytes.begin(), packet.bytes.end());
-  } else {
+  } else if (is_frame) {
     request.clear();
   }
   scene_.frames.push_back(std::move(frame));

@@ -34,9 +34,10 @@ struct SeenFrame {
   SimTime time{0};  // when its first character began
   std::string line;
   bool is_from_host = true;
-  std::string text;    // decoded
-  std::string bytes;   // "01 03 00 00"
-  std::string remark;  // "dropped: bad CRC"; empty if there is nothing to say
+  std::string text;        // decoded
+  std::string bytes;       // "01 03 00 00"
+  std::string remark;      // "dropped: bad CRC"; empty if there is nothing to say
+  bool is_struck = false;  // by a fault; without bytes: one that is not here, or was before
 };
 
 /// A stretch of the play in which time only goes on: each `restore` begins another one.

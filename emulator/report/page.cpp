@@ -110,7 +110,8 @@ std::string frames_text(const Scene& scene, SimTime from, SimTime to, bool is_op
     }
     rows += "<tr>" + time_cell(frame->time) + "<td class=\"dim\">" + xml_escaped(frame->line) + "</td><td>" +
             (frame->is_from_host ? arrow("&rarr;", "from the host") : arrow("&larr;", "to the host")) +
-            "</td><td>" + in("code", xml_escaped(frame->text));
+            "</td><td>";
+    if (!frame->text.empty()) rows += in("code", xml_escaped(frame->text));
     if (frame->text != frame->bytes) rows += " <code class=\"dim\">" + xml_escaped(frame->bytes) + "</code>";
     if (!frame->remark.empty()) rows += " <span class=\"bad\">" + xml_escaped(frame->remark) + "</span>";
     rows += "</td></tr>\n";

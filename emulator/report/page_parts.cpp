@@ -64,6 +64,7 @@ td.time, th.time { text-align: right; white-space: nowrap; }
 .picture line, .picture polyline { vector-effect: non-scaling-stroke; }
 .picture .grid { stroke: var(--grid); }
 .picture .frame { fill: none; stroke: var(--rule); }
+.picture .fault { stroke: var(--bad); opacity: 0.55; }
 .picture .step { stroke: var(--dim); stroke-dasharray: 2 4; opacity: 0.7; }
 .picture .failure { stroke: var(--bad); stroke-width: 1.6; stroke-dasharray: 6 3; }
 .picture .pointer { stroke: var(--dim); visibility: hidden; }

@@ -187,6 +187,20 @@ class Drawing {
     y_ = bottom + kTimeHeight;
   }
 
+  /// Where faults acted on messages; close to each other only the first one is marked.
+  void add_strikes(const std::vector<SeenFrame>& frames) {
+    constexpr double kApart = 4;
+    double last = -kApart;
+    for (const SeenFrame& frame : frames) {
+      const double x = x_of(std::clamp(ms_of(frame.time), begin_ms_, end_ms_));
+      if (!frame.is_struck || x - last < kApart) continue;
+      last = x;
+      body_ += "<g><title>" +
+               xml_escaped(format_duration(frame.time) + " " + frame.line + ": " + frame.remark) +
+               "</title>" + through_frames(x, "fault") + "</g>\n";
+    }
+  }
+
   void add_marks(const PictureMarks& marks) {
     constexpr double kRoomForNumber = 16;
     double last = -kRoomForNumber;
@@ -296,6 +310,7 @@ std::string picture(const Scene& scene, const PictureMarks& marks) {
   for (const Panel& panel : panels) drawing.add(panel);
   drawing.add_bits(bits);
   drawing.add_time();
+  drawing.add_strikes(scene.frames);
   drawing.add_marks(marks);
   return drawing.finish(scene, marks);
 }

@@ -47,8 +47,8 @@ bool is_same_bench(const Bench& one, const Bench& other) {
 
 }  // namespace
 
-Scenario load_companion(const std::string& path, const Bench& bench) {
-  std::vector<Scenario> scenarios = load_scenarios(path);
+Scenario load_companion(const std::string& path, const Bench& bench, const std::string& save_below) {
+  std::vector<Scenario> scenarios = load_scenarios(path, save_below);
   if (scenarios.size() != 1) {
     throw FileError(path + ": cases: there are " + std::to_string(scenarios.size()) +
                     "; expected one, as it is played beside one program");

@@ -20,7 +20,7 @@ namespace understudy::emulator {
 
 /// The one scenario of a file, for that bench. Throws FileError, also where a step is the host's (it uses a
 /// line) or not for a world that somebody else is in (it goes back in time).
-Scenario load_companion(const std::string& path, const Bench& bench);
+Scenario load_companion(const std::string& path, const Bench& bench, const std::string& save_below = "");
 
 class Companion {
  public:

@@ -4,6 +4,7 @@
 
 #include "emulator/memory/nv_file.h"
 #include "emulator/scenario/performance.h"
+#include "emulator/text_file.h"
 
 namespace understudy::emulator {
 
@@ -51,7 +52,7 @@ void Performance::perform(const ClearStep& step) {
   bool was_there = step.name.empty();
   stage_->with_world([&](World& world) {
     if (step.name.empty()) {
-      while (!world.faults().empty()) world.clear_fault(world.faults().begin()->first);
+      world.clear_faults();
       faults_.clear();
     }
     std::erase_if(faults_, [&](const auto& fault) {
@@ -89,10 +90,9 @@ void Performance::perform(const MemoryStep& step) {
   NvImage present;
   stage_->with_world([&](World& world) { present = world.device(step.device).nv_image(); });
   if (step.what == MemoryStep::What::save) {
-    NvWriter writer;
-    writer.write(step.file, to_json(present));
-    writer.flush();
-    if (const auto news = writer.take_news(); !news.empty()) throw StepError(news.front());
+    std::string why = why_not_replaceable_by_image(step.file);
+    if (why.empty()) why = replace_text_file(step.file, to_json(present));
+    if (!why.empty()) throw StepError(step.file + ": cannot be written: " + why);
     return;
   }
   const std::optional<NvImage> wanted = read_nv_file(step.file);

@@ -14,8 +14,8 @@ void Performance::perform(const TextStep& step) {
   if (heard == wanted.lines) return;
   const std::string expected = lines_text(wanted.lines);
   const std::string came = lines_text(heard);
-  throw StepError((step.text ? "the reply is " : "what comes is ") + came + "; expected " + expected, expected,
-                  came);
+  throw StepError((step.text ? "the reply is " : "what comes is ") + came + "; expected " + expected,
+                  expected, came);
 }
 
 }  // namespace understudy::emulator

@@ -15,11 +15,13 @@ PlayRecorder::PlayRecorder(World& world, RecordingHeader header, std::string pat
 void PlayRecorder::begin() {
   spool_.reset();  // the one before is over, and its file is free
   // What breaks off is played as far as it goes: nobody needs to be told while the play is on.
-  spool_ = std::make_unique<RecordingSpool>(world_, header_, path_, kRecordingCapBytes, [](const auto&) {});
+  const auto log = [](const std::string&) {};
+  spool_ = std::make_unique<RecordingSpool>(
+      world_, header_, std::make_unique<GrowingFile>(path_, "the recording", log), kRecordingCapBytes, log);
 }
 
 void PlayRecorder::world_restored(std::size_t) {
-  header_.snapshot = to_text(save(world_), bench_hash(parse_bench(header_.bench, "bench", "")));
+  header_.snapshot = to_text(save(world_), bench_hash(parse_recorded_bench(header_.bench)));
   begin();
 }
 

@@ -48,7 +48,9 @@ struct ScenarioResult {
   std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
   std::shared_ptr<const Footage> footage{};  // of a report, if one was asked for
   std::vector<std::string> manners{};        // what a lint has found, if one was asked for; single lines
-  std::string recording{};                   // its path, if one was made
+  std::string recording{};                   // its path, if one was made; of a trace and a capture as well
+  std::string trace{};
+  std::string capture{};
 };
 
 }  // namespace understudy::emulator

@@ -6,11 +6,13 @@
 
 #include "emulator/bench/bench_file.h"
 #include "emulator/edge/nv_keeper.h"
+#include "emulator/memory/nv_file.h"
 #include "emulator/one_line.h"
 #include "emulator/scenario/scenario_form.h"
 #include "emulator/scenario/steps_reader.h"
 #include "emulator/suggestion.h"
 #include "emulator/text_file.h"
+#include "pty/output_file.h"
 
 namespace understudy::emulator {
 
@@ -29,9 +31,30 @@ std::string to_text(const Case& row) {
   return text.empty() ? text : text + ")";
 }
 
+/// Wherever links lead.
+bool is_below(const std::string& path, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::string target = path;
+  try {
+    target = pty::output_target(path);
+  } catch (const pty::OutputError&) {
+    // What is there is refused for what it is.
+  }
+  const fs::path file = fs::weakly_canonical(fs::absolute(target));
+  const fs::path top = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder));
+  const auto [at_top, at_file] = std::mismatch(top.begin(), top.end(), file.begin(), file.end());
+  // A folder that is written with a slash at its end has an empty name there.
+  return at_top == top.end() || (at_top->empty() && std::next(at_top) == top.end());
+}
+
 class ScenarioReader {
  public:
-  ScenarioReader(const YamlFields& root, std::string path) : root_(root), path_(std::move(path)) {}
+  ScenarioReader(const YamlFields& root, std::string path, const std::string& save_below,
+                 SharedReading& shared)
+      : root_(root),
+        path_(std::move(path)),
+        save_below_(save_below.empty() ? root_.folder() : save_below),
+        file_{.shared = shared} {}
 
   std::vector<Scenario> read() {
     std::vector<Scenario> scenarios;
@@ -121,9 +144,16 @@ class ScenarioReader {
     for (const auto& [name, value] : root_.at("parameters").entries()) demand_used(name, value);
   }
 
+  Bench bench_at(const YamlFields& field) const {
+    auto& benches = file_.shared.benches;
+    auto it = benches.find(field.path());
+    if (it == benches.end()) it = benches.emplace(field.path(), load_bench(field)).first;
+    return it->second;
+  }
+
   Bench read_its_bench(const YamlFields& root) const {
     const YamlFields field = root.at("bench");
-    Bench bench = field.is_map() ? read_bench(field, field.folder()) : load_bench(field);
+    Bench bench = field.is_map() ? read_bench(field, field.folder()) : bench_at(field);
     if (root.has("nv")) {
       const YamlFields nv = root.at("nv");
       nv.demand_map();
@@ -214,6 +244,13 @@ class ScenarioReader {
     claims.add(saved_before_);
     for (const auto& [path, field] : steps.saved()) {
       if (const std::string why = claims.objection_to(path); !why.empty()) field.fail(path + " " + why);
+      if (!is_below(path, save_below_)) {
+        field.fail(path + " is not below " + (save_below_.empty() ? "this folder" : save_below_) +
+                   "; expected a path there (`--save-below FOLDER` allows another folder)");
+      }
+      if (const std::string why = why_not_replaceable_by_image(path); !why.empty()) {
+        field.fail(path + " cannot be written: " + why);
+      }
       scenario.saved.push_back(path);
       saved_before_.push_back({path, "what another case saves"});
     }
@@ -240,25 +277,43 @@ class ScenarioReader {
 
   YamlFields root_;
   std::string path_;
+  std::string save_below_;
   FileReading file_;
   std::vector<FileClaim> saved_before_;  // by the cases so far
 };
 
 }  // namespace
 
-std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path) {
+namespace {
+
+std::vector<Scenario> parse_with(SharedReading& shared, const std::string& text, const std::string& path,
+                                 const std::string& save_below) {
   const YamlFields root = YamlFields::parse(text, path, "scenario", "`understudy: 1`, `bench:` and `steps:`");
   if (root.has("lines") && !root.has("bench") && !root.has("steps")) {
     throw FileError({path, 1, 1},
                     "scenario: is a bench; expected a scenario (`understudy serve` takes benches)");
   }
-  return ScenarioReader(root, path).read();
+  return ScenarioReader(root, path, save_below, shared).read();
 }
 
-std::vector<Scenario> load_scenarios(const std::string& path) {
+}  // namespace
+
+std::vector<Scenario> parse_scenarios(const std::string& text, const std::string& path,
+                                      const std::string& save_below) {
+  SharedReading shared;
+  return parse_with(shared, text, path, save_below);
+}
+
+std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below,
+                                     SharedReading& shared) {
   const auto text = read_text_file(path);
   if (!text) throw FileError(path + ": scenario: " + text.why + "; expected a scenario file");
-  return parse_scenarios(*text, path);
+  return parse_with(shared, *text, path, save_below);
+}
+
+std::vector<Scenario> load_scenarios(const std::string& path, const std::string& save_below) {
+  SharedReading shared;
+  return load_scenarios(path, save_below, shared);
 }
 
 FileKind kind_of_file(const std::string& path) {

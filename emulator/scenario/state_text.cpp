@@ -51,11 +51,26 @@ std::string axis_text(const World& world, std::size_t number, std::size_t axis) 
   std::string text = "pulses " + std::to_string(world.sent_pulses(number, a)) + ", speed " +
                      number_text(Number(world.device(number).speed_pps(a))) + ", position " +
                      std::to_string(plant.position_pulses());
+  const int duty_percent = world.device(number).duty_percent(a).value_or(0);
+  if (duty_percent != 0) text += ", PWM " + std::to_string(duty_percent) + " %";
   if (plant.lost_pulses() != 0) text += ", lost " + std::to_string(plant.lost_pulses());
   if (plant.at_home()) text += ", at home";
   if (plant.at_upper_limit()) text += ", at the upper limit";
   if (plant.at_lower_limit()) text += ", at the lower limit";
   if (plant.in_alarm()) text += ", in alarm";
+  return text;
+}
+
+std::string fault_text(const World& world, std::size_t number, const ArmedFault& armed) {
+  const auto& [fault, course] = armed;
+  std::string text = "fault " + std::to_string(number) + " " + to_text(world.known(), fault) + ":";
+  if (!is_of_frames(fault.kind)) text += course.in_force ? " in force" : " not in force";
+  if (waits(fault)) {
+    text += (is_of_frames(fault.kind) ? " hit " : ", hit ") + std::to_string(course.hits) + " of " +
+            std::to_string(course.matched) + " that matched";
+  } else if (is_of_frames(fault.kind)) {
+    text += " in force";
+  }
   return text;
 }
 
@@ -79,6 +94,7 @@ std::vector<std::string> state_text(const World& world) {
       texts.push_back(device.name() + ": " + terminals);
     }
   }
+  for (const auto& [number, armed] : world.faults()) texts.push_back(fault_text(world, number, armed));
   return texts;
 }
 

@@ -38,6 +38,25 @@ const StepRow* row_of(const YamlFields& step) {
   entries.front().second.fail("is no step" + suggestion(key, names));
 }
 
+/// What a step carries besides its text: of the kinds that may carry much.
+struct BytesOf {
+  std::size_t operator()(const SendStep& step) const {
+    return step.bytes.size() + (step.reply ? step.reply->size() : 0);
+  }
+  std::size_t operator()(const TextStep& step) const {
+    std::size_t bytes = step.text ? step.text->size() : 0;
+    if (!step.lines) return bytes;
+    for (const std::string& line : *step.lines) bytes += line.size();
+    return bytes;
+  }
+  std::size_t operator()(const ProgramStep& step) const { return step.text.size(); }
+  std::size_t operator()(const SayStep& step) const { return step.text.size(); }
+  template <typename Other>
+  std::size_t operator()(const Other&) const {
+    return 0;
+  }
+};
+
 /// However it is spelled.
 std::string canonical(const std::string& path) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
@@ -61,6 +80,14 @@ void StepsReader::count(const YamlFields& where) {
   if (++file_.steps > FileReading::kMostSteps) {
     throw LastError(where.place(), where.field() + ": is one step too many; expected at most " +
                                        std::to_string(FileReading::kMostSteps) + " with all loops and cases");
+  }
+}
+
+void StepsReader::count_bytes(const YamlFields& where, const Step& step) {
+  file_.bytes += step.text.size() + std::visit(BytesOf{}, step.what);
+  if (file_.bytes > FileReading::kMostBytes) {
+    where.fail("is too much: the steps have grown beyond " + std::to_string(FileReading::kMostBytes >> 20) +
+               " MiB; expected less, with all loops and cases");
   }
 }
 
@@ -114,14 +141,15 @@ void StepsReader::read_included(const YamlFields& field) {
   if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) {
     field.fail(field.path() + " includes itself; expected another file");
   }
-  auto it = file_.included.find(path);
-  if (it == file_.included.end()) {
+  auto& included = file_.shared.included;
+  auto it = included.find(field.path());
+  if (it == included.end()) {
     const auto text = read_text_file(path);
     if (!text) field.fail(field.path() + " " + text.why + "; expected a file of steps");
     const YamlFields root = YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
     root.demand_keys(kIncludedKeys);
     root.at("understudy").integer(kVersionForm);
-    it = file_.included.emplace(path, root.at("steps")).first;
+    it = included.emplace(field.path(), root.at("steps")).first;
   }
   add_file(field.path(), "a file of steps that is included");
   paths_.push_back(path);

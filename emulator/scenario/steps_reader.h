@@ -2,7 +2,6 @@
 // and everything is checked on the way.
 #pragma once
 
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "emulator/one_line.h"
 #include "emulator/scenario/parameters.h"
 #include "emulator/scenario/scenario.h"
+#include "emulator/scenario/shared_reading.h"
 #include "emulator/scenario/story.h"
 #include "emulator/scenario/trial.h"
 
@@ -19,10 +19,12 @@ namespace understudy::emulator {
 
 /// What the cases of a file share.
 struct FileReading {
-  static constexpr int kMostSteps = 100'000;  // of all cases
-  static constexpr int kDeepest = 32;         // loops, forks and includes in each other
+  static constexpr int kMostSteps = 100'000;                        // of all cases
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of what they say and send
+  static constexpr int kDeepest = 32;                               // loops, forks and includes in each other
   int steps = 0;
-  std::map<std::string, YamlFields> included;  // by path; each is read once
+  std::size_t bytes = 0;
+  SharedReading& shared;
 };
 
 struct StepRow;
@@ -50,6 +52,7 @@ class StepsReader {
     count(where);
     into_->push_back(
         {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
+    count_bytes(where, into_->back());
   }
   /// The steps of a list, in this place, with other parameters.
   void read_here(const YamlFields& list, const Parameters& parameters);
@@ -63,6 +66,7 @@ class StepsReader {
   void read_or_complain(const YamlFields& step);
   void read_step(const YamlFields& step, const StepRow* row);
   void count(const YamlFields& where);
+  void count_bytes(const YamlFields& where, const Step& step);
 
   const Trial& trial_;
   FileReading& file_;

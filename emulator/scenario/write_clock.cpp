@@ -34,6 +34,7 @@ void WriteClock::begin_anew() {
 
 /// A request is heard at the moment at which it is carried out, a reply when it begins.
 void WriteClock::hear(std::size_t line, const pty::CapturedPacket& packet) {
+  if (packet.bytes.empty()) return;  // only what a fault has done
   if (world_.line(line).protocol == Protocol::text) {
     if (packet.way == pty::Way::from_host) last_ = tick_at(world_.now()) + 1;
     return;

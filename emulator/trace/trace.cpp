@@ -9,13 +9,14 @@ namespace {
 
 using Kind = TraceSignal::Kind;
 
-void add_axis(const std::string& axis, std::vector<TraceSignal>& signals) {
+void add_axis(const std::string& axis, bool has_duty, std::vector<TraceSignal>& signals) {
   for (const auto& [word, kind] :
        {std::pair{"pulses", Kind::whole}, std::pair{"speed", Kind::real}, std::pair{"position", Kind::whole},
         std::pair{"home", Kind::bit}, std::pair{"lower_limit", Kind::bit},
         std::pair{"upper_limit", Kind::bit}}) {
     signals.push_back({.name = axis + "." + word, .kind = kind});
   }
+  if (has_duty) signals.push_back({.name = axis + ".pwm", .kind = Kind::whole});
 }
 
 }  // namespace
@@ -26,7 +27,8 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
     const KnownDevice& device = world.known()[d];
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
       if (!world.device(d).has_axis(static_cast<int>(a))) continue;
-      add_axis(device.name + "." + std::string(device.model->axes[a].name), signals);
+      add_axis(device.name + "." + std::string(device.model->axes[a].name),
+               world.device(d).duty_percent(static_cast<int>(a)).has_value(), signals);
     }
     for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
       const TerminalRow& row = device.model->terminals[t];
@@ -40,6 +42,8 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
     for (const std::string_view name : device.model->state_registers) {
       signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
     }
+    if (!world.device(d).pulse_formats().empty())
+      signals.push_back({.name = device.name + ".pulse_format", .kind = Kind::whole});
     signals.push_back({.name = device.name + ".power", .kind = Kind::bit});
   }
   const Probes probes(world);

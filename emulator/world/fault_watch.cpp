@@ -86,6 +86,19 @@ pty::WireFault stage_of(const Fault& fault) {
   return stage;
 }
 
+pty::Strike strike_of(std::size_t number, const Fault& fault, bool is_request) {
+  const FaultKindRow& row = fault_kind(fault.kind);
+  const bool is_other = is_request && !row.effect_on_request.empty();
+  return {.fault = number, .kind = row.name, .effect = is_other ? row.effect_on_request : row.effect};
+}
+
+/// Of a reply: something of it is said at once.
+bool is_said_at_once(const pty::WireFault& stage) {
+  using Stage = pty::WireFault::Kind;
+  return stage.kind != Stage::drop && stage.kind != Stage::delay &&
+         (stage.kind != Stage::truncate || stage.size > 0);
+}
+
 bool is_of_requests(const Fault& fault) {
   return is_of_wire(fault.kind) && (fault.kind == Kind::slow || fault.side != Fault::Side::reply);
 }
@@ -147,8 +160,8 @@ void check_fault(const World& world, const Fault& fault) {
   }
 }
 
-FaultWatch::FaultWatch(const World& world, Faults& faults, std::uint64_t seed)
-    : faults_(faults), seed_(seed), lines_(world.device_count()), probes_(world) {
+FaultWatch::FaultWatch(World& world, Faults& faults, std::uint64_t seed)
+    : world_(world), faults_(faults), seed_(seed), lines_(world.device_count()), probes_(world) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     for (const auto& station : world.line(i).stations) {
       for (std::size_t d = 0; d < world.device_count(); ++d) {
@@ -244,57 +257,78 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
   return frame.last_character == course.judged_character && course.was_hit;
 }
 
+/// Whoever looks at the line is told, and nothing else comes of it.
+void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
+                      std::span<const pty::Strike> strikes) {
+  if (strikes.empty()) return;
+  world_.line(lines_[frame.device])
+      .line.tell_strike({.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
+}
+
 bool FaultWatch::is_early(const HeardFrame& frame) {
-  bool is_early = false;
+  std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (armed.fault.kind != Kind::early_reply || !is_at(armed.fault, frame.device)) continue;
-    is_early = is_hit(number, armed, frame) || is_early;
+    if (is_hit(number, armed, frame)) strikes.push_back(strike_of(number, armed.fault, true));
   }
-  return is_early;
+  tell(frame, false, false, strikes);
+  return !strikes.empty();
 }
 
 std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
   std::vector<pty::WireFault> stages;
+  std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame.device)) continue;
+    // The stations of a line ask about one request; it is told of once.
+    const bool is_news = !armed.fault.on_line || frame.last_character > armed.course.judged_character;
     if (!is_request_hit(number, armed, frame)) continue;
+    if (is_news) strikes.push_back(strike_of(number, armed.fault, true));
     stages.push_back(stage_of(armed.fault));
     // What is dropped does not get to the stages behind.
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
+  tell(frame, false, false, strikes);
   return stages;
 }
 
 FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
   Treatment treatment;
+  std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     auto& [fault, course] = armed;
     if (!is_at(fault, frame.device)) continue;
     if (fault.kind == Kind::busy || fault.kind == Kind::exception) {
       if (treatment.exception != 0 || !is_hit(number, armed, frame)) continue;
       treatment.exception = fault.kind == Kind::busy ? kDeviceBusy : static_cast<int>(fault.amount);
+      strikes.push_back(strike_of(number, fault, true));
       continue;
     }
     // Machines and devices: while it is in force nothing strikes.
     if (is_of_frames(fault.kind) || !is_about_frames(fault.trigger) || course.in_force) continue;
     if (!is_hit(number, armed, frame)) continue;
+    strikes.push_back(strike_of(number, fault, true));
     course.is_news = true;
     if (is_done_at_once(fault.kind)) continue;
     course.in_force = true;
     if (fault.trigger.lasts == SimTime{0}) course.until = kForever;
     if (fault.kind == Kind::power_cut) treatment.is_answered = false;
   }
+  tell(frame, false, false, strikes);
   return treatment;
 }
 
 std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
   std::vector<pty::WireFault> stages;
+  std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     if (!is_of_replies(armed.fault) || !is_at(armed.fault, frame.device)) continue;
     if (!is_hit(number, armed, frame)) continue;
+    strikes.push_back(strike_of(number, armed.fault, false));
     stages.push_back(stage_of(armed.fault));
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
+  tell(frame, true, std::all_of(stages.begin(), stages.end(), is_said_at_once), strikes);
   return stages;
 }
 

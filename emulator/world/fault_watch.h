@@ -3,12 +3,14 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 
 #include "emulator/expression/expression.h"
 #include "emulator/faults/fault.h"
 #include "emulator/faults/frame_faults.h"
 #include "emulator/probe/probes.h"
+#include "pty/line_observer.h"
 
 namespace understudy::emulator {
 
@@ -20,7 +22,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
 
   /// All must outlive it. The faults must be of the world (check_fault); when others have come or gone, it
   /// must be made anew.
-  FaultWatch(const World& world, Faults& faults, std::uint64_t seed);
+  FaultWatch(World& world, Faults& faults, std::uint64_t seed);
 
   // --- time ------------------------------------------------------------------------------------
   /// When look() wants to be called next by the clock, as is_tick = false; kForever if it does not.
@@ -42,8 +44,10 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   bool is_at(const Fault& fault, std::size_t device) const;
   bool is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
   bool is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
+  void tell(const HeardFrame& frame, bool is_reply, bool is_said, std::span<const pty::Strike> strikes);
   std::uint64_t stream(std::size_t number) const;
 
+  World& world_;
   Faults& faults_;
   std::uint64_t seed_;
   std::vector<std::size_t> lines_;  // of the devices

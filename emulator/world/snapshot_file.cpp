@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kKind = "snapshot";
 constexpr int kFormat = 1;
+constexpr int kDeepest = 2;  // the object of the parts in that of the file
 
 std::string hex(std::uint64_t number) {
   std::array<char, 17> digits{};
@@ -56,9 +57,14 @@ Json parse_json(const std::string& text) {
                                             "simulated_time_ns", "checksum", "state"};
   Json parsed;
   try {
-    parsed = parse_strict_json<Json>(text, [](const std::string& key) {
-      return SnapshotError(emulator::quoted(key) + ": is there twice; expected it once");
-    });
+    parsed = parse_strict_json<Json>(
+        text,
+        [](const std::string& key) {
+          return SnapshotError(emulator::quoted(key) + ": is there twice; expected it once");
+        },
+        kDeepest);
+  } catch (const TooDeepJson& error) {
+    throw SnapshotError(std::string("file: ") + error.what() + "; expected a snapshot");
   } catch (const Json::exception&) {
     throw SnapshotError("file: is torn or no JSON; expected a snapshot");
   }

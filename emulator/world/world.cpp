@@ -1,13 +1,32 @@
 #include "emulator/world/world.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "emulator/large_pages.h"
 #include "emulator/modbus/rtu_station.h"
 #include "emulator/prefetch.h"
 #include "emulator/text/text_station.h"
 #include "emulator/world/fault_watch.h"
 
 namespace understudy::emulator {
+
+namespace {
+
+/// Devices that are made one after the other lie one behind the other, with what belongs to them between.
+void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
+  constexpr std::size_t kCrowd = 100;
+  constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
+  if (devices.size() < kCrowd) return;
+  const auto by_address = [](const auto& a, const auto& b) { return std::less<>()(a.get(), b.get()); };
+  const auto [low, high] = std::minmax_element(devices.begin(), devices.end(), by_address);
+  const auto* const first = reinterpret_cast<const char*>(low->get());
+  const auto* const last = reinterpret_cast<const char*>(high->get());
+  if (last - first < kMostOfOne * static_cast<std::ptrdiff_t>(devices.size()))
+    ask_for_large_pages(first, last);
+}
+
+}  // namespace
 
 World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
@@ -22,13 +41,15 @@ World::World(const Bench& bench, const WorldOptions& options,
       inputs_.back()[i].external = devices_.back()->input(static_cast<int>(i));  // its switches
     }
   }
+  keep_together(devices_);
   for (const MachineSetup& machine : bench.machines) {
     plants_[machine.device][static_cast<std::size_t>(machine.axis)] = PlantAxis(machine.plant);
   }
   for (const LineSetup& setup : bench.lines) {
     pty::LineOptions line_options{.settings = devices_[setup.stations.front()]->line_settings(),
                                   .timing = setup.timing,
-                                  .enforce_settings = options.enforce_settings};
+                                  .enforce_settings = options.enforce_settings,
+                                  .baud_tolerance_ppm = setup.baud_tolerance_ppm};
     lines_.push_back(std::make_unique<OneLine>(OneLine{pty::Line(setup.name, line_options, log), {}, {}}));
     OneLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {

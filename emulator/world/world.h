@@ -116,6 +116,8 @@ class World {
   /// False if there is none of that number.
   bool clear_fault(std::size_t number);
   /// Those there are, whether they have struck or wait, in the order of their numbers.
+  /// All of them.
+  void clear_faults();
   const std::map<std::size_t, ArmedFault>& faults() const { return faults_; }
 
  private:
@@ -156,6 +158,7 @@ class World {
   void move_by_hand(const Fault& fault);
   void apply_input(std::size_t device, int terminal);
   void apply_faults(std::size_t device);
+  void remove_fault(std::map<std::size_t, ArmedFault>::iterator fault);
   void settle_power(std::size_t device);
   void look_for_speech(SimTime now);
   void arm_faults();

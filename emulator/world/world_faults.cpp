@@ -34,15 +34,26 @@ void World::move_by_hand(const Fault& fault) {
 bool World::clear_fault(std::size_t number) {
   const auto found = faults_.find(number);
   if (found == faults_.end()) return false;
-  begin_act();
-  if (listener_ != nullptr) listener_->on_clear_fault(number);
-  const std::size_t device = found->second.fault.device;
-  faults_.erase(found);
-  disturbed_ = true;
+  remove_fault(found);
   arm_faults();
+  return true;
+}
+
+void World::clear_faults() {
+  if (faults_.empty()) return;
+  while (!faults_.empty()) remove_fault(faults_.begin());
+  arm_faults();
+}
+
+/// Whoever looks after the others is to be armed anew afterwards.
+void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
+  begin_act();
+  if (listener_ != nullptr) listener_->on_clear_fault(fault->first);
+  const std::size_t device = fault->second.fault.device;
+  faults_.erase(fault);
+  disturbed_ = true;
   apply_faults(device);
   settle_power(device);
-  return true;
 }
 
 /// Whoever waits is looked after.

@@ -75,6 +75,15 @@ struct Dialect {
   /// A counter counted or set beyond 0 to 65535.
   enum class CounterOverflow : std::uint8_t { wraps, saturates } counter_overflow = CounterOverflow::wraps;
 
+  /// A jump or a Loop to flag 0, or to one beyond the last: as to a flag that no line has, or the line is
+  /// void.
+  enum class UndefinedFlag : std::uint8_t { line_0, line_void } undefined_flag = UndefinedFlag::line_0;
+  /// How Jump_Timer*_GE compares 32 bits.
+  enum class TimerCompare : std::uint8_t {
+    without_sign,
+    with_sign
+  } timer_compare = TimerCompare::without_sign;
+
   bool operator==(const Dialect&) const = default;
 };
 

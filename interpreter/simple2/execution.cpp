@@ -77,7 +77,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
   switch (action(step)) {
     case Then::next_line: return go_on_at(execution, number + 1, dialect);
     case Then::line_after_next: return go_on_at(execution, number + 2, dialect);
-    case Then::flag: return go_on_at(execution, step.flag_line(), dialect);
+    case Then::flag: return go_on_at(execution, step.is_void_jump() ? number + 1 : step.flag_line(), dialect);
     case Then::same_line:
       execution.waits = dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it;
       return go_on_at(execution, number, dialect);

@@ -47,7 +47,6 @@ bool is_for_hosts(const CommandRow& row) {
 /// What a host needs although the column 外部 does not print it: to look, and to get out of a pause.
 bool is_let_through(const CommandRow& row) {
   switch (row.verb) {
-    case Verb::exit:
     case Verb::resume_all:
     case Verb::abandon_all:
     case Verb::pause:
@@ -77,7 +76,8 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
       if (row.immediate == Printed::yes) return true;
       return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_form(row);
     case Place::external:
-      if (row.external == Printed::yes) return true;
+      // It leaves a running program: nowhere else has it a meaning.
+      if (row.external == Printed::yes || row.verb == Verb::exit) return true;
       return columns.external == Columns::External::lenient && is_let_through(row);
   }
   return false;

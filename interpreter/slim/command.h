@@ -28,6 +28,7 @@ struct Operand {
     get_real,          // GETR
     event,             // index 1 to 8
     condition,         // index: a Condition
+    quantity,          // what the query ?text answers, as a function
   };
   Kind kind = Kind::integer;
   double number = 0;

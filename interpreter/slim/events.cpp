@@ -130,7 +130,7 @@ bool would_change(const Events& events, const Machine& machine) {
     if (test_condition(event.condition, event.operands, machine, holds) != Error::none) return true;
     if (holds == event.armed) return true;
     for (const Operand& operand : event.operands) {
-      if (operand.kind == Kind::clock) return true;
+      if (operand.kind == Kind::clock || operand.kind == Kind::quantity) return true;
     }
   }
   return false;

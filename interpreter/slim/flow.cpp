@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "interpreter/slim/words.h"
+
 namespace understudy::interpreter::slim {
 namespace {
 
@@ -25,10 +27,6 @@ std::optional<Kind> asked_of_host(const Command& command) {
       std::ranges::find_if(command.operands, [](const Operand& operand) { return asks_host(operand.kind); });
   if (asking == command.operands.end()) return std::nullopt;
   return asking->kind;
-}
-
-bool in_event_routine(const Execution& execution) {
-  return std::ranges::any_of(execution.stack, &Frame::of_event);
 }
 
 /// The first moment of those that `every_ms` divides which is not before `ms`.
@@ -103,12 +101,30 @@ class LineRun {
       case Verb::set_event:
       case Verb::on_event: define_event(execution_.events, original(), options_.events); return go_on();
       case Verb::get_integer:
-      case Verb::get_real: return go_on();
+      case Verb::get_real: return take_bare_number(command.verb == Verb::get_integer);
       default: break;
     }
     const Outcome outcome = machine_.carry_out(command);
     if (outcome.error != Error::none) return outcome.error;
+    if (outcome.program == Outcome::Program::ends) return end(Ending::exited);
+    if (outcome.program == Outcome::Program::forgets_what_it_interrupted) forget_what_was_interrupted();
     return outcome.waits ? hold(Hold::machine) : go_on();
+  }
+
+  /// The routine of an event goes on to its RET, behind which the program is over.
+  void forget_what_was_interrupted() {
+    for (Frame& frame : execution_.stack) {
+      if (frame.of_event) frame = {.line = program_.size(), .of_event = true};
+    }
+  }
+
+  Error take_bare_number(bool is_integer) {
+    if (options_.bare_number == FlowOptions::BareNumber::is_dropped) return go_on();
+    Command command{.verb = Verb::set_variable, .row = is_integer ? row_of("N#=data") : row_of("R#=data")};
+    command.operands.push_back({.kind = is_integer ? Kind::integer_variable : Kind::real_variable});
+    command.operands.push_back(
+        {.kind = is_integer ? Kind::integer : Kind::real, .number = execution_.number});
+    return run_command(command);
   }
 
   /// An event keeps its variable index: it is read anew at every look.
@@ -219,6 +235,7 @@ Error read_number(std::string_view text, Kind asked, const Dialect& dialect, dou
     return number >= dialect.integer_least && number <= kIntegerMost ? Error::none : Error::range;
   }
   constexpr double kMost = std::numeric_limits<float>::max();
+  number = rounded_real(number);
   return number >= -kMost && number <= kMost ? Error::none : Error::range;
 }
 
@@ -251,7 +268,28 @@ std::int64_t next_line_ms(const Execution& execution, std::int64_t done_ms, cons
   return next_ms;
 }
 
+/// The routine of an event while no program runs: it is one, from the next tick on.
+Error run_lonely_event(Execution& execution, std::int64_t now_ms, const Program& program,
+                       const FlowOptions& options, const Machine& machine) {
+  if (options.events_need_program) return Error::none;
+  if (now_ms % options.events.look_every_ms == 0) {
+    const Error error = look_at_events(execution.events, options.events, machine);
+    if (error != Error::none) return error;
+  }
+  const std::optional<Operand> address = take_event(execution.events);
+  if (!address) return Error::none;
+  const std::optional<int> line = program.find(*address, options.program);
+  if (!line) return Error::address;
+  Events events = std::move(execution.events);
+  execution = {.running = true, .line = *line, .events = std::move(events)};
+  return Error::none;
+}
+
 }  // namespace
+
+bool in_event_routine(const Execution& execution) {
+  return std::ranges::any_of(execution.stack, &Frame::of_event);
+}
 
 Error start(Execution& execution, const Program& program, const Operand* address,
             const FlowOptions& options) {
@@ -283,7 +321,7 @@ Error give_number(Execution& execution, const Program& program, std::string_view
 
 Error step(Execution& execution, std::int64_t now_ms, const Program& program, const FlowOptions& options,
            Machine& machine) {
-  if (!execution.running) return Error::none;
+  if (!execution.running) return run_lonely_event(execution, now_ms, program, options, machine);
   LineRun line(execution, now_ms, program, options, machine);
   const bool is_lines_turn = now_ms % options.lines_every_ms == 0;
   // A wait that is over is over before an event can make it begin again.
@@ -309,9 +347,13 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
 
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
                             const FlowOptions& options, const Machine& machine) {
-  if (!execution.running) return kNever;
+  if (!execution.running && options.events_need_program) return kNever;
   const bool sees_event = would_change(execution.events, machine);
   const std::int64_t look_ms = sees_event ? moment_from(done_ms + 1, options.events.look_every_ms) : kNever;
+  if (!execution.running) {
+    const bool is_pending = std::ranges::any_of(execution.events, &Event::pending);
+    return is_pending ? done_ms + 1 : look_ms;
+  }
   return std::min(look_ms, next_line_ms(execution, done_ms, program, options, machine));
 }
 

@@ -24,6 +24,10 @@ struct FlowOptions {
   int window_unit_ms = 1;  // of tm in JTI and JNTI
   int call_depth = 16;
   EventOptions events = {};
+  /// GETI or GETR alone on its line: the number is nobody's, or N0's and R0's.
+  enum class BareNumber : std::uint8_t { is_dropped, into_n0_or_r0 } bare_number = BareNumber::is_dropped;
+  /// Events are of a program that runs; or they call their routine when there is none, too.
+  bool events_need_program = true;
   /// WT and JTI that an event has interrupted: they begin again, or their time has gone on.
   enum class InterruptedTimer : std::uint8_t {
     begins_again,
@@ -40,7 +44,7 @@ enum class Ending : std::uint8_t {
   not_started,
   returned,  // RET at the top
   past_last_line,
-  exited,  // EXIT
+  exited,  // EXIT, TASTOP
   failed,  // with `error`
 };
 
@@ -81,6 +85,8 @@ struct Execution {
 /// `G`: runs from an address on (null: line 0), from the next tick. Refused with Error::address: no such
 /// line; nothing is changed then.
 Error start(Execution& execution, const Program& program, const Operand* address, const FlowOptions& options);
+/// Between an event and the RET of its routine.
+bool in_event_routine(const Execution& execution);
 /// `EXIT`. What the program has started goes on.
 void stop(Execution& execution);
 

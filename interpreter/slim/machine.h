@@ -1,6 +1,8 @@
 // What a running SLIM program acts on: the abstract machine that the chain of motors is to it.
 #pragma once
 
+#include <cstdint>
+
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/error.h"
 
@@ -11,6 +13,12 @@ struct Outcome {
   bool waits =
       false;  // not carried out yet: nothing has changed, and the program asks again at the next tick
   Error error = Error::none;
+  /// What it means for the program that gave it, besides going on with the next line.
+  enum class Program : std::uint8_t {
+    goes_on,
+    forgets_what_it_interrupted,  // behind the RET of an event's routine there is nothing more
+    ends,
+  } program = Program::goes_on;
 
   bool operator==(const Outcome&) const = default;
 };

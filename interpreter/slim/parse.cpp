@@ -30,11 +30,12 @@ struct Prefixed {
   std::string word;
 };
 
-/// A digit directly behind the T: TX, TM and TAPZ have none.
+/// A digit directly behind the T, or two (T15, of sixteen): TX, TM and TAPZ have none.
 Prefixed split_prefix(std::string word) {
   const bool has_prefix = word.size() >= 2 && word[0] == 'T' && is_digit(word[1]);
   if (!has_prefix) return {.word = std::move(word)};
-  return {.has_prefix = true, .module = word[1] - '0', .word = word.substr(2)};
+  if (word.size() < 3 || word[1] == '0' || !is_digit(word[2])) return {true, word[1] - '0', word.substr(2)};
+  return {true, 10 * (word[1] - '0') + (word[2] - '0'), word.substr(3)};
 }
 
 bool is_no_module(const Prefixed& name) { return name.has_prefix && name.module >= kModuleCount; }

@@ -25,6 +25,8 @@ struct Dialect {
   std::size_t longest_line = kLineLength;  // longer ones are refused
   int integer_least = kIntegerLeast;       // of integer variables
   int event_count = kEventCount;           // EV1 to so many; 1 .. kEventCount
+  bool helix_constants = true;             // SAA R0,R1,90,5 as its form is printed, besides four variables
+  bool quantities = false;                 // what a query shows is a function: N0=PE, JG VM,R0,$A
 
   bool operator==(const Dialect&) const = default;
 };
@@ -37,7 +39,7 @@ struct ParseResult {
 };
 
 /// Whatever any dialect has: for what a dialect has let in already.
-inline constexpr Dialect kWidestDialect{.longest_line = kLongestLine};
+inline constexpr Dialect kWidestDialect{.longest_line = kLongestLine, .quantities = true};
 
 /// Everything that needs no state is checked. An empty line is no error.
 ParseResult parse_line(std::string_view text, const Dialect& dialect = {});

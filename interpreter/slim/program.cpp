@@ -7,21 +7,6 @@
 namespace understudy::interpreter::slim {
 namespace {
 
-struct Checked {
-  Error error = Error::none;
-  StoredLine line = {};
-};
-
-Checked check(std::string_view text, const ProgramOptions& options) {
-  ParseResult result = parse_line(text, options.dialect);
-  if (result.error != Error::none) return {.error = result.error};
-  const std::string_view trimmed = without_blanks(text);
-  if (trimmed.empty()) return {.error = Error::syntax};
-  const auto& command = result.line.command;
-  if (command && !is_allowed(*command, Place::program, options.columns)) return {.error = Error::not_allowed};
-  return {.line = {.text = std::string(trimmed), .parsed = std::move(result.line)}};
-}
-
 /// As a line of a program, it would cut the program off when that is sent back with DLP.
 bool ends_transfer(std::string_view text) {
   const std::string word = in_capitals(text);
@@ -34,8 +19,30 @@ std::string label_of(std::string_view text) {
   return parse_line(text.substr(0, text.find_first_of(" \t"))).line.label;
 }
 
-Checked check_as_chosen(std::string_view text, const ProgramOptions& options) {
-  Checked checked = check(text, options);
+}  // namespace
+
+Program::Checked Program::check(std::string_view text, int replaced, const ProgramOptions& options) const {
+  ParseResult result = parse_line(text, options.dialect);
+  if (result.error != Error::none) return {.error = result.error};
+  const std::string_view trimmed = without_blanks(text);
+  if (trimmed.empty()) return {.error = Error::syntax};
+  const auto& command = result.line.command;
+  if (command && !is_allowed(*command, Place::program, options.columns)) return {.error = Error::not_allowed};
+  if (command && options.check_command != nullptr) {
+    if (const Error error = options.check_command(*command); error != Error::none) return {.error = error};
+  }
+  const std::string& label = result.line.label;
+  if (!label.empty() && options.same_label == ProgramOptions::SameLabel::refused) {
+    for (int i = 0; i < size(); ++i) {
+      if (i != replaced && line(i).parsed.label == label) return {.error = Error::address};
+    }
+  }
+  return {.line = {.text = std::string(trimmed), .parsed = std::move(result.line)}};
+}
+
+Program::Checked Program::check_as_chosen(std::string_view text, int replaced,
+                                          const ProgramOptions& options) const {
+  Checked checked = check(text, replaced, options);
   if (checked.error == Error::none || options.check == ProgramOptions::Check::as_entered) return checked;
   const std::string_view trimmed = without_blanks(text);
   if (trimmed.empty() || text.size() > options.dialect.longest_line || ends_transfer(trimmed)) return checked;
@@ -43,12 +50,10 @@ Checked check_as_chosen(std::string_view text, const ProgramOptions& options) {
       .line = {.text = std::string(trimmed), .parsed = {.label = label_of(trimmed)}, .error = checked.error}};
 }
 
-}  // namespace
-
 Error Program::insert(int number, std::string_view text, const ProgramOptions& options) {
   if (number < 0 || number > size()) return Error::range;
   if (size() >= options.capacity) return Error::buffer_full;
-  Checked checked = check_as_chosen(text, options);
+  Checked checked = check_as_chosen(text, -1, options);
   if (checked.error != Error::none) return checked.error;
   lines_.insert(lines_.begin() + number, std::move(checked.line));
   return Error::none;
@@ -56,7 +61,7 @@ Error Program::insert(int number, std::string_view text, const ProgramOptions& o
 
 Error Program::replace(int number, std::string_view text, const ProgramOptions& options) {
   if (number < 0 || number >= size()) return Error::range;
-  Checked checked = check_as_chosen(text, options);
+  Checked checked = check_as_chosen(text, number, options);
   if (checked.error != Error::none) return checked.error;
   lines_[static_cast<std::size_t>(number)] = std::move(checked.line);
   return Error::none;

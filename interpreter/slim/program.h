@@ -24,8 +24,13 @@ struct ProgramOptions {
   int first_number = 0;  // of the first line: in addresses, in PE, PI, PD and PL
   /// A line that no program can carry out is refused as it is entered, or stored and refused as it runs.
   enum class Check : std::uint8_t { as_entered, as_run } check = Check::as_entered;
+  /// What the machine knows of a command without its state, such as which parameters there are; null:
+  /// nothing.
+  Error (*check_command)(const Command& command) = nullptr;
   /// An empty line while a program is entered.
   enum class EmptyLine : std::uint8_t { ends_editing, is_ignored } empty_line = EmptyLine::ends_editing;
+  /// A line with a label that another line has already: refused, or only the first one is ever found.
+  enum class SameLabel : std::uint8_t { refused, first_counts } same_label = SameLabel::refused;
   /// What PL shows: "0: MA 100", or the line as it is.
   enum class Listing : std::uint8_t { numbered, bare } listing = Listing::numbered;
 
@@ -48,7 +53,8 @@ class Program {
 
   /// Behind the last line: what insert() takes as a number.
   /// Refuses (and changes nothing): a line that does not parse, or is empty; a command that no program may
-  /// hold (not_allowed); a number that there is not (range); more lines than fit (buffer_full). With
+  /// hold (not_allowed); a label that another line has (address); a number that there is not (range); more
+  /// lines than fit (buffer_full). With
   /// Check::as_run only empty lines, those too long, and what ends a transfer are refused for what they say.
   Error insert(int number, std::string_view text, const ProgramOptions& options = {});
   Error replace(int number, std::string_view text, const ProgramOptions& options = {});
@@ -70,6 +76,13 @@ class Program {
   bool operator==(const Program&) const = default;
 
  private:
+  /// The line that `text` makes in place of line `replaced`; -1: in none's.
+  struct Checked {
+    Error error = Error::none;
+    StoredLine line = {};
+  };
+  Checked check(std::string_view text, int replaced, const ProgramOptions& options) const;
+  Checked check_as_chosen(std::string_view text, int replaced, const ProgramOptions& options) const;
   std::vector<StoredLine> lines_;
 };
 

@@ -47,7 +47,7 @@ constexpr std::optional<Range> real_range(Slot slot) {
   constexpr double kMost = std::numeric_limits<float>::max();
   switch (slot) {
     case Slot::real: return Range{-kMost, kMost};
-    case Slot::frequency: return Range{0, kMost};
+    case Slot::frequency: return Range{1e-6, 1e6};  // in kHz 0.001 Hz, in Hz what ticks are told
     case Slot::percent: return Range{0, 100};
     default: return std::nullopt;
   }
@@ -76,6 +76,7 @@ Error check_whole(const Operand& operand, Range range) {
 Error check_real(Operand& operand, Range range) {
   if (!is_constant(operand)) return Error::syntax;
   operand.kind = Kind::real;
+  operand.number = rounded_real(operand.number);
   return in_range(operand.number, range);
 }
 
@@ -94,17 +95,20 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
     case Kind::get_real: return for_integer ? Error::syntax : Error::none;
     case Kind::analog:
     case Kind::clock: return Error::none;
+    case Kind::quantity: return dialect.quantities ? Error::none : Error::syntax;
     default: return Error::syntax;
   }
 }
 
 /// What an assignment gives. A real variable takes integers, too; a parameter takes any number.
 Error check_data(Operand& operand, const Operand* target, const Dialect& dialect) {
-  const bool is_number = is_constant(operand) || is_variable(operand.kind) || operand.kind == Kind::analog ||
+  const bool is_number = is_constant(operand) || (operand.kind == Kind::quantity && dialect.quantities) ||
+                         is_variable(operand.kind) || operand.kind == Kind::analog ||
                          operand.kind == Kind::clock || asks_host(operand.kind);
   if (!is_number) return Error::syntax;
   if (target == nullptr) {
     const Range range = *real_range(Slot::real);
+    if (is_constant(operand)) operand.number = rounded_real(operand.number);
     return is_constant(operand) ? in_range(operand.number, range) : Error::none;
   }
   if (holds_integer(target->kind)) return check_typed(operand, true, dialect);
@@ -177,8 +181,18 @@ class Matching {
       default: break;
     }
     Item item = next_item();
-    if (item.error == Error::none) item.error = check_slot(slot, row_, item.operand, dialect_);
+    if (item.error == Error::none) {
+      item.error = is_printed_constant(slot, item.operand)
+                       ? check_slot(Slot::real, row_, item.operand, dialect_)
+                       : check_slot(slot, row_, item.operand, dialect_);
+    }
     add(std::move(item));
+  }
+
+  /// The form of SAA is printed with Rx,Ry and fa,fz, and explained with four variables.
+  bool is_printed_constant(Slot slot, const Operand& operand) const {
+    return row_.verb == Verb::helix_absolute && slot == Slot::real_variable && is_constant(operand) &&
+           result_.operands.size() >= 2 && dialect_.helix_constants;
   }
 
   Item next_item() {

@@ -24,8 +24,8 @@ bool is_sound(const Event& event, int number, const Dialect& dialect) {
     command.operands.push_back({.kind = Operand::Kind::condition, .index = word});
     command.operands.insert(command.operands.end(), event.operands.begin(), event.operands.end());
     const bool has_known_kinds = std::ranges::none_of(event.operands, [](const Operand& operand) {
-      return operand.kind >=
-             Operand::Kind::event;  // no condition has one, and their text needs a right index
+      // No condition has one, and their text needs a right index.
+      return operand.kind >= Operand::Kind::event && operand.kind != Operand::Kind::quantity;
     });
     if (!has_known_kinds || !reads_back(command, dialect)) return false;
   }
@@ -49,6 +49,7 @@ bool can_hold(const std::optional<Command>& command, Hold hold) {
 bool is_sound(const Frame& frame, const Program& program) {
   if (frame.line < 0 || frame.line > program.size()) return false;
   if (!frame.of_event) return frame.hold == Hold::nothing;
+  if (frame.line == program.size()) return frame.hold == Hold::nothing;  // what it interrupted is forgotten
   return frame.line < program.size() && can_hold(program.line(frame.line).parsed.command, frame.hold);
 }
 

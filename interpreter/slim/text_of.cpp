@@ -64,6 +64,7 @@ std::string text_of(const Operand& operand) {
     case Kind::clock: return "TM";
     case Kind::get_integer: return "GETI";
     case Kind::get_real: return "GETR";
+    case Kind::quantity: return operand.text;
     case Kind::event: return "EV" + std::to_string(operand.index);
     case Kind::condition: return std::string(condition_word(static_cast<Condition>(operand.index)));
   }

@@ -1,9 +1,11 @@
 #include "interpreter/slim/words.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -73,7 +75,10 @@ Item parse_name(const std::string& word) {
     if (index < form.least || index > form.most) return wrong(Error::range);
     return right({.kind = form.kind, .index = index});
   }
-  return wrong(Error::syntax);
+  // Whether there is such a thing, and whether it may stand there, is another question.
+  const bool is_word = !word.empty() && is_letter(word.front()) &&
+                       std::ranges::all_of(word, [](char c) { return is_letter(c) || is_digit(c); });
+  return is_word ? right({.kind = Kind::quantity, .text = word}) : wrong(Error::syntax);
 }
 
 // U+201C, U+201D and U+FF02.
@@ -164,6 +169,12 @@ std::optional<Operand> parse_number(std::string_view text) {
   if (is_whole && std::abs(operand.number) < kExactWhole) operand.kind = Kind::integer;
   if (operand.number == 0) operand.number = 0;  // no negative zero
   return operand;
+}
+
+double rounded_real(double number) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  constexpr double kNext = 0x1.ffffffp127;  // half way to what would be the next one
+  return std::abs(number) < kNext ? std::clamp(number, -kMost, kMost) : number;
 }
 
 Item parse_item(std::string_view text) {

@@ -26,6 +26,9 @@ std::vector<std::string_view> split_at_commas(std::string_view text);
 /// Whether the text is `letters` and a number behind it: "EV12", "N0".
 bool is_numbered(std::string_view word, std::string_view letters);
 
+/// The largest 32-bit real is written with fewer digits than it has, and then a little larger: that is meant.
+double rounded_real(double number);
+
 struct Item {
   Error error = Error::none;
   Operand operand = {};

@@ -187,8 +187,8 @@ TEST(CaptureRefusals, AreOneLineAndLeaveWhatIsThereAlone) {
   const std::string bench = folder.write("bench.yaml", kTwoLines);
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const Case& expected :
-       {Case{folder.path(), 3, "no regular file"}, Case{folder / "pipe", 3, "no regular file"},
-        Case{"/dev/null", 3, "no regular file"}, Case{folder / "none/a.txt", 3, "No such file or directory"},
+       {Case{folder.path(), 3, "is a directory"}, Case{folder / "pipe", 3, "is a pipe"},
+        Case{"/dev/null", 3, "is a device"}, Case{folder / "none/a.txt", 3, "No such file or directory"},
         Case{folder / "a.pcap", 2, "expected .pcapng"}, Case{bench, 2, "is the bench itself"},
         Case{"", 2, "is empty"}}) {
     const Finished finished = understudy({"serve", bench, "--capture", expected.path});
@@ -214,7 +214,7 @@ TEST(CaptureRefusals, TwoRunsNeverWriteOneFile) {
   Capturing first("a.txt");
   const Finished second = understudy({"serve", "--model", "simple2-r3", "--capture", first.path()});
   EXPECT_EQ(second.exit_code, 3);
-  EXPECT_NE(second.errors.find("another one is being written there"), std::string::npos) << second.errors;
+  EXPECT_NE(second.errors.find("another program is writing it"), std::string::npos) << second.errors;
 }
 
 /// What tshark, with the one flag that docs/wire.md gives, prints of these fields for each packet.
@@ -251,6 +251,35 @@ TEST(Tshark, DecodesTheCaptureAsModbusRtu) {
   for (std::size_t i = 0; i < expected.size(); ++i)
     EXPECT_TRUE(decoded[i].starts_with(expected[i])) << decoded[i] << "\nexpected " << expected[i];
   EXPECT_TRUE(decoded[8].ends_with("|dropped: bad CRC")) << decoded[8];
+}
+
+TEST(Capture, TellsWhatFaultsDid) {
+  for (const std::string name : {"a.txt", "a.pcapng"}) {
+    Capturing capturing(name);
+    for (const Words& fault :
+         {Words{"inject", "drop", "device", "nth=1"}, Words{"inject", "corrupt_checksum", "device", "nth=1"},
+          Words{"inject", "drop", "device", "of=request", "function=6"}}) {
+      EXPECT_EQ(capturing.daemon().ctl(fault).exit_code, 0);
+    }
+    capturing.send_in_vain(kReadHardwareCode);
+    capturing.exchange(kReadHardwareCode, hex("01 03 02 C0 01 29 7B"));
+    capturing.send_in_vain(kSetSpeed200);
+    const std::string status = capturing.daemon().ctl({"status"}).output;
+    EXPECT_NE(status.find("\nfault 1 drop device nth=1: seen 2, matched 2, hit 1\n"), std::string::npos)
+        << status;
+    const std::string file = capturing.stop();
+    for (const char* comment : {"fault 1 drop: not said", "fault 2 corrupt_checksum: last byte inverted",
+                                "fault 3 drop: not heard"}) {
+      EXPECT_NE(file.find(comment), std::string::npos) << name << ": " << comment;
+    }
+    if (name == "a.txt") continue;
+    const PcapngFile capture = read_pcapng(file);
+    ASSERT_EQ(capture.packets.size(), 6U);
+    EXPECT_EQ(capture.packets[1].bytes, Bytes{});
+    EXPECT_EQ(capture.packets[1].flags, kOutbound);
+    EXPECT_EQ(capture.packets[5].bytes, Bytes{});
+    EXPECT_EQ(capture.packets[5].flags, kInbound);
+  }
 }
 
 }  // namespace

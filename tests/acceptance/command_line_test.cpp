@@ -210,8 +210,10 @@ TEST(Describe, PrintsTheDocumentedColumnsAsCsv) {
   };
   EXPECT_EQ(header("registers"), "table,address,name,access,width,signed,min,max,unit,persistent,default");
   EXPECT_EQ(header("parameters"), "number,name,address,width,persistent");
-  EXPECT_EQ(header("instructions"), "opcode,mnemonic,data1,data2");
+  EXPECT_EQ(header("instructions"), "opcode,mnemonic,data1,data2,meaning");
   EXPECT_EQ(header("commands"), "command,syntax,meaning");
+  EXPECT_EQ(header("choices"),
+            "id,section,question,chosen,alternatives,confidence,why,scenario,section_english");
 }
 
 TEST(ProgramText, GoesToCellsAndBack) {

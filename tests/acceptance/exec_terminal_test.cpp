@@ -1,77 +1,12 @@
 // `understudy exec` at a terminal: the command has it, and Ctrl-C and Ctrl-Z do what they do under a shell.
 #include <gtest/gtest.h>
-#include <pty.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/acceptance/running_understudy.h"
+#include "tests/acceptance/at_terminal.h"
 
 namespace understudy::acceptance {
 namespace {
-
-/// A program at a terminal of its own, at which somebody sits.
-class AtTerminal {
- public:
-  explicit AtTerminal(const Words& command) {
-    int master = -1;
-    pid_ = forkpty(&master, nullptr, nullptr, nullptr);
-    if (pid_ == 0) {
-      std::vector<char*> words;
-      for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-      words.push_back(nullptr);
-      execvp(words[0], words.data());
-      _exit(127);
-    }
-    master_ = pty::Descriptor(master);
-  }
-  ~AtTerminal() {
-    master_.close();  // the terminal hangs up
-    if (!wait(Wait(2000))) kill(pid_, SIGKILL), wait(kPatience);
-  }
-  AtTerminal(const AtTerminal&) = delete;
-  AtTerminal& operator=(const AtTerminal&) = delete;
-
-  void type(const std::string& keys) const {
-    ASSERT_EQ(write(master_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
-  }
-  /// Whether this has been, or is within kPatience, on the screen since the last time.
-  bool shows(const std::string& text) {
-    return eventually([&] {
-      char part[512];
-      fd_set readable;
-      FD_ZERO(&readable);
-      FD_SET(master_.get(), &readable);
-      timeval no_time{};
-      if (select(master_.get() + 1, &readable, nullptr, nullptr, &no_time) > 0) {
-        const ssize_t size = read(master_.get(), part, sizeof part);
-        if (size > 0) screen_.append(part, static_cast<std::size_t>(size));
-      }
-      const auto at = screen_.find(text);
-      if (at == std::string::npos) return false;
-      screen_.erase(0, at + text.size());
-      return true;
-    });
-  }
-  std::optional<int> wait(Wait patience) {
-    eventually(
-        [this] {
-          int status = 0;
-          if (!code_ && waitpid(pid_, &status, WNOHANG) == pid_)
-            code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-          return code_.has_value();
-        },
-        patience);
-    return code_;
-  }
-  const std::string& screen() const { return screen_; }
-
- private:
-  pid_t pid_ = -1;
-  pty::Descriptor master_;
-  std::string screen_;
-  std::optional<int> code_;
-};
 
 class ExecAtTerminal : public testing::Test {
  protected:

@@ -172,10 +172,23 @@ TEST_F(Exec, KeepsARecordingOfARunThatFailed) {
   EXPECT_TRUE(fs::remove_all(fs::path(path).parent_path()) > 0);
 }
 
+TEST_F(Exec, TellsHowToRunAFailureAgainWhereverItIsRecorded) {
+  const std::string recording = folder() / "recording";
+  const Finished failed = script("exit 3", {"--record", recording});
+  EXPECT_EQ(failed.exit_code, 3);
+  EXPECT_EQ(failed.errors, "understudy: exec: to run this again: understudy replay " + recording + "\n");
+  EXPECT_EQ(understudy({"replay", recording}).exit_code, 0);
+  EXPECT_EQ(script("true", {"--record", recording}).errors, "");
+  EXPECT_EQ(exec({"--record", recording}, {"no-such-program"}).errors.find("again"), std::string::npos);
+}
+
 TEST_F(Exec, EndsACommandThatTakesTooLong) {
   const Finished finished = script("sleep 60", {"--timeout", "200ms", "--record", folder() / "recording"});
   EXPECT_EQ(finished.exit_code, 124);
-  EXPECT_EQ(lines_of(finished.errors).size(), 1U) << finished.errors;
+  const auto told = lines_of(finished.errors);
+  ASSERT_EQ(told.size(), 2U) << finished.errors;
+  EXPECT_NE(told[0].find("longer than 200ms"), std::string::npos) << told[0];
+  EXPECT_EQ(told[1], "understudy: exec: to run this again: understudy replay " + (folder() / "recording"));
 }
 
 TEST_F(Exec, PassesSignalsOn) {

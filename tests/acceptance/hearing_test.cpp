@@ -1,6 +1,7 @@
 // Whom a device hears: a host with its own line settings, and one that set none.
 #include <gtest/gtest.h>
 
+#include "tests/acceptance/any_speed.h"
 #include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
 
@@ -73,6 +74,44 @@ TEST(HostWithTheRightSpeed, CausesNoWarning) {
     expect_answer(host);
   }
   EXPECT_EQ(daemon.errors(), "");
+}
+
+bool set_speed(const Host& host, int baud) { return set_any_speed(host.descriptor(), baud); }
+
+TEST(HostWithNearlyTheSpeed, IsHeardWithinTwoPercent) {
+  const RunningUnderstudy daemon;
+  for (const int baud : {19200, 19201, 18900, 19584, 18816}) {
+    Host host(daemon.port());
+    ASSERT_TRUE(set_speed(host, baud)) << baud;
+    expect_answer(host);
+  }
+  EXPECT_EQ(daemon.errors(), "");
+  for (const int baud : {19585, 18815}) {
+    Host host(daemon.port());
+    ASSERT_TRUE(set_speed(host, baud));
+    host.write(kReadHardwareCode);
+    EXPECT_TRUE(is_silent(host)) << baud;
+  }
+}
+
+TEST(HostWithNearlyTheSpeed, IsHeardAsTheLineChooses) {
+  const RunningUnderstudy exact({"--baud-tolerance", "0%"});
+  Host host(exact.port());
+  ASSERT_TRUE(set_speed(host, 19201));
+  host.write(kReadHardwareCode);
+  EXPECT_TRUE(is_silent(host));
+  const auto lenient = RunningUnderstudy::of_bench(
+      "understudy: 1\nlines: { line: { link: ./port, baud_tolerance: 5%, stations: [ { name: d, model: "
+      "simple2-r3, address: 1 } ] } }\n");
+  Host slow(lenient->port());
+  ASSERT_TRUE(set_speed(slow, 18300));
+  expect_answer(slow);
+  for (const char* wrong : {"2", "11%", "-1%", "much"}) {
+    const Finished refused = understudy({"serve", "--model", "simple2-r3", "--baud-tolerance", wrong});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.errors, "understudy: --baud-tolerance: '" + std::string(wrong) +
+                                  "' is not a share of the speed; expected 0% to 10%, as in 2%\n");
+  }
 }
 
 }  // namespace

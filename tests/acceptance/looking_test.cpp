@@ -168,7 +168,9 @@ TEST(Plot, TellsInALineWhatIsWrong) {
   const std::tuple<Words, int, std::string> kCases[] = {
       {{"plot", bad}, 2, bad + ":2: a: 'x' is no number; expected one\n"},
       {{"plot", text}, 2, text + ": is no trace; expected FILE.csv or FILE.vcd\n"},
-      {{"plot", folder / "none.csv"}, 2, (folder / "none.csv") + ": cannot be read; expected a trace\n"},
+      {{"plot", folder / "none.csv"},
+       2,
+       (folder / "none.csv") + ": cannot be read (No such file or directory); expected a trace\n"},
       {{"plot", csv, "-o", "p.pdf"},
        2,
        "understudy: --output: p.pdf: is no kind of picture; expected FILE.png or FILE.svg\n"},

@@ -2,6 +2,7 @@
 // one line, and nothing is lost.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -31,6 +32,8 @@ class OutputPaths : public testing::Test {
     folder_.write("rest.yaml", kRest);
     folder_.write("save.yaml", kSaving);
     fs::create_symlink("play.yaml", at("linked.yaml"));
+    folder_.write("table.csv", "time,A.pulses\n");
+    fs::create_symlink("table.csv", at("table.png"));
     before_ = contents();
   }
   std::string at(const std::string& name) const { return folder_ / name; }
@@ -72,6 +75,10 @@ TEST_F(OutputPaths, AreRefusedWhereSomethingWouldBeLost) {
        "--junit: @save.yaml: is the scenario itself"},
       {{"run", "@save.yaml", "@save.yaml"}, "@save.yaml: save: @kept.json is what @save.yaml saves"},
       {{"serve", "@bench.yaml", "--capture", "@bench.yaml"}, "--capture: @bench.yaml: is the bench itself"},
+      {{"serve", "--model", "simple2-r3", "--link", "@p.port", "--capture", "@p.port"},
+       "--capture: @p.port: is the link of line 'line'"},
+      {{"serve", "@bench.yaml", "--control", "@c", "--record", "@c"}, "--record: @c: is the control socket"},
+      {{"plot", "@table.csv", "--output", "@table.png"}, "--output: @table.png: is the trace itself"},
       {{"serve", "@bench.yaml", "--record", "@blink.lst"}, "--record: @blink.lst: is the program of"},
       {{"serve", "@bench.yaml", "--trace", "@t.csv", "--capture", "@t.csv"},
        "--trace: @t.csv: is what --capture writes"},
@@ -116,6 +123,81 @@ TEST_F(OutputPaths, OfSnapshotsAreNoneOfTheDaemonsOwn) {
   }
   // Over an older snapshot is well.
   for (int time = 0; time < 2; ++time) EXPECT_EQ(daemon.ctl({"snapshot", at("now")}).exit_code, 0);
+}
+
+TEST_F(OutputPaths, OfSnapshotsAreNotTheDaemonsLinkPortOrSocket) {
+  const RunningUnderstudy daemon;
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", at("to it"));
+  for (const auto& [path, why] :
+       {std::pair<std::string, std::string>{daemon.port(), "is the link of line 'line'"},
+        {daemon.ports()[0].pty, "is the port of line 'line'"},
+        {daemon.control(), "is the control socket"},
+        {at("pipe"), "cannot be written (it is a pipe"},
+        {at("to it"), "cannot be written (it is a pipe"}}) {
+    const Finished finished = daemon.ctl({"snapshot", path});
+    EXPECT_EQ(finished.exit_code, 2) << path;
+    EXPECT_TRUE(finished.errors.starts_with("understudy: ctl snapshot: " + path + ": file: " + why))
+        << finished.errors;
+  }
+  EXPECT_TRUE(fs::is_symlink(daemon.port()));
+  EXPECT_TRUE(fs::is_socket(daemon.control()));
+  EXPECT_TRUE(fs::is_fifo(at("pipe")));
+  EXPECT_EQ(daemon.ctl({"status"}).exit_code, 0);
+}
+
+TEST_F(OutputPaths, KeepTheFilesOfTheRunBeforeWhereOneCannotBeHad) {
+  for (const char* const name : {"old.txt", "old.jsonl", "old.csv", "old.xml"}) folder_.write(name, "old");
+  const std::string before = contents();
+  const std::vector<Words> cases = {
+      {"serve", at("bench.yaml"), "--capture", at("old.txt"), "--record", at("none/r")},
+      {"serve", at("bench.yaml"), "--record", at("old.jsonl"), "--trace", at("none/t.csv")},
+      {"serve", at("bench.yaml"), "--trace", at("old.csv"), "--record", at("none/r")},
+      {"run", at("play.yaml"), "--junit", at("old.xml"), "--report", at("none/page")},
+  };
+  for (const Words& words : cases) {
+    const Finished finished = understudy(words);
+    EXPECT_EQ(finished.exit_code, 3) << finished.errors;
+    EXPECT_NE(finished.errors.find("cannot be written: No such file or directory"), std::string::npos)
+        << finished.errors;
+    EXPECT_EQ(contents(), before) << words[2];
+  }
+}
+
+TEST_F(OutputPaths, OfAGrowingFileBelongToOneProgram) {
+  const RunningUnderstudy first({"--record", at("r.jsonl"), "--trace", at("t.csv")});
+  for (const auto& [flag, name] :
+       {std::pair<std::string, std::string>{"--record", "r.jsonl"}, {"--trace", "t.csv"}}) {
+    const std::string had = [&, &name = name] {
+      std::ostringstream text;
+      text << std::ifstream(at(name)).rdbuf();
+      return text.str();
+    }();
+    const Finished second = understudy({"serve", at("bench.yaml"), flag, at(name)});
+    EXPECT_EQ(second.exit_code, 3);
+    EXPECT_NE(second.errors.find(": another program is writing it; expected a path of its own\n"),
+              std::string::npos)
+        << second.errors;
+    std::ostringstream has;
+    has << std::ifstream(at(name)).rdbuf();
+    EXPECT_TRUE(has.str().starts_with(had)) << flag;
+  }
+}
+
+TEST_F(OutputPaths, TellAtOnceWhatCannotBeWritten) {
+  ASSERT_EQ(::mkfifo(at("pipe.csv").c_str(), 0600), 0);
+  for (const std::string flag : {"--record", "--trace", "--capture"}) {
+    const Finished finished = understudy({"serve", at("bench.yaml"), flag, at("pipe.csv")});
+    EXPECT_EQ(finished.exit_code, 3);
+    EXPECT_NE(finished.errors.find("it is a pipe; expected a regular file, or a free path"),
+              std::string::npos)
+        << finished.errors;
+    // A disk that is full, as a limit on the size of files; what it has to say goes through a pipe.
+    const Finished full = run({"bash", "-c", "(ulimit -f 0; exec \"$@\") 2>&1 | cat; exit ${PIPESTATUS[0]}",
+                               "bash", UNDERSTUDY_BINARY, "serve", at("bench.yaml"), flag, at("new.csv")});
+    EXPECT_EQ(full.exit_code, 3) << flag;
+    EXPECT_NE(full.output.find("cannot be written: File too large"), std::string::npos) << full.output;
+  }
 }
 
 /// The folder that a `run` has locked; empty before it has.

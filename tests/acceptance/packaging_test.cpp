@@ -83,6 +83,14 @@ TEST_F(Installation, BringsBenchesThatAreValidAndPagesThatReadmeLinksTo) {
   EXPECT_TRUE(fs::exists(documentation + "copyright"));
 }
 
+TEST_F(Installation, BringsCompletionForShells) {
+  for (const auto* const file :
+       {"bash-completion/completions/understudy", "zsh/vendor-completions/_understudy",
+        "fish/vendor_completions.d/understudy.fish"}) {
+    EXPECT_NE(contents(prefix() + "/share/" + file).find("frames"), std::string::npos) << file;
+  }
+}
+
 TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
   std::string text = run({"zcat", page()}).output;
   for (const auto& [roff, plain] : {std::pair<const char*, const char*>{"\\\\-", "-"},

@@ -2,7 +2,9 @@
 // what it leaves alone. pymodbus at 8E1 is such a host: it sets its timeouts after it has opened the port.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <linux/serial.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -16,6 +18,7 @@ namespace {
 std::string shim_path() { return lines_of(understudy({"tty-shim"}).output).at(0); }
 
 using SetAttributes = int (*)(int, int, const termios*);
+using Ioctl = int (*)(int, unsigned long, ...);
 
 class TtyShim : public testing::Test {
  protected:
@@ -24,6 +27,8 @@ class TtyShim : public testing::Test {
     ASSERT_NE(library_, nullptr) << dlerror();
     through_shim_ = reinterpret_cast<SetAttributes>(dlsym(library_, "tcsetattr"));
     ASSERT_NE(through_shim_, nullptr);
+    ioctl_ = reinterpret_cast<Ioctl>(dlsym(library_, "ioctl"));
+    ASSERT_NE(ioctl_, nullptr);
     int master = -1;
     int slave = -1;
     ASSERT_EQ(openpty(&master, &slave, nullptr, nullptr, nullptr), 0);
@@ -49,6 +54,11 @@ class TtyShim : public testing::Test {
     errno = 0;
     return through_shim_(descriptor, TCSANOW, &asked) == 0 ? 0 : errno;
   }
+  /// The same of an ioctl.
+  int control(int descriptor, unsigned long request, void* argument) const {
+    errno = 0;
+    return ioctl_(descriptor, request, argument) == 0 ? 0 : errno;
+  }
   static int libc(int descriptor, const termios& asked) {
     errno = 0;
     return tcsetattr(descriptor, TCSANOW, &asked) == 0 ? 0 : errno;
@@ -59,6 +69,7 @@ class TtyShim : public testing::Test {
  private:
   void* library_ = nullptr;
   SetAttributes through_shim_ = nullptr;
+  Ioctl ioctl_ = nullptr;
   pty::Descriptor master_;
   pty::Descriptor slave_;
   termios plain_{};
@@ -92,6 +103,64 @@ TEST_F(TtyShim, LeavesOtherErrorsAlone) {
   close(ends[0]);
   close(ends[1]);
   EXPECT_EQ(shim(master(), with(PARENB)), libc(master(), with(PARENB))) << "the other end is no serial port";
+}
+
+TEST_F(TtyShim, AnswersForModemLinesAsIfWiredThrough) {
+  constexpr int kAll = TIOCM_CTS | TIOCM_DSR | TIOCM_CD | TIOCM_RTS | TIOCM_DTR;
+  int lines = 0;
+  ASSERT_EQ(ioctl(slave(), TIOCMGET, &lines), -1) << "this kernel's pseudo-terminals have modem lines";
+  const auto now = [&] {
+    int answered = -1;
+    EXPECT_EQ(control(slave(), TIOCMGET, &answered), 0);
+    return answered;
+  };
+  EXPECT_EQ(now(), kAll);
+  lines = TIOCM_RTS | TIOCM_CTS;  // CTS is not the host's to set
+  EXPECT_EQ(control(slave(), TIOCMBIC, &lines), 0);
+  EXPECT_EQ(now(), kAll & ~TIOCM_RTS);
+  lines = TIOCM_DTR;
+  EXPECT_EQ(control(slave(), TIOCMBIC, &lines), 0);
+  lines = TIOCM_RTS;
+  EXPECT_EQ(control(slave(), TIOCMBIS, &lines), 0);
+  EXPECT_EQ(now(), kAll & ~TIOCM_DTR);
+  lines = TIOCM_DTR;
+  EXPECT_EQ(control(slave(), TIOCMSET, &lines), 0);
+  EXPECT_EQ(now(), kAll & ~TIOCM_RTS);
+}
+
+TEST_F(TtyShim, RemembersRs485ModeAndLowLatency) {
+  serial_rs485 mode{};
+  EXPECT_EQ(control(slave(), TIOCGRS485, &mode), 0);
+  EXPECT_EQ(mode.flags, 0U);
+  mode.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
+  mode.delay_rts_after_send = 3;
+  EXPECT_EQ(control(slave(), TIOCSRS485, &mode), 0);
+  serial_rs485 again{};
+  EXPECT_EQ(control(slave(), TIOCGRS485, &again), 0);
+  EXPECT_EQ(again.flags, mode.flags);
+  EXPECT_EQ(again.delay_rts_after_send, 3U);
+  serial_struct serial{};
+  EXPECT_EQ(control(slave(), TIOCGSERIAL, &serial), 0);
+  EXPECT_EQ(serial.flags & ASYNC_LOW_LATENCY, 0);
+  serial.flags |= ASYNC_LOW_LATENCY;
+  EXPECT_EQ(control(slave(), TIOCSSERIAL, &serial), 0);
+  serial = {};
+  EXPECT_EQ(control(slave(), TIOCGSERIAL, &serial), 0);
+  EXPECT_NE(serial.flags & ASYNC_LOW_LATENCY, 0);
+}
+
+TEST_F(TtyShim, LeavesOtherRequestsAndDescriptorsAlone) {
+  int number = 0;
+  EXPECT_EQ(control(slave(), FIONREAD, &number), 0);
+  EXPECT_EQ(control(slave(), TIOCMIWAIT, nullptr), ENOTTY);
+  EXPECT_EQ(control(slave(), TIOCMGET, nullptr), EFAULT);
+  EXPECT_EQ(control(-1, TIOCMGET, &number), EBADF);
+  EXPECT_EQ(control(master(), TIOCMGET, &number), ENOTTY) << "the other end is not a serial port";
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  EXPECT_EQ(control(ends[0], TIOCMGET, &number), ENOTTY);
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST(TtyShimLibrary, NeedsNothingButLibc) {
@@ -132,6 +201,85 @@ TEST(TtyShimWithPymodbus, IsWhatItTakesAt8E1) {
   const Finished with = exec({"--tty-shim"});
   EXPECT_EQ(with.exit_code, 0) << with.errors;
   EXPECT_EQ(with.output, "[49153]\n[49153]\n[49153]\n");  // C001 hex
+}
+
+/// What runs under `exec`, with the shim or without.
+Finished run_host(const char* script, bool with_shim) {
+  const PrivateFolder folder;
+  const std::string bench = folder.write(
+      "bench.yaml",
+      "understudy: 1\nlines:\n  rs485: { stations: [ { name: feeder, model: simple2-r3, address: 1 } ] }\n");
+  Words words{"exec", bench, "--record", folder / "recording"};
+  if (with_shim) words.emplace_back("--tty-shim");
+  words.insert(words.end(), {"--", "/usr/bin/python3", "-c", script});
+  return understudy(words);
+}
+
+constexpr const char* kPyserialWithEverything = R"(
+import os, serial, serial.rs485
+port = serial.Serial(os.environ["UNDERSTUDY_PORT"], 19200, parity="E", timeout=2)
+port.parity = "E"
+port.timeout = 1.5
+print(port.cts, port.dsr, port.cd, port.ri)
+port.rts = False
+port.dtr = False
+port.rts = True
+port.rs485_mode = serial.rs485.RS485Settings()
+port.set_low_latency_mode(True)
+port.write(bytes.fromhex("010300010001D5CA"))
+print(port.read(7).hex())
+)";
+
+TEST(TtyShimWithPyserial, HasModemLinesRs485ModeAndLowLatency) {
+  if (!std::filesystem::exists("/usr/lib/python3/dist-packages/serial"))
+    GTEST_SKIP() << "python3-serial is not installed";
+  EXPECT_NE(run_host(kPyserialWithEverything, false).exit_code, 0) << "it works without";
+  const Finished with = run_host(kPyserialWithEverything, true);
+  EXPECT_EQ(with.exit_code, 0) << with.errors;
+  EXPECT_EQ(with.output, "True True True False\n010302c0012984\n");
+}
+
+constexpr const char* kLibmodbusWithRs485 = R"(
+import ctypes, os
+library = ctypes.CDLL("libmodbus.so.5", use_errno=True)
+library.modbus_new_rtu.restype = ctypes.c_void_p
+library.modbus_new_rtu.argtypes = [ctypes.c_char_p, ctypes.c_int, ctypes.c_char, ctypes.c_int, ctypes.c_int]
+context = ctypes.c_void_p(library.modbus_new_rtu(os.environ["UNDERSTUDY_PORT"].encode(), 19200, b"E", 8, 1))
+library.modbus_set_slave(context, 1)
+assert library.modbus_connect(context) == 0
+print(library.modbus_rtu_set_serial_mode(context, 1), library.modbus_rtu_get_serial_mode(context))
+print(library.modbus_rtu_set_rts(context, 1))
+registers = (ctypes.c_uint16 * 1)()
+print(library.modbus_read_registers(context, 1, 1, registers), registers[0])
+)";
+
+TEST(TtyShimWithLibmodbus, HasRs485ModeAndRts) {
+  const Finished without = run_host(kLibmodbusWithRs485, false);
+  EXPECT_EQ(without.output, "-1 0\n0\n1 49153\n") << without.errors;
+  const Finished with = run_host(kLibmodbusWithRs485, true);
+  EXPECT_EQ(with.exit_code, 0) << with.errors;
+  EXPECT_EQ(with.output, "0 1\n0\n1 49153\n");
+}
+
+TEST(TtyShimHint, IsToldToPersonsWhoseLineHasParity) {
+  struct Case {
+    std::string model;
+    bool is_told;
+  };
+  for (const Case& each : {Case{"simple2-r3", true}, Case{"slim", false}}) {
+    const PrivateFolder folder;
+    const Words serve{UNDERSTUDY_BINARY, "serve",         "--model",   each.model,
+                      "--link",          folder / "port", "--control", folder / "c"};
+    std::string command;
+    for (const std::string& word : serve) command += word + " ";
+    // `script` gives it a terminal of its own.
+    const Process on_terminal({"script", "-qfec", command, "/dev/null"});
+    EXPECT_TRUE(eventually([&] { return on_terminal.output().find("ready ") != std::string::npos; }));
+    const bool is_told = on_terminal.output().find("LD_PRELOAD=$(understudy tty-shim)") != std::string::npos;
+    EXPECT_EQ(is_told, each.is_told) << on_terminal.output();
+  }
+  const RunningUnderstudy in_a_script;
+  EXPECT_EQ(in_a_script.errors(), "");
 }
 
 TEST(TtyShimWithExec, IsPutInFrontOfWhatIsPreloadedAlready) {

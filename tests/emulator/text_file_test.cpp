@@ -126,12 +126,36 @@ TEST_F(TextFile, IsReplacedAsAWholeAndTouchesNoNeighbour) {
   put("file", "old");
   put("file.new", "precious");
   put("file.new-2", "too");
-  EXPECT_EQ(replace_text_file(path("file"), "new"), 0);
+  EXPECT_EQ(replace_text_file(path("file"), "new"), "");
   EXPECT_EQ(content(path("file")), "new");
   EXPECT_EQ(content(path("file.new")), "precious");
   EXPECT_EQ(content(path("file.new-2")), "too");
   EXPECT_FALSE(fs::exists(path("file.new-3")));
-  EXPECT_EQ(replace_text_file(path("none/file"), "new"), ENOENT);
+  EXPECT_EQ(replace_text_file(path("none/file"), "new"), "No such file or directory");
+}
+
+TEST_F(TextFile, WhatIsNotARegularFileIsNeverReplaced) {
+  fs::create_directory(path("folder"));
+  const std::string expected = "; expected a regular file, or a free path";
+  EXPECT_EQ(replace_text_file(path("pipe"), "new"), "it is a pipe" + expected);
+  EXPECT_EQ(replace_text_file(path("link"), "new"), "it is a pipe" + expected) << "a link to it";
+  EXPECT_EQ(replace_text_file(path("folder"), "new"), "it is a directory" + expected);
+  EXPECT_EQ(replace_text_file("/dev/null", "new"), "it is a device" + expected);
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+}
+
+TEST_F(TextFile, ALinkStaysAndWhatItLeadsToIsReplaced) {
+  fs::create_directory(path("folder"));
+  put("folder/real", "old");
+  fs::create_symlink("folder/real", path("to it"));
+  fs::create_symlink("folder/free", path("to nothing"));
+  EXPECT_EQ(replace_text_file(path("to it"), "new"), "");
+  EXPECT_EQ(replace_text_file(path("to nothing"), "made"), "");
+  EXPECT_TRUE(fs::is_symlink(path("to it")));
+  EXPECT_TRUE(fs::is_symlink(path("to nothing")));
+  EXPECT_EQ(content(path("folder/real")), "new");
+  EXPECT_EQ(content(path("folder/free")), "made");
 }
 
 }  // namespace

@@ -39,11 +39,11 @@ constexpr std::uint8_t kTime = 0xFE;
 constexpr std::uint8_t kLevel = 0xFD;
 
 /// Rows that have a bit of their own, or would change what is checked here: how a line ends, that EXIT is
-/// heard, and that it is said at all.
+/// heard and nothing begins behind it, and that it is said at all.
 constexpr std::string_view kNotMixed[] = {
-    "echo",         "prompt",          "query_reply",       "acknowledgement",
-    "error_reply",  "failed_line",     "immediate_column",  "output_end",
-    "flow_control", "get_number_exit", "while_program_runs"};
+    "echo",         "prompt",          "query_reply",        "acknowledgement",
+    "error_reply",  "failed_line",     "immediate_column",   "output_end",
+    "flow_control", "get_number_exit", "while_program_runs", "events_without_program"};
 
 struct Options {
   bool echo = false;

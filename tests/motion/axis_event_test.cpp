@@ -114,6 +114,30 @@ TEST(AxisEvent, AComparatorOfTheEncoderLooksAtTheEncoder) {
   EXPECT_EQ(firings(course, 5, 1).size(), 1U);
 }
 
+TEST(AxisEvent, AnEncoderThatJumpsFarPassesNothing) {
+  // 100,000 counts within a tick are a motion, which passes what lies between; more are a jump.
+  for (const int way : {+1, -1}) {
+    AxisCourse course;
+    course.axis.set_comparator(0,
+                               {.relation = Relation::equal, .count = Count::encoder, .value = way * 50'000});
+    course.axis.set_comparator(1, {.relation = way > 0 ? Relation::at_least : Relation::below,
+                                   .count = Count::encoder,
+                                   .value = way * 100'001});
+    EXPECT_TRUE(firings(course, 1).empty());
+    course.axis.set_encoder(way * 100'000);
+    EXPECT_EQ(firings(course, 1).size(), 1U) << way;
+    course.axis.set_encoder(0);
+    EXPECT_EQ(firings(course, 1).size(), 1U) << "and back, " << way;
+    course.axis.set_encoder(way * 100'001);
+    EXPECT_TRUE(firings(course, 1).empty()) << way;
+    course.axis.set_encoder(0);
+    EXPECT_TRUE(firings(course, 1).empty()) << "and back, " << way;
+    // Of a jump only the end counts, and it does.
+    course.axis.set_encoder(way * 200'000);
+    EXPECT_EQ(firings(course, 1, 1).size(), 1U) << way;
+  }
+}
+
 TEST(AxisEvent, AComparatorSeesItsCounterComeRound) {
   Comparator mine{
       .relation = Relation::below, .counter = {.range = Range::ring, .ring_top = 99}, .value = 10};

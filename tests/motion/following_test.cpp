@@ -190,6 +190,13 @@ TEST(Following, SpeedsUpAndSlowsDownAlongTheSlope) {
   for (std::size_t i = 0; i < fed.size(); ++i) EXPECT_EQ(period(follower, fed[i]), sent[i]) << i;
 }
 
+TEST(Following, TheSlopeCountsByThePeriod) {
+  Follower follower{.period_ticks = 5, .slope_pps = 2'000};  // ten pulses more in each period of 5 ms
+  const std::array<std::int64_t, 10> fed{35, 35, 35, 35, 35, 0, 0, 0, 0, 0};
+  const std::array<std::int64_t, 10> sent{10, 20, 30, 35, 35, 25, 15, 5, 0, 0};
+  for (std::size_t i = 0; i < fed.size(); ++i) EXPECT_EQ(period(follower, fed[i]), sent[i]) << i;
+}
+
 TEST(Following, IsQuietWhenNothingIsToCome) {
   Follower follower{.period_ticks = 5};
   EXPECT_TRUE(follower.quiet());

@@ -42,6 +42,17 @@ TEST(PathArc, HasThePrintedLengthsAndEnds) {
   }
 }
 
+TEST(PathArc, OfWholeQuartersEndsOnTheVeryPoint) {
+  // However a caller comes to the sweep: k * 90 degrees and k * (pi / 2) differ by a bit here and there.
+  const Point centre{0, 50, 0, 0};
+  const Point ends[] = {kOrigin, {50, 50, 0, 0}, {0, 100, 0, 0}, {-50, 50, 0, 0}};
+  for (int quarters = 1; quarters <= 40; ++quarters) {
+    EXPECT_EQ(arc_by_sweep(kOrigin, centre, 90 * quarters * kDegree).end, ends[quarters % 4]) << quarters;
+    EXPECT_EQ(arc_by_sweep(kOrigin, centre, -90 * quarters * kDegree).end, ends[(4 - quarters % 4) % 4])
+        << -quarters;
+  }
+}
+
 TEST(PathArc, GoesRoundInTheDirectionOfItsSweep) {
   const double r = 50 * std::sqrt(0.5);
   const Path left = arc_by_sweep(kOrigin, {0, 50, 0, 0}, 90 * kDegree);

@@ -18,8 +18,10 @@ const std::string kHead = "# simulated seconds, in (from the host) or out, line,
 class CaptureFileTest : public testing::Test {
  protected:
   std::unique_ptr<CaptureFile> make(const std::string& path) {
-    return std::make_unique<CaptureFile>(path, std::vector<CapturedLine>{{"L", 19200}},
-                                         [this](const std::string& text) { logged_.push_back(text); });
+    auto file =
+        std::make_unique<CaptureFile>(path, [this](const std::string& text) { logged_.push_back(text); });
+    file->begin({{"L", 19200}});
+    return file;
   }
   CapturedPacket packet(int number) const {
     return {.line = 0, .way = Way::from_host, .time = SimTime{number}, .bytes = kRequest};
@@ -64,15 +66,16 @@ TEST_F(CaptureFileTest, ReplacesARegularFile) {
 }
 
 TEST_F(CaptureFileTest, RefusesWhatIsNoRegularFile) {
-  const std::string expected =
-      ": the capture cannot be written: it is no regular file; expected one, or a free path";
+  const auto expected = [](const std::string& kind) {
+    return ": the capture cannot be written: it is a " + kind + "; expected a regular file, or a free path";
+  };
   const std::string pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(pipe), pipe + expected) << "nobody reads it";
+  EXPECT_EQ(refusal(pipe), pipe + expected("pipe")) << "nobody reads it";
   const Descriptor reader(::open(pipe.c_str(), O_RDONLY | O_NONBLOCK));
-  EXPECT_EQ(refusal(pipe), pipe + expected);
-  EXPECT_EQ(refusal("/dev/null"), "/dev/null" + expected);
-  EXPECT_EQ(refusal(folder_ / ""), (folder_ / "") + expected);
+  EXPECT_EQ(refusal(pipe), pipe + expected("pipe"));
+  EXPECT_EQ(refusal("/dev/null"), "/dev/null" + expected("device"));
+  EXPECT_EQ(refusal(folder_ / ""), (folder_ / "") + expected("directory"));
 }
 
 TEST_F(CaptureFileTest, SaysWhyAFileCannotBeHad) {
@@ -83,7 +86,7 @@ TEST_F(CaptureFileTest, SaysWhyAFileCannotBeHad) {
 TEST_F(CaptureFileTest, TwoCapturesNeverShareAFile) {
   const auto first = make(folder_ / "a.txt");
   first->add(packet(1));
-  EXPECT_NE(refusal(folder_ / "a.txt").find("another one is being written there"), std::string::npos);
+  EXPECT_NE(refusal(folder_ / "a.txt").find("another program is writing it"), std::string::npos);
   first->finish();
   EXPECT_EQ(contents_of(folder_ / "a.txt"), kHead + "0.000000001 in  L 01 03 00 01 00 01 D5 CA\n");
 }

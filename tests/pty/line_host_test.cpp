@@ -50,6 +50,74 @@ TEST(LineHost, AStationIsDeafToOtherSettings) {
   }
 }
 
+TEST(LineHost, HearsASpeedWithinTheTolerance) {
+  struct Case {
+    std::int64_t tolerance_ppm;
+    int baud;
+    bool is_heard;
+  };
+  for (const Case& each :
+       {Case{20'000, 18'816, true}, Case{20'000, 18'815, false}, Case{20'000, 19'584, true},
+        Case{20'000, 19'585, false}, Case{0, 19'200, true}, Case{0, 19'201, false},
+        Case{100'000, 21'120, true}, Case{100'000, 21'121, false}}) {
+    LineRig rig({.settings = {}, .baud_tolerance_ppm = each.tolerance_ppm});
+    FakeSlave slave(1, kReply);
+    rig.line.attach(slave);
+    rig.line.host_settings(HostSettings{.baud = each.baud});
+    rig.send(kRequest, 0s);
+    rig.run(1s);
+    EXPECT_EQ(rig.out, each.is_heard ? kReply : Bytes{}) << each.tolerance_ppm << " " << each.baud;
+  }
+}
+
+/// Counts start bits.
+class StartBits final : public LineObserver {
+ public:
+  int count = 0;
+  void on_start_bit(SimTime) override { ++count; }
+  void on_character(const TimedByte&, bool) override {}
+  void on_nothing_more() override {}
+  void on_speech(const Speech&) override {}
+  std::optional<SimTime> due() const override { return std::nullopt; }
+  void run(SimTime) override {}
+};
+
+// The second write comes while the first character is on the wire, which takes 573 us.
+TEST(LineHost, JudgesEachCharacterOnceAtItsStartBit) {
+  const Bytes first{kRequest[0]};
+  const Bytes rest(kRequest.begin() + 1, kRequest.end());
+  for (const bool is_corrected : {false, true}) {
+    LineRig rig(kEnforcing);
+    FakeSlave slave(1, kReply);
+    StartBits start_bits;
+    rig.line.attach(slave);
+    rig.line.add_observer(start_bits);
+    rig.line.host_settings(HostSettings{.baud = 9600});
+    rig.send(first, 0s);
+    rig.run(100us);
+    if (is_corrected) rig.line.host_settings(HostSettings{.baud = 19200});
+    rig.send(rest, 100us);
+    rig.run(1s);
+    EXPECT_EQ(rig.line.counters().bytes_unheard, is_corrected ? 1 : kRequest.size());
+    EXPECT_EQ(slave.heard.size(), is_corrected ? rest.size() : 0);
+    EXPECT_EQ(start_bits.count, static_cast<int>(kRequest.size()));
+    rig.line.remove_observer(start_bits);
+  }
+}
+
+// 0x41 is of a length that only silence tells.
+TEST(LineHost, NothingMoreIsServedAtThatMoment) {
+  LineRig rig({.settings = {}, .timing = Timing::instant});
+  FakeSlave slave(1, kReply, {.patience = 10ms});
+  rig.line.attach(slave);
+  rig.send(hex("01 41 01 02 03 1D 5D"), 1s);
+  rig.run(1s);
+  EXPECT_EQ(rig.out, Bytes{});
+  rig.line.nothing_more(1s);
+  const auto said = rig.line.output();
+  EXPECT_EQ(Bytes(said.begin(), said.end()), kReply);
+}
+
 TEST(LineHost, WarnsAgainForTheNextHostOnly) {
   LineRig rig(kEnforcing);
   FakeSlave slave(1, kReply);

@@ -6,7 +6,10 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
+#include <set>
 
 #include "pty/pseudo_terminal.h"
 #include "tests/pty/pty_host.h"
@@ -51,7 +54,9 @@ TEST(PortLink, ReplacesStaleLinks) {
     fs::create_symlink(target, link);
     const PseudoTerminal port(link);
     EXPECT_EQ(fs::read_symlink(link), port.path()) << target;
-    EXPECT_EQ(std::distance(fs::directory_iterator(directory / ""), fs::directory_iterator()), 1);
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory / "")) names.insert(entry.path().filename());
+    EXPECT_EQ(names, (std::set<std::string>{".feeder.port.lock", "feeder.port"}));
   }
   ::close(other);
 }
@@ -128,6 +133,40 @@ TEST(PortLink, OfAnUnderstudyThatRunsIsNotTaken) {
     EXPECT_EQ(fs::read_symlink(link), first.path());
   }
   EXPECT_EQ(error_of(link), "");
+  EXPECT_TRUE(fs::is_empty(directory / ""));
+}
+
+TEST(PortLink, CannotBeBlockedByWhoMayNotMakeIt) {
+  const ScratchDirectory directory;
+  const std::string link = directory / "feeder.port";
+  // What 0.1.0 took for a sign of another run: an abstract socket, which anybody may bind.
+  std::uint64_t hash = 0xCBF29CE484222325;
+  for (const char c : fs::canonical(directory / "").string() + "/feeder.port") {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3;
+  }
+  const Descriptor squatter(::socket(AF_UNIX, SOCK_DGRAM, 0));
+  sockaddr_un address = {};
+  address.sun_family = AF_UNIX;
+  const std::string name = std::string(1, '\0') + "understudy link " + std::to_string(hash);
+  name.copy(address.sun_path, sizeof address.sun_path);
+  const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
+  ASSERT_EQ(::bind(squatter.get(), reinterpret_cast<const sockaddr*>(&address), size), 0);
+  EXPECT_EQ(error_of(link), "");
+}
+
+TEST(PortLink, TakesOverTheLockThatAKilledRunHasLeft) {
+  const ScratchDirectory directory;
+  const std::string lock = directory / ".feeder.port.lock";
+  std::ofstream(lock).close();
+  {
+    const PseudoTerminal port(directory / "feeder.port");
+    EXPECT_TRUE(fs::exists(lock));
+  }
+  EXPECT_FALSE(fs::exists(lock));
+  // What has something in it is somebody's file.
+  std::ofstream(lock) << "precious";
+  EXPECT_NE(error_of(directory / "feeder.port").find(lock + ": File exists"), std::string::npos);
+  EXPECT_EQ(fs::file_size(lock), 8U);
 }
 
 TEST(PortLink, CanPointToAnother) {

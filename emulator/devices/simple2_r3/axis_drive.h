@@ -36,6 +36,9 @@ struct AxisState {
   // is set to 0 then (reactions.h).
   std::int64_t target_urpm = 0;  // 1000 a mRPM
   std::int64_t speed_urpm = 0;
+  // As the last velocity command found them, for a choice that has it so.
+  std::uint32_t velocity_resolution = 1;
+  std::uint32_t velocity_step_urpm = 1;
   std::int64_t velocity_phase = 0;  // of the pulse being made, in 1 / kVelocityPhase
 
   std::uint8_t pwm_percent = 0;

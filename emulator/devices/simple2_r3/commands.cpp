@@ -17,9 +17,10 @@ constexpr Tick kAlarmClearTicks = 200;  // 0x1017, 0x1018
 
 motion::SpeedLaw Simple2R3::law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                                    std::uint32_t deceleration_10ms) const {
-  // Times of 0 count as 1 (appendix A), that is 10 ms.
-  const auto by_time = [](std::uint32_t time_10ms) {
-    return motion::RampLaw::by_time(std::max(time_10ms, 1U) / 100.0);
+  // Times of 0 count as 1 (appendix A): 10 ms, unless it is 1 of something smaller.
+  const double least_s = chose(kLeastRamp1ms) ? 0.001 : chose(kLeastRamp500us) ? 0.0005 : 0.01;
+  const auto by_time = [&](std::uint32_t time_10ms) {
+    return motion::RampLaw::by_time(time_10ms == 0 ? least_s : time_10ms / 100.0);
   };
   const double speed_pps = static_cast<double>(speed_rpm) * resolution_of(state_, axis) / 60.0;
   return {.top_speed_u_s = std::min(speed_pps, static_cast<double>(kMaxPulseRate_pps)),
@@ -38,7 +39,17 @@ bool Simple2R3::lacks_ready(int axis) const {
 }
 
 bool Simple2R3::lacks_servo(int axis) const {
-  return !state_.axes[static_cast<std::size_t>(axis)].motor.servo_on;
+  return !state_.axes[static_cast<std::size_t>(axis)].motor.servo_on && servo_matters(axis);
+}
+
+std::uint32_t Simple2R3::velocity_step_urpm(int axis) const {
+  const std::size_t acceleration = kAxisSlots[static_cast<std::size_t>(axis)].velocity_acceleration;
+  return velocity_unit_urpm_ * std::max(state_.image[acceleration], 1U);
+}
+
+bool Simple2R3::servo_matters(int axis) const {
+  return !chose(kServoWhereAssigned) ||
+         assigned(kAxisSlots[static_cast<std::size_t>(axis)].servo_output_assigned);
 }
 
 Event Simple2R3::way_event(int axis, int way, Event towards, Event away) const {
@@ -84,10 +95,11 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   if (refused != motion::Cause::none) return;
   axis.command = command;
   axis.has_own_speed = move.of_the_axis;
+  axis.by_trigger = move.by_trigger;
   if (chose(kHomeLeftByMotion)) axis.homed = false;
 }
 
-void Simple2R3::go_home(int axis_number) {
+void Simple2R3::go_home(int axis_number, bool by_trigger) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   const std::uint32_t speed_rpm = state_.image[slots.home_speed];
@@ -95,7 +107,9 @@ void Simple2R3::go_home(int axis_number) {
   if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * speed_rpm)) return;
   if (chose(kHomeUnassignedDropped) && !assigned(slots.home_assigned)) return;
   refresh_signals(axis_number);
-  if (!may_begin(axis_number, reaction(axis_number, Event::home), {.command = Command::homing})) return;
+  if (!may_begin(axis_number, reaction(axis_number, Event::home),
+                 {.command = Command::homing, .move = {.by_trigger = by_trigger}}))
+    return;
   stop_drive(axis);
   axis.cut_short = false;
   axis.homed = false;
@@ -106,7 +120,9 @@ void Simple2R3::go_home(int axis_number) {
   const motion::Cause refused =
       axis.motor.home(chose(kHomeAtFirstEdge) ? homing_to_first_edge(how) : motion::simple2_homing(how),
                       tick_before_motion());
-  if (refused == motion::Cause::none) axis.command = Command::homing;
+  if (refused != motion::Cause::none) return;
+  axis.command = Command::homing;
+  axis.by_trigger = by_trigger;
 }
 
 void Simple2R3::speed_changed(int axis_number) {
@@ -140,6 +156,8 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
     case Outcome::begins:
     case Outcome::changes:
       simple2_r3::run_velocity(axis, milli_rpm);
+      axis.velocity_resolution = resolution_of(state_, axis_number);
+      axis.velocity_step_urpm = velocity_step_urpm(axis_number);
       if (milli_rpm != 0 && chose(kHomeLeftByMotion)) axis.homed = false;
       break;
     case Outcome::waits:
@@ -203,6 +221,18 @@ motion::Follower Simple2R3::sync_follower(int axis_number) const {
   return follower_by(sync);
 }
 
+void Simple2R3::sync_changed(int axis_number) {
+  AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
+  if (axis.mode != Mode::sync || !chose(kSyncSettingsAtOnce)) return;
+  const motion::Follower by = sync_follower(axis_number);
+  motion::Follower& follower = axis.motor.follower;
+  follower.numerator = by.numerator;
+  follower.denominator = by.denominator;
+  follower.top_speed_pps = by.top_speed_pps;
+  follower.slope_pps = by.slope_pps;
+  follower.left_over %= by.denominator;
+}
+
 void Simple2R3::follow_encoder(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   if (lacks_ready(axis_number)) return;
@@ -223,7 +253,7 @@ void Simple2R3::carry_out_kept(int axis) {
   const KeptCommand kept = std::exchange(state_.kept[static_cast<std::size_t>(axis)], {});
   switch (kept.mode) {
     case Mode::position:
-      if (kept.command == Command::homing) return go_home(axis);
+      if (kept.command == Command::homing) return go_home(axis, kept.move.by_trigger);
       if (kept.command != Command::none) start_move(axis, kept.command, kept.move);
       return;
     case Mode::velocity: return run_velocity(axis, kept.value);
@@ -249,7 +279,7 @@ void Simple2R3::stop(int axis_number, Stopping how) {
 void Simple2R3::switch_servo(int axis_number, bool on) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const bool stays = axis.mode == Mode::pwm && reaction(axis_number, Event::servo_off) == Outcome::goes_on;
-  if (!on && !stays) stop(axis_number);
+  if (!on && !stays && servo_matters(axis_number)) stop(axis_number);
   axis.motor.switch_servo(on);
   if (on) carry_out_kept(axis_number);
 }
@@ -284,7 +314,7 @@ void Simple2R3::stop_program() {
 void Simple2R3::program_has_ended() {
   for (int axis = 0; axis < 2 && chose(kEndStopsMotion); ++axis) stop(axis);
   for (Timer& timer : state_.timers) {
-    if (chose(kEndStopsTimers)) timer.run(false, timer_time());
+    if (chose(kEndStopsTimers)) run_timer(timer, false);
   }
 }
 

@@ -37,11 +37,15 @@ Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), 
   coordinate_saturates_ = chose(kCoordinateSaturates);
   velocity_unit_urpm_ = chose(kVelocity2RpmPerSecond) ? 1000 : 1;
   velocity_pulses_first_ = chose(kVelocityPulsesFirst);
+  velocity_settings_latched_ = chose(kVelocitySettingsLatched);
+  stops_with_encoder_ = chose(kStopsWithEncoder);
+  boot_ticks_ = chose(kBoot100ms) ? 100 : chose(kBoot1s) ? 1000 : 0;
   state_.eeprom = factory_memory();
   set_input(kFirstSwitch, settings().baud == simple2_r3::model().rtu.bauds.back() ? 1 : 0);  // DIP1
 }
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
+  if (now() + 1 < state_.first_tick) return Addressing::ignore;  // not up yet
   const int rotary_switch = settings().address;
   if (rotary_switch == 0) {
     return address == 0 && chose(kSwitch0Silent) ? Addressing::obey_silently : Addressing::obey_and_reply;
@@ -58,6 +62,7 @@ MapPolicy Simple2R3::chosen_map_policy() const {
   if (chose(kReadOfWriteOnlyRefused)) policy.write_only = MapPolicy::WriteOnly::refused;
   if (chose(kHalvesJudged)) policy.halves = MapPolicy::Halves::judged_with_the_other;
   if (chose(kWriteClamped)) policy.out_of_range = MapPolicy::OutOfRange::clamped;
+  if (chose(kStoredUpToBadWord)) policy.partly = MapPolicy::Partly::up_to_the_refused;
   if (chose(kEffectsInTurn)) policy.effects = MapPolicy::Effects::one_by_one;
   return policy;
 }
@@ -183,6 +188,14 @@ void Simple2R3::run_program(Tick tick) {
   if (!state_.execution.running) program_has_ended();
 }
 
+void Simple2R3::heed_servo(int axis_number) {
+  motion::Axis& motor = state_.axes[static_cast<std::size_t>(axis_number)].motor;
+  const bool matters = servo_matters(axis_number);
+  if (matters == motor.settings.needs_servo) return;
+  motor.settings.needs_servo = matters;
+  if (lacks_servo(axis_number)) stop(axis_number);
+}
+
 void Simple2R3::step_motion(Tick tick) {
   for (int number = 0; number < 2; ++number) {
     AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
@@ -190,14 +203,17 @@ void Simple2R3::step_motion(Tick tick) {
     if (alarm_latches_) axis.alarm_latched = alarm(number);
     if (alarm_takes_servo_ && axis.motor.servo_on && alarm(number)) switch_servo(number, false);
     if (state_.touched || alarm_latches_) {
+      heed_servo(number);
       meet(number, signals_of(number));
     }
-    const std::uint32_t resolution = resolution_of(state_, number);
-    const std::uint32_t acceleration = std::max(state_.image[slots.velocity_acceleration], 1U);
+    const bool latched = velocity_settings_latched_;
+    const std::uint32_t resolution = latched ? axis.velocity_resolution : resolution_of(state_, number);
+    const std::uint32_t velocity_step = latched ? axis.velocity_step_urpm : velocity_step_urpm(number);
     const std::int64_t commanded = step_drive(axis,
                                               {.pulses_per_revolution = resolution,
-                                               .velocity_step_urpm = velocity_unit_urpm_ * acceleration,
+                                               .velocity_step_urpm = velocity_step,
                                                .encoder_counts = followed_count(number),
+                                               .stops_with_encoder = stops_with_encoder_,
                                                .pulses_by_speed_before = velocity_pulses_first_},
                                               tick);
     const bool reversed = state_.image[slots.direction_polarity] != 0;
@@ -254,7 +270,7 @@ void Simple2R3::prefetch(Tick tick) const {
   if (tick % interpreter::simple2::kSlotMs == 0) {
     emulator::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
     emulator::prefetch(state_.image[slot("Counter1_Value")]);
-    emulator::prefetch(&state_.program, 256);
+    emulator::prefetch(&state_.program, 64);
   }
   emulator::prefetch(state_.execution);
   emulator::prefetch(state_.eeprom);
@@ -277,8 +293,20 @@ std::int64_t Simple2R3::pulses_this_tick(int axis) const {
 
 double Simple2R3::speed_pps(int axis) const {
   const auto number = static_cast<std::size_t>(axis);
-  const double speed = simple2_r3::speed_pps(state_.axes[number], now(), resolution_of(state_, axis));
+  const AxisState& its = state_.axes[number];
+  const std::uint32_t resolution =
+      velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
+  const double speed = simple2_r3::speed_pps(its, now(), resolution);
   return state_.image[kAxisSlots[number].direction_polarity] != 0 ? -speed : speed;
+}
+
+std::span<const std::string_view> Simple2R3::pulse_formats() const {
+  static constexpr std::array<std::string_view, 2> kFormats{"CW/CCW", "PLS/DIR"};  // by DIP2
+  return kFormats;
+}
+
+std::optional<int> Simple2R3::duty_percent(int axis) const {
+  return pwm_duty(state_.axes[static_cast<std::size_t>(axis)]);
 }
 
 void Simple2R3::set_encoder(int axis, std::int64_t counts) {

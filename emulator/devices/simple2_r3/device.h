@@ -32,15 +32,17 @@ struct Timer {
   Tick since = 0;
   bool running = false;
 
-  std::uint32_t at(Tick now) const {
-    return running ? value + static_cast<std::uint32_t>(now - since) : value;
+  /// Beyond its 32 bits it goes on at 0, or stays where it is.
+  std::uint32_t at(Tick now, bool stays) const {
+    const std::uint64_t sum = value + (running ? static_cast<std::uint64_t>(now - since) : 0);
+    return stays && sum > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(sum);
   }
   void set(std::uint32_t new_value, Tick now) {
     value = new_value;
     since = now;
   }
-  void run(bool on, Tick now) {
-    set(at(now), now);
+  void run(bool on, Tick now, bool stays) {
+    set(at(now, stays), now);
     running = on;
   }
 
@@ -63,6 +65,7 @@ struct MoveParameters {
   std::uint32_t acceleration_10ms = 0;
   std::uint32_t deceleration_10ms = 0;
   bool of_the_axis = false;  // the speed and times are those of its registers at 0x1002, 0x1008
+  bool by_trigger = false;   // it was started by the register that shows it
 
   bool operator==(const MoveParameters&) const = default;
 };
@@ -142,7 +145,10 @@ class Simple2R3 final : public Device {
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
   void set_encoder(int axis, std::int64_t counts) override;
-  std::string_view pulse_format() const override { return dip_switch(1) ? "PLS/DIR" : "CW/CCW"; }
+  std::string_view pulse_format() const override { return pulse_formats()[pulse_format_number()]; }
+  std::span<const std::string_view> pulse_formats() const override;
+  std::size_t pulse_format_number() const override { return dip_switch(1) ? 1 : 0; }
+  std::optional<int> duty_percent(int axis) const override;
 
   // --- for effects.cpp ---------------------------------------------------------------------
   State& state() { return state_; }
@@ -163,13 +169,15 @@ class Simple2R3 final : public Device {
   /// Appendix A. Dropped while the servo is off, an alarm lasts or a limit blocks that way.
   void start_move(int axis, Command command, const MoveParameters& move);
   /// Homing, by the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
-  void go_home(int axis);
+  void go_home(int axis, bool by_trigger = false);
   /// The other modes. What each command does to what goes on is in reactions.h.
   void run_velocity(int axis, std::int64_t milli_rpm);
   void output_pwm(int axis, std::uint8_t percent);
   void follow_encoder(int axis);
   void stop(int axis, Stopping how = Stopping::forcibly);
   void switch_servo(int axis, bool on);
+  /// EncSync, SyncRPM or SyncSlope of the axis were written.
+  void sync_changed(int axis);
   /// Speed, AccTime, DecTime or Resoultion of the axis were written.
   void speed_changed(int axis);
   void preset_coordinate(int axis, std::int32_t pulses);
@@ -188,6 +196,7 @@ class Simple2R3 final : public Device {
   void stop_program();
   /// The clock of the timers, in their unit.
   Tick timer_time() const { return now() / timer_unit_; }
+  void run_timer(Timer& timer, bool on) { timer.run(on, timer_time(), chose(kTimersStay)); }
   /// The image's cells have changed all at once.
   void reload_program();
   const interpreter::simple2::Dialect& dialect() const { return dialect_; }
@@ -225,6 +234,8 @@ class Simple2R3 final : public Device {
   bool is_too_fast(int axis, std::int64_t milli_rpm) const;
   /// Where commands need Ready, and it is not there.
   bool lacks_ready(int axis) const;
+  /// Whether SVOFF forbids anything.
+  bool servo_matters(int axis) const;
   /// The servo is off, and matters.
   bool lacks_servo(int axis) const;
   /// What an axis does about an event, as it is now and as it was chosen.
@@ -234,12 +245,16 @@ class Simple2R3 final : public Device {
   /// Whether a command is carried out; otherwise what else comes of it is done.
   bool may_begin(int axis, Outcome outcome, const KeptCommand& what);
   void carry_out_kept(int axis);
+  /// Whether SVOFF forbids pulses may have changed.
+  void heed_servo(int axis);
   /// Its limits and alarm are these from now on.
   void meet(int axis, motion::Signals on);
   void meet_in_sync(int axis, Outcome outcome);
   bool ignores(motion::Signal signal) const;
   void begin_following(int axis);
   motion::Follower sync_follower(int axis) const;
+  /// The change of speed in 0.5 ms, by VelMode_ACC.
+  std::uint32_t velocity_step_urpm(int axis) const;
   /// Of the encoder that sync mode follows.
   std::int64_t followed_count(int axis) const;
   /// The tick that a motion commanded now counts as the last one before it.
@@ -255,6 +270,7 @@ class Simple2R3 final : public Device {
   interpreter::simple2::Dialect dialect_;
   MapPolicy map_policy_;
   Tick timer_unit_ = 1;
+  Tick boot_ticks_ = 0;
   bool assigned_at_power_up_ = false;
   bool adc_10_bits_ = false;
   bool motion_first_ = false;
@@ -264,6 +280,8 @@ class Simple2R3 final : public Device {
   bool coordinate_saturates_ = false;
   std::uint32_t velocity_unit_urpm_ = 1;  // of VelMode_ACC, in each 0.5 ms
   bool velocity_pulses_first_ = false;
+  bool velocity_settings_latched_ = false;
+  bool stops_with_encoder_ = false;
 
   std::optional<bool> was_saving_;  // within one request: whether the EEPROM was writing when it came
   State state_;

@@ -31,7 +31,8 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
           .speed_rpm = image[slots.speed],
           .acceleration_10ms = image[slots.acc_time],
           .deceleration_10ms = image[slots.dec_time],
-          .of_the_axis = true};
+          .of_the_axis = true,
+          .by_trigger = true};
 }
 
 /// Only a choice has a set appear in the axis's registers.
@@ -54,7 +55,9 @@ bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slo
 
 /// A trigger that goes on, as it reads.
 Value while_in_progress(const Device& device, Cell cell, Command command) {
-  return axis_of(device, cell).command == command && !self(device).chose(kTriggersReadZero);
+  const AxisState& axis = axis_of(device, cell);
+  const bool is_shown = axis.by_trigger || !self(device).chose(kTriggersByThemselves);
+  return axis.command == command && is_shown && !self(device).chose(kTriggersReadZero);
 }
 
 MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
@@ -91,7 +94,8 @@ Value read_status(const Device& device, Cell) {
     const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
     bit(0, shown(d, d.alarm(axis), slots.alarm_assigned, slots.alarm_input));
     bit(2, shown(d, d.ready(axis), slots.ready_assigned, slots.ready_input));
-    bit(4, shows_moving && is_moving(state));
+    const bool homes_apart = state.command == Command::homing && d.chose(kHomingBitAlone);
+    bit(4, shows_moving && is_moving(state) && !homes_apart);
     bit(6, state.command == Command::homing);
     bit(8, state.homed);
     bit(10, state.motor.servo_on);
@@ -162,7 +166,8 @@ Value read_now_line(const Device& device, Cell) {
 Value read_program_runs(const Device& device, Cell) { return self(device).state().execution.running; }
 
 Value read_timer(const Device& device, Cell cell) {
-  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(self(device).timer_time());
+  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(
+      self(device).timer_time(), self(device).chose(kTimersStay));
 }
 
 Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
@@ -220,6 +225,8 @@ void preset_coordinate(Device& device, Cell cell, Value pulses) {
   self(device).preset_coordinate(cell.argument, static_cast<std::int32_t>(pulses));
 }
 
+void change_sync(Device& device, Cell cell, Value) { self(device).sync_changed(cell.argument); }
+
 void change_speed(Device& device, Cell cell, Value) { self(device).speed_changed(cell.argument); }
 
 void start_incremental(Device& device, Cell cell, Value) {
@@ -265,7 +272,7 @@ void clear_alarm(Device& device, Cell cell, Value) {
 }
 
 void go_home(Device& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { self(device).go_home(axis); });
+  for_each_axis(cell, [&](int axis) { self(device).go_home(axis, true); });
 }
 
 void run_velocity(Device& device, Cell cell, Value milli_rpm) {

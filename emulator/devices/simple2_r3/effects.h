@@ -42,6 +42,7 @@ void write_output(Device& device, Cell cell, Value level);
 void write_all_outputs(Device& device, Cell, Value levels);
 void preset_encoder(Device& device, Cell cell, Value counts);
 void preset_coordinate(Device& device, Cell cell, Value pulses);
+void change_sync(Device& device, Cell cell, Value value);
 void change_speed(Device& device, Cell cell, Value);  // Speed, AccTime, DecTime or Resoultion of an axis
 void start_incremental(Device& device, Cell cell, Value);
 void start_absolute(Device& device, Cell cell, Value);

@@ -104,7 +104,7 @@ void Simple2R3::power_up() {
   for (std::size_t i = 0; i < kAssignmentCount; ++i) {
     if (state_.image[kFirstAssignment + i] != 0) state_.assignments |= static_cast<std::uint16_t>(1U << i);
   }
-  state_.first_tick = now() + 1;
+  state_.first_tick = now() + 1 + boot_ticks_;
   state_.switches = switch_levels();
   reset_timers();
   state_.password = static_cast<std::uint16_t>(state_.image[kPassword]);
@@ -121,6 +121,7 @@ void Simple2R3::power_up() {
   motor.at_alarm = stops_unless(kAlarmIgnored);
   for (int i = 0; i < 2; ++i) {
     AxisState& axis = state_.axes[static_cast<std::size_t>(i)];
+    motor.needs_servo = servo_matters(i);
     axis.motor.set(motor);
     axis.motor.servo_on = chose(kServoOnAtPowerUp);
   }
@@ -135,7 +136,7 @@ std::uint8_t Simple2R3::switch_levels() const {
 void Simple2R3::reset_timers() {
   for (Timer& timer : state_.timers) {
     timer = {};
-    if (chose(kTimersRunFromPowerUp)) timer.run(true, timer_time());
+    if (chose(kTimersRunFromPowerUp)) run_timer(timer, true);
   }
 }
 
@@ -147,6 +148,7 @@ bool Simple2R3::dip_switch(int number) const {
 // --- factory reset, erasure ------------------------------------------------------------------------
 
 void Simple2R3::reset_to_factory() {
+  if (!unlocked() && chose(kLockedResetRefused)) return;
   constexpr std::size_t kFirstSurvivor = slot("ADC_10V_A");
   constexpr std::size_t kLastSurvivor = slot("ADC_1V_B");
   for_each_slot([&](std::size_t slot, const RegisterRow& row) {

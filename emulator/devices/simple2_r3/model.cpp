@@ -16,6 +16,13 @@ namespace {
 // Every version that the manual tells a difference of; 1.52 is the manual's own.
 constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
 
+constexpr std::array<std::string_view, 2> kGaps{
+    "PWM is its duty (`feeder.A.pwm`) and the pulses' form its name (`feeder.pulse_format`): no levels on "
+    "the "
+    "pulse terminals. A duty does not move a machine.",
+    "An encoder's edges are counts: the lines A and B are not terminals.",
+};
+
 constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on
 constexpr std::array<std::uint8_t, 4> kFunctions{0x03, 0x04, 0x06, 0x10};
 
@@ -67,13 +74,38 @@ constexpr std::array<std::string_view, 8> kStateRegisters{"STATUS",
                                                           "PROG_MAIN_NowLine",
                                                           "EEPROM_Writing"};
 
+constexpr SectionRow kSections[] = {
+    {"狀態相關", "status"},
+    {"輸入輸出功能指配相關", "functions of inputs and outputs"},
+    {"輸入輸出相關", "inputs and outputs"},
+    {"編碼器，座標，類比輸入相關", "encoders, coordinates, analog inputs"},
+    {"運動相關", "motion"},
+    {"預存位置表", "position sets"},
+    {"預存速度表", "speed sets"},
+    {"預存位置表相關運動指令(增量位置移動)", "incremental moves by position sets"},
+    {"預存速度表相關運動指令", "velocity by speed sets"},
+    {"預存位置表相關運動指令(絕對位置移動)", "absolute moves by position sets"},
+    {"程式控制", "program control"},
+    {"程式指令列表", "program instructions"},
+    {"旗標", "flags"},
+    {"程式碼通訊位址相關", "addresses of the program"},
+    {"系統參數相關", "system parameters"},
+    {"程式應用相關", "what programs use"},
+    {"位址列表", "list of addresses"},
+    {"附錄 A", "appendix A"},
+    {"附錄 B", "appendix B"},
+    {"附錄 C", "appendix C"},
+    {"1.40 以前", "up to 1.40"},
+};
+
 std::vector<InstructionRow> instruction_rows() {
   std::vector<InstructionRow> rows;
   for (const auto& instruction : interpreter::simple2::kInstructions) {
     rows.push_back({.opcode = instruction.opcode,
                     .mnemonic = instruction.mnemonic,
                     .data1 = describe(instruction.data1),
-                    .data2 = describe(instruction.data2)});
+                    .data2 = describe(instruction.data2),
+                    .meaning = instruction.meaning});
   }
   return rows;
 }
@@ -91,10 +123,11 @@ const Model& model() {
       .parameters = kParameters,
       .instructions = instructions,
       .choices = kChoices,
+      .sections = kSections,
       .terminals = kTerminals,
       .axes = kAxes,
       .state_registers = kStateRegisters,
-      .gaps = {},
+      .gaps = kGaps,
       .rtu = {.bauds = kBauds,
               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
               .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds

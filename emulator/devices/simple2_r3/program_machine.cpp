@@ -77,21 +77,25 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
   const NamedPlace& place = parameter_places()[static_cast<std::size_t>(number)];
   if (!place.place || place.place.row->access == Access::read) return;
   const RegisterRow& row = *place.place.row;
+  const bool is_counter = row.name == "Counter1_Value" || row.name == "Counter2_Value";
   // A timer's 32 bits have no sign; what has one, or 16 bits, is brought into its range.
   Value wanted = value;
   if (row.type == Type::u32 && row.min == 0) {
     wanted = static_cast<std::uint32_t>(value);
+  } else if (is_counter && device_.chose(kVarsCountAsCounters)) {
+    wanted = device_.chose(kCountersSaturate) ? std::clamp(value, 0, 65535) : value & 0xFFFF;
   } else if (row.ranged && row.type == Type::u16) {
     wanted = interpreter::simple2::fitted(device_.dialect(), value, static_cast<std::int32_t>(row.min),
                                           static_cast<std::int32_t>(row.max));
   } else if (row.ranged) {
+    if ((value < row.min || value > row.max) && device_.chose(kProgramValueIgnored)) return;
     wanted = std::clamp<Value>(value, row.min, row.max);
   }
   write_value(device_, place, wanted);
 }
 
 void ProgramMachine::run_timer(int timer, bool run) {
-  device_.state().timers[static_cast<std::size_t>(timer - 1)].run(run, device_.timer_time());
+  device_.run_timer(device_.state().timers[static_cast<std::size_t>(timer - 1)], run);
 }
 
 void ProgramMachine::move_incremental(Axis axis, std::int32_t pulses) {
@@ -110,7 +114,13 @@ void ProgramMachine::move_absolute(Axis axis, std::int32_t pulses) {
 void ProgramMachine::go_home(Axis axis) { device_.go_home(static_cast<int>(number_of(axis))); }
 
 bool ProgramMachine::moving(Axis axis) const {
-  return device_.state().axes[number_of(axis)].command != Command::none;
+  const AxisState& its = device_.state().axes[number_of(axis)];
+  return its.command != Command::none || (its.cut_short && device_.chose(kWaitsForCutShort));
+}
+
+bool ProgramMachine::moving_for_wait(Axis axis) const {
+  const bool homes = device_.state().axes[number_of(axis)].command == Command::homing;
+  return moving(axis) && !(homes && device_.chose(kWaitMoveLeavesHoming));
 }
 
 void ProgramMachine::set_speed(Axis axis, std::int32_t rpm) {
@@ -178,6 +188,8 @@ Dialect dialect_of(const Simple2R3& device) {
   take(kArithmeticSaturates, dialect.overflow, Dialect::Overflow::saturates);
   take(kDivisionDownwards, dialect.division, Dialect::Division::downwards);
   take(kCountersSaturate, dialect.counter_overflow, Dialect::CounterOverflow::saturates);
+  take(kUndefinedFlagVoid, dialect.undefined_flag, Dialect::UndefinedFlag::line_void);
+  take(kTimersWithSign, dialect.timer_compare, Dialect::TimerCompare::with_sign);
   return dialect;
 }
 

@@ -73,11 +73,22 @@ void StateFields::check(const interpreter::simple2::Execution& execution) {
   demand_within(execution.delay_until_ms, 0, tick_at(kHorizon) * 2);
 }
 
+void StateFields::check(const KeptCommand& kept) {
+  // A distance is the difference of two coordinates; the rest is as registers bring it.
+  demand_within(kept.move.distance_pulses, -(std::int64_t{1} << 33), std::int64_t{1} << 33);
+  for (const std::uint32_t word :
+       {kept.move.speed_rpm, kept.move.acceleration_10ms, kept.move.deceleration_10ms}) {
+    demand_within(word, 0, UINT16_MAX);
+  }
+  demand_within(kept.value, INT32_MIN, INT32_MAX);
+}
+
 void StateFields::check(const AxisState& axis) {
   demand_reach(axis.pulses_this_tick);
   demand_reach(axis.alarm_clear_until);
   demand_within(axis.target_urpm, INT32_MIN * std::int64_t{1000}, INT32_MAX * std::int64_t{1000});
   demand_within(axis.velocity_phase, -kVelocityPhase, kVelocityPhase);
+  demand_within(axis.velocity_resolution, 1, std::int64_t{1} << 31);
   demand_encoder_count(axis.encoder_raw);
   demand_encoder_count(axis.encoder_counts);
   demand_encoder_count(axis.encoder_followed);
@@ -89,6 +100,7 @@ void StateFields::check(const AxisState& axis) {
 void StateFields::check(const State& state) {
   for (std::size_t i = 0; i < state.axes.size(); ++i) {
     demand_speed(state.axes[i], state.image[kAxisSlots[i].resolution]);
+    demand_speed(state.axes[i], state.axes[i].velocity_resolution);
   }
   demand_reach(state.first_tick);
 }

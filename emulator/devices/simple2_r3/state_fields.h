@@ -1,5 +1,5 @@
-// What the state of a Simple2-R3 consists of, for state.cpp: all fields, in order, and what a restored one must
-// be so that its ticks can neither leave a table nor run away.
+// What the state of a Simple2-R3 consists of, for state.cpp: all fields, in order, and what a restored one
+// must be so that its ticks can neither leave a table nor run away.
 #pragma once
 
 #include "emulator/devices/simple2_r3/device.h"
@@ -20,12 +20,12 @@ struct StateFields {
     auto& [a, b, c] = v; visit(a, b, c);
   }
   static void of(Like<AxisState> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y);
   }
   static void of(Like<ProgramSpeed> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
   static void of(Like<MoveParameters> auto& v, auto visit) {
-    auto& [a, b, c, d, e] = v; visit(a, b, c, d, e);
+    auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
   }
   static void of(Like<KeptCommand> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<State> auto& v, auto visit) {
@@ -59,6 +59,7 @@ struct StateFields {
   static void check(const Timer& timer) { demand_reach(timer.since); }
   static void check(const interpreter::simple2::Execution& execution);
   static void check(const AxisState& axis);
+  static void check(const KeptCommand& kept);
   static void check(const State& state);
   static void check(const auto&) {}  // of the memory see Eeprom::check_restored()
 };

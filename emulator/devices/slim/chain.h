@@ -43,7 +43,7 @@ enum class Mode : std::uint8_t { idle = 0, position = 1, jog = 2, torque = 3, co
 struct ModuleStatus {
   bool servo_on = false;
   bool moving = false;
-  bool paused = false;  // TAPZ
+  bool paused = false;  // TAPZ, or PZ as far as it goes
   bool homed = false;
   bool jog = false;
   bool buffer_not_empty = false;
@@ -60,6 +60,7 @@ struct ArcOrder {
   double centre_y_units = 0;
   double sweep_deg = 0;  // > 0 counter-clockwise
   std::optional<double> height_units{};
+  std::optional<double> radius_units{};  // by choice: the centre is the end, and this tells the sweep
 };
 
 class Chain {
@@ -104,7 +105,7 @@ class Chain {
   /// Two to four coordinates: X, Y, Z, W.
   Error line(std::span<const double> units, bool absolute);
   Error arc(const ArcOrder& order);
-  /// `growth_units`: of the radius, a turn or in all.
+  /// `growth_units`: of the radius, a turn or in all. By choice `sweep_deg` is the radius at its end.
   Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units);
   /// CM 0, 1, 2.
   Error set_continuous_path(int mode);
@@ -129,7 +130,8 @@ class Chain {
   Error set_working_speed(int module, double speed);  // ends AVM
   Error set_jog_speed(int module, double speed);
   Error set_acceleration(int module, double acceleration);
-  Error set_path_speed(int module, double units_s);          // PR3 of one; what runs keeps its speed
+  Error set_path_speed(int module, double units_s);          // PR3 of one, and of the path that it is on
+  Error set_line_speed(int module, double units_s);          // PR4, the same of lines of two axes by choice
   Error set_tvm(double units_s);                             // of all linked ones, and at once
   Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: what runs keeps its own
   Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180
@@ -220,6 +222,9 @@ class Chain {
   void begin_thrust(int module, std::int32_t force, Tick begin_at);
   void begin_next(int module, Tick begin_at);
   void stop_jog(int module);
+  void hold_jog(int module);
+  void go_on_with_jog(int module);
+  void order_jog(int module, int way, std::int32_t force);
 
   // Queues: chain_queues.cpp.
   void serve(Tick begin_at);  // starts what can start, with its beginning at that tick
@@ -233,9 +238,12 @@ class Chain {
   bool at_all_places(const Job& job, std::size_t place) const;
   bool free_to_move(int module) const;
   const ModuleSettings& path_settings(const Job& job) const;
+  bool goes_by_line_speed(const Job& job) const;
+  double path_speed(const Job& job, const ModuleSettings& settings) const;
+  void tell_path(int module, double units_s, bool of_lines);
   bool within_reach(const Job& job, const motion::Path& path) const;
   motion::Point begin_of(const Job& job) const;
-  void carry_out_order(int module, const OutputOrder& order);
+  void carry_out_order(int module, const OutputOrder& order, Tick begin_at);
   void place_triggers(int module);
   void put_coordinate(int module, double units);
   void home_found(int module);

@@ -1,5 +1,6 @@
 // Commands of one module.
 #include <cmath>
+#include <utility>
 
 #include "emulator/devices/slim/chain.h"
 #include "motion/bad_motion.h"
@@ -77,6 +78,10 @@ Error Chain::enqueue(Job job) {
   for (const std::int8_t module : job.module_of) {
     if (module >= 0 && full(module)) return Error::buffer_full;
   }
+  for (const std::int8_t module : job.module_of) {
+    if (module < 0 || !options_.motion_ends_thrust || !job.moves()) continue;
+    if (modules_[at(module)].activity == Activity::thrust) stop_jog(module);
+  }
   job.number = ++last_number_;
   for (const std::int8_t module : job.module_of) {
     if (module >= 0) modules_[at(module)].fifo.push(job);
@@ -144,36 +149,45 @@ Error Chain::thrust(int module, std::int32_t force) {
 /// A jog in `way`, or thrust if that is 0.
 Error Chain::replace_jog(int module, int way, std::int32_t force) {
   if (const Error why = refusal_of_jog(module); why != Error::none) return why;
+  const Module& mine = modules_[at(module)];
+  const bool gives_up = mine.activity != Activity::jog && mine.activity != Activity::thrust;
+  if (gives_up) {
+    slow_for_discard(module);  // no matter where there is nothing to give up
+    forget_queue(module);
+  }
+  order_jog(module, way, force);
+  if (gives_up) serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
+  return Error::none;
+}
+
+/// The same where nothing is given up for it: it replaces another one, or follows what stops.
+void Chain::order_jog(int module, int way, std::int32_t force) {
   Module& mine = modules_[at(module)];
   motion::Axis& axis = axes_[at(module)];
   if (mine.activity != Activity::jog && mine.activity != Activity::thrust) {
-    slow_for_discard(module);  // no matter where there is nothing to give up
-    forget_queue(module);
     mine.next_jog_way = static_cast<std::int8_t>(way);
     mine.next_thrust = force;
     if (mine.activity == Activity::idle) begin_next(module, now_ + 1);
-    serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
-    return Error::none;
+    return;
   }
-  if (mine.activity == Activity::thrust && way == 0) {
+  if (mine.activity == Activity::thrust && way == 0 && !axis.slowing) {
     mine.thrust = force;
-    return Error::none;
+    return;
   }
   const bool stands = mine.starved || axis.task == motion::Task::hanging;
   const motion::SpeedLaw law = mine.jog_law(options_);
   if (mine.activity == Activity::jog && way == mine.jog_way && (stands || law.top_speed_u_s > 0)) {
     mine.next_jog_way = 0;
     mine.next_thrust = 0;
-    if (stands) return Error::none;
+    if (stands) return;
     if (!axis.resume(law, now_)) axis.change_speed(law, now_);
-    return Error::none;
+    return;
   }
   mine.next_jog_way = static_cast<std::int8_t>(way);
   mine.next_thrust = force;
   mine.starved = false;
   axis.slow_down(now_);
   after_motion(module, now_ + 1);
-  return Error::none;
 }
 
 void Chain::begin_jog(int module, int way, Tick begin_at) {
@@ -186,7 +200,7 @@ void Chain::begin_jog(int module, int way, Tick begin_at) {
   const int direction = mine.settings.jog_speed < 0 ? -way : way;
   if (mine.settings.jog_speed == 0) {
     axes_[at(module)].hang(direction);
-  } else if (mine.analog_factor() == 0) {
+  } else if (mine.jog_law(options_).top_speed_u_s == 0) {
     mine.starved = true;
   } else {
     axes_[at(module)].run(direction, mine.jog_law(options_), begin_at - 1);
@@ -217,12 +231,37 @@ void Chain::begin_next(int module, Tick begin_at) {
 
 void Chain::stop_jog(int module) {
   Module& mine = modules_[at(module)];
-  mine.next_jog_way = 0;
-  mine.next_thrust = 0;
+  mine.next_jog_way = mine.held_jog_way = 0;
+  mine.next_thrust = mine.held_thrust = 0;
   if (mine.activity != Activity::jog && mine.activity != Activity::thrust) return;
   mine.starved = false;
   axes_[at(module)].slow_down(now_);
   after_motion(module, now_ + 1);
+}
+
+/// Stops it for a pause, and keeps what it was about to be: one that JG0 has stopped already is over.
+void Chain::hold_jog(int module) {
+  Module& mine = modules_[at(module)];
+  const bool is_over = axes_[at(module)].slowing && !mine.starved;
+  std::int8_t way = mine.held_jog_way;
+  std::int32_t force = mine.held_thrust;
+  if (mine.next_jog_way != 0 || mine.next_thrust != 0) {
+    way = mine.next_jog_way;
+    force = mine.next_thrust;
+  } else if (!mine.holds_jog() && !is_over) {
+    way = mine.jog_way;
+    force = mine.thrust;
+  }
+  stop_jog(module);
+  mine.held_jog_way = way;
+  mine.held_thrust = force;
+}
+
+void Chain::go_on_with_jog(int module) {
+  Module& mine = modules_[at(module)];
+  if (!mine.holds_jog()) return;
+  const int way = std::exchange(mine.held_jog_way, std::int8_t{0});
+  order_jog(module, way, std::exchange(mine.held_thrust, 0));
 }
 
 // ---- Motor control

@@ -37,6 +37,10 @@ Error Chain::line(std::span<const double> units, bool absolute) {
 Error Chain::arc(const ArcOrder& order) {
   Job job{.kind = Job::Kind::arc, .absolute = order.absolute, .sweep_deg = order.sweep_deg};
   job.units = {order.centre_x_units, order.centre_y_units, order.height_units.value_or(0), 0};
+  if (order.radius_units) {
+    job.by_radius = true;
+    job.sweep_deg = *order.radius_units;
+  }
   job.height_absolute = order.absolute || options_.sar_height == ChainOptions::SarHeight::absolute;
   const std::size_t letters = order.height_units ? 3 : 2;
   for (std::size_t i = 0; i < letters; ++i) {
@@ -48,7 +52,9 @@ Error Chain::arc(const ArcOrder& order) {
 
 Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units) {
   Job job{.kind = Job::Kind::spiral, .sweep_deg = sweep_deg, .growth_units_turn = growth_units};
-  if (options_.spiral_growth_in_all && growth_units != 0) {
+  job.absolute = !options_.spiral_centre_relative;
+  job.by_radius = options_.spiral_to_radius;
+  if (options_.spiral_growth_in_all && growth_units != 0 && !job.by_radius) {
     // On no way at all no radius can change.
     job.growth_units_turn = sweep_deg == 0 ? HUGE_VAL : growth_units * (360 / std::abs(sweep_deg));
     if (!std::isfinite(job.growth_units_turn)) return Error::range;
@@ -70,7 +76,7 @@ Error Chain::enqueue_coordinated(Job job) {
     if (module < 0) continue;
     if (const Error why = refusal_of_motion(module); why != Error::none) return why;
     const ModuleSettings& mine = modules_[at(module)].settings;
-    const bool equal = mine.path_speed_units_s == first.path_speed_units_s &&
+    const bool equal = path_speed(job, mine) == path_speed(job, first) &&
                        mine.path_acceleration_units_s2 == first.path_acceleration_units_s2;
     if (!equal && options_.unequal_speeds == ChainOptions::UnequalSpeeds::refused) {
       return Error::unequal_speeds;
@@ -100,6 +106,15 @@ Error Chain::enqueue_coordinated(Job job) {
 const ModuleSettings& Chain::path_settings(const Job& job) const {
   const bool by_0 = options_.unequal_speeds == ChainOptions::UnequalSpeeds::by_module_0;
   return modules_[by_0 ? 0 : at(job.module_of[0])].settings;
+}
+
+/// PR4 instead of PR3.
+bool Chain::goes_by_line_speed(const Job& job) const {
+  return options_.lines_of_two_have_own_speed && job.kind == Job::Kind::line && job.modules() == 2;
+}
+
+double Chain::path_speed(const Job& job, const ModuleSettings& settings) const {
+  return goes_by_line_speed(job) ? settings.line_speed_units_s : settings.path_speed_units_s;
 }
 
 /// Of an arc, all that the circle may reach.

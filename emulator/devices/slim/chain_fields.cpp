@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "emulator/devices/slim/parameters.h"
 #include "motion/bad_motion.h"
 #include "motion/state.h"
 
@@ -24,7 +25,7 @@ void demand_coordinate(double units) {
 }
 
 void demand_speed(double speed) {
-  demand_state(speed >= 1e-6 && speed <= 1e9, "a speed is beyond its range");
+  demand_state(speed >= kLeastSpeed && speed <= kMostSpeed, "a speed is beyond its range");
 }
 
 }  // namespace
@@ -86,8 +87,9 @@ void ChainFields::check(const motion::UnitScale& scale) {
 
 void ChainFields::check(const ModuleSettings& settings) {
   demand_within(settings.pulses_per_revolution, 1, INT32_MAX);
-  for (const double speed : {settings.working_speed, settings.acceleration,
-                             settings.path_acceleration_units_s2, settings.path_speed_units_s}) {
+  for (const double speed :
+       {settings.working_speed, settings.acceleration, settings.path_acceleration_units_s2,
+        settings.path_speed_units_s, settings.line_speed_units_s}) {
     demand_speed(speed);
   }
   if (settings.jog_speed != 0) demand_speed(std::abs(settings.jog_speed));
@@ -135,6 +137,7 @@ void ChainFields::check(const Job& job) {
 void ChainFields::check(const Module& module) {
   demand_within(module.jog_way, -1, 1);
   demand_within(module.next_jog_way, -1, 1);
+  demand_within(module.held_jog_way, -1, 1);
   demand_within(module.analog, 0, kFullAnalog);
   demand_reach(module.zero_pulses);
   demand_reach(module.sent_pulses);

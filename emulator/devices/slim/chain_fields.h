@@ -12,12 +12,13 @@ namespace understudy::emulator::slim {
 struct ChainFields {
   // clang-format off
   static void of(Like<ChainOptions> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag,
+           ah] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag, ah);
   }
   static void of(Like<motion::UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<ModuleSettings> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
+    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
   }
   static void of(Like<Output> auto& v, auto visit) {
     auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
@@ -29,11 +30,12 @@ struct ChainFields {
     auto& [a, b, c, d] = v; visit(a, b, c, d);
   }
   static void of(Like<Job> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   }
   static void of(Like<Module> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
   }
   static void of(Like<Chain> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
@@ -49,6 +51,9 @@ struct ChainFields {
   }
   static constexpr ChainOptions::NewSpeed last(ChainOptions::NewSpeed) {
     return ChainOptions::NewSpeed::at_once;
+  }
+  static constexpr ChainOptions::PathSpeedInMotion last(ChainOptions::PathSpeedInMotion) {
+    return ChainOptions::PathSpeedInMotion::next_command;
   }
   static constexpr ChainOptions::SarHeight last(ChainOptions::SarHeight) {
     return ChainOptions::SarHeight::absolute;

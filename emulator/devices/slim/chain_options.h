@@ -17,6 +17,12 @@ struct ChainOptions {
   };
   /// VM= and VJ= while a motion runs that they are the speed of. (AVM acts at once in any case.)
   enum class NewSpeed : std::uint8_t { next_motion, at_once };
+  /// PR3= of a module that is on a path.
+  enum class PathSpeedInMotion : std::uint8_t {
+    whole_path,  // the path goes at it, whichever of its modules is told
+    by_x,        // ... if X is
+    next_command
+  };
   /// The fz of SAR, where the manual breaks off.
   enum class SarHeight : std::uint8_t { relative, absolute };
 
@@ -38,10 +44,20 @@ struct ChainOptions {
   bool analog_speed_jogs = false;             // AVM begins a jog
   bool only_moves_reserved = false;           // jogs, homing and thrust by number go with a letter, too
 
+  bool arcs_by_radius = false;               // AA: end point and radius, not centre and angle
+  bool spiral_to_radius = false;             // SPI's R is the radius at its end, not a sweep
+  bool spiral_centre_relative = false;       // SPI's X, Y
+  bool lines_of_two_have_own_speed = false;  // PR4 instead of PR3
+  bool clear_keeps_half_done = false;        // CLR BUF in a pause, as out of one
+  bool analog_leaves_jogs = false;           // AVM is of VM alone
+  bool motion_ends_thrust = false;           // a move given behind FT
+  bool done_waits_for_all = false;           // DN: for jogs, thrust and pulses of outputs, too
+
   UnequalSpeeds unequal_speeds = UnequalSpeeds::refused;
   InVain in_vain = InVain::silent;
   Thrust thrust = Thrust::stands;
   NewSpeed new_speed = NewSpeed::next_motion;
+  PathSpeedInMotion path_speed_in_motion = PathSpeedInMotion::whole_path;
   SarHeight sar_height = SarHeight::relative;
   bool servo_at_power_up = true;
   std::uint8_t fifo_length = 32;  // 1 .. kFifoLength

@@ -79,7 +79,7 @@ Error Chain::arm(int module, int trigger, int output, bool sets, double at_units
                                  .at_units = at_units});
 }
 
-void Chain::carry_out_order(int module, const OutputOrder& order) {
+void Chain::carry_out_order(int module, const OutputOrder& order, Tick begin_at) {
   Module& mine = modules_[at(module)];
   switch (order.kind) {
     case OutputOrder::Kind::all:
@@ -92,7 +92,7 @@ void Chain::carry_out_order(int module, const OutputOrder& order) {
           .armed = true, .sets = order.trigger_sets, .output = order.output, .at_units = order.at_units};
       place_triggers(module);
       break;
-    default: carry_out(mine.outputs[order.output], order, now_); break;
+    default: carry_out(mine.outputs[order.output], order, begin_at); break;
   }
 }
 

@@ -30,7 +30,7 @@ bool Chain::serve_head(int module, Tick begin_at) {
   if (head_runs) return false;
   const Job& head = mine.fifo[0];
   switch (head.kind) {
-    case Job::Kind::output: carry_out_order(module, head.output); break;
+    case Job::Kind::output: carry_out_order(module, head.output, begin_at); break;
     case Job::Kind::servo:
       if (!head.servo_on) {
         cut(module, motion::Cause::servo_off);
@@ -39,7 +39,7 @@ bool Chain::serve_head(int module, Tick begin_at) {
       axes_[at(module)].switch_servo(head.servo_on);
       break;
     case Job::Kind::set_coordinate:
-      if (mine.activity != Activity::idle) return false;
+      if (mine.activity != Activity::idle || mine.holds_jog()) return false;
       put_coordinate(module, head.units[0]);
       break;
     case Job::Kind::move: return free_to_move(module) && start_move(module, begin_at);
@@ -87,6 +87,7 @@ bool Chain::start_move(int module, Tick begin_at) {
     return true;
   }
   mine.activity = Activity::move;
+  job.begun = true;
   mine.starved = false;
   return false;
 }
@@ -115,6 +116,7 @@ bool Chain::start_home(int module, Tick begin_at) {
     return true;
   }
   mine.activity = Activity::home;
+  mine.fifo[0].begun = true;
   return false;
 }
 
@@ -215,7 +217,7 @@ bool Chain::start_group(int module, Tick begin_at) {
   using Late = motion::PathRun::LateJoint;
   group->motion.run.set_late_joint(options_.late_successor_speeds_up ? Late::speed_up_again
                                                                      : Late::from_rest);
-  group->motion.run.set_speed({.top_speed_u_s = speeds.path_speed_units_s, .up = ramp, .down = ramp}, now_);
+  group->motion.run.set_speed({.top_speed_u_s = path_speed(job, speeds), .up = ramp, .down = ramp}, now_);
   group->motion.run.append(path, {}, now_);
   if (group->motion.begin(begin, axes_, begin_at - 1) != motion::Cause::none) {
     *group = {};
@@ -243,6 +245,8 @@ void Chain::extend(Group& group) {
     if (options_.second_decides_joint) before.continuous = next.continuous;
     const motion::Joint joint = joint_between(before, next);
     if (joint.rule == motion::Joint::Rule::stop) return;
+    if (goes_by_line_speed(before) != goes_by_line_speed(next))
+      return;  // and so can a speed that is another one's
     motion::Path path;
     try {
       path = path_of(next, group.end);

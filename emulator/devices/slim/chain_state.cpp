@@ -4,17 +4,14 @@
 #include <utility>
 
 #include "emulator/devices/slim/chain.h"
+#include "emulator/devices/slim/parameters.h"
 #include "motion/bad_motion.h"
 
 namespace understudy::emulator::slim {
 
 namespace {
 
-/// Speeds and accelerations outside are no machine's, and may not be plannable.
-constexpr double kLeast = 1e-6;
-constexpr double kMost = 1e9;
-
-bool plannable(double speed) { return speed >= kLeast && speed <= kMost; }
+bool plannable(double speed) { return speed >= kLeastSpeed && speed <= kMostSpeed; }
 
 }  // namespace
 
@@ -76,7 +73,26 @@ Error Chain::set_acceleration(int module, double acceleration) {
 Error Chain::set_path_speed(int module, double units_s) {
   if (!plannable(units_s)) return Error::range;
   modules_[at(module)].settings.path_speed_units_s = units_s;
+  tell_path(module, units_s, false);
   return Error::none;
+}
+
+Error Chain::set_line_speed(int module, double units_s) {
+  if (!plannable(units_s)) return Error::range;
+  modules_[at(module)].settings.line_speed_units_s = units_s;
+  tell_path(module, units_s, true);
+  return Error::none;
+}
+
+/// A new speed of a module that is on a path.
+void Chain::tell_path(int module, double units_s, bool of_lines) {
+  using InMotion = ChainOptions::PathSpeedInMotion;
+  Group* const group = group_of(module);
+  if (group == nullptr || options_.path_speed_in_motion == InMotion::next_command) return;
+  const bool is_x = group->motion.axis_of[0] == module;
+  if (options_.path_speed_in_motion == InMotion::by_x && !is_x) return;
+  const bool is_line = group->paths > 0 && goes_by_line_speed(modules_[at(group->motion.axis_of[0])].fifo[0]);
+  if (is_line == of_lines) group->motion.run.set_top_speed(units_s, now_);
 }
 
 Error Chain::set_tvm(double units_s) {
@@ -133,7 +149,7 @@ void Chain::set_analog(int module, int value) {
 
 bool Chain::busy(int module) const {
   const Module& mine = modules_[at(module)];
-  return mine.activity != Activity::idle || !mine.fifo.empty();
+  return mine.activity != Activity::idle || !mine.fifo.empty() || mine.holds_jog();
 }
 
 bool Chain::moving(int module) const {
@@ -148,6 +164,12 @@ bool Chain::moving(int module) const {
 bool Chain::done(int module) const {
   const Module& mine = modules_[at(module)];
   if (!mine.fifo.empty()) return false;
+  if (options_.done_waits_for_all) {
+    const bool pulses = std::any_of(mine.outputs.begin(), mine.outputs.end(), [&](const Output& output) {
+      return output.mode == Output::Mode::pulse && output.next_change(now_) != kNever;
+    });
+    return !pulses && mine.activity == Activity::idle && !mine.holds_jog();
+  }
   const bool goes_on = mine.activity == Activity::jog || mine.activity == Activity::thrust;
   return mine.activity == Activity::idle || (goes_on && !axes_[at(module)].slowing);
 }
@@ -157,7 +179,7 @@ ModuleStatus Chain::status(int module) const {
   const Group* group = group_of(module);
   ModuleStatus status{.servo_on = axes_[at(module)].servo_on,
                       .moving = moving(module),
-                      .paused = paused_,
+                      .paused = held(module),
                       .homed = mine.homed,
                       .jog = mine.activity == Activity::jog,
                       .buffer_not_empty = !mine.fifo.empty()};

@@ -61,7 +61,7 @@ void Chain::hold() {
   for (int module = 0; module < kModules; ++module) {
     if (!held(module)) continue;
     const Activity activity = modules_[at(module)].activity;
-    stop_jog(module);  // it is not queued: nothing to go on with
+    hold_jog(module);
     if (activity != Activity::move && activity != Activity::home) continue;
     axes_[at(module)].slow_down(now_);
     after_motion(module, now_ + 1);
@@ -77,7 +77,9 @@ void Chain::release() {
   }
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
-    if (mine.activity != Activity::move || held(module)) continue;
+    if (held(module)) continue;
+    go_on_with_jog(module);
+    if (mine.activity != Activity::move) continue;
     const motion::SpeedLaw law = mine.working_law(options_);
     if (law.top_speed_u_s > 0 && axes_[at(module)].resume(law, now_)) mine.starved = false;
   }
@@ -87,7 +89,10 @@ void Chain::release() {
 Error Chain::discard() {
   if (!paused_) return in_vain(options_);
   paused_ = queues_paused_ = false;
-  for (int module = 0; module < kModules; ++module) slow_for_discard(module);
+  for (int module = 0; module < kModules; ++module) {
+    stop_jog(module);
+    slow_for_discard(module);
+  }
   for (Module& each : modules_) each.fifo.truncate(0);
   return Error::none;
 }
@@ -111,10 +116,11 @@ void Chain::slow_for_discard(int module) {
 }
 
 Error Chain::clear_queues() {
-  if (paused_ || queues_paused_) {
+  if ((paused_ || queues_paused_) && !options_.clear_keeps_half_done) {
     queues_paused_ = false;
     for (int module = 0; module < kModules; ++module) {
       if (!in_pause_scope(module)) continue;
+      stop_jog(module);
       slow_for_discard(module);
       forget_queue(module);
     }
@@ -134,7 +140,9 @@ Error Chain::clear_queues() {
     if (!in_pause_scope(module)) continue;
     const Activity activity = modules_[at(module)].activity;
     const Group* group = group_of(module);
-    const bool head_runs = activity == Activity::move || activity == Activity::home;
+    const auto& fifo = modules_[at(module)].fifo;
+    const bool is_half_done = options_.clear_keeps_half_done && !fifo.empty() && fifo[0].begun;
+    const bool head_runs = activity == Activity::move || activity == Activity::home || is_half_done;
     forget_queue(module, group != nullptr ? group->paths : head_runs ? 1 : 0);
   }
   serve(now_ + 1);
@@ -161,8 +169,8 @@ void Chain::cut(int module, motion::Cause why) {
   if (mine.activity == Activity::move || mine.activity == Activity::home) mine.fifo.pop();
   if (mine.activity != Activity::idle) mine.place_units = coordinate(module);
   mine.activity = Activity::idle;
-  mine.jog_way = mine.next_jog_way = 0;
-  mine.thrust = mine.next_thrust = 0;
+  mine.jog_way = mine.next_jog_way = mine.held_jog_way = 0;
+  mine.thrust = mine.next_thrust = mine.held_thrust = 0;
   mine.starved = false;
 }
 

@@ -48,11 +48,28 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
     default: break;
   }
   const Error error = execute(command);
+  if (command.verb == Verb::stop_all) {
+    return {.program =
+                program_after_stop(in_event_routine(state_.execution) ? From::event_routine : From::program)};
+  }
   if (is_silence(error)) return lang::kDone;
   const bool waits_for_pause = error == Error::paused && !chose(kPauseFailsMotion);
   if (error == Error::buffer_full || waits_for_pause) return lang::kWaits;
   if (error != Error::none) failed_module_ = module_of(command);
   return {.error = error};
+}
+
+/// A machine that has been stopped must not start again by itself: DN, or what an event has interrupted,
+/// would go on with the next move. A line of the program's own may have more to say.
+lang::Outcome::Program Slim::program_after_stop(From from) const {
+  using Program = lang::Outcome::Program;
+  if (chose(kStopEndsAnyProgram)) return Program::ends;
+  if (chose(kStopLeavesProgram)) return Program::goes_on;
+  switch (outcome_of(Doing::program_runs, Meeting::stop, from)) {
+    case Outcome::ends: return Program::ends;
+    case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
+    default: return Program::goes_on;
+  }
 }
 
 bool Slim::is_done(const lang::Command& command) const {
@@ -224,6 +241,7 @@ Error Slim::move_several(const lang::Command& command) {
                    .centre_y_units = amount(command, 1),
                    .sweep_deg = amount(command, 2)};
     if (rises) order.height_units = amount(command, 3);
+    if (absolute && !rises && chose(kArcsByRadius)) order.radius_units = amount(command, 2);
     return chain.arc(order);
   };
   switch (command.verb) {

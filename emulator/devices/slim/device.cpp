@@ -20,6 +20,9 @@ ChainOptions Slim::chain_options() const {
   if (chose(kIneffectivePauseRefused)) options.in_vain = ChainOptions::InVain::refused;
   if (chose(kThrustRuns)) options.thrust = ChainOptions::Thrust::runs_at_vj;
   if (chose(kNewSpeedAtOnce)) options.new_speed = ChainOptions::NewSpeed::at_once;
+  using PathSpeedInMotion = ChainOptions::PathSpeedInMotion;
+  if (chose(kPathSpeedByX)) options.path_speed_in_motion = PathSpeedInMotion::by_x;
+  if (chose(kPathSpeedOfNext)) options.path_speed_in_motion = PathSpeedInMotion::next_command;
   if (chose(kSarHeightAbsolute)) options.sar_height = ChainOptions::SarHeight::absolute;
   options.coordinate_at_rest_only = chose(kCoordinateAtRestOnly);
   options.reset_clears_coordinate = chose(kResetClearsCoordinate);
@@ -37,6 +40,14 @@ ChainOptions Slim::chain_options() const {
   options.homes_forwards = chose(kHomesForwards);
   options.analog_speed_jogs = chose(kAnalogSpeedJogs);
   options.only_moves_reserved = chose(kOnlyMovesReserved);
+  options.arcs_by_radius = chose(kArcsByRadius);
+  options.spiral_to_radius = chose(kSpiralToRadius);
+  options.spiral_centre_relative = chose(kSpiralCentreRelative);
+  options.lines_of_two_have_own_speed = chose(kPr4OfItsOwn);
+  options.clear_keeps_half_done = chose(kClearKeepsHalfDone);
+  options.analog_leaves_jogs = chose(kAnalogOfMovesOnly);
+  options.motion_ends_thrust = chose(kMotionEndsThrust);
+  options.done_waits_for_all = chose(kDoneWaitsForAll);
   options.fifo_length = static_cast<std::uint8_t>(chosen_number(kBufferLength));
   options.servo_at_power_up = !chose(kServoOffAtPowerUp);
   return options;
@@ -48,6 +59,8 @@ lang::ProgramOptions Slim::program_options() const {
   lang::Dialect& dialect = options.dialect;
   dialect.event_count = chosen_number(kEvents);
   dialect.longest_line = static_cast<std::size_t>(chosen_number(kLongestLine));
+  if (chose(kHelixOfVariablesOnly)) dialect.helix_constants = false;
+  if (chose(kQueriesAreFunctions)) dialect.quantities = true;
   if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
   if (chose(kExternalColumnOnly)) options.columns.external = lang::Columns::External::strict;
   if (chose(kImmediateColumnIgnored))
@@ -57,6 +70,11 @@ lang::ProgramOptions Slim::program_options() const {
   if (chose(kLinesFrom1)) options.first_number = 1;
   if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
   if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
+  options.check_command =
+      chose(kModuleTakenFromLetter)
+          ? [](const lang::Command& command) { return check_parameter_line(command, true); }
+          : [](const lang::Command& command) { return check_parameter_line(command, false); };
+  if (chose(kFirstLabelCounts)) options.same_label = Options::SameLabel::first_counts;
   if (chose(kListsTextOnly)) options.listing = Options::Listing::bare;
   return options;
 }
@@ -67,6 +85,8 @@ lang::FlowOptions Slim::flow_options() const {
   if (chose(kLineIn4Ticks)) options.lines_every_ms = 4;
   if (chose(kTimeUnitOf4Ms)) options.window_unit_ms = 4;
   options.call_depth = chosen_number(kCallDepth);
+  if (chose(kBareNumberInN0)) options.bare_number = lang::FlowOptions::BareNumber::into_n0_or_r0;
+  if (chose(kEventsRunAlone)) options.events_need_program = false;
   if (chose(kEventsEach4Ms)) options.events.look_every_ms = 4;
   if (chose(kFailedLinePassed)) options.failed_line = lang::FlowOptions::FailedLine::is_passed;
   if (chose(kWaitsHaveGoneOn)) options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
@@ -80,7 +100,15 @@ MemoryForm Slim::memory_form() const {
           .integer_least = of_programs().dialect.integer_least};
 }
 
-Memory Slim::factory() const { return factory_memory(modules_); }
+Memory Slim::factory() const { return factory_memory(chose(kT0AloneIsLinked) ? 1 : modules_); }
+
+namespace {
+
+std::string history_name(int module, std::size_t number) {
+  return (module == 0 ? "" : "T" + std::to_string(module)) + "ERC(" + std::to_string(number) + ")";
+}
+
+}  // namespace
 
 // --- power and memory ------------------------------------------------------------------------------
 
@@ -111,6 +139,11 @@ void Slim::power_down() {
   blank.kept_program = std::move(state_.kept_program);
   blank.kept_revision = state_.kept_revision;
   blank.chain.skip_to(now());
+  if (chose(kHistoryIsKept)) {
+    for (std::size_t m = 0; m < blank.errors.size(); ++m) {
+      blank.errors[m].history = std::move(state_.errors[m].history);
+    }
+  }
   state_ = std::move(blank);
 }
 
@@ -128,10 +161,44 @@ void Slim::settle_memory() {
 
 void Slim::write_memory(NvImage& image) const {
   write_image(state_.kept, factory(), memory_form(), image);
+  if (chose(kHistoryIsKept)) write_history(image);
   image.program = state_.kept_program;
 }
 
-void Slim::read_memory(const NvImage& image) {
+/// The errors of each module, the last one first: ERC(0), ERC(1) ..., T1ERC(0) ...
+void Slim::write_history(NvImage& image) const {
+  for (int m = 0; m < kModules; ++m) {
+    const auto& history = state_.errors[static_cast<std::size_t>(m)].history;
+    for (std::size_t i = 0; i < history.size(); ++i) {
+      image.registers.emplace_back(history_name(m, i), history[i]);
+    }
+  }
+}
+
+/// Takes them out of the image.
+std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
+  std::array<Errors, kModules> errors{};
+  if (!chose(kHistoryIsKept)) return errors;
+  for (int m = 0; m < kModules; ++m) {
+    for (std::size_t i = 0; i < history_length(); ++i) {
+      const auto found = std::ranges::find(image.registers, history_name(m, i),
+                                           [](const auto& entry) { return std::string_view(entry.first); });
+      if (found == image.registers.end()) break;
+      constexpr auto kMost = static_cast<std::int64_t>(Error::address);
+      if (found->second < 1 || found->second > kMost) {
+        throw NvError("registers: " + history_name(m, i) + ": " + std::to_string(found->second) +
+                      " is not an error; expected 1 to " + std::to_string(kMost));
+      }
+      errors[static_cast<std::size_t>(m)].history.push_back(static_cast<std::uint8_t>(found->second));
+      image.registers.erase(found);
+    }
+  }
+  return errors;
+}
+
+void Slim::read_memory(const NvImage& given) {
+  NvImage image = given;
+  const std::array<Errors, kModules> errors = read_history(image);
   Memory memory = read_image(image, factory(), memory_form());
   const auto capacity = static_cast<std::size_t>(of_programs().capacity);
   if (image.program.size() > capacity) {
@@ -143,6 +210,7 @@ void Slim::read_memory(const NvImage& image) {
     throw NvError("program: holds a line that is no command of a program; expected lines as ULP shows them");
   }
   state_.kept = std::move(memory);
+  if (chose(kHistoryIsKept)) state_.errors = errors;
   state_.kept_program = image.program;
   ++state_.kept_revision;
 }
@@ -164,6 +232,7 @@ void Slim::load_program(std::string_view text) {
         error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
         : error == Error::range       ? "has a value out of range"
         : error == Error::not_allowed ? "may not stand in a program"
+        : error == Error::address     ? "begins with a label that another line has"
                                       : "is no command; expected one of `understudy describe slim commands`";
     throw ProgramError(number, what);
   }
@@ -196,12 +265,15 @@ void Slim::sample_inputs(Tick tick) {
 }
 
 void Slim::run_interpreters(Tick tick) {
+  if (program_is_held()) return;
   failed_module_ = 0;
   const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
   if (error == Error::none) return;
   // A program that goes on failing is faster than its line: what has no room is remembered only.
-  if (chose(kProgramErrorsSaid) && has_room_to_speak()) return fail(failed_module_, error);
-  remember(failed_module_, error);
+  const bool is_said = chose(kProgramErrorsSaid) && has_room_to_speak();
+  const int module = is_said ? fail(failed_module_, error) : remember(failed_module_, error);
+  // Whoever asks T0 why its program has ended is told, although the motor was another one's.
+  if (module != 0 && !state_.execution.running) note_error(0, error);
 }
 
 void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
@@ -209,7 +281,7 @@ void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
 void Slim::update_outputs(Tick) {
   for (int m = 0; m < kModules; ++m) {
     const Error late = state_.chain.take_late_error(m);
-    if (late != Error::none) remember(m, late);
+    if (late != Error::none) note_error(chose(kErrorsAreT0s) ? 0 : m, late);
   }
 }
 
@@ -221,6 +293,7 @@ Tick Slim::next_active_tick(Tick done) const {
     if (!sees_horg || emulator::Device::input(terminal(m, kAnalog)) != state_.chain.analog(m))
       return done + 1;
   }
+  if (program_is_held()) return state_.chain.next_active_tick(done);
   // A program that waits for the chain asks in every tick.
   if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
   return std::min(state_.chain.next_active_tick(done),

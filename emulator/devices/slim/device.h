@@ -8,13 +8,16 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "emulator/devices/slim/chain.h"
+#include "emulator/devices/slim/meetings.h"
 #include "emulator/devices/slim/memory.h"
+#include "emulator/devices/slim/numbers.h"
 #include "emulator/devices/slim/options.h"
 #include "emulator/text/text_device.h"
 #include "interpreter/slim/availability.h"
@@ -118,6 +121,7 @@ class Slim final : public TextDevice, private lang::Machine {
     std::string name{};
     std::string text{};
     std::optional<double> number{};  // of a query that has one
+    bool has_words = true;           // false: only the number is wanted
   };
 
   // Of a program: interpreter/slim/machine.h.
@@ -125,6 +129,7 @@ class Slim final : public TextDevice, private lang::Machine {
   double value(const lang::Operand& operand) const override;
   lang::Outcome carry_out(const lang::Command& command) override;
 
+  const std::optional<lang::Command>& query_named(std::string_view name) const;
   int chosen_number(std::size_t row) const { return number_of(kChoices[row], choice(row)); }
 
   // dialogue.cpp
@@ -138,14 +143,18 @@ class Slim final : public TextDevice, private lang::Machine {
     return state_.speech.size() < static_cast<std::size_t>(chosen_number(kPrintAhead));
   }
   void say(std::string_view text);
-  void fail(int module, Error error);
-  void remember(int module, Error error);
+  /// These two give the module that has the error in the end.
+  int fail(int module, Error error);
+  int remember(int module, Error error);
+  void note_error(int module, Error error);
   void conclude();
   void hear_command(std::string_view line);
+  bool is_heard_instead_of_number(std::string_view line) const;
   Error obey(lang::Command& command, std::vector<std::string>& lines);
 
   // commands.cpp
   Error execute(const lang::Command& command);
+  lang::Outcome::Program program_after_stop(From from) const;
   Error move_one(const lang::Command& command, int module);
   Error move_several(const lang::Command& command);
   Error switch_outputs(const lang::Command& command, int module);
@@ -155,9 +164,27 @@ class Slim final : public TextDevice, private lang::Machine {
   bool would_wait(const lang::Command& command) const;
 
   // values.cpp
+  RealForm real_form() const { return chose(kRealsWithExponent) ? RealForm::exponent : RealForm::plain; }
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
   Error set_variable(const lang::Operand& variable, double value);
+  /// PR4 is another name of PR3, unless it is a speed of its own.
+  std::string_view meant(std::string_view parameter) const {
+    return parameter == "PR4" && !chose(kPr4OfItsOwn) ? "PR3" : parameter;
+  }
+  /// By number: so many pulses are so many user units.
+  struct UserUnit {
+    std::size_t pulses = parameter("PN45");
+    std::size_t units = parameter("PN46");
+  };
+  UserUnit user_unit() const {
+    if (chose(kUnitOfPn44AndPn45)) return {parameter("PN44"), parameter("PN45")};
+    return chose(kUnitOfPn46AndPn45) ? UserUnit{parameter("PN46"), parameter("PN45")} : UserUnit{};
+  }
+  bool is_of_user_unit(std::size_t number) const {
+    return number == user_unit().pulses || number == user_unit().units;
+  }
+  Error set_scale(int module, std::size_t number, double value);
   Error set_parameter(int module, std::string_view name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
@@ -184,6 +211,10 @@ class Slim final : public TextDevice, private lang::Machine {
   MemoryForm memory_form() const;
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
+  void write_history(NvImage& image) const;
+  std::array<Errors, kModules> read_history(NvImage& image) const;
+  /// By PZ.
+  bool program_is_held() const { return chose(kPauseHoldsProgram) && state_.chain.queues_paused(); }
   void reboot();
   /// As if all ticks up to now had been run one by one.
   State settled() const;
@@ -195,6 +226,8 @@ class Slim final : public TextDevice, private lang::Machine {
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
   int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
+  // Queries by their names: not state, it only saves reading the words again.
+  mutable std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
   State state_;
 };
 

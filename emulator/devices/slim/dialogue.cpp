@@ -1,19 +1,22 @@
 // SLIM's dialogue: what becomes of a line, and what is answered.
+#include <algorithm>
 #include <utility>
 
 #include "emulator/devices/slim/device.h"
 
 namespace understudy::emulator::slim {
 
-namespace {
-
-/// The one command that a program hears while it waits for a number.
-bool is_exit(std::string_view line, const lang::Dialect& dialect) {
-  const lang::ParseResult parsed = lang::parse_line(line, dialect);
-  return parsed.line.command && parsed.line.command->verb == lang::Verb::exit;
+/// Whether a line that comes while a program waits for a number is a command all the same: what else may be
+/// typed while a program runs, but for queries.
+bool Slim::is_heard_instead_of_number(std::string_view line) const {
+  const lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
+  if (!parsed.line.command) return false;
+  const lang::Command& command = *parsed.line.command;
+  if (command.verb == lang::Verb::exit) return !chose(kExitIsNoNumber);
+  const bool is_query = lang::kCommands[static_cast<std::size_t>(command.row)].is_query();
+  return !chose(kNumbersOnly) && !is_query &&
+         is_allowed(command, lang::Place::external, of_programs().columns);
 }
-
-}  // namespace
 
 TextRules Slim::text_rules() const {
   return {.echo = chose(kEcho),
@@ -30,11 +33,19 @@ void Slim::say(std::string_view text) {
   state_.speech += line_end();
 }
 
-/// Of a module that is not linked nobody could ask: the host has it.
-void Slim::remember(int module, Error error) {
-  if (!state_.chain.linked(module)) module = 0;
+/// T0 reads the lines: what is wrong with one is T0's error, whichever module it names. What a motor refuses
+/// is its own, unless nobody could ask: of a module that is not linked the host has it.
+int Slim::remember(int module, Error error) {
+  const bool is_of_line = error == Error::syntax || error == Error::range || error == Error::address;
+  if (is_of_line || !state_.chain.linked(module) || chose(kErrorsAreT0s)) module = 0;
+  note_error(module, error);
+  return module;
+}
+
+void Slim::note_error(int module, Error error) {
   Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   errors.present = error;
+  if (chose(kHistoryIsKept)) ++state_.kept_revision;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
   if (errors.history.size() > history_length()) errors.history.pop_back();
 }
@@ -43,9 +54,9 @@ int Slim::code_of(Error error) const {
   return error != Error::none && chose(kOneErrorCode) ? 1 : static_cast<int>(error);
 }
 
-void Slim::fail(int module, Error error) {
-  remember(module, error);
+int Slim::fail(int module, Error error) {
   if (!chose(kErrorsNotAnswered)) say("ERR " + std::to_string(code_of(error)));
+  return remember(module, error);
 }
 
 /// After each completed line.
@@ -66,8 +77,7 @@ void Slim::hear_line(std::string_view line) {
     } else if (chose(kAcknowledges)) {
       say("OK");
     }
-  } else if (wants_number(state_.execution) &&
-             (chose(kExitIsNoNumber) || !is_exit(line, of_programs().dialect))) {
+  } else if (wants_number(state_.execution) && !is_heard_instead_of_number(line)) {
     const Error error = give_number(state_.execution, state_.program, line, of_programs().dialect);
     if (error != Error::none) fail(0, error);
   } else {
@@ -95,15 +105,24 @@ void Slim::hear_command(std::string_view line) {
     return;
   }
   if (parsed.error == Error::none && !parsed.line.label.empty()) parsed.error = Error::syntax;
-  if (parsed.error != Error::none) return fail(0, parsed.error);
+  if (parsed.error != Error::none) {
+    fail(0, parsed.error);
+    return;
+  }
 
   lang::Command& command = *parsed.line.command;
   const lang::Place place = state_.execution.running ? lang::Place::external : lang::Place::immediate;
-  if (!is_allowed(command, place, of_programs().columns)) return fail(0, Error::not_allowed);
+  if (!is_allowed(command, place, of_programs().columns)) {
+    fail(0, Error::not_allowed);
+    return;
+  }
   std::vector<std::string> lines;
   const Error error = obey(command, lines);
   if (is_silence(error)) return;
-  if (error != Error::none) return fail(command.module < 0 ? 0 : command.module, error);
+  if (error != Error::none) {
+    fail(command.module < 0 ? 0 : command.module, error);
+    return;
+  }
   for (const std::string& text : lines) say(text);
   if (lines.empty() && chose(kAcknowledges) && powered()) say("OK");
 }
@@ -112,6 +131,10 @@ void Slim::hear_command(std::string_view line) {
 Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
   using lang::Verb;
   if (const Error error = resolve_indices(command, *this); error != Error::none) return error;
+  const bool has_quantity = std::ranges::any_of(command.operands, [](const lang::Operand& operand) {
+    return operand.kind == lang::Operand::Kind::quantity;
+  });
+  if (has_quantity && of_programs().check_command(command) != Error::none) return Error::syntax;
   if (lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) {
     Answer answer;
     const Error error = query(command, answer);
@@ -126,6 +149,9 @@ Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
       return start(state_.execution, state_.program, address, flow_options_);
     }
     case Verb::exit: stop(state_.execution); return Error::none;
+    case Verb::stop_all:
+      if (program_after_stop(From::host) == lang::Outcome::Program::ends) stop(state_.execution);
+      break;
     case Verb::set_event:
     case Verb::on_event:
       define_event(state_.execution.events, command, flow_options_.events);

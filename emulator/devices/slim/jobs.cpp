@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion/bad_motion.h"
+
 namespace understudy::emulator::slim {
 
 int Job::letter_of(int module) const {
@@ -15,6 +17,18 @@ int Job::modules() const {
   return static_cast<int>(
       std::count_if(module_of.begin(), module_of.end(), [](std::int8_t module) { return module >= 0; }));
 }
+
+namespace {
+
+/// So many turns as its growth takes from one radius to the other, to the left.
+double sweep_to_radius(const Job& spiral, double begin_radius) {
+  const double turns = (spiral.sweep_deg - begin_radius) / spiral.growth_units_turn;
+  motion::demand_not_negative(spiral.sweep_deg, "spiral", "its last radius");
+  motion::demand_not_negative(turns, "spiral", "its sweep");
+  return turns * 2 * std::numbers::pi;
+}
+
+}  // namespace
 
 motion::Path path_of(const Job& job, const motion::Point& begin) {
   const auto place = [&](std::size_t i) {
@@ -29,12 +43,19 @@ motion::Path path_of(const Job& job, const motion::Point& begin) {
   }
   there[0] = place(0);
   there[1] = place(1);
-  const double sweep_rad = job.sweep_deg * std::numbers::pi / 180;
+  if (job.by_radius && job.kind == Job::Kind::arc) {
+    return motion::arc_by_radius(begin, there, job.sweep_deg, motion::Turn::counter_clockwise);
+  }
+  const double sweep_rad = job.by_radius
+                               ? sweep_to_radius(job, std::hypot(begin[0] - there[0], begin[1] - there[1]))
+                               : job.sweep_deg * std::numbers::pi / 180;
   if (job.kind == Job::Kind::spiral) {
     return motion::spiral(begin, there, sweep_rad, job.growth_units_turn);
   }
   motion::Point rise = motion::Point::Zero();
   if (job.module_of[2] >= 0) rise[2] = job.units[2] - (job.height_absolute ? begin[2] : 0.0);
+  // About where it is already: nothing to turn, and only the rise is left.
+  if (there[0] == begin[0] && there[1] == begin[1]) return motion::line(begin, begin + rise);
   return motion::arc_by_sweep(begin, there, sweep_rad, rise);
 }
 

@@ -37,6 +37,7 @@ struct Job {
   bool absolute = true;
   bool height_absolute = true;  // of an arc
   double sweep_deg = 0;
+  bool by_radius = false;  // `sweep_deg` is a radius: of an arc to `units`, turning left; where a spiral ends
   double growth_units_turn = 0;
   // Where it will leave its modules: as expected when issued, exact from when it starts.
   std::array<double, kLetters> ends{};
@@ -44,6 +45,7 @@ struct Job {
   double smooth_corner_deg = 0;           // PR7
   double path_acceleration_units_s2 = 0;  // PR2; 0: as it is when the job starts
   bool servo_on = false;
+  bool begun = false;  // of one module: it has moved for it
   OutputOrder output{};
 
   bool operator==(const Job&) const = default;

@@ -80,8 +80,9 @@ Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm&
   };
   const auto does_not_fit = [](const char* where, const std::string& name, double value, double lowest,
                                double highest) {
-    return NvError(std::string(where) + ": " + quoted(name) + ": " + text_of_real(value) +
-                   " does not fit; expected " + text_of_real(lowest) + " to " + text_of_real(highest));
+    return NvError(std::string(where) + ": " + quoted(name) + ": " + text_of_real(value, RealForm::exponent) +
+                   " does not fit; expected " + text_of_real(lowest, RealForm::exponent) + " to " +
+                   text_of_real(highest, RealForm::exponent));
   };
   for_each_name(memory, form.speed_names,
                 [&](const std::string& name, auto& value, const ParameterDefinition* row) {

@@ -15,6 +15,13 @@ namespace {
 constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual names none
 constexpr std::array<int, 5> kBauds{9600, 19200, 38400, 57600, 115200};
 
+constexpr SectionRow kSections[] = {
+    {"程式/立即", "program, immediate"},
+    {"立即", "immediate"},
+    {"立即/外部", "immediate, external"},
+    {"緩衝區", "buffer"},
+};
+
 /// Names live as long as the program.
 struct Names {
   std::vector<std::string> texts;
@@ -87,12 +94,16 @@ std::vector<NamedParameterRow> parameter_rows() {
 
 constexpr std::array<std::string_view, 5> kStateNames{"ST", "MD", "PE", "ERR", "TM"};
 
-constexpr std::array<std::string_view, 4> kGaps{
+constexpr std::array<std::string_view, 5> kGaps{
     "?AC and ?TEMP always show the same, 24 and 25 or what a bench has chosen, ?IMX and ?IC 0: nothing "
-    "electrical is modelled.",
+    "electrical is modelled. ?VER and ?MT are of no version in particular.",
     "The servo's own loop has no error: ?FLE shows 0, and EL and LL are stored without effect.",
-    "FT pushes against something that does not give way, and PN44 and TpSYN are stored without effect.",
-    "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead.",
+    "FT pushes against something that does not give way, and TpSYN and one of PN44 to PN46 are stored "
+    "without effect.",
+    "PWM is in whole milliseconds, and above 500 Hz the level that prevails stays.",
+    "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead; where PR3 of "
+    "one "
+    "module changes in motion, the path is kept to all the same.",
 };
 
 }  // namespace
@@ -111,6 +122,7 @@ const Model& model() {
       .instructions = {},
       .commands = commands,
       .choices = kChoices,
+      .sections = kSections,
       .terminals = names.terminals,
       .axes = names.axes,
       .state_registers = kStateNames,

@@ -62,7 +62,8 @@ motion::SpeedLaw Module::working_law(const ChainOptions& options) const {
 }
 
 motion::SpeedLaw Module::jog_law(const ChainOptions& options) const {
-  return trapezoid(settings, std::abs(settings.jog_speed) * analog_factor(), options);
+  return trapezoid(
+      settings, std::abs(settings.jog_speed) * (options.analog_leaves_jogs ? 1 : analog_factor()), options);
 }
 
 }  // namespace understudy::emulator::slim

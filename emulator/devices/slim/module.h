@@ -33,6 +33,7 @@ struct ModuleSettings {
   double path_acceleration_units_s2 = 1000;  // PR2, > 0
   double path_speed_units_s = 100;           // PR3, > 0
   double smooth_corner_deg = 0;              // PR7; module 0's counts
+  double line_speed_units_s = 100;           // PR4, > 0, where lines of two axes go by it
 
   bool operator==(const ModuleSettings&) const = default;
 };
@@ -56,6 +57,8 @@ struct Module {
   std::int8_t jog_way = 0;         // of the jog that runs
   std::int8_t next_jog_way = 0;    // begins when what runs has stopped, or ...
   std::int32_t next_thrust = 0;    // ... this
+  std::int8_t held_jog_way = 0;    // goes on when the pause is over, or ...
+  std::int32_t held_thrust = 0;    // ... this
   bool analog_speed = false;       // AVM
   bool starved = false;            // slowed down because AVM gives no speed
   std::int16_t analog = 0;         // 0 .. kFullAnalog
@@ -69,6 +72,9 @@ struct Module {
   Fifo<Job, kFifoLength> fifo;
 
   bool operator==(const Module&) const = default;
+
+  /// A jog or thrust that a pause has stopped.
+  bool holds_jog() const { return held_jog_way != 0 || held_thrust != 0; }
 
   /// Half away from zero.
   std::int64_t pulses_of(double units) const;

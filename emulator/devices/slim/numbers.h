@@ -1,12 +1,20 @@
-// Numbers as SLIM prints them.
+// How SLIM writes its numbers.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace understudy::emulator::slim {
 
+enum class RealForm : std::uint8_t {
+  plain,     // digits and a point, whatever the size
+  exponent,  // from 1e9 on and below 1e-4 with an exponent
+};
+
 std::string text_of_integer(double value);
-/// The shortest text that reads back as the same 32-bit number.
-std::string text_of_real(double value);
+/// As few digits as tell a 32-bit real apart.
+std::string text_of_real(double value, RealForm form = RealForm::plain);
+/// Every pulse: whole numbers exactly, others to the ninth decimal as far as 15 digits go.
+std::string text_of_coordinate(double units);
 
 }  // namespace understudy::emulator::slim

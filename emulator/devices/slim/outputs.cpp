@@ -32,6 +32,7 @@ double period_of(const Output& output, double k) {
 }  // namespace
 
 bool Output::level_at(Tick tick) const {
+  if (mode != Mode::level && tick < since) return on;
   switch (mode) {
     case Mode::level: return on;
     case Mode::pulse: return tick < since + width;
@@ -43,6 +44,10 @@ bool Output::level_at(Tick tick) const {
 }
 
 Tick Output::next_change(Tick done) const {
+  if (mode != Mode::level && done < since) {
+    const bool changes = level_at(since) != on;
+    return changes ? since : next_change(since);
+  }
   if (mode == Mode::pulse && done < since + width) return since + width;
   if (mode != Mode::pwm || !varies(*this)) return kNever;
   const auto k = static_cast<double>(done - since);
@@ -52,17 +57,19 @@ Tick Output::next_change(Tick done) const {
   return since + std::max(static_cast<Tick>(next), done - since + 1);
 }
 
-void carry_out(Output& output, const OutputOrder& order, Tick now) {
+void carry_out(Output& output, const OutputOrder& order, Tick begin_at) {
+  const bool before = output.level_at(begin_at - 1);
   switch (order.kind) {
     case OutputOrder::Kind::set: output = {.on = true}; break;
     case OutputOrder::Kind::clear: output = {}; break;
-    case OutputOrder::Kind::toggle: output = {.on = !output.level_at(now)}; break;
+    case OutputOrder::Kind::toggle: output = {.on = !output.level_at(begin_at)}; break;
     case OutputOrder::Kind::pulse:
-      output = {.mode = Output::Mode::pulse, .since = now, .width = order.width};
+      output = {.mode = Output::Mode::pulse, .on = before, .since = begin_at, .width = order.width};
       break;
     case OutputOrder::Kind::pwm:
       output = {.mode = Output::Mode::pwm,
-                .since = now,
+                .on = before,
+                .since = begin_at,
                 .frequency_hz = order.frequency_hz,
                 .duty_percent = order.duty_percent};
       break;

@@ -14,11 +14,11 @@ inline constexpr Tick kPulseUnit = 4;
 struct Output {
   enum class Mode : std::uint8_t {
     level,
-    pulse,  // on until `since` + `width`, then off
+    pulse,  // on from `since` until `since` + `width`, then off
     pwm,    // on for the first `duty_percent` of each period, counted from `since`
   };
   Mode mode = Mode::level;
-  bool on = false;  // of a level
+  bool on = false;  // of a level; else before `since`
   Tick since = 0;
   Tick width = 0;  // of a pulse
   double frequency_hz = 0;
@@ -58,7 +58,7 @@ struct PositionTrigger {
   bool operator==(const PositionTrigger&) const = default;
 };
 
-/// All kinds but arm, at tick `now`.
-void carry_out(Output& output, const OutputOrder& order, Tick now);
+/// All kinds but arm. Pulses and PWM begin with tick `begin_at`, so that they last for whole ticks.
+void carry_out(Output& output, const OutputOrder& order, Tick begin_at);
 
 }  // namespace understudy::emulator::slim

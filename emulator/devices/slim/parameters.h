@@ -9,6 +9,9 @@
 #include <optional>
 #include <string_view>
 
+#include "emulator/devices/slim/errors.h"
+#include "interpreter/slim/command.h"
+
 namespace understudy::emulator::slim {
 
 struct ParameterDefinition {
@@ -25,18 +28,21 @@ struct ParameterDefinition {
   std::string_view unmodelled{};  // what is missing, if it is only stored
 };
 
-inline constexpr double kMaxReal = 3.402823466e38;  // float32
+inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
+/// Speeds and accelerations outside are no machine's, and may not be plannable. (As 32 bits hold 1e-6.)
+inline constexpr double kLeastSpeed = 1e-6F;
+inline constexpr double kMostSpeed = 1e9;
 
 /// In the order in which ULC lists them.
 inline constexpr ParameterDefinition kParameters[] = {
-    {"PN10", "VM", ParameterDefinition::Type::real, 0, 1e6, true, 1000, "RPM or RPS, by FU", false,
+    {"PN10", "VM", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 1000, "RPM or RPS, by FU", false,
      "working speed"},
-    {"PN14", "VJ", ParameterDefinition::Type::real, 0, 1e6, true, 100, "RPM or RPS, by FU", false,
+    {"PN14", "VJ", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 100, "RPM or RPS, by FU", false,
      "jog speed"},
     {"FU", "", ParameterDefinition::Type::integer, 0, 1, false, 0, "", false,
      "unit of PN10 and PN14: 0 RPM, 1 RPS"},
-    {"VA", "", ParameterDefinition::Type::real, 0, 1e9, true, 10000, "RPM/s or RPS/s, by FU", false,
-     "acceleration of moves of one axis; the name is ours, like TVA"},
+    {"VA", "", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 10000,
+     "RPM/s or RPS/s, by FU", false, "acceleration of moves of one axis; the name is ours, like TVA"},
     {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none",
      "no load is computed"},
     {"EL", "", ParameterDefinition::Type::integer, 0, 2147483647, false, 0, "pulse", false,
@@ -51,10 +57,12 @@ inline constexpr ParameterDefinition kParameters[] = {
      "... are so many units"},
     {"PN50", "", ParameterDefinition::Type::integer, 0, 255, false, 1, "", true,
      "linked modules, bit p for Tp; T0 always"},
-    {"PR2", "TVA", ParameterDefinition::Type::real, 0, kMaxReal, true, 1000, "unit/s2", false,
+    {"PR2", "TVA", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 1000, "unit/s2", false,
      "resultant acceleration of coordinated motion"},
-    {"PR3", "TVM", ParameterDefinition::Type::real, 0, kMaxReal, true, 100, "unit/s", false,
+    {"PR3", "TVM", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 100, "unit/s", false,
      "resultant speed of coordinated motion"},
+    {"PR4", "", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 100, "unit/s", false,
+     "PR3 by another name, or by choice the speed of 2MA and 2MR"},
     {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
      "largest angle that CM 2 joins"},
     {"SYN", "", ParameterDefinition::Type::integer, 0, 7, false, 0, "", false,
@@ -105,5 +113,16 @@ constexpr Parameters factory_parameters() {
 /// The value as the parameter holds it: a real one is rounded to what 32 bits hold. Nothing if it is out of
 /// range.
 std::optional<double> fitted(const ParameterDefinition& row, double value);
+
+/// TM is set like a parameter.
+inline constexpr double kMostClock_s = 1e9;
+
+/// What an assignment is refused for, whatever the chain is doing: no such parameter (syntax), or a value
+/// that it cannot have. Without a value, the former. An axis map may name a module twice only if the last
+/// letter takes it from the others.
+Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
+                      bool module_taken_from_letter);
+/// The same for a line of a program, whose value may be a variable; other lines are all right.
+Error check_parameter_line(const interpreter::slim::Command& command, bool module_taken_from_letter);
 
 }  // namespace understudy::emulator::slim

@@ -85,15 +85,17 @@ std::uint16_t Slim::status_bits(int module) const {
 Error Slim::query(const lang::Command& command, Answer& answer) const {
   const int module = command.module < 0 ? 0 : command.module;
   if (const Error error = linked(module); error != Error::none) return error;
-  answer.name = (command.module > 0 ? "T" + std::to_string(module) : "") + command.name;
+  if (answer.has_words) {
+    answer.name = (command.module > 0 ? "T" + std::to_string(module) : "") + command.name;
+  }
   const auto whole = [&](double value) {
     answer.number = value;
-    answer.text = text_of_integer(value);
+    if (answer.has_words) answer.text = text_of_integer(value);
     return Error::none;
   };
   const auto real = [&](double value) {
     answer.number = value;
-    answer.text = text_of_real(value);
+    if (answer.has_words) answer.text = text_of_real(value, real_form());
     return Error::none;
   };
   const auto words = [&](std::string text) {
@@ -123,13 +125,17 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
       const unsigned bits = status_bits(module);
       return chose(kStatusInHexadecimal) ? shown_as(hexadecimal(bits), bits) : whole(bits);
     }
-    case Verb::query_version: return words(version_text(firmware()));
+    case Verb::query_version:
+      return chose(kVersionIsNumber) ? whole(firmware()) : words(version_text(firmware()));
     case Verb::query_variable: {
       const lang::Operand& variable = command.operands.front();
       answer.name = lang::text_of(variable);
       return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
     }
-    case Verb::query_coordinate: return real(state_.chain.coordinate(module));
+    case Verb::query_coordinate: {
+      const double units = state_.chain.coordinate(module);
+      return chose(kCoordinateOf32Bits) ? real(units) : shown_as(text_of_coordinate(units), units);
+    }
     case Verb::query_mode: {
       const Mode mode = state_.chain.status(module).mode;
       const auto code = static_cast<double>(mode);
@@ -141,7 +147,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
       const Tick seconds = (now() - state_.powered_at) / 1000;
       return chose(kTimeInSeconds) ? whole(static_cast<double>(seconds)) : words(time_text(seconds));
     }
-    case Verb::query_motor_version: return words("1");
+    case Verb::query_motor_version: return whole(chosen_number(kMotorVersion));
     // Not modelled; kGaps says so.
     case Verb::query_voltage: return electrical(chosen_number(kVoltage));
     case Verb::query_temperature: return electrical(chosen_number(kTemperature));
@@ -153,21 +159,37 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
     default: break;
   }
   if (command.name == "TM") return whole(static_cast<double>(clock_s()));
-  const auto found = find_parameter(command.name, memory_form().speed_names);
+  const auto found = find_parameter(meant(command.name), memory_form().speed_names);
   if (!found || (kParameters[*found].host_only && module != 0)) return Error::syntax;
   const double held = state_.ram.parameters[static_cast<std::size_t>(module)][*found];
+  const Chain& chain = state_.chain;
+  if (*found == parameter("VM") && chain.analog_speed(module) && chose(kShownSpeedIsAnalog)) {
+    return real(held * chain.analog(module) / kFullAnalog);
+  }
   return kParameters[*found].type == ParameterDefinition::Type::integer ? whole(held) : real(held);
 }
 
 // --- past the line: scenarios, traces, the control socket ----------------------------------------
 
+/// Conditions and traces ask for the same at every tick: its words are read once.
+const std::optional<lang::Command>& Slim::query_named(std::string_view name) const {
+  constexpr std::size_t kMost = 256;  // a host may ask for anything, for ever
+  if (const auto known = queries_.find(name); known != queries_.end()) return known->second;
+  if (queries_.size() >= kMost) queries_.clear();
+  std::optional<lang::Command>& query = queries_[std::string(name)];
+  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), of_programs().dialect);
+  if (parsed.error != Error::none || !parsed.line.command) return query;
+  const auto row = static_cast<std::size_t>(parsed.line.command->row);
+  if (lang::kCommands[row].is_query()) query = std::move(parsed.line.command);
+  return query;
+}
+
 std::optional<double> Slim::value_named(std::string_view name) const {
   if (!powered()) return std::nullopt;
-  lang::ParseResult parsed = lang::parse_line("?" + std::string(name), of_programs().dialect);
-  if (parsed.error != Error::none || !parsed.line.command) return std::nullopt;
-  lang::Command& command = *parsed.line.command;
-  if (!lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) return std::nullopt;
-  Answer answer;
+  const std::optional<lang::Command>& query_of_name = query_named(name);
+  if (!query_of_name) return std::nullopt;
+  lang::Command command = *query_of_name;
+  Answer answer{.has_words = false};
   if (resolve_indices(command, *this) != Error::none) return std::nullopt;
   if (query(command, answer) != Error::none) return std::nullopt;
   return answer.number;

@@ -33,7 +33,7 @@ struct Fields {
   }
   // clang-format on
 
-  static constexpr lang::Operand::Kind last(lang::Operand::Kind) { return lang::Operand::Kind::condition; }
+  static constexpr lang::Operand::Kind last(lang::Operand::Kind) { return lang::Operand::Kind::quantity; }
   static constexpr lang::Hold last(lang::Hold) { return lang::Hold::number; }
   static constexpr lang::Ending last(lang::Ending) { return lang::Ending::failed; }
   static constexpr lang::Error last(lang::Error) { return lang::Error::address; }

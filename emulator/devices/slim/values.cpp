@@ -21,6 +21,7 @@ double Slim::value(const lang::Operand& operand) const {
     case Kind::real_array: return state_.ram.real_array[at(operand.index)];
     case Kind::analog: return emulator::Device::input(terminal(0, kAnalog));
     case Kind::clock: return static_cast<double>(clock_s());
+    case Kind::quantity: return value_named(operand.text).value_or(0);
     default: return operand.number;
   }
 }
@@ -32,7 +33,7 @@ double Slim::amount(const lang::Command& command, std::size_t operand) const {
 std::string Slim::text_of(const lang::Operand& variable) const {
   return holds_integer(variable.kind) || variable.kind == lang::Operand::Kind::integer
              ? text_of_integer(value(variable))
-             : text_of_real(value(variable));
+             : text_of_real(value(variable), real_form());
 }
 
 Error Slim::set_variable(const lang::Operand& variable, double value) {
@@ -41,6 +42,7 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
   if (!std::isfinite(value)) return Error::range;
   if (holds_integer(variable.kind)) {
     if (value < of_programs().dialect.integer_least || value > lang::kIntegerMost) return Error::range;
+    if (value != std::trunc(value)) return Error::range;
   } else if (std::abs(value) > kMaxReal) {
     return Error::range;
   }
@@ -55,30 +57,33 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
     case Kind::real_array: ram.real_array[place] = real; break;
     default: return Error::syntax;
   }
-  if (is_array(variable.kind) && !chose(kArraysBySaveD)) {
-    if (variable.kind == Kind::integer_array) {
-      state_.kept.integer_array[place] = whole;
-    } else {
-      state_.kept.real_array[place] = real;
-    }
-    ++state_.kept_revision;
+  const bool is_kept = is_array(variable.kind) ? !chose(kArraysBySaveD) : chose(kVariablesWhenWritten);
+  if (!is_kept) return Error::none;
+  switch (variable.kind) {
+    case Kind::integer_variable: state_.kept.integers[place] = whole; break;
+    case Kind::real_variable: state_.kept.reals[place] = real; break;
+    case Kind::integer_array: state_.kept.integer_array[place] = whole; break;
+    default: state_.kept.real_array[place] = real; break;
   }
+  ++state_.kept_revision;
   return Error::none;
 }
 
-Error Slim::set_parameter(int module, std::string_view name, double value) {
+Error Slim::set_parameter(int module, std::string_view given_name, double value) {
+  const std::string_view name = meant(given_name);
   if (const Error error = linked(module); error != Error::none) return error;
+  const SpeedNames names = memory_form().speed_names;
+  if (const Error error = check_parameter(module, name, value, names, chose(kModuleTakenFromLetter));
+      error != Error::none) {
+    return error;
+  }
   if (name == "TM") {
-    if (!(value >= 0 && value <= 1e9)) return Error::range;
     state_.clock_zero = now() - static_cast<Tick>(std::trunc(value)) * 1000;
     return Error::none;
   }
-  const auto number = find_parameter(name, memory_form().speed_names);
-  if (!number) return Error::syntax;
+  const auto number = find_parameter(name, names);
   const ParameterDefinition& row = kParameters[*number];
-  if (row.host_only && module != 0) return Error::syntax;
   const auto fits = fitted(row, value);
-  if (!fits) return Error::range;
   if (name == "TVM" && module == 0) {  // of all linked modules at once
     if (const Error error = state_.chain.set_tvm(*fits); error != Error::none) return error;
     for (int m = 0; m < kModules; ++m) {
@@ -86,7 +91,7 @@ Error Slim::set_parameter(int module, std::string_view name, double value) {
     }
     return Error::none;
   }
-  if (!row.unmodelled.empty()) mention_unmodelled(row.name, row.unmodelled);
+  if (!row.unmodelled.empty() && !is_of_user_unit(*number)) mention_unmodelled(row.name, row.unmodelled);
   const Error error = apply_parameter(module, *number, *fits);
   if (error == Error::none) state_.ram.parameters[at(module)][*number] = *fits;
   if (error == Error::none && *number == parameter("PN50")) {
@@ -95,32 +100,34 @@ Error Slim::set_parameter(int module, std::string_view name, double value) {
   return error;
 }
 
+/// Two of PN44, PN45 and PN46 are pulses and units; the third one is stored only.
+Error Slim::set_scale(int module, std::size_t number, double value) {
+  const UserUnit unit = user_unit();
+  if (number != unit.pulses && number != unit.units) return Error::none;
+  const Parameters& all = state_.ram.parameters[at(module)];
+  const auto of = [&](std::size_t one) {
+    return static_cast<std::int64_t>(one == number ? value : all[one]);
+  };
+  return state_.chain.set_scale(module, of(unit.pulses), of(unit.units));
+}
+
 /// What a parameter means to the chain, before it is stored.
 Error Slim::apply_parameter(int module, std::size_t number, double value) {
   Chain& chain = state_.chain;
-  const Parameters& all = state_.ram.parameters[at(module)];
   switch (number) {
     case parameter("VM"): return chain.set_working_speed(module, value);
     case parameter("VJ"): return chain.set_jog_speed(module, value);
     case parameter("FU"): return chain.set_speed_unit(module, value == 0 ? SpeedUnit::rpm : SpeedUnit::rps);
     case parameter("VA"): return chain.set_acceleration(module, value);
+    case parameter("PN44"):
     case parameter("PN45"):
-      return chain.set_scale(module, static_cast<std::int64_t>(value),
-                             static_cast<std::int64_t>(all[parameter("PN46")]));
-    case parameter("PN46"):
-      return chain.set_scale(module, static_cast<std::int64_t>(all[parameter("PN45")]),
-                             static_cast<std::int64_t>(value));
+    case parameter("PN46"): return set_scale(module, number, value);
     case parameter("PR2"): return chain.set_path_acceleration(module, value);
     case parameter("PR3"): return chain.set_path_speed(module, value);
+    case parameter("PR4"): return chain.set_line_speed(module, value);
     case parameter("PR7"): return chain.set_smooth_corner(module, value);
     case parameter("PN50"):
       for (int m = 1; m < kModules; ++m) chain.set_linked(m, ((static_cast<int>(value) >> m) & 1) != 0);
-      return Error::none;
-    case parameter("PN37"):  // the map at the next power-up
-      for (int letter = 0; letter < kLetters; ++letter) {
-        const int nibble = (static_cast<int>(value) >> (4 * letter)) & 0xF;
-        if (nibble >= kMappable && nibble != kUnassigned) return Error::range;
-      }
       return Error::none;
     default: return Error::none;
   }
@@ -145,10 +152,10 @@ void Slim::keep_axis_map() {
   state_.ram.parameters[0][parameter("PN37")] = map;
 }
 
-/// DF. While something moves it would change units under way.
+/// DF. While anything has something to do it would change units under way.
 Error Slim::restore_factory_parameters() {
   for (int m = 0; m < kModules; ++m) {
-    if (state_.chain.moving(m) || state_.chain.queued(m) > 0) return Error::not_allowed;
+    if (state_.chain.busy(m)) return Error::not_allowed;
   }
   state_.ram.parameters = factory().parameters;
   apply_all_parameters();
@@ -182,10 +189,11 @@ std::vector<std::string> Slim::parameter_list() const {
       const std::size_t i = listed_at(place, memory_form().speed_names);
       const ParameterDefinition& row = kParameters[i];
       if (m > 0 && row.host_only) continue;
+      if (row.name != meant(row.name)) continue;
       const double value = state_.ram.parameters[at(m)][i];
-      lines.push_back(
-          parameter_name(m, i, memory_form().speed_names) + "=" +
-          (row.type == ParameterDefinition::Type::integer ? text_of_integer(value) : text_of_real(value)));
+      lines.push_back(parameter_name(m, i, memory_form().speed_names) + "=" +
+                      (row.type == ParameterDefinition::Type::integer ? text_of_integer(value)
+                                                                      : text_of_real(value, real_form())));
     }
   }
   return lines;

@@ -64,7 +64,7 @@ inline Then loop(Step& step) {
   const int first = step.flag_line();
   const int here = step.line_number;
   LoopState& state = step.execution.loop;
-  if (first >= here) return Then::next_line;  // rule 1: void
+  if (first >= here || step.is_void_jump()) return Then::next_line;  // rule 1: void
 
   const bool is_counting_here = state.counts && state.loop_line == here;
   if (state.counts && !is_counting_here && here >= state.first_line && here <= state.loop_line) {

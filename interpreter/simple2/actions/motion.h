@@ -99,7 +99,8 @@ Then and_wait(Step& step) {
 
 template <Axes axes>
 bool any_moving(const Machine& machine) {
-  return (has(axes, Axis::a) && machine.moving(Axis::a)) || (has(axes, Axis::b) && machine.moving(Axis::b));
+  return (has(axes, Axis::a) && machine.moving_for_wait(Axis::a)) ||
+         (has(axes, Axis::b) && machine.moving_for_wait(Axis::b));
 }
 
 /// Where Wait_Move_* goes on. It does nothing else.

@@ -98,14 +98,16 @@ inline Then set_timer(Step& step, std::int32_t value) {
 inline Then timer_reset(Step& step) { return set_timer(step, 0); }
 inline Then timer_value(Step& step) { return set_timer(step, step.second_parameter()); }
 
-/// Timers have 32 bits without a sign, and so has what they are compared with.
+/// Timers have 32 bits without a sign, and so has what they are compared with, unless it is chosen otherwise.
 template <int timer>
 Then jump_timer_reached(Step& step) {
   if (timer == 1 && step.dialect.quirk_jump_timer1_does_not_work) {
     return jump_if(step.dialect.timer1_defect == Dialect::Timer1Defect::always_jumps);
   }
-  return jump_if(static_cast<std::uint32_t>(step.machine.parameter(timer_parameter(timer))) >=
-                 static_cast<std::uint32_t>(step.second_parameter()));
+  const std::int32_t time = step.machine.parameter(timer_parameter(timer));
+  const std::int32_t limit = step.second_parameter();
+  if (step.dialect.timer_compare == Dialect::TimerCompare::with_sign) return jump_if(time >= limit);
+  return jump_if(static_cast<std::uint32_t>(time) >= static_cast<std::uint32_t>(limit));
 }
 
 inline constexpr ActionRow kOutputActions[] = {

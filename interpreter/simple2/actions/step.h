@@ -30,6 +30,11 @@ struct Step {
   /// The parameters that DATA1 and DATA2 name.
   std::int32_t first_parameter() const { return machine.parameter(line.data1); }
   std::int32_t second_parameter() const { return machine.parameter(line.data2); }
+  /// To a flag that there cannot be, where a choice makes that a void line.
+  bool is_void_jump() const {
+    const bool is_flag = line.data1 >= 1 && line.data1 <= kFlagCount;
+    return !is_flag && dialect.undefined_flag == Dialect::UndefinedFlag::line_void;
+  }
   /// "If no line has the flag, the target is line 0."
   int flag_line() const { return program.line_with_flag(line.data1).value_or(0); }
 };

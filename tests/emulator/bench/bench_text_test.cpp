@@ -14,6 +14,7 @@ understudy: 1
 lines:
   rs485:
     baud: 115200
+    baud_tolerance: 0.0305%
     timing: instant
     stations:
       - name: feeder
@@ -102,6 +103,8 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(again.faults, bench.faults);
   EXPECT_EQ(again.faults.size(), 8u);
   EXPECT_EQ(again.seed, 77u);
+  EXPECT_EQ(again.lines[0].baud_tolerance_ppm, 305);
+  EXPECT_EQ(again.lines[1].baud_tolerance_ppm, 20'000);
 }
 
 TEST(BenchText, OfAFactoryBenchIsShort) {

@@ -2,6 +2,7 @@
 #include "emulator/control/messages.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/emulator/control/daemon_rig.h"
 
@@ -94,6 +95,58 @@ TEST(ControlMessages, TimeThatRunsByItselfCannotBeAdvanced) {
   EXPECT_EQ(rig.ask(R"({"do":"advance","by":"1ms"})"), refused) << "one at a time";
 }
 
+TEST(ControlMessages, GetKnowsWhateverConditionsKnow) {
+  DaemonRig rig;
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.0x1000":500,"feeder.Aaxis_Speed":60,)"
+          R"("feeder.Aaxis_Move_INC":1}})");
+  rig.ask(R"({"do":"input","values":{"turner.AIN_B":"2.5V"}})");
+  rig.daemon.world().advance_to(std::chrono::seconds(1));
+  const Json reply = rig.ask(
+      R"({"do":"get","names":["time","feeder.A.position","feeder.A.pulses","feeder.power","rs485.bytes_in",)"
+      R"("turner.AIN_B","feeder.0x1000","feeder.0x1001","feeder.0x1014.0","feeder.0x0e04","feeder.Cord_A"]})");
+  EXPECT_EQ(reply["ok"], true) << reply;
+  EXPECT_EQ(reply["values"], (Json{{"time", 1'000'000'000},
+                                   {"feeder.A.position", 500},
+                                   {"feeder.A.pulses", 500},
+                                   {"feeder.power", 1},
+                                   {"rs485.bytes_in", 0},
+                                   {"turner.AIN_B", 2500},
+                                   {"feeder.0x1000", 500},
+                                   {"feeder.0x1001", 0},
+                                   {"feeder.0x1014.0", 1},
+                                   {"feeder.0x0e04", 500},
+                                   {"feeder.Cord_A", 500}}));
+  EXPECT_EQ(reply["units"], (Json{{"time", "ns"}, {"turner.AIN_B", "mV"}}));
+  EXPECT_EQ(rig.reply_to(R"({"do":"eval","expression":"feeder.A.position / 3 + 1"})"),
+            R"({"ok":true,"value":167})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"eval","expression":"feeder.0x1000 == feeder.Cord_A && time > 3ms"})"),
+            R"({"ok":true,"value":1})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"eval","expression":"time * 2"})"),
+            R"({"ok":true,"value":2000000000,"unit":"ns"})");
+  EXPECT_EQ(rig.reply_to(R"({"do":"eval","expression":"1.5 * 3"})"), R"({"ok":true,"value":4.5})");
+}
+
+TEST(ControlMessages, WithoutPowerThereAreNoRegistersToGet) {
+  DaemonRig rig;
+  rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
+  const std::string refused = R"({"ok":false,"error":"feeder has no power; expected it switched on"})";
+  EXPECT_EQ(rig.reply_to(R"({"do":"get","names":["turner.Cord_A","feeder.Cord_A"]})"), refused);
+  EXPECT_EQ(rig.reply_to(R"({"do":"eval","expression":"feeder.Cord_A"})"), refused);
+  EXPECT_EQ(rig.reply_to(R"({"do":"get","names":["feeder.power","feeder.A.position"]})"),
+            R"({"ok":true,"values":{"feeder.power":0,"feeder.A.position":0}})");
+}
+
+TEST(ControlMessages, IdentifyTellsWhichDaemonItIs) {
+  DaemonRig rig;
+  const Json daemon = rig.ask(R"({"do":"identify"})")["daemon"];
+  EXPECT_EQ(daemon["pid"], getpid());
+  EXPECT_EQ(daemon["bench"], "");
+  ASSERT_EQ(daemon["lines"].size(), 1U);
+  EXPECT_EQ(daemon["lines"][0]["name"], "rs485");
+  EXPECT_EQ(daemon["lines"][0]["link"], rig.folder.path + "/feeder.port");
+  EXPECT_EQ(daemon["lines"][0]["pty"], rig.daemon.ports()[0]->terminal().path());
+}
+
 struct Bad {
   std::string message;
   std::string error;  // its beginning
@@ -114,7 +167,7 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
       {"\"\\ud800\"", no_json},
       {std::string("{\"do\":\"status\"\0}", 16), no_json},
       {"{\"do\":\"set\",\"values\":{\"feeder.Aaxis_Speed\":1e400}}", no_json},
-      {std::string(60000, '['), no_json},
+      {std::string(60000, '['), "the message is nested too deeply; expected one object on one line"},
       {std::string(60000, '{'), no_json},
       {"null", no_object},
       {"42", no_object},
@@ -127,8 +180,9 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
       {"{\"do\":null}", no_object},
       {"{\"do\":[\"status\"]}", no_object},
       {"{\"do\":\"\"}",
-       "'' is nothing to do; expected one of advance, run-until, status, get, set, input, "
-       "power, program, inject, clear, list"},
+       "'' is nothing to do; expected one of status, identify, get, eval, set, input, power, program, "
+       "inject, "
+       "clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
       {"{\"do\":\"jump\"}", "'jump' is nothing to do; expected "},
       {"{\"do\":\"a\\nb\"}", "'a\\nb' is nothing to do; expected "},
       {"{\"do\":\"status\",\"x\":1}", "'x' is no key of this message"},
@@ -152,10 +206,11 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
   const auto input = [](const std::string& values) { return R"({"do":"input","values":)" + values + "}"; };
   const auto get = [](const std::string& names) { return R"({"do":"get","names":)" + names + "}"; };
   const auto by = [](const std::string& duration) { return R"({"do":"advance","by":)" + duration + "}"; };
+  const auto eval = [](const std::string& text) { return R"({"do":"eval","expression":")" + text + "\"}"; };
   const std::string no_object = "values: expected an object of names and whole numbers";
   const std::string no_levels = "values: expected an object of names and levels";
   const std::string no_number = "feeder.Aaxis_Speed: expected a whole number";
-  const std::string no_list = "names: expected a list of register names";
+  const std::string no_list = "names: expected a list of names";
   const std::string no_time = "by: expected a duration with a unit, such as \"250ms\"";
   const std::vector<Bad> cases = {
       {R"({"do":"set"})", "'values' is missing"},
@@ -184,8 +239,26 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {set(R"({"feeder.STATUS.3":1})"), "feeder.STATUS.3 cannot be written; it is read-only"},
       {set(R"({"feeder.DOUT_ALL.3":2})"), "feeder.DOUT_ALL.3: 2 is out of range"},
       {set(R"({"feedr.Aaxis_Speed":1})"), "no device is called 'feedr'; the nearest is 'feeder'"},
-      {set(R"({"Aaxis_Speed":1})"), "no device is called 'Aaxis_Speed'"},
-      {set(R"({"feeder":1})"), "no device is called 'feeder'"},
+      {set(R"({"Aaxis_Speed":1})"),
+       "'Aaxis_Speed' needs its device in front; expected one of feeder.Aaxis_Speed, turner.Aaxis_Speed"},
+      {set(R"({"feeder":1})"), "'feeder' is a device; expected feeder.REGISTER"},
+      {input(R"({"DIN_1":1})"),
+       "'DIN_1' needs its device in front; expected one of feeder.DIN_1, turner.DIN_1"},
+      {input(R"({"feeder":1})"), "'feeder' is a device; expected feeder.INPUT"},
+      {get(R"(["feeder"])"), "'feeder' is a device; expected feeder.NAME"},
+      {get(R"(["A.position"])"),
+       "'A.position' needs its device in front; expected one of feeder.A.position, turner.A.position"},
+      {get(R"(["feeder.A.positon"])"), "axis A has no 'positon'; the nearest is 'position'"},
+      {get(R"(["feeder.0x0003"])"), "feeder: no register is at 0x0003"},
+      {get(R"(["feeder.0x1002.16"])"), "feeder: 0x1002 has no bit '16'; expected 0 to 15"},
+      {get(R"(["feeder.A.greatest_speed"])"), "feeder.A.greatest_speed is kept in scenarios only"},
+      {eval("feeder.STATUS +"), "column 16 of 'feeder.STATUS +': unexpected end; expected "},
+      {eval("1 / feeder.STATUS.0"), "column 3 of '1 / feeder.STATUS.0': division by zero"},
+      {eval("feeder.STATUS == yes"),
+       "column 18 of 'feeder.STATUS == yes': 'yes' is not known here; expected on"},
+      {R"({"do":"eval"})", "'expression' is missing"},
+      {R"({"do":"frames","since":1,"last":1})", "since: is given beside last; expected one of them"},
+      {R"({"do":"frames","since":-1})", "since: expected a whole number"},
       {set(R"({"":1})"), "no device is called ''"},
       {set(R"({"feeder.":1})"), "feeder: no register is called ''"},
       {set(R"({"feeder.Aaxis_Sped":1})"),

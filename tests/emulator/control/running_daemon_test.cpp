@@ -4,6 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <thread>
 
 #include "tests/emulator/control/daemon_rig.h"
@@ -195,6 +196,38 @@ TEST(RunUntil, EndsWhereItIsWhenTimeIsPaused) {
   EXPECT_EQ(reply["reached"], false);
   EXPECT_EQ(reply["simulated_time_ns"], paused["simulated_time_ns"]);
   EXPECT_EQ(daemon.ask(R"({"do":"resume"})")["ok"], true);
+}
+
+TEST(RunningDaemon, ASnapshotIsReadAsideAndMadeThePresent) {
+  Running daemon;
+  const std::string file = daemon.rig.folder.path + "/state.json";
+  const auto about = [&](const char* verb) { return Json{{"do", verb}, {"file", file}}.dump(); };
+  daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_Speed":200}})");
+  daemon.ask(R"({"do":"advance","by":"5ms"})");
+  ASSERT_EQ(daemon.ask(about("snapshot"))["ok"], true);
+  daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_Speed":7}})");
+  daemon.ask(R"({"do":"advance","by":"1s"})");
+  EXPECT_EQ(daemon.ask(about("restore")), (Json{{"ok", true}, {"simulated_time_ns", 5'000'000}}));
+  EXPECT_EQ(daemon.get("feeder.Aaxis_Speed"), 200);
+  EXPECT_EQ(daemon.get("time"), 5'000'000);
+}
+
+TEST(RunningDaemon, WhatIsNoSnapshotIsRefusedAndChangesNothing) {
+  Running daemon;
+  const std::string file = daemon.rig.folder.path + "/state.json";
+  const std::string restore = Json{{"do", "restore"}, {"file", file}}.dump();
+  EXPECT_EQ(daemon.ask(restore)["error"], file + ": file: cannot be read; expected a snapshot");
+  for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
+           {"", "file: is torn or no JSON; expected a snapshot"},
+           {std::string(100'000, '['),
+            "file: is nested deeper than anything that is written; expected a snapshot"},
+           {R"({"understudy":1,"state":{"a":{}}})",
+            "file: is nested deeper than anything that is written; expected a snapshot"},
+           {"{}", "understudy: is missing; expected a snapshot"}}) {
+    std::ofstream(file) << text;
+    EXPECT_EQ(daemon.ask(restore)["error"], file + ": " + error);
+  }
+  EXPECT_EQ(daemon.get("time"), 0);
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 #include "emulator/control/server.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <thread>
 
@@ -360,12 +362,80 @@ TEST(AskControl, ComplainsWhenTheServerGoesBeforeItAnswers) {
   close(listener);
 }
 
-TEST(DefaultControlPath, IsInTheUsersRuntimeFolder) {
-  const char* const before = std::getenv("XDG_RUNTIME_DIR");
-  const std::string kept = before != nullptr ? before : "";
-  setenv("XDG_RUNTIME_DIR", "/run/user/12345", 1);
-  EXPECT_EQ(default_control_path(), "/run/user/12345/understudy.control");
-  before != nullptr ? setenv("XDG_RUNTIME_DIR", kept.c_str(), 1) : unsetenv("XDG_RUNTIME_DIR");
+TEST(ControlServer, ClientsTakeTurnsHoweverMuchOneHasToSay) {
+  ServerRig rig;
+  rig.serve(rig.path);
+  Client busy(rig.path);
+  Client other(rig.path);
+  std::string much;
+  for (int i = 0; i < 200; ++i) much += "much\n";
+  busy.say(much);
+  other.say("a word\n");
+  rig.settle();
+  const auto turn = std::find(rig.heard.begin(), rig.heard.end(), "a word") - rig.heard.begin();
+  EXPECT_LE(turn, 3) << "behind one message of the other's, not behind all";
+  while (rig.heard.size() < 201) rig.loop.wait(wall_now() + std::chrono::seconds(5));
+}
+
+/// No more descriptors than there are now while this lives.
+struct NoMoreDescriptors {
+  NoMoreDescriptors() {
+    getrlimit(RLIMIT_NOFILE, &before);
+    const int next = dup(0);
+    close(next);
+    rlimit limit = before;
+    limit.rlim_cur = static_cast<rlim_t>(next);
+    setrlimit(RLIMIT_NOFILE, &limit);
+  }
+  ~NoMoreDescriptors() { setrlimit(RLIMIT_NOFILE, &before); }
+  NoMoreDescriptors(const NoMoreDescriptors&) = delete;
+  NoMoreDescriptors& operator=(const NoMoreDescriptors&) = delete;
+  rlimit before{};
+};
+
+TEST(ControlServer, WithoutDescriptorsItRestsUntilAClientHasGone) {
+  ServerRig rig;
+  rig.serve(rig.path);
+  auto served = std::make_unique<Client>(rig.path);
+  served->say("first\n");
+  rig.settle();
+  Client waiting(rig.path);
+  waiting.say("second\n");
+  {
+    const NoMoreDescriptors none;
+    rig.settle();
+    EXPECT_TRUE(rig.server->next_look());
+    // Nobody is told again and again that somebody waits.
+    const WallTime before = wall_now();
+    rig.loop.wait(before + std::chrono::milliseconds(100));
+    EXPECT_GE(wall_now() - before, std::chrono::milliseconds(100));
+    served->say("third\n");
+    rig.settle();
+    EXPECT_EQ(rig.heard, (std::vector<std::string>{"first", "third"}));
+  }
+  served.reset();
+  rig.settle();
+  EXPECT_FALSE(rig.server->next_look());
+  EXPECT_EQ(rig.heard.back(), "second");
+  EXPECT_EQ(waiting.hear(), "you said: second\n");
+}
+
+TEST(ControlServer, WithoutDescriptorsItTriesAgainByItself) {
+  ServerRig rig;
+  rig.serve(rig.path);
+  Client waiting(rig.path);
+  waiting.say("is there room?\n");
+  {
+    const NoMoreDescriptors none;
+    rig.settle();
+    rig.server->look(wall_now());
+    EXPECT_TRUE(rig.server->next_look());
+  }
+  rig.settle();
+  EXPECT_TRUE(rig.heard.empty());
+  rig.server->look(*rig.server->next_look());
+  rig.settle();
+  EXPECT_EQ(waiting.hear(), "you said: is there room?\n");
 }
 
 }  // namespace

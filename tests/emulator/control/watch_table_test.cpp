@@ -65,5 +65,34 @@ TEST(WatchTable, RefusesWhatIsNoStatus) {
   }
 }
 
+TEST(WatchValues, ShowsWhatWasNamedAndWhyThereIsNone) {
+  DaemonRig rig;
+  rig.daemon.world().advance_to(std::chrono::milliseconds(1500));
+  const std::vector<std::string> names{"feeder.HW_Code", "feeder.A.position"};
+  EXPECT_EQ(watch_values(rig.reply_to(get_message(names))),
+            (std::vector<std::string>{"time               1.5s", "feeder.HW_Code     49153",
+                                      "feeder.A.position  0"}));
+  EXPECT_EQ(get_message({"time"}), R"({"do":"get","names":["time"]})");
+  rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
+  EXPECT_EQ(watch_values(rig.reply_to(get_message(names))),
+            std::vector<std::string>{"feeder has no power; expected it switched on"});
+  EXPECT_EQ(why_refused(rig.reply_to(get_message({"turner.HW_Cod"}))),
+            "turner: no register is called 'HW_Cod'; the nearest is 'HW_Code'");
+  EXPECT_THROW(why_refused("hello"), ControlError);
+}
+
+TEST(FitScreen, CutsLinesAndTellsWhatHasNoRoom) {
+  const std::vector<std::string> lines{"one", "two is long", "three", "four"};
+  EXPECT_EQ(fit_screen(lines, 4, 80), lines);
+  EXPECT_EQ(fit_screen(lines, 4, 5), (std::vector<std::string>{"one", "two i", "three", "four"}));
+  EXPECT_EQ(fit_screen(lines, 3, 16), (std::vector<std::string>{"one", "two is long", "... 2 lines more"}));
+  EXPECT_EQ(fit_screen(lines, 1, 16), std::vector<std::string>{"... 4 lines more"});
+  EXPECT_EQ(fit_screen({"a\xE9\x81\x8B"
+                        "b"},
+                       1, 2),
+            std::vector<std::string>{"a"})
+      << "a character stays whole";
+}
+
 }  // namespace
 }  // namespace understudy::emulator

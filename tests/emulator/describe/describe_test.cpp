@@ -5,6 +5,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/emulator/register_map/register_facts.h"
@@ -41,8 +42,10 @@ TEST(Describe, TheColumnsOfCsvAreThoseThatScriptsRelyOn) {
   EXPECT_EQ(Csv("registers").header,
             "table,address,name,access,width,signed,min,max,unit,persistent,default");
   EXPECT_EQ(Csv("parameters").header, "number,name,address,width,persistent");
-  EXPECT_EQ(Csv("instructions").header, "opcode,mnemonic,data1,data2");
+  EXPECT_EQ(Csv("instructions").header, "opcode,mnemonic,data1,data2,meaning");
   EXPECT_EQ(Csv("commands").header, "command,syntax,meaning");
+  EXPECT_EQ(Csv("choices").header,
+            "id,section,question,chosen,alternatives,confidence,why,scenario,section_english");
 }
 
 TEST(Describe, OtherWordsAreNotDescribed) {
@@ -107,6 +110,66 @@ TEST(Describe, InstructionsAreTheManuals) {
   }
 }
 
+TEST(Describe, EveryInstructionHasAMeaningOfItsOwn) {
+  std::set<std::string> meanings;
+  for (const Fact& row : Csv("instructions").rows) {
+    const std::string& meaning = row.at("meaning");
+    EXPECT_GE(meaning.size(), 10U) << row.at("mnemonic");
+    EXPECT_LE(meaning.size(), 160U) << row.at("mnemonic");
+    EXPECT_TRUE(meanings.insert(meaning).second) << row.at("mnemonic") << ": " << meaning;
+  }
+  EXPECT_EQ(meanings.size(), 115U);
+  // It speaks of the axis, counter or timer that the name speaks of.
+  for (const Fact& row : Csv("instructions").rows) {
+    const std::string name = row.at("mnemonic") + "_";
+    const std::string& meaning = row.at("meaning");
+    for (const char* axis : {"A", "B"}) {
+      if (name.find("_" + std::string(axis) + "_") == std::string::npos) continue;
+      EXPECT_NE(meaning.find("axis " + std::string(axis)), std::string::npos) << name;
+    }
+    for (const char* number : {"1", "2"}) {
+      if (name.find("er" + std::string(number)) == std::string::npos) continue;  // Counter1, Timer2
+      EXPECT_NE(meaning.find("er " + std::string(number)), std::string::npos) << name;
+    }
+  }
+}
+
+TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
+  const auto is_ascii = [](std::string_view text) {
+    return std::none_of(text.begin(), text.end(), [](char c) { return (c & 0x80) != 0; });
+  };
+  for (const Model* const model : all_models()) {
+    std::set<std::string_view> sections;
+    for (const RegisterRow& row : model->registers.rows()) sections.insert(row.section);
+    for (const ChoiceRow& row : model->choices) sections.insert(row.section);
+    std::erase_if(sections, is_ascii);
+    std::set<std::string_view> translated;
+    for (const SectionRow& row : model->sections) {
+      EXPECT_TRUE(is_ascii(row.in_english) && !row.in_english.empty()) << row.name;
+      EXPECT_TRUE(translated.insert(row.name).second) << row.name << " is there twice";
+    }
+    EXPECT_EQ(sections, translated) << model->name << ": Model::sections is not what its rows name";
+    for (const Fact& row : Csv("choices", *model).rows) {
+      EXPECT_TRUE(is_ascii(row.at("section_english"))) << row.at("id");
+    }
+  }
+  EXPECT_EQ(Csv("choices").rows.front().at("section_english"), "RS485");
+  for (const char* what : {"registers", "choices"}) {
+    EXPECT_NE(described(what, SheetFormat::table).find("狀態相關 (status)"), std::string::npos) << what;
+  }
+  EXPECT_NE(described("choices", SheetFormat::markdown).find("| 狀態相關 (status) |"), std::string::npos);
+}
+
+TEST(Describe, AChoiceWithAlternativesNamesItsScenario) {
+  for (const Fact& row : Csv("choices").rows) {
+    const std::string path = "scenarios/choices/simple2-r3/" + row.at("id") + ".yaml";
+    EXPECT_EQ(row.at("scenario"), row.at("alternatives").empty() ? "" : path);
+  }
+  const std::string page = described("choices", SheetFormat::markdown);
+  EXPECT_NE(page.find("| [loop_count.yaml](../../scenarios/choices/simple2-r3/loop_count.yaml) |"),
+            std::string::npos);
+}
+
 TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
   // The list's numbers and second names; widths: real numbers are floats of 32 bits.
   struct Named {
@@ -114,11 +177,11 @@ TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
     const char* name;
     const char* width;
   };
-  constexpr Named kNamed[] = {{"PN10", "VM", "32"},   {"PN14", "VJ", "32"},   {"", "FU", "16"},
-                              {"", "VA", "32"},       {"", "LL", "32"},       {"", "EL", "32"},
-                              {"PN37", "PN37", "16"}, {"PN44", "PN44", "32"}, {"PN45", "PN45", "32"},
-                              {"PN46", "PN46", "32"}, {"PN50", "PN50", "16"}, {"PR2", "TVA", "32"},
-                              {"PR3", "TVM", "32"},   {"PR7", "CMA", "32"},   {"", "SYN", "16"}};
+  constexpr Named kNamed[] = {
+      {"PN10", "VM", "32"},   {"PN14", "VJ", "32"},   {"", "FU", "16"},       {"", "VA", "32"},
+      {"", "LL", "32"},       {"", "EL", "32"},       {"PN37", "PN37", "16"}, {"PN44", "PN44", "32"},
+      {"PN45", "PN45", "32"}, {"PN46", "PN46", "32"}, {"PN50", "PN50", "16"}, {"PR2", "TVA", "32"},
+      {"PR3", "TVM", "32"},   {"PR4", "PR4", "32"},   {"PR7", "CMA", "32"},   {"", "SYN", "16"}};
   const Csv csv("parameters", *find_model("slim"));
   EXPECT_EQ(csv.header, "number,name,address,width,persistent");
   ASSERT_EQ(csv.rows.size(), std::size(kNamed));

@@ -5,7 +5,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <system_error>
 
 namespace understudy::emulator {
@@ -167,6 +169,67 @@ TEST(EventLoop, RefusesWhatCannotBeWatchedAndForgetsIt) {
   EXPECT_THROW(loop.watch(-1, EventLoop::readable, [](std::uint32_t) {}), std::system_error);
   loop.unwatch(-1);
   loop.wait(wall_now());
+}
+
+TEST(EventLoop, WhatMayWaitComesLastHoweverManyThereAre) {
+  EventLoop loop;
+  const Pair port;
+  std::array<Pair, 40> clients;
+  std::string order;
+  for (const Pair& client : clients) {
+    loop.watch(
+        client.near(), EventLoop::readable,
+        [&](std::uint32_t) {
+          order += 'c';
+          client.drain();
+        },
+        EventLoop::Rank::later);
+    client.poke();
+  }
+  loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) {
+    order += 'p';
+    port.drain();
+  });
+  port.poke();
+  loop.wait(wall_now());
+  EXPECT_TRUE(order.starts_with("pc")) << order;
+}
+
+TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
+  EventLoop loop;
+  const Pair port;
+  std::array<Pair, 10> clients;
+  std::array<int, 10> calls{};
+  int turns_of_port = 0;
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    loop.watch(
+        clients[i].near(), EventLoop::readable,
+        [&calls, i](std::uint32_t) {
+          ++calls[i];  // and is ready again at once
+          const WallTime until = wall_now() + EventLoop::kLaterSlice / 2;
+          while (wall_now() < until) {
+          }
+        },
+        EventLoop::Rank::later);
+    clients[i].poke();
+  }
+  loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) { ++turns_of_port; });
+  port.poke();
+  int most_of_one_turn = 0;
+  const auto all = [&] {
+    int sum = 0;
+    for (const int count : calls) sum += count;
+    return sum;
+  };
+  while (all() < 100) {
+    const int before = all();
+    loop.wait(wall_now());
+    most_of_one_turn = std::max(most_of_one_turn, all() - before);
+  }
+  EXPECT_GE(turns_of_port, 25) << "it is looked at before each slice";
+  EXPECT_LE(most_of_one_turn, 3);
+  EXPECT_LE(*std::max_element(calls.begin(), calls.end()) - *std::min_element(calls.begin(), calls.end()), 1)
+      << "they take turns";
 }
 
 }  // namespace

@@ -66,6 +66,7 @@ inline BenchOfNames a_feeder() {
                        {"feeder.STATUS.0", 0},
                        {"feeder.Cord_A", 32'000},
                        {"feeder.DOUT_4", 1},
+                       {"feeder.0x1000", 3'200},
                        {"feeder.A.pulses", 12'001},
                        {"feeder.A.speed_pps", 1500.25},
                        {"feeder.Logic Position X", -400},

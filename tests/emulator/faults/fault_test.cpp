@@ -155,7 +155,8 @@ TEST(FaultText, WithAWrongTriggerOrFieldIsRefused) {
            {"drop feeder address=Aaxis_Sped",
             "drop: address: feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'"},
            {"drop rs485 address=Aaxis_Speed",
-            "drop: address: no device is called 'Aaxis_Speed'; expected one of feeder, turner"},
+            "drop: address: 'Aaxis_Speed' needs its device in front; expected one of feeder.Aaxis_Speed, "
+            "turner.Aaxis_Speed"},
            {"drop feeder at=5", "drop: at: '5' is not possible; expected a duration such as 250ms"},
            {"drop feeder for=0s", "drop: for: 0s" + hours + "1ns to 8760h"},
            {"drop feeder at=9000h", "drop: at: 32400000s" + hours + "0s to 8760h"},
@@ -227,7 +228,7 @@ TEST(FaultText, IsRefusedWithOneLineThatSaysWhy) {
            {"stall feeder.C", "no axis of feeder is called 'C'; expected one of A, B"},
            {"stall feeder.DIN_1", "no axis of feeder is called 'DIN_1'; expected one of A, B"},
            {"stall feedr.A", "no device is called 'feedr'; the nearest is 'feeder'"},
-           {"stall A", "no device is called 'A'; expected one of feeder, turner"},
+           {"stall A", "'A' needs its device in front; expected one of feeder.A, turner.A"},
            {"stall ", "no device is called ''; expected one of feeder, turner"},
            {"stall feeder.A one_in=5", "stall: one_in: is nothing it has; expected one such as 'nth'"},
            {"alarm feeder.A level=1", "alarm: level: is nothing it has; expected one such as 'nth'"},

@@ -208,5 +208,43 @@ TEST(Faults, InAQuietWorldTakeEffectInTheNextTickAsTheyDoInABusyOne) {
   }
 }
 
+TEST(ClearFaults, LeavesWhatClearingEachInTurnLeaves) {
+  const auto broken = [](World& world) {
+    run(world, 5);
+    inject(world, "stuck", "feeder.DIN_4", {{"level", 1}});
+    inject(world, "stall", "feeder.A", {});
+    inject(world, "stuck", "feeder.DIN_4", {{"level", 0}});
+    inject(world, "lost_steps", "feeder.A", {{"one_in", 5}});
+    run(world, 3);
+  };
+  World at_once = make_faulty_world();
+  broken(at_once);
+  at_once.clear_faults();
+  World in_turn = make_faulty_world();
+  broken(in_turn);
+  while (!in_turn.faults().empty()) in_turn.clear_fault(in_turn.faults().begin()->first);
+  EXPECT_TRUE(at_once.faults().empty());
+  run(at_once, 5);
+  run(in_turn, 5);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(at_once.device(i).same_state(in_turn.device(i))) << i;
+  at_once.clear_faults();  // there are none
+}
+
+TEST(ClearFaults, OfThousandsCostsLessThanInjectingThem) {
+  // Each that comes or goes alone has all the others' conditions read anew.
+  using Clock = std::chrono::steady_clock;
+  World world = make_faulty_world();
+  const auto begin = Clock::now();
+  for (int i = 0; i < 2000; ++i) {
+    Fault fault = find_fault(world.known(), {"stall", "feeder.A", {}});
+    fault.trigger.when = "feeder.A.pulses > " + std::to_string(i + 1);
+    world.inject(fault);
+  }
+  const auto injected = Clock::now();
+  world.clear_faults();
+  EXPECT_LT((Clock::now() - injected) * 2, injected - begin);
+  EXPECT_TRUE(world.faults().empty());
+}
+
 }  // namespace
 }  // namespace understudy::emulator

@@ -293,6 +293,25 @@ TEST(WireFaults, NoiseBeforeARequestMakesItAnotherFrameWhereSilenceAloneEndsOne)
   EXPECT_EQ(strict.ask(kAskFeeder).bytes, kFeederSays);
 }
 
+TEST(WireFaults, AFrameThatIsCutShortIsOfTheRegistersItStillNames) {
+  struct Case {
+    Bytes cut;
+    bool names;  // 0x1002
+  };
+  const std::vector<Case> cases = {
+      {{0x01, 0x06, 0x10, 0x02}, true},
+      {{0x01, 0x06, 0x10}, false},
+      {{0x01, 0x03, 0x10, 0x02, 0x00, 0x01}, true},
+      {{0x01, 0x03, 0x10, 0x02, 0x00}, false},
+  };
+  for (const Case& c : cases) {
+    FaultyLine line("", {.strict_framing = true});
+    const std::size_t fault = line.inject("drop feeder of=request address=0x1002");
+    line.ask(with_crc(c.cut));
+    EXPECT_EQ(line.course(fault).hits, c.names ? 1 : 0) << hex(c.cut);
+  }
+}
+
 TEST(WireFaults, AnEarlyReplyIsOneUnderStrictFramingToo) {
   FaultyLine line("", {.strict_framing = true});
   line.inject("early_reply feeder nth=2");

@@ -262,7 +262,9 @@ TEST_F(NvFile, ThatCannotBeReplacedIsToldOnceAndStays) {
   }
   const auto news = writer.take_news();
   ASSERT_EQ(news.size(), 1u);
-  EXPECT_EQ(news[0], path() + ": cannot be written (Is a directory); what it held before stays");
+  EXPECT_EQ(news[0], path() +
+                         ": cannot be written (it is a directory; expected a regular file, or a free path); "
+                         "what it held before stays");
   EXPECT_TRUE(fs::exists(path() + "/in the way"));
   EXPECT_EQ(file_count(), 1u) << "nothing is left beside it";
   EXPECT_TRUE(writer.take_news().empty());

@@ -21,9 +21,12 @@ struct SpooledWorld {
   RecordingSpool spool(std::size_t cap_bytes) {
     return {world,
             {.version = "1.2.3", .bench = to_text(bench), .options = {}, .seed = 0, .snapshot = {}},
-            path,
+            std::make_unique<GrowingFile>(path, "the recording", logger()),
             cap_bytes,
-            [this](const std::string& line) { log.push_back(line); }};
+            logger()};
+  }
+  std::function<void(const std::string&)> logger() {
+    return [this](const std::string& line) { log.push_back(line); };
   }
   /// A request and its reply, so many times.
   void talk(RecordingSpool& recording, int times) {

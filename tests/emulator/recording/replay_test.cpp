@@ -201,5 +201,28 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
             "a.jsonl:3: t: goes back in time; expected the events in their order");
 }
 
+TEST(Replay, ARecordingNamesNoPaths) {
+  // It may come from anybody: what it could have read or written is refused before anything is.
+  for (const auto& [key, path] : {std::pair<std::string, std::string>{"nv", "/tmp/precious"},
+                                  {"nv", "feeder.json"},
+                                  {"program", "/etc/passwd"}}) {
+    const std::string bench = R"({"understudy":1,"lines":{"l":{"stations":[{"name":"d","model":"simple2-r3",)"
+                              R"("address":1,")" +
+                              key + R"(":")" + path + R"("}]}}})";
+    EXPECT_EQ(
+        refusal(to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) +
+                "\n"),
+        "a.jsonl:1: bench: bench:1:" + std::to_string(bench.find("\"" + path) + 1) +
+            ": lines.l.stations[0]." + key +
+            ": is a path; expected none in a recording, which has everything in itself");
+  }
+  const std::string linked =
+      R"({"understudy":1,"lines":{"l":{"link":"/tmp/p","stations":[{"name":"d","model":"simple2-r3"}]}}})";
+  EXPECT_NE(
+      refusal(to_line(RecordingHeader{.version = "1", .bench = linked, .options = {}, .snapshot = {}}) + "\n")
+          .find("lines.l.link: is a path"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace understudy::emulator

@@ -130,5 +130,21 @@ TEST(Camera, OfManyFramesKeepsTheFirstAndTheLast) {
   EXPECT_EQ(scene.frames[598].text, "write 0x1000 feeder.Aaxis_Pulse = 2000");
 }
 
+TEST(Camera, SeesWhatFaultsDidToFrames) {
+  const ScenarioResult result = played(
+      "  - inject: { drop: feeder, nth: 1 }\n"
+      "  - send: { bytes: 01 03 00 01 00 01 +crc, reply: nothing, within: 20ms }\n"
+      "  - expect: { feeder.HW_Code: 49153 }\n",
+      "", filmed());
+  const auto& frames = result.footage->scenes.at(0).frames;
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_FALSE(frames[0].is_struck);
+  EXPECT_TRUE(frames[1].is_struck);
+  EXPECT_FALSE(frames[1].is_from_host);
+  EXPECT_EQ(frames[1].text, "");
+  EXPECT_EQ(frames[1].remark, "fault 1 drop: not said");
+  EXPECT_EQ(frames[3].text, "feeder.HW_Code = 49153") << "read by the request before it";
+}
+
 }  // namespace
 }  // namespace understudy::emulator

@@ -12,7 +12,7 @@ namespace understudy::emulator {
 
 namespace {
 
-constexpr std::size_t kLeastExplanation = 60;  // letters behind the question
+constexpr std::size_t kLeastExplanation = 30;  // letters behind the question
 
 Steps without_expectations(const Steps& steps);
 

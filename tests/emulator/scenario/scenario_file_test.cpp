@@ -147,6 +147,26 @@ TEST_F(ScenarioFile, AHundredThousandStepsAreEnough) {
       "scenario.yaml:5: steps[1]: is one step too many; expected at most 100000 with all loops and cases");
 }
 
+TEST_F(ScenarioFile, StepsMayNotGrowBeyondAllBounds) {
+  // A few short lines, but 64 MiB of text after some 6,700 steps: each is said, and stands in its step's
+  // text.
+  const std::string scenario =
+      "understudy: 1\nbench: feeder.yaml\nparameters:\n  a: " + std::string(100, 'x') +
+      "\n  b: ${a}${a}${a}${a}${a}${a}${a}${a}${a}${a}\n  c: ${b}${b}${b}${b}${b}\nsteps:\n";
+  const std::string beyond =
+      "scenario.yaml:8: steps[0].repeat.steps[0]: is too much: the steps have grown beyond 64 MiB; expected "
+      "less, with all loops and cases";
+  EXPECT_EQ(folder_.complaint(scenario + "  - repeat: { times: 6000, steps: [ { say: '${c}' } ] }\n"), "");
+  EXPECT_EQ(folder_.complaint(scenario + "  - repeat: { times: 99999, steps: [ { say: '${c}' } ] }\n"),
+            beyond);
+  // And a program is counted with all its remarks, wherever they come from.
+  folder_.write("long.lst", std::string(1 << 20, ';') + "\n        END\n");
+  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(
+                "  - repeat: { times: 99999, steps: [ program: { feeder: long.lst } ] }\n")),
+            "scenario.yaml:4: steps[0].repeat.steps[0]: is too much: the steps have grown beyond 64 MiB; "
+            "expected less, with all loops and cases");
+}
+
 TEST_F(ScenarioFile, KindsAreToldByTheirKeys) {
   const auto kind = [&](const std::string& text) { return kind_of_file(folder_.write("some.yaml", text)); };
   EXPECT_EQ(kind(kTwoStations), FileKind::bench);

@@ -1,7 +1,11 @@
 // What a scenario saves is nothing that it is read from, and no two cases save one file. Refused when the
 // file is read: nothing has run by then.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
+
+#include "emulator/scenario/runner.h"
 #include "tests/emulator/scenario/scenario_folder.h"
 
 namespace understudy::emulator {
@@ -61,6 +65,54 @@ TEST_F(ScenarioOutputs, MayBeWrittenAndReadAgainByTheSameCase) {
                                                           "  - memory: { feeder: new.json }\n"
                                                           "  - save: { turner: new.json }\n")),
             "");
+}
+
+TEST_F(ScenarioOutputs, StayBelowTheScenariosFolder) {
+  const auto complaint_of = [&](const std::string& file) {
+    return folder_.complaint(ScenarioFolder::scenario_of("  - save: { feeder: '" + file + "' }\n"));
+  };
+  namespace fs = std::filesystem;
+  const std::string own = fs::path(folder_.path("x")).parent_path().string();
+  fs::create_directory(folder_.path("inner"));
+  fs::create_directory_symlink("/tmp", folder_.path("elsewhere"));
+  fs::create_symlink("/tmp/understudy-no-such-file", folder_.path("leads out.json"));
+  fs::create_symlink("inner/new.json", folder_.path("leads in.json"));
+  EXPECT_EQ(complaint_of("inner/new.json"), "");
+  EXPECT_EQ(complaint_of("inner/../new.json"), "");
+  EXPECT_EQ(complaint_of("leads in.json"), "");
+  EXPECT_EQ(complaint_of("/tmp/new.json"),
+            "scenario.yaml:4: steps[0].save.feeder: /tmp/new.json is not below " + own +
+                "; expected a path there (`--save-below FOLDER` allows another folder)");
+  fs::create_directory(own + "-2");
+  for (const std::string& path : {std::string("../new.json"), std::string("elsewhere/new.json"),
+                                  std::string("leads out.json"), own + "-2/new.json"}) {
+    EXPECT_NE(complaint_of(path).find(" is not below "), std::string::npos) << path;
+  }
+  fs::remove(own + "-2");
+  const std::string scenario = ScenarioFolder::scenario_of("  - save: { feeder: /tmp/new.json }\n");
+  EXPECT_EQ(parse_scenarios(scenario, folder_.path("scenario.yaml"), "/tmp/").size(), 1U);
+  EXPECT_EQ(parse_scenarios(scenario, folder_.path("scenario.yaml"), "/").size(), 1U);
+  EXPECT_THROW(parse_scenarios(scenario, folder_.path("scenario.yaml"), "/tmp/inner"), FileError);
+}
+
+TEST_F(ScenarioOutputs, ReplaceNothingButImages) {
+  const std::string steps = "  - save: { feeder: there }\n";
+  const std::string where = "scenario.yaml:4: steps[0].save.feeder: there cannot be written: ";
+  folder_.write("there", "alias ls=ls\n");
+  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(steps)),
+            where + "it is not an NV image; expected one to replace, or a free path");
+  std::filesystem::remove(folder_.path("there"));
+  ASSERT_EQ(::mkfifo(folder_.path("there").c_str(), 0600), 0);
+  EXPECT_EQ(folder_.complaint(ScenarioFolder::scenario_of(steps)),
+            where + "it is a pipe; expected a regular file, or a free path");
+  // What has come there since it was read.
+  std::filesystem::remove(folder_.path("there"));
+  const auto scenario = folder_.parse(ScenarioFolder::scenario_of(steps));
+  folder_.write("there", "precious");
+  const auto results = play(scenario.front());
+  ASSERT_TRUE(results.front().failure);
+  EXPECT_NE(results.front().failure->what.find("it is not an NV image"), std::string::npos)
+      << results.front().failure->what;
 }
 
 TEST_F(ScenarioOutputs, OfTwoCasesAreTwoFiles) {

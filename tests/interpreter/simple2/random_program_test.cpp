@@ -32,6 +32,8 @@ Dialect random_dialect(Random& random) {
   dialect.unknown_command = static_cast<Dialect::UnknownCommand>(random() % 2);
   dialect.after_last_line = static_cast<Dialect::AfterLastLine>(random() % 2);
   dialect.delay_counts = static_cast<Dialect::DelayCounts>(random() % 2);
+  dialect.undefined_flag = static_cast<Dialect::UndefinedFlag>(random() % 2);
+  dialect.timer_compare = static_cast<Dialect::TimerCompare>(random() % 2);
   return dialect;
 }
 

@@ -28,17 +28,18 @@ TEST(SlimFlow, SeveralLinesATickWhereTheyAreAskedFor) {
 
 TEST(SlimFlow, StartsAtALineOrALabel) {
   const std::vector<std::string> lines{"SET P1", "$B SET P2", "$b SET P3", "SET P4"};
-  ProgramRun at_line(lines);
+  const FlowOptions first_counts{.program = {.same_label = ProgramOptions::SameLabel::first_counts}};
+  ProgramRun at_line(lines, first_counts);
   EXPECT_EQ(at_line.begin("3"), Error::none);
   at_line.until(3);
   EXPECT_EQ(at_line.machine.log, (Log{"1 SET P4"}));
 
-  ProgramRun at_label(lines);  // labels know no case; the first of two counts
+  ProgramRun at_label(lines, first_counts);  // labels know no case; the first of two counts
   EXPECT_EQ(at_label.begin("$b"), Error::none);
   at_label.until(1);
   EXPECT_EQ(at_label.machine.log, (Log{"1 SET P2"}));
 
-  ProgramRun nowhere(lines);
+  ProgramRun nowhere(lines, first_counts);
   const Execution before = nowhere.execution;
   EXPECT_EQ(nowhere.begin("4"), Error::address);
   EXPECT_EQ(nowhere.begin("$C"), Error::address);

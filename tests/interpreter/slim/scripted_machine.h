@@ -47,6 +47,7 @@ class ScriptedMachine : public Machine {
       const bool is_constant = data.kind == Operand::Kind::integer || data.kind == Operand::Kind::real;
       variables[text_of(command.operands[0])] = is_constant ? data.number : value(data);
     }
+    if (endings.contains(text)) return {.program = endings.at(text)};
     return kDone;
   }
 
@@ -56,6 +57,7 @@ class ScriptedMachine : public Machine {
   double clock = 0;
   std::set<std::string> waiting;  // commands that the machine does not carry out yet
   std::map<std::string, Error> refusals;
+  std::map<std::string, Outcome::Program> endings;  // what commands mean for the program
   std::int64_t now_ms = 0;
   std::vector<std::string> log;  // "time command"
 };

@@ -43,7 +43,10 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
       "after_limit", "command_into_limit", "pwm_at_limit", "after_alarm", "sync_after_alarm",
       "move_in_other_mode", "command_while_servo_off", "stop",
       // scenarios/choices/simple2-r3/
-      "sync_encoder",
+      "sync_encoder", "sync_settings", "sync_slope_end", "velocity_settings", "wait_cut_short",
+      "wait_move_homing", "undefined_flag", "timer_compare", "timer_overflow", "request_with_bad_value",
+      "least_ramp", "homing_bits", "triggers_shown", "servo_unassigned", "locked_reset",
+      "program_value_of_32_bits", "counter_by_var", "boot_time",
       // choices_operands_test.cpp, choices_program_test.cpp, choices_program_run_test.cpp
       "logic_operand", "read_only_parameter", "timers_at_power_up", "timer1_defect", "undefined_operand",
       "undefined_parameter", "value_out_of_range", "program_speed", "program_pulse", "wait_slot",
@@ -58,8 +61,8 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
 }
 
 TEST(Choices, EveryProposalCanBeChosenOtherwise) {
-  // But for the framing: it is the line's, and its silence rule has a switch of its own.
-  const std::set<std::string_view> only_ours = {"end_time_counts"};
+  // But for the framing, which is the line's, and its silence rule has a switch of its own; and for the tick.
+  const std::set<std::string_view> only_ours = {"end_time_counts", "input_sampling"};
   std::set<std::string_view> single;
   for (const ChoiceRow& row : kChoices) {
     if (row.confidence == Confidence::proposal && options_of(row).size() == 1) single.insert(row.id);
@@ -122,6 +125,12 @@ TEST(Choices, ThoseOfTheLanguageReachTheInterpreter) {
       {"after_last_line",
        {{"ends", {}},
         {"goes_on_at_0", with_field(&Dialect::after_last_line, Dialect::AfterLastLine::goes_on_at_0)}}},
+      {"undefined_flag",
+       {{"line_0", {}},
+        {"line_void", with_field(&Dialect::undefined_flag, Dialect::UndefinedFlag::line_void)}}},
+      {"timer_compare",
+       {{"without_sign", {}},
+        {"with_sign", with_field(&Dialect::timer_compare, Dialect::TimerCompare::with_sign)}}},
       {"delay_counts",
        {{"to_next_line", {}},
         {"before_next_slot", with_field(&Dialect::delay_counts, Dialect::DelayCounts::before_next_slot)}}},

@@ -2,6 +2,7 @@
 // by tests/emulator/world/snapshot_test.cpp.
 #include <gtest/gtest.h>
 
+#include "emulator/devices/simple2_r3/axis_slots.h"
 #include "emulator/devices/simple2_r3/device.h"
 #include "emulator/state/state_error.h"
 #include "tests/emulator/devices/simple2_r3/one_simple2.h"
@@ -152,33 +153,73 @@ TEST(Simple2State, AMotorThatCannotBeIsRefused) {
   EXPECT_EQ(device.save_state(), good);
 }
 
-/// What velocity mode multiplies must fit: a speed that only a coarse motor can have.
-TEST(Simple2State, NumbersThatWouldOverflowAreRefused) {
-  struct Case {
+/// Every field with a bound, and both of its ends.
+TEST(Simple2State, NumbersBeyondTheirBoundsAreRefused) {
+  using Number = std::int64_t;
+  struct Bounded {
     const char* what;
-    void (*spoil)(State& state);
+    void (*put)(State& state, Number value);
+    Number least;
+    Number greatest;
   };
-  const Case cases[] = {
-      {"a speed", [](State& s) { s.axes[0].speed_urpm = INT64_MAX / 4; }},
-      {"a phase", [](State& s) { s.axes[0].velocity_phase = kVelocityPhase + 1; }},
-      {"a target", [](State& s) { s.axes[1].target_urpm = INT64_MAX; }},
-      {"an encoder", [](State& s) { s.axes[1].encoder_counts = std::int64_t{1} << 61; }},
-      {"a followed encoder", [](State& s) { s.axes[1].encoder_followed = INT64_MIN; }},
-      {"an encoder's history", [](State& s) { s.axes[1].encoder_history[100] = INT64_MAX; }},
-      {"an encoder's preset", [](State& s) { s.axes[0].encoder_preset = INT64_MIN; }},
-      {"a timer", [](State& s) { s.timers[1].since = INT64_MIN; }},
-      {"an alarm's end", [](State& s) { s.axes[0].alarm_clear_until = INT64_MAX; }},
-      {"a delay", [](State& s) { s.execution.delay_until_ms = INT64_MAX; }},
+  constexpr Number kReach = Number{1} << 61;
+  constexpr Number kFastest = INT64_MAX / 4 / 3200;  // at 3200 pulses a revolution
+  const Bounded fields[] = {
+      {"pulses_this_tick", [](State& s, Number v) { s.axes[0].pulses_this_tick = v; }, -kReach, kReach},
+      {"alarm_clear_until", [](State& s, Number v) { s.axes[0].alarm_clear_until = v; }, -kReach, kReach},
+      {"target_urpm", [](State& s, Number v) { s.axes[1].target_urpm = v; }, INT32_MIN * Number{1000},
+       INT32_MAX * Number{1000}},
+      {"speed_urpm", [](State& s, Number v) { s.axes[0].speed_urpm = v; }, -kFastest, kFastest},
+      {"velocity_phase", [](State& s, Number v) { s.axes[0].velocity_phase = v; }, -kVelocityPhase,
+       kVelocityPhase},
+      {"velocity_resolution",
+       [](State& s, Number v) { s.axes[0].velocity_resolution = static_cast<std::uint32_t>(v); }, 1,
+       Number{1} << 31},
+      {"encoder_raw", [](State& s, Number v) { s.axes[1].encoder_raw = v; }, -kReach, kReach - 1},
+      {"encoder_counts", [](State& s, Number v) { s.axes[1].encoder_counts = v; }, -kReach, kReach - 1},
+      {"encoder_followed", [](State& s, Number v) { s.axes[1].encoder_followed = v; }, -kReach, kReach - 1},
+      {"encoder_preset", [](State& s, Number v) { s.axes[0].encoder_preset = v; }, -kReach, kReach},
+      {"encoder_history", [](State& s, Number v) { s.axes[1].encoder_history[100] = v; }, -kReach,
+       kReach - 1},
+      {"encoder_changed", [](State& s, Number v) { s.axes[1].encoder_changed = v; }, -kReach, kReach},
+      {"first_tick", [](State& s, Number v) { s.first_tick = v; }, -kReach, kReach},
+      {"timers", [](State& s, Number v) { s.timers[1].since = v; }, -kReach, kReach},
+      {"delay_until_ms", [](State& s, Number v) { s.execution.delay_until_ms = v; }, 0,
+       tick_at(kHorizon) * 2},
+      {"kept.distance", [](State& s, Number v) { s.kept[0].move.distance_pulses = v; }, -(Number{1} << 33),
+       Number{1} << 33},
+      {"kept.speed", [](State& s, Number v) { s.kept[0].move.speed_rpm = static_cast<std::uint32_t>(v); }, 0,
+       UINT16_MAX},
+      {"kept.acceleration",
+       [](State& s, Number v) { s.kept[1].move.acceleration_10ms = static_cast<std::uint32_t>(v); }, 0,
+       UINT16_MAX},
+      {"kept.deceleration",
+       [](State& s, Number v) { s.kept[1].move.deceleration_10ms = static_cast<std::uint32_t>(v); }, 0,
+       UINT16_MAX},
+      {"kept.value", [](State& s, Number v) { s.kept[1].value = v; }, INT32_MIN, INT32_MAX},
   };
-  for (const auto& [what, spoil] : cases) {
+  for (const Bounded& field : fields) {
     BusySimple2 busy;
     auto& device = dynamic_cast<Simple2R3&>(busy.device());
+    device.state().image[kAxisSlots[0].resolution] = 3200;
+    device.state().axes[0].speed_urpm = 0;
     const Saved good = device.save_state();
-    spoil(device.state());
-    const Saved bad = device.save_state();
-    device.restore_state(good);
-    EXPECT_EQ(refusal_of(device, bad), "a number is beyond its range") << what;
-    EXPECT_EQ(device.save_state(), good) << what;
+    const auto with = [&](Number value) {
+      field.put(device.state(), value);
+      Saved state = device.save_state();
+      device.restore_state(good);
+      return state;
+    };
+    for (const Number end : {field.least, field.greatest}) {
+      const Saved state = with(end);
+      EXPECT_EQ(refusal_of(device, state), "") << field.what << " " << end;
+      device.restore_state(good);
+    }
+    for (const Number beyond : {field.least - 1, field.greatest + 1}) {
+      const Saved state = with(beyond);
+      EXPECT_EQ(refusal_of(device, state), "a number is beyond its range") << field.what << " " << beyond;
+      EXPECT_EQ(device.save_state(), good) << field.what;
+    }
   }
 }
 

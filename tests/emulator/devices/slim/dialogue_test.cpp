@@ -105,13 +105,13 @@ TEST(SlimDialogue, RefusesWithANumberAndRemembersIt) {
 > TX=9
 < ERR 2
 > T12MA 3,4
-< ERR 1
+< ERR 2
 > $LABEL
 < ERR 1
 > G $NOWHERE
 < ERR 13
 > ?ERC
-< 13,1,1,2,5,5,4,3,2,2,2,1
+< 13,1,2,2,5,5,4,3,2,2,2,1
 > ?N0
 < 0
 > RESET
@@ -151,8 +151,9 @@ TEST(SlimDialogue, RemembersEachFailureOfAProgramOfItsModule) {
 @ 5
 > ?T1ERC
 < 9
+# T0 ran the program that has ended so.
 > ?ERC
-< 5,13,13
+< 9,5,13,13
 )");
 }
 

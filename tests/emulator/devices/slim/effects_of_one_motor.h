@@ -216,12 +216,14 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"AIN=N#", "AIN = 321; @1; AIN=N9; ?N9 -> 321; AIN=R9; ?R9 -> 321; {runs}; AIN=N9 -> ERR 3"},
     // --- parameters
     {"<name>=data",
-     "PR3=12.5; ?PR3 -> 12.5; ?T1PR3 -> 100; PR3=0 -> ERR 2; PN37=8; FOO=1 -> ERR 1; {new}; {map}; "
+     "PR3=12.5; ?PR3 -> 12.5; ?T1PR3 -> 100; PR3=0 -> ERR 2; PN37=34952; PN37=8 -> ERR 2; FOO=1 -> ERR 1; "
+     "{new}; {map}; "
      "2MA 100,0; PR2=500 -> ERR 3; {new}; {runs}; PR3=5 -> ERR 3"},
     {"Tp<name>=data",
      "T2PR3=200; ?T2PR3 -> 200; ?PR3 -> 100; T5PR3=200 -> ERR 5; T2PR3=-1 -> ERR 2; {runs}; "
      "T2PR3=100 -> ERR 3"},
-    {"DF", "VM=500; T1PR3=5; N0=7; DF; ?VM -> 1000; ?T1PR3 -> 100; ?N0 -> 7; MR 9; DF -> ERR 3"},
+    {"DF", "VM=500; T1PR3=5; N0=7; DF; ?VM -> 1000; ?T1PR3 -> 100; ?N0 -> 7; MR 9; DF -> ERR 3; {new}; "
+     "FT 5; DF -> ERR 3; {new}; JGF; @9; TAPZ; @99; DF -> ERR 3"},
     {"SAVE C", "VM=500; N3=7; SAVE C; VM=600; off; on; ?VM -> 500; ?N3 -> 0; {runs}; SAVE C -> ERR 3"},
     {"SAVE P", "PG; MA 5; .; SAVE P; PA; MA 6; .; off; on; PL -> 0: MA 5; {runs}; SAVE P -> ERR 3"},
     {"RESET H",
@@ -235,7 +237,7 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"?ST", "?ST -> 1; {runs}; ?ST -> 5; EXIT; HOFF; @2; FOO -> ERR 1; ?ST -> 32; TAPZ; ?ST -> 40"},
     {"?VER", "?VER -> 1.00"},
     {"?N#", "N64=-5; ?N64 -> -5; NS(7)=6; ?NS(7) -> 6; ?N65 -> ERR 2"},
-    {"?R#", "R64=0.1; ?R64 -> 0.1; RS(7)=1e10; ?RS(7) -> 1e+10; ?R65 -> ERR 2"},
+    {"?R#", "R64=0.1; ?R64 -> 0.1; RS(7)=1e10; ?RS(7) -> 10000000000; ?R65 -> ERR 2"},
     // Two pulses are a unit.
     {"?PE", "PN45=2; MA 5; @20; ?PE -> 5; PN45=1; PN46=1; ?PE 3 -> ERR 1"},
     {"?LL", "LL=75.5; ?LL -> 75.5"},

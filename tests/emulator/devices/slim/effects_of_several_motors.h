@@ -56,7 +56,7 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
     // --- arcs: a quarter of a circle from below its centre, to the right of it; and clockwise, to the left
     {"AA fx,fy,fa",
      "{map}; AA 0,50,90; @879; ?ST -> 259; @12; ?PE -> 50; ?T1PE -> 50; AA 0,50,-90; @900; ?PE -> 0; "
-     "?T1PE -> 0; AA 0,0,90 -> ERR 2; {moves_path AA 0,50,90}"},
+     "?T1PE -> 0; AA 0,0,90; ?ST -> 1; {moves_path AA 0,50,90}"},
     {"AA Rx,Ry,Ra",
      "{map}; R2=50; R3=-90; PG; AA R1,R2,R3; .; G; @879; ?ST -> 259; @12; ?PE -> -50; ?T1PE -> 50; "
      "{stored AA R1,R2,R3}"},
@@ -90,7 +90,7 @@ inline constexpr Effect kSeveralMotorsEffects[] = {
      "MA 60; @90; ?PE -> 60; {new}; {runs}; TAPZ; TAUPZ; ?ST -> 5"},
     {"TASTOP",
      "{map}; 2MA 100,0; 2MA 0,0; T3JG0; @501; TASTOP; @1; ?PE -> 45; ?ST -> 1; @500; ?PE -> 45; 2MA 0,0; "
-     "@600; ?PE -> 0; {new}; TAPZ; TASTOP; ?ST -> 1; {runs}; TASTOP; ?ST -> 5"},
+     "@600; ?PE -> 0; {new}; TAPZ; TASTOP; ?ST -> 1; {runs}; TASTOP; ?ST -> 1"},
     // --- one axis by its letter, at VM
     {"XMA f32", "TX=1; XMA 10000; @150; ?T1ST -> 259; @10; ?T1PE -> 10000; {moves_axis XMA 5}"},
     {"YMA f32", "TY=2; YMA 10000; @150; ?T2ST -> 259; @10; ?T2PE -> 10000; {moves_axis YMA 5}"},

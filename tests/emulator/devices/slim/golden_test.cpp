@@ -168,11 +168,27 @@ TEST(SlimGolden, APathOfNoLengthIsDoneAtOnce) {
   EXPECT_EQ(bench.travel(2), 50);
 }
 
+TEST(SlimGolden, AnArcAboutWhereItStandsIsItsRiseAlone) {
+  OneChain bench;
+  bench.map({0, 1, 2});
+  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::none);  // over at once
+  EXPECT_TRUE(bench.all_done());
+  ArcOrder rising = about(0, 0, 90);
+  rising.height_units = 50;
+  EXPECT_EQ(bench.chain.arc(rising), Error::none);
+  EXPECT_EQ(bench.finish() - 1, 600);
+  EXPECT_EQ(bench.travel(0), 0);
+  EXPECT_EQ(bench.travel(2), 50);
+  ChainOptions options;
+  options.path_needs_length = true;
+  bench.chain.set_options(options);
+  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::range);
+}
+
 TEST(SlimGolden, WhatCannotBeIsRefusedAndChangesNothing) {
   OneChain bench;
   bench.map({0, 1});
   const OneChain before = bench;
-  EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::range);  // no radius
   EXPECT_EQ(bench.chain.arc(about(1e300, 0, 90)), Error::range);
   EXPECT_EQ(bench.chain.arc(about(10, 0, std::nan(""))), Error::range);
   EXPECT_EQ(bench.chain.spiral(10, 0, 3600, -5), Error::range);  // a radius below 0

@@ -141,5 +141,50 @@ TEST(SlimThrust, MayRunByChoice) {
   EXPECT_EQ(bench.chain.thrust_of(0), 0);
 }
 
+// What is only queued decides already what is within reach.
+TEST(SlimMove, IsRefusedAtOnceWhereItWouldLeadTooFar) {
+  OneChain bench;
+  EXPECT_EQ(bench.chain.move(0, true, 1e13), Error::range);
+  EXPECT_EQ(bench.chain.move(0, true, 9e11), Error::none);
+  EXPECT_EQ(bench.chain.move(0, false, 2e11), Error::range);  // from where the other one will end
+  EXPECT_EQ(bench.chain.move(0, false, -2e11), Error::none);
+  EXPECT_EQ(bench.chain.queued(0), 2U);
+}
+
+TEST(SlimMove, IsOutOfItsBufferInTheTickOfItsArrival) {
+  for (const bool pauses : {true, false}) {
+    OneChain bench;
+    bench.speeds(0, 1000, 10'000);
+    bench.chain.move(0, true, 100);  // 0.2 s
+    bench.steps(200);
+    EXPECT_EQ(bench.chain.queued(0), 1U);
+    bench.step();
+    EXPECT_EQ(bench.travel(0), 100);
+    EXPECT_EQ(bench.chain.queued(0), 0U);
+    // And nothing is left to go on with, whatever comes in that tick.
+    if (pauses) {
+      bench.chain.pause();
+    } else {
+      bench.chain.set_servo_at_once(0, false);
+    }
+    EXPECT_EQ(bench.chain.queued(0), 0U);
+    EXPECT_TRUE(bench.chain.done(0));
+    EXPECT_FALSE(bench.chain.busy(0));
+  }
+}
+
+TEST(SlimJog, VjOfZeroIsOfTheNextJogAlsoWhereSpeedsCountAtOnce) {
+  ChainOptions options;
+  options.new_speed = ChainOptions::NewSpeed::at_once;
+  OneChain bench(options);
+  bench.speeds(0, 10'000, 10'000);
+  bench.jog_speed(0, 1000);
+  bench.chain.jog(0, +1);
+  bench.steps(1000);
+  bench.chain.set_jog_speed(0, 0);
+  bench.steps(1000);
+  EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
+}
+
 }  // namespace
 }  // namespace understudy::emulator::slim

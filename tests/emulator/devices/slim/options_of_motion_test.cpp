@@ -148,7 +148,7 @@ TEST(SlimMotionOptions, AJogWhileAMoveRuns) {
        {"ends_the_move", moves + "> JGF\n@ 50\n> JGR\n> MR 7\n@ 250\n> ?PE\n< 350\n> JG0\n"
                                  "@ 300\n> ?PE\n< 307\n"},
        {"ends_the_move", moves + "> JGF\n@ 50\n> JG0\n@ 300\n> ?PE\n< 500\n> ?ST\n< 1\n"},
-       {"ends_the_move", moves + "> JGF\n@ 50\n> PZ\n@ 300\n> REDO\n@ 300\n> ?PE\n< 500\n"},
+       {"ends_the_move", moves + "> JGF\n@ 50\n> PZ\n@ 300\n> ?PE\n< 500\n> REDO\n@ 300\n> ?PE\n< 749\n"},
        {"ends_the_move", moves + "> JGF\n@ 50\n> TASTOP\n@ 300\n> ?MD\n< 0\n"},
        {"ends_the_move", moves + "> FT 5\n@ 200\n> ?PE\n< 500\n> ?MD\n< 3\n"},
        {"ends_the_move", moves + "> TAPZ\n> JGF\n< ERR 6\n> TAREDO\n@ 900\n> ?PE\n< 1005\n"},

@@ -1,6 +1,7 @@
 // Outputs: in their turn and at once, pulses, PWM, and by position.
 #include <gtest/gtest.h>
 
+#include "tests/emulator/devices/slim/dialogue_script.h"
 #include "tests/emulator/devices/slim/one_chain.h"
 
 namespace understudy::emulator::slim {
@@ -60,18 +61,39 @@ TEST(SlimOutputs, APulseLastsFourMillisecondsAUnit) {
     OneChain bench;
     bench.steps(10);
     bench.chain.pulse_output(0, 2, width);
-    EXPECT_TRUE(bench.chain.done(0));  // nothing waits for it
+    EXPECT_TRUE(bench.chain.done(0));        // nothing waits for it
+    EXPECT_FALSE(bench.chain.output(0, 2));  // it begins with a tick
+    EXPECT_EQ(bench.chain.next_active_tick(bench.tick), 11);
+    bench.step();
     Tick on = 0;
     while (bench.chain.output(0, 2)) {
-      EXPECT_EQ(bench.chain.next_active_tick(bench.tick), 10 + 4 * width);
+      EXPECT_EQ(bench.chain.next_active_tick(bench.tick), 11 + 4 * width);
       bench.step();
       ++on;
     }
     EXPECT_EQ(on, 4 * width);
     EXPECT_EQ(bench.chain.next_active_tick(bench.tick), kNever);
+    // On an output that is on: it is off behind the pulse, and not before.
+    bench.chain.set_output(0, 2, true);
+    bench.chain.pulse_output(0, 2, width);
+    for (Tick i = 0; i <= 4 * width; ++i, bench.step()) EXPECT_TRUE(bench.chain.output(0, 2));
+    EXPECT_FALSE(bench.chain.output(0, 2));
   }
   OneChain bench;
   EXPECT_EQ(bench.chain.pulse_output(0, 2, 0), Error::range);
+}
+
+TEST(SlimOutputs, APulseOfAProgramLastsAsLong) {
+  for (const int units : {1, 5, 25}) {
+    DialogueScript script;
+    script.play("> PG\n> PLS P1," + std::to_string(units) + "\n>\n> G\n");
+    int on = 0;
+    for (int i = 0; i < 200; ++i) {
+      script.pass(1);
+      on += script.device().output(terminal(0, kFirstOutput)) ? 1 : 0;
+    }
+    EXPECT_EQ(on, 4 * units);
+  }
 }
 
 TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
@@ -89,12 +111,12 @@ TEST(SlimOutputs, PwmShowsItsPeriodAndDutyAsFarAsTicksCan) {
     int on = 0;
     bool before = bench.chain.output(0, 1);
     for (int i = 0; i < 1000; ++i) {
-      on += bench.chain.output(0, 1) ? 1 : 0;
       const Tick next = bench.chain.next_active_tick(bench.tick);
       bench.step();
       // It changes when it says so, and only then.
       EXPECT_EQ(bench.chain.output(0, 1) != before, bench.tick == next) << row.hz << " at " << bench.tick;
       before = bench.chain.output(0, 1);
+      on += before ? 1 : 0;
     }
     EXPECT_EQ(on, row.on_in_1000) << row.hz << " Hz, " << row.duty << " %";
   }

@@ -338,7 +338,6 @@ TEST(SlimPrograms, AnEmergencyStopLeavesNothing) {
 @ 200
 > TASTOP
 @ 20
-< END
 > ?ST
 < 1
 )");

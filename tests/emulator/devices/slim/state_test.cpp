@@ -80,7 +80,7 @@ std::vector<Moment> moments() {
        "> FOO\n< ERR 1\n> T1MR x\n< ERR 1\n> N0=40000\n< ERR 2\n> HOFF\n@ 5\n> MR 5\n< ERR 9\n",
        "> ?ERC\n< 9,2,1,1\n> HON\n> MR 5\n"},
       {"with numbers in memory", "> N5=6\n> R5=0.25\n> NS(9)=3\n> RS(2000)=-1e9\n> SAVE D\n> N5=7\n> TM=40\n",
-       "> ?N5\n< 7\n> ?TM\n< 40\noff\non\n> ?N5\n< 6\n> ?RS(2000)\n< -1e+09\n"},
+       "> ?N5\n< 7\n> ?TM\n< 40\noff\non\n> ?N5\n< 6\n> ?RS(2000)\n< -1000000000\n"},
   };
 }
 

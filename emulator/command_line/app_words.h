@@ -1,0 +1,21 @@
+// What there is to say to `understudy`, as the parser of its flags knows it.
+#pragma once
+
+#include <string>
+
+#include "emulator/command_line/completion.h"
+
+namespace CLI {
+class App;
+}
+
+namespace understudy::emulator {
+
+/// All commands and flags, with their help.
+CommandWords words_of(const CLI::App& app);
+
+/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or
+/// flag it was, and what is like it; empty if that is not the trouble.
+std::string unknown_command(const CLI::App& app, int argc, char** argv, int first);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,123 @@
+#include "emulator/command_line/choose_daemon.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "emulator/control/server.h"
+#include "emulator/control/sockets.h"
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds kPatience{2'000};  // with one that may be stopped
+
+struct Running {
+  std::string socket;
+  std::string bench;  // empty: none
+  struct Port {
+    std::string pty;
+    std::string link;
+  };
+  std::vector<Port> ports;
+  bool has_answered = false;
+};
+
+/// What stands behind a path, whatever links lead there.
+std::string place_of(const std::string& path) {
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(path, error);
+  return error ? path : place.string();
+}
+
+Running identify(const std::string& socket) {
+  Running running{.socket = socket, .bench = {}, .ports = {}};
+  try {
+    const Json daemon = Json::parse(ask_control(socket, R"({"do":"identify"})", kPatience)).at("daemon");
+    running.bench = daemon.at("bench").get<std::string>();
+    for (const Json& line : daemon.at("lines")) {
+      running.ports.push_back({line.at("pty").get<std::string>(), line.at("link").get<std::string>()});
+    }
+    running.has_answered = true;
+  } catch (const ControlError&) {
+  } catch (const Json::exception&) {
+  }
+  return running;
+}
+
+std::vector<Running> identify_all() {
+  std::vector<Running> all;
+  for (const std::string& socket : live_control_sockets()) all.push_back(identify(socket));
+  return all;
+}
+
+std::string text_of(const Running& running) {
+  if (!running.has_answered) return running.socket + " (does not answer)";
+  std::string text = running.socket + " (" + (running.bench.empty() ? "no bench" : "bench " + running.bench);
+  for (const Running::Port& port : running.ports) text += ", port " + port.link;
+  return text + ")";
+}
+
+std::string list_of(const std::vector<Running>& all) {
+  std::string list;
+  for (const Running& running : all) list += (list.empty() ? "" : "; ") + text_of(running);
+  return list;
+}
+
+bool has_port(const Running& running, const std::string& port) {
+  const std::string link = fs::absolute(port).lexically_normal().string();
+  const std::string place = place_of(port);
+  return std::any_of(running.ports.begin(), running.ports.end(),
+                     [&](const auto& known) { return known.link == link || known.pty == place; });
+}
+
+std::string only_one(const std::vector<Running>& all) {
+  if (all.size() == 1) return all.front().socket;
+  throw UsageError(
+      "ctl: " + std::to_string(all.size()) +
+      " are running; expected --bench FILE, --port LINK or --control SOCKET of one of: " + list_of(all));
+}
+
+std::string find_by(const WhichDaemon& which) {
+  const std::vector<Running> all = identify_all();
+  std::vector<Running> fitting;
+  for (const Running& running : all) {
+    const bool fits = (which.bench.empty() || running.bench == place_of(which.bench)) &&
+                      (which.port.empty() || has_port(running, which.port));
+    if (running.has_answered && fits) fitting.push_back(running);
+  }
+  if (!fitting.empty()) return only_one(fitting);
+  throw ControlError("ctl: nobody serves " + (which.port.empty() ? which.bench : which.port) + "; " +
+                     (all.empty() ? "no `understudy serve` is running here" : "running: " + list_of(all)));
+}
+
+}  // namespace
+
+std::string choose_daemon(const WhichDaemon& which) {
+  if (!which.socket.empty()) return which.socket;
+  if (!which.bench.empty() || !which.port.empty()) return find_by(which);
+  const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
+  if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // empty is as if unset
+  const std::vector<std::string> live = live_control_sockets();
+  if (live.empty()) {
+    throw ControlError("ctl: nobody answers in " + control_folder() +
+                       "; expected a running `understudy serve`, or --control SOCKET");
+  }
+  return live.size() == 1 ? live.front() : only_one(identify_all());
+}
+
+int list_daemons() {
+  for (const Running& running : identify_all()) std::printf("%s\n", one_line(text_of(running)).c_str());
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,18 @@
+// Which of the running daemons `ctl` talks to.
+#pragma once
+
+#include <string>
+
+#include "emulator/command_line/commands.h"
+
+namespace understudy::emulator {
+
+/// Its control socket: the one that was given, the one of that bench or port, the one in UNDERSTUDY_CONTROL,
+/// or the only one there is. Of several none is guessed: throws UsageError, which names each. ControlError if
+/// there is none.
+std::string choose_daemon(const WhichDaemon& which);
+
+/// Prints a line for each of this user's that runs: its socket, process, bench and ports.
+int list_daemons();
+
+}  // namespace understudy::emulator

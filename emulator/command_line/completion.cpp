@@ -1,0 +1,181 @@
+#include "emulator/command_line/completion.h"
+
+#include <cstdio>
+#include <functional>
+#include <string_view>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/model.h"
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// Calls with each command and the words that lead to it: "understudy ctl get".
+void for_each(const CommandWords& command, const std::string& path,
+              const std::function<void(const std::string& path, const CommandWords& command)>& act) {
+  act(path, command);
+  for (const CommandWords& below : command.commands) for_each(below, path + " " + below.name, act);
+}
+
+std::string model_names() {
+  std::string names;
+  for (const Model* const model : all_models()) {
+    names += (names.empty() ? "" : " ") + std::string(model->name);
+  }
+  return names;
+}
+
+/// In single quotes, as all three shells take it.
+std::string in_quotes(const std::string& text, std::string_view quote_in_quotes) {
+  std::string quoted_text = "'";
+  for (const char c : text) c == '\'' ? quoted_text += quote_in_quotes : quoted_text += c;
+  return quoted_text + "'";
+}
+
+/// Every path that is more than the program's own name, as patterns of a `case`.
+std::string patterns_of(const CommandWords& words, const std::string& separator) {
+  std::string patterns;
+  for_each(words, words.name, [&](const std::string& path, const CommandWords&) {
+    if (path != words.name) patterns += (patterns.empty() ? "" : separator) + ("'" + path + "'");
+  });
+  return patterns;
+}
+
+std::string bash_script(const CommandWords& words) {
+  std::string cases;
+  for_each(words, words.name, [&](const std::string& path, const CommandWords& command) {
+    std::string commands;
+    std::string flags;
+    for (const CommandWords& below : command.commands) commands += (commands.empty() ? "" : " ") + below.name;
+    for (const CommandWords::Flag& flag : command.flags) flags += (flags.empty() ? "--" : " --") + flag.name;
+    cases += "    '" + path + "') commands='" + commands + "' flags='" + flags + "' ;;\n";
+  });
+  return "# bash completion for understudy, made by `understudy completion bash`\n"
+         "_understudy() {\n"
+         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
+         "  local commands= flags= path=understudy i\n"
+         "  COMPREPLY=()\n"
+         "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
+         "    [[ ${COMP_WORDS[i]} == -- ]] && return\n"
+         "    case \"$path ${COMP_WORDS[i]}\" in\n"
+         "      " +
+         patterns_of(words, " | ") +
+         ") path=\"$path ${COMP_WORDS[i]}\" ;;\n"
+         "    esac\n"
+         "  done\n"
+         "  case $path in\n" +
+         cases +
+         "  esac\n"
+         "  if [[ $before == --model ]]; then\n"
+         "    COMPREPLY=($(compgen -W '" +
+         model_names() +
+         "' -- \"$word\"))\n"
+         "  elif [[ $word == -* ]]; then\n"
+         "    COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
+         "  elif [[ -n $commands ]]; then\n"
+         "    COMPREPLY=($(compgen -W \"$commands\" -- \"$word\"))\n"
+         "  fi\n"
+         "}\n"
+         "complete -o default -F _understudy understudy\n";
+}
+
+std::string zsh_script(const CommandWords& words) {
+  const auto entry = [](const std::string& name, const std::string& help) {
+    std::string text = name + ":";
+    for (const char c : help) text += c == ':' ? std::string("\\:") : std::string(1, c);
+    return " " + in_quotes(text, "'\\''");
+  };
+  std::string cases;
+  for_each(words, words.name, [&](const std::string& path, const CommandWords& command) {
+    cases += "    '" + path + "')\n      commands=(";
+    for (const CommandWords& below : command.commands) cases += entry(below.name, below.help);
+    cases += ")\n      flags=(";
+    for (const CommandWords::Flag& flag : command.flags) cases += entry("--" + flag.name, flag.help);
+    cases += ") ;;\n";
+  });
+  return "#compdef understudy\n"
+         "# zsh completion for understudy, made by `understudy completion zsh`\n"
+         "_understudy() {\n"
+         "  local path_=understudy i\n"
+         "  local -a commands flags models\n"
+         "  for ((i = 2; i < CURRENT; ++i)); do\n"
+         "    if [[ ${words[i]} == -- ]]; then _files; return; fi\n"
+         "    case \"$path_ ${words[i]}\" in\n"
+         "      (" +
+         patterns_of(words, "|") +
+         ") path_=\"$path_ ${words[i]}\" ;;\n"
+         "    esac\n"
+         "  done\n"
+         "  case $path_ in\n" +
+         cases +
+         "  esac\n"
+         "  models=(" +
+         model_names() +
+         ")\n"
+         "  if [[ ${words[CURRENT-1]} == --model ]]; then\n"
+         "    compadd -a models\n"
+         "  elif [[ ${words[CURRENT]} == -* ]]; then\n"
+         "    _describe -o flag flags\n"
+         "  elif (( $#commands )); then\n"
+         "    _describe command commands\n"
+         "  else\n"
+         "    _files\n"
+         "  fi\n"
+         "}\n"
+         "if [[ $funcstack[1] == _understudy ]]; then _understudy \"$@\"; else compdef _understudy "
+         "understudy; fi\n";
+}
+
+std::string fish_script(const CommandWords& words) {
+  std::string script =
+      "# fish completion for understudy, made by `understudy completion fish`\n"
+      "function __understudy_path\n"
+      "  set -l path understudy\n"
+      "  for word in (commandline -opc)[2..-1]\n"
+      "    switch \"$path $word\"\n"
+      "      case " +
+      patterns_of(words, " ") +
+      "\n"
+      "        set path \"$path $word\"\n"
+      "    end\n"
+      "  end\n"
+      "  echo $path\n"
+      "end\n";
+  for_each(words, words.name, [&](const std::string& path, const CommandWords& command) {
+    const std::string here =
+        "complete -c understudy -n " + in_quotes("test (__understudy_path) = \"" + path + "\"", "\\'");
+    for (const CommandWords& below : command.commands) {
+      script += here + " -f -a " + below.name + " -d " + in_quotes(below.help, "\\'") + "\n";
+    }
+    for (const CommandWords::Flag& flag : command.flags) {
+      const std::string value = flag.name == "model" ? " -x -a '" + model_names() + "'"
+                                : flag.takes_value   ? " -r"
+                                                     : "";
+      script += here + " -l " + flag.name + value + " -d " + in_quotes(flag.help, "\\'") + "\n";
+    }
+  });
+  return script;
+}
+
+}  // namespace
+
+std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell) {
+  if (shell == "bash") return bash_script(words);
+  if (shell == "zsh") return zsh_script(words);
+  if (shell == "fish") return fish_script(words);
+  return std::nullopt;
+}
+
+int print_completion(const CommandWords& words, const std::string& shell) {
+  const auto script = completion_script(words, shell);
+  if (!script) {
+    throw UsageError("completion: " + emulator::quoted(shell) +
+                     " is not a shell that is known; expected bash, zsh or fish");
+  }
+  std::fputs(script->c_str(), stdout);
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,30 @@
+// Scripts that make shells complete the words of `understudy`, made from its flags.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace understudy::emulator {
+
+/// A command, what may stand behind it, and the commands below it.
+struct CommandWords {
+  struct Flag {
+    std::string name;  // "link", without dashes
+    std::string help;
+    bool takes_value = false;
+  };
+  std::string name;
+  std::string help;
+  std::vector<Flag> flags;
+  std::vector<CommandWords> commands;
+};
+
+/// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can stand, files
+/// are offered; behind --model, the models.
+std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell);
+
+/// `understudy completion SHELL`.
+int print_completion(const CommandWords& words, const std::string& shell);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,79 @@
+// `understudy ctl frames`: what goes over the lines, in words, as it goes.
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "emulator/command_line/choose_daemon.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/interruption.h"
+#include "emulator/control/server.h"
+#include "emulator/one_line.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+constexpr int kMostAtOnce = 200;  // frames in a reply
+
+using Json = nlohmann::ordered_json;
+
+/// "12.345s rs485 -> write 0x1014 feeder.Aaxis_SVON = 1".
+std::string text_of(const Json& frame) {
+  std::string text = format_duration(SimTime{frame.at("time_ns").get<std::int64_t>()}) + " " +
+                     frame.at("line").get<std::string>() + (frame.at("way") == "in" ? " -> " : " <- ") +
+                     frame.at("text").get<std::string>();
+  if (frame.contains("remark")) text += "  (" + frame.at("remark").get<std::string>() + ")";
+  return one_line(text);
+}
+
+/// Prints what has come since number `since`; the number to ask for next.
+std::uint64_t print_new(const Json& reply, std::uint64_t since, bool json) {
+  const std::uint64_t next = reply.at("next").get<std::uint64_t>();
+  const Json& frames = reply.at("frames");
+  const std::uint64_t first = frames.empty() ? next : frames.at(0).at("number").get<std::uint64_t>();
+  if (since != 0 && first > since && !json) {
+    std::printf("... %llu frames more, which are no longer kept\n",
+                static_cast<unsigned long long>(first - since));
+  }
+  for (const Json& frame : frames) {
+    std::printf("%s\n", json ? frame.dump().c_str() : text_of(frame).c_str());
+  }
+  return next;
+}
+
+}  // namespace
+
+int follow_frames(const FramesArguments& arguments) {
+  const auto every = parse_duration(arguments.every);
+  if (!every || *every < std::chrono::milliseconds(10)) {
+    throw UsageError("ctl frames: --every: " + emulator::quoted(arguments.every) +
+                     " is not a time; expected 10ms or more");
+  }
+  if (arguments.last < 0 || arguments.last > kMostAtOnce) {
+    throw UsageError("ctl frames: --last: expected 0 to " + std::to_string(kMostAtOnce));
+  }
+  if (arguments.times < 0) throw UsageError("ctl frames: --times: expected 0 (without end) or more");
+  const int times = arguments.once ? 1 : arguments.times;
+  const std::string path = choose_daemon(arguments.which);
+  Json message{{"do", "frames"}, {"last", arguments.last}};
+  std::uint64_t since = 0;
+  try {
+    Json reply = Json::parse(ask_control(path, message.dump()));
+    watch_for_interruption();
+    for (int look = 1;; ++look) {
+      since = print_new(reply, since, arguments.json);
+      std::fflush(stdout);
+      if (look == times) break;
+      const bool may_be_more = reply.at("frames").size() == kMostAtOnce;
+      if (!may_be_more) wait_or_be_interrupted(*every);
+      if (is_interrupted()) break;
+      reply = Json::parse(ask_control(path, Json{{"do", "frames"}, {"since", since}}.dump()));
+    }
+  } catch (const Json::exception&) {
+    throw ControlError(path +
+                       ": what answers is no understudy; expected the control socket of `understudy serve`");
+  }
+  return kExitWell;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,30 @@
+#include "emulator/command_line/interruption.h"
+
+#include <signal.h>
+#include <time.h>
+
+#include <csignal>
+
+namespace understudy::emulator {
+
+namespace {
+
+volatile std::sig_atomic_t is_over = 0;
+
+}  // namespace
+
+void watch_for_interruption() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { is_over = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool is_interrupted() { return is_over != 0; }
+
+void wait_or_be_interrupted(SimTime time) {
+  const timespec wait{time.count() / 1'000'000'000, time.count() % 1'000'000'000};
+  nanosleep(&wait, nullptr);  // a signal ends it early
+}
+
+}  // namespace understudy::emulator

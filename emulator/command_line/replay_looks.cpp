@@ -1,0 +1,74 @@
+#include "emulator/command_line/replay_looks.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "emulator/command_line/log.h"
+#include "emulator/command_line/output_paths.h"
+#include "emulator/recording/event_text.h"
+
+namespace understudy::emulator {
+
+void demand_looks(const ReplayArguments& arguments, FileClaims& claims) {
+  demand_capture(claims, arguments.capture);
+  demand_trace(claims, arguments.trace, arguments.trace_also);
+  demand_output(claims, "--report", arguments.report);
+}
+
+ReplayLooks::ReplayLooks(World& world, const ReplayArguments& arguments, ScenarioResult& seen)
+    : world_(world), seen_(seen) {
+  if (!arguments.capture.empty()) {
+    capture_ = std::make_unique<WorldCapture>(world, arguments.capture, log_line);
+  }
+  if (!arguments.trace.empty()) {
+    try {
+      trace_ = std::make_unique<TraceFile>(world, arguments.trace, arguments.trace_also, log_line);
+    } catch (const NameError& error) {
+      throw UsageError(std::string("--trace-also: ") + error.what());
+    }
+  }
+  // All are open before any is emptied.
+  if (capture_) capture_->begin();
+  if (trace_) trace_->begin();
+  if (arguments.report.empty()) return;
+  camera_ = std::make_unique<Camera>(world);
+  seen_.file = arguments.recording;
+  begin_step("the recording begins", 1);
+}
+
+ReplayLooks::~ReplayLooks() = default;
+
+void ReplayLooks::begin_step(std::string text, std::size_t line_number) {
+  const SimTime now = world_.now();
+  if (!seen_.steps.empty()) seen_.steps.back().end = now;
+  seen_.steps.push_back({.file = seen_.file,
+                         .line = static_cast<int>(line_number),
+                         .text = std::move(text),
+                         .begin = now,
+                         .end = now});
+}
+
+void ReplayLooks::happened(const RecordedEvent& event, std::size_t line_number) {
+  if (!camera_) return;
+  if (std::string text = text_of(event, world_); !text.empty()) begin_step(std::move(text), line_number);
+}
+
+void ReplayLooks::ended() {
+  if (!camera_) return;
+  seen_.steps.back().end = world_.now();
+  seen_.simulated = world_.now() - seen_.steps.front().begin;
+  camera_->finish(seen_);
+}
+
+ScenarioResult result_of(const Replayed& replayed, const std::string& recording, ScenarioResult seen) {
+  seen.name = std::filesystem::path(recording).filename().string();
+  seen.file = recording;
+  if (replayed.result.verdict == ReplayResult::Verdict::different) {
+    seen.verdict = ScenarioResult::Verdict::failed;
+    seen.failure = Failure{.at = replayed.result.reached, .what = "differs: " + replayed.result.difference};
+    seen.steps.back().has_failed = true;
+  }
+  return seen;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,74 @@
+// A file that a command writes once all is over: results, a page.
+#pragma once
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "emulator/growing_file.h"
+#include "pty/descriptor.h"
+#include "pty/output_file.h"
+
+namespace understudy::emulator {
+
+/// Opened before anything is played, so that a wrong path is told at once. What has no end, such as
+/// /dev/stdout, is written as well.
+class ResultFile {
+ public:
+  /// Nothing is written if the path is empty.
+  ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
+    if (path_.empty()) return;
+    try {
+      if (!is_stream(path_)) {
+        file_.emplace(path_);
+        return;
+      }
+      stream_ = pty::Descriptor(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    } catch (const pty::OutputError& error) {
+      refuse(error.what());
+    }
+    if (!stream_) refuse(errno == ENXIO ? "nobody reads the pipe" : std::strerror(errno));
+    ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
+  }
+  bool is_wanted() const { return !path_.empty(); }
+  /// What was there is gone: nobody takes it for the result of a run that breaks off.
+  void empty() {
+    if (file_) begin("");
+  }
+  void write(const std::string& text) {
+    if (file_) return begin(text);
+    for (std::string_view rest = text; !rest.empty();) {
+      const ssize_t size = ::write(stream_.get(), rest.data(), rest.size());
+      if (size < 0 && errno != EINTR) refuse(std::strerror(errno));
+      if (size > 0) rest.remove_prefix(static_cast<std::size_t>(size));
+    }
+  }
+
+ private:
+  static bool is_stream(const std::string& path) {
+    struct stat status = {};
+    return ::stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
+  }
+  void begin(const std::string& text) {
+    try {
+      file_->begin(text);
+    } catch (const pty::OutputError& error) {
+      refuse(error.what());
+    }
+  }
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw GrowingFileError(flag_ + ": " + path_ + " cannot be written: " + why);
+  }
+  std::string flag_;
+  std::string path_;
+  std::optional<pty::OutputFile> file_;
+  pty::Descriptor stream_;
+};
+
+}  // namespace understudy::emulator

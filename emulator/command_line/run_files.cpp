@@ -1,0 +1,248 @@
+#include "emulator/command_line/run_files.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "emulator/bench/bench_text.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/log.h"
+#include "emulator/recording/recording_spool.h"
+#include "emulator/scenario/play_recorder.h"
+#include "emulator/trace/trace_file.h"
+#include "emulator/trace/world_capture.h"
+#include "pty/output_file.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLongestName = 100;  // bytes
+
+/// What is made of a play.
+struct FileKind {
+  const char* flag;
+  std::string RunFolders::*folder;
+  std::string ScenarioResult::*place;
+  const char* ending;
+  std::array<const char*, 3> of_files;  // no folder is called so
+};
+constexpr FileKind kRecording{
+    "--record", &RunFolders::recordings, &ScenarioResult::recording, ".jsonl", {".jsonl"}};
+constexpr FileKind kTrace{"--trace", &RunFolders::traces, &ScenarioResult::trace, ".csv", {".csv", ".vcd"}};
+constexpr FileKind kCapture{
+    "--capture", &RunFolders::captures, &ScenarioResult::capture, ".pcapng", {".pcapng", ".pcap", ".txt"}};
+constexpr std::array<FileKind, 3> kKinds{kRecording, kTrace, kCapture};
+
+/// A file about a play. Such a file has one course: where the play goes back to an earlier state, or is a
+/// branch that begins in one, it begins anew.
+class PlayFile final : public Onlooker {
+ public:
+  using Begin = std::function<std::shared_ptr<void>(World&, const std::string& path)>;
+
+  PlayFile(World& world, std::string path, std::string ScenarioResult::*place, Begin begin)
+      : world_(world), path_(std::move(path)), place_(place), begin_(std::move(begin)) {
+    world_restored(0);
+  }
+  void world_restored(std::size_t) override {
+    file_.reset();  // the one before is over, and its file is free
+    file_ = begin_(world_, path_);
+  }
+  void finish(ScenarioResult& result) override {
+    file_.reset();
+    result.*place_ = path_;
+  }
+
+ private:
+  World& world_;
+  std::string path_;
+  std::string ScenarioResult::*place_;
+  Begin begin_;
+  std::shared_ptr<void> file_;
+};
+
+/// What any file system takes, and no shell needs quotes for.
+std::string file_name_of(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const auto letter = static_cast<unsigned char>(c);
+    const bool is_plain = std::isalnum(letter) != 0 || c == '-' || (c == '.' && !text.empty());
+    if (is_plain) {
+      text += c;
+    } else if (!text.empty() && text.back() != '_') {
+      text += '_';
+    }
+  }
+  text.resize(std::min(text.size(), kLongestName));
+  while (!text.empty() && text.back() == '_') text.pop_back();
+  return text.empty() ? "scenario" : text;
+}
+
+constexpr const char* kSpool = "spool";
+
+/// A lock that lasts as long as the process; nothing if somebody else has it.
+pty::Descriptor locked(const std::string& folder) {
+  pty::Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  return lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : pty::Descriptor();
+}
+
+/// What a `run` that was killed has left behind. The recordings that it kept stay.
+void remove_abandoned_spools() {
+  const fs::path folders(kPrivateFolders);
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folders.parent_path(), error)) {
+    const std::string path = entry.path().string();
+    struct stat status = {};
+    const bool is_own = path.starts_with(kPrivateFolders) && ::lstat(path.c_str(), &status) == 0 &&
+                        S_ISDIR(status.st_mode) && status.st_uid == ::geteuid();
+    if (!is_own || !locked(path + "/" + kSpool)) continue;
+    fs::remove_all(path + "/" + kSpool, error);
+    fs::remove(path, error);  // if nothing else is in it
+  }
+}
+
+[[noreturn]] void refuse(const char* flag, const std::string& path, const std::error_code& error) {
+  throw std::system_error(error, std::string(flag) + ": " + path + " cannot be written");
+}
+
+/// Also from one file system to another.
+void move_file(const char* flag, const std::string& from, const std::string& path) {
+  std::error_code error;
+  std::string to;
+  try {
+    to = pty::output_target(path);
+  } catch (const pty::OutputError& refused) {
+    throw GrowingFileError(std::string(flag) + ": " + path + " cannot be written: " + refused.what());
+  }
+  fs::rename(from, to, error);
+  if (!error) return;
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+  if (error) refuse(flag, to, error);
+  fs::remove(from, error);
+}
+
+// A recording that had grown too large has its older part in a file of its own.
+constexpr std::array<const char*, 2> kParts = {"", kOlderPart};
+
+}  // namespace
+
+void demand_folders(const FileClaims& claims, const RunFolders& folders) {
+  if (folders.traces.empty() && !folders.trace_also.empty()) {
+    throw UsageError("--trace-also: expected --trace DIR beside it");
+  }
+  for (const FileKind& kind : kKinds) {
+    const std::string& folder = folders.*kind.folder;
+    if (folder.empty()) continue;
+    const auto refuse_it = [&](const std::string& why) {
+      throw UsageError(std::string(kind.flag) + ": " + folder + ": " + why);
+    };
+    for (const char* const ending : kind.of_files) {
+      if (ending == nullptr || !folder.ends_with(ending) || fs::is_directory(folder)) continue;
+      refuse_it("is the name of a file; expected a folder, for a file of each scenario");
+    }
+    std::vector<std::string> endings;
+    for (const char* const part : kParts) endings.push_back(std::string(kind.ending) + part);
+    if (const std::string why = claims.objection_to_folder(folder, endings); !why.empty()) refuse_it(why);
+  }
+}
+
+RunFiles::RunFiles(RunFolders folders, bool real_time, std::string version)
+    : folders_(std::move(folders)), real_time_(real_time), version_(std::move(version)) {
+  std::error_code error;
+  for (const FileKind& kind : kKinds) {
+    const std::string& folder = folders_.*kind.folder;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (error) refuse(kind.flag, folder, error);
+  }
+  remove_abandoned_spools();
+  remove_left_overs();
+  // It gets its name when it is locked: before, others would take it for abandoned.
+  const std::string unlocked = private_folder_.path() + "/unlocked";
+  spool_ = private_folder_.path() + "/" + kSpool;
+  fs::create_directory(unlocked, error);
+  if (error) refuse(kRecording.flag, spool_, error);
+  lock_ = locked(unlocked);
+  fs::rename(unlocked, spool_, error);
+  if (error) refuse(kRecording.flag, spool_, error);
+}
+
+RunFiles::~RunFiles() {
+  std::error_code ignored;
+  fs::remove_all(spool_, ignored);
+}
+
+std::string RunFiles::next_spool(const std::string& ending) {
+  return spool_ + "/" + std::to_string(++count_) + ending;
+}
+
+std::vector<OnlookerMaker> RunFiles::onlookers(const Scenario& scenario) {
+  std::vector<OnlookerMaker> makers;
+  makers.push_back([this, &scenario](World& world) {
+    RecordingHeader header{.version = version_,
+                           .bench = to_text(scenario.bench),
+                           .options = {},
+                           .seed = scenario.bench.seed,
+                           .snapshot = {}};
+    header.options.strict_framing = !real_time_;
+    return std::make_unique<PlayRecorder>(world, std::move(header), next_spool(kRecording.ending));
+  });
+  const auto add = [&](const FileKind& kind, const PlayFile::Begin& begin) {
+    if ((folders_.*kind.folder).empty()) return;
+    makers.push_back([this, &kind, begin](World& world) {
+      return std::make_unique<PlayFile>(world, next_spool(kind.ending), kind.place, begin);
+    });
+  };
+  add(kTrace, [this](World& world, const std::string& path) {
+    auto trace = std::make_shared<TraceFile>(world, path, folders_.trace_also, log_line);
+    trace->begin();
+    return trace;
+  });
+  add(kCapture, [](World& world, const std::string& path) {
+    auto capture = std::make_shared<WorldCapture>(world, path, log_line);
+    capture->begin();
+    return capture;
+  });
+  return makers;
+}
+
+std::string RunFiles::free_name(const std::string& name) {
+  const std::string plain = file_name_of(name);
+  std::string free = plain;
+  for (int i = 2; !names_.insert(free).second; ++i) free = plain + "-" + std::to_string(i);
+  return free;
+}
+
+void RunFiles::settle(ScenarioResult& result) {
+  std::string name;
+  for (const FileKind& kind : kKinds) {
+    std::string& place = result.*kind.place;
+    if (place.empty()) continue;
+    const std::string spooled = std::exchange(place, {});
+    const std::string& folder = folders_.*kind.folder;
+    const bool is_kept = !folder.empty() || result.failure;
+    if (is_kept) {
+      if (name.empty()) name = free_name(result.name);
+      place = (fs::path(folder.empty() ? private_folder_.path() : folder) / (name + kind.ending)).string();
+    }
+    for (const char* const part : kParts) {
+      std::error_code error;
+      if (!fs::exists(spooled + part, error)) continue;
+      if (is_kept) {
+        move_file(kind.flag, spooled + part, place + part);
+      } else {
+        fs::remove(spooled + part, error);
+      }
+    }
+  }
+}
+
+}  // namespace understudy::emulator

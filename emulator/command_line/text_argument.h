@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "emulator/text_file.h"
+
+namespace understudy::emulator {
+
+/// A text file that the command line names; "-" and "/dev/stdin" are standard input, read to its end.
+FileText read_text_argument(const std::string& path);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,23 @@
+#include "pty/capture.h"
+
+namespace understudy::pty {
+
+std::string text_of(std::span<const Strike> strikes) {
+  std::string text;
+  for (const Strike& strike : strikes) {
+    if (!text.empty()) text += "; ";
+    text += "fault " + std::to_string(strike.fault) + " ";
+    text += strike.kind;
+    text += ": ";
+    text += strike.effect;
+  }
+  return text;
+}
+
+std::string comment_of(const CapturedPacket& packet) {
+  std::string text(text_of(packet.remark));
+  if (!text.empty() && !packet.faults.empty()) text += "; ";
+  return text += packet.faults;
+}
+
+}  // namespace understudy::pty

@@ -1,0 +1,10 @@
+// What the parts of the library for preloading share. Nothing but libc.
+#pragma once
+
+namespace understudy::shim {
+
+/// The number of the pseudo-terminal whose slave it is; -1: it is none. As far as can be known from outside
+/// every one may be ours.
+int pseudo_terminal_number(int descriptor);
+
+}  // namespace understudy::shim

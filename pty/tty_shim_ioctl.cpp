@@ -1,0 +1,114 @@
+// What a serial port can and a pseudo-terminal cannot, for hosts that insist on it: modem lines, RS-485 mode,
+// low latency. A pseudo-terminal says ENOTTY to all of them; here they are answered as by a port whose other
+// end is switched on and wired through: CTS, DSR and CD are on, RTS and DTR are as the host has last set them
+// (on, at first). RS-485 mode and low latency are remembered. Nothing of it reaches the emulator.
+//
+// It lives in somebody else's process: nothing but libc, and no errors of its own.
+#include <dlfcn.h>
+#include <errno.h>
+#include <linux/serial.h>
+#include <stdarg.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include "pty/tty_shim.h"
+
+namespace {
+
+using Ioctl = int (*)(int, unsigned long, ...);
+
+constexpr int kOwnLines = TIOCM_RTS | TIOCM_DTR;
+constexpr int kTheirLines = TIOCM_CTS | TIOCM_DSR | TIOCM_CD;
+
+/// Of a pseudo-terminal. All zero at first, so that untouched ones cost no memory.
+struct Remembered {
+  int lowered;  // of kOwnLines
+  int serial_flags;
+  serial_rs485 rs485;
+};
+
+constexpr int kMostPseudoTerminals = 4096;  // the kernel's own limit, unless it was raised
+Remembered remembered[kMostPseudoTerminals];
+
+int call_real(int descriptor, unsigned long request, void* argument) {
+  // A static of a plain type: no guard, so no need of the C++ library.
+  static Ioctl found = nullptr;
+  if (found == nullptr) found = reinterpret_cast<Ioctl>(dlsym(RTLD_NEXT, "ioctl"));
+  if (found == nullptr) return static_cast<int>(syscall(SYS_ioctl, descriptor, request, argument));
+  return found(descriptor, request, argument);
+}
+
+bool is_offered(unsigned long request) {
+  switch (request) {
+    case TIOCMGET:
+    case TIOCMSET:
+    case TIOCMBIS:
+    case TIOCMBIC:
+    case TIOCGRS485:
+    case TIOCSRS485:
+    case TIOCGSERIAL:
+    case TIOCSSERIAL: return true;
+    default: return false;
+  }
+}
+
+void answer(Remembered& port, unsigned long request, void* argument) {
+  int lines = 0;
+  serial_struct serial;
+  switch (request) {
+    case TIOCMGET:
+      lines = kTheirLines | (kOwnLines & ~__atomic_load_n(&port.lowered, __ATOMIC_RELAXED));
+      memcpy(argument, &lines, sizeof lines);
+      break;
+    case TIOCMSET:
+      memcpy(&lines, argument, sizeof lines);
+      __atomic_store_n(&port.lowered, kOwnLines & ~lines, __ATOMIC_RELAXED);
+      break;
+    case TIOCMBIS:
+      memcpy(&lines, argument, sizeof lines);
+      __atomic_fetch_and(&port.lowered, ~lines, __ATOMIC_RELAXED);
+      break;
+    case TIOCMBIC:
+      memcpy(&lines, argument, sizeof lines);
+      __atomic_fetch_or(&port.lowered, kOwnLines & lines, __ATOMIC_RELAXED);
+      break;
+    case TIOCGRS485: memcpy(argument, &port.rs485, sizeof port.rs485); break;
+    case TIOCSRS485: memcpy(&port.rs485, argument, sizeof port.rs485); break;
+    case TIOCGSERIAL:
+      memset(&serial, 0, sizeof serial);
+      serial.type = PORT_16550A;
+      serial.flags = __atomic_load_n(&port.serial_flags, __ATOMIC_RELAXED);
+      memcpy(argument, &serial, sizeof serial);
+      break;
+    case TIOCSSERIAL:
+      memcpy(&serial, argument, sizeof serial);
+      __atomic_store_n(&port.serial_flags, serial.flags, __ATOMIC_RELAXED);
+      break;
+    default: break;
+  }
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) int ioctl(int descriptor, unsigned long request,
+                                                            ...) noexcept {
+  va_list arguments;
+  va_start(arguments, request);
+  void* const argument = va_arg(arguments, void*);
+  va_end(arguments);
+  const int error = errno;
+  const int result = call_real(descriptor, request, argument);
+  // The kernel first: a real port, and whatever a later kernel can do, speaks for itself.
+  if (result != -1 || (errno != ENOTTY && errno != EINVAL) || !is_offered(request)) return result;
+  const int number = understudy::shim::pseudo_terminal_number(descriptor);
+  if (number < 0 || number >= kMostPseudoTerminals) return result;
+  if (argument == nullptr) {
+    errno = EFAULT;
+    return -1;
+  }
+  answer(remembered[number], request, argument);
+  errno = error;
+  return 0;
+}

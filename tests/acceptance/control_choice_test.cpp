@@ -1,0 +1,124 @@
+// Several daemons of one user: each has a control socket of its own, and `ctl` talks to the one that is
+// meant.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Daemons that were not told where their sockets are to be, in a runtime folder of their own.
+class SeveralDaemons : public testing::Test {
+ protected:
+  Environment environment() const {
+    return {{"XDG_RUNTIME_DIR", folder_.path()}, {"UNDERSTUDY_CONTROL", ""}};
+  }
+  std::unique_ptr<Process> serve(const std::string& name) {
+    const std::string bench = folder_.write(name + ".yaml", "understudy: 1\nlines: { rs485: { link: ./" +
+                                                                name + ".port, stations: [ { name: " + name +
+                                                                ", model: simple2-r3 } ] } }\n");
+    auto daemon = std::make_unique<Process>(Words{UNDERSTUDY_BINARY, "serve", bench}, environment());
+    EXPECT_TRUE(eventually([&] { return daemon->output().ends_with('\n'); })) << daemon->errors();
+    EXPECT_EQ(daemon->errors(), "");
+    return daemon;
+  }
+  std::string bench(const std::string& name) const { return folder_ / (name + ".yaml"); }
+  std::string port(const std::string& name) const { return folder_ / (name + ".port"); }
+  std::string socket(const Process& daemon) const {
+    return folder_ / ("understudy/" + std::to_string(daemon.pid()) + ".control");
+  }
+  Finished ctl(Words words) const {
+    words.insert(words.begin(), "ctl");
+    return understudy(words, environment());
+  }
+  /// `get power` of the only device that the chosen daemon has tells which one it is.
+  void expect_chosen(const Words& flags, const std::string& name) const {
+    Words words = flags;
+    words.insert(words.end(), {"get", name + ".power"});
+    const Finished finished = ctl(words);
+    EXPECT_EQ(finished.output, name + ".power 1\n") << finished.errors;
+    EXPECT_EQ(finished.exit_code, 0);
+  }
+
+  PrivateFolder folder_;
+};
+
+TEST_F(SeveralDaemons, TheOnlyOneIsMeant) {
+  const Finished none = ctl({"status"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_EQ(none.errors, "understudy: ctl: nobody answers in " + (folder_ / "understudy") +
+                             "; expected a running `understudy serve`, or --control SOCKET\n");
+  const auto feeder = serve("feeder");
+  EXPECT_TRUE(fs::is_socket(socket(*feeder)));
+  expect_chosen({}, "feeder");
+  feeder->send(SIGTERM);
+  EXPECT_EQ(feeder->wait(kPatience), 0);
+  EXPECT_FALSE(fs::exists(socket(*feeder)));
+}
+
+TEST_F(SeveralDaemons, OfTwoNoneIsGuessedAndEachIsNamed) {
+  const auto feeder = serve("feeder");
+  const auto turner = serve("turner");
+  for (const Words& words : {Words{"pause"}, Words{"watch", "--times", "1"}, Words{"frames", "--once"}}) {
+    const Finished refused = ctl(words);
+    EXPECT_EQ(refused.exit_code, 2) << words[0];
+    EXPECT_EQ(refused.output, "") << words[0];
+    EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
+    for (const std::string& part :
+         {std::string("ctl: 2 are running; expected --bench FILE, --port LINK or --control SOCKET"),
+          socket(*feeder) + " (bench " + bench("feeder") + ", port " + port("feeder") + ")",
+          socket(*turner) + " (bench " + bench("turner") + ", port " + port("turner") + ")"}) {
+      EXPECT_NE(refused.errors.find(part), std::string::npos) << part << " in " << refused.errors;
+    }
+  }
+  const Finished list = ctl({"daemons"});
+  EXPECT_EQ(lines_of(list.output).size(), 2U) << list.output;
+  EXPECT_NE(list.output.find(port("turner")), std::string::npos) << list.output;
+  for (const auto* const name : {"feeder", "turner"}) {
+    expect_chosen({"--bench", bench(name)}, name);
+    expect_chosen({"--port", port(name)}, name);
+    expect_chosen({"--port", fs::canonical(port(name)).string()}, name);
+  }
+  expect_chosen({"--control", socket(*turner)}, "turner");
+}
+
+TEST_F(SeveralDaemons, OneThatIsNotThereIsNotReplacedByAnother) {
+  const auto feeder = serve("feeder");
+  for (const Words& flags :
+       {Words{"--bench", folder_ / "mill.yaml"}, Words{"--port", folder_ / "mill.port"}}) {
+    const Finished refused = ctl({flags[0], flags[1], "pause"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(
+        refused.errors.find("understudy: ctl: nobody serves " + flags[1] + "; running: " + socket(*feeder)),
+        0U)
+        << refused.errors;
+  }
+  EXPECT_EQ(ctl({"--bench", bench("feeder"), "--control", socket(*feeder), "status"}).exit_code, 2);
+}
+
+TEST_F(SeveralDaemons, OneThatWasKilledIsForgotten) {
+  const auto killed = serve("feeder");
+  const auto alive = serve("turner");
+  killed->send(SIGKILL);
+  EXPECT_EQ(killed->wait(kPatience), 128 + SIGKILL);
+  EXPECT_TRUE(fs::exists(socket(*killed)));
+  expect_chosen({}, "turner");
+  EXPECT_FALSE(fs::exists(socket(*killed)));
+}
+
+TEST_F(SeveralDaemons, OneThatStandsStillIsNamedAsWell) {
+  const auto still = serve("feeder");
+  const auto alive = serve("turner");
+  still->send(SIGSTOP);
+  const Finished refused = ctl({"status"});
+  expect_chosen({"--bench", bench("turner")}, "turner");
+  still->send(SIGCONT);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find(socket(*still) + " (does not answer)"), std::string::npos) << refused.errors;
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

@@ -1,0 +1,119 @@
+// `ctl` as a way to look: names, expressions, frames in words.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "tests/acceptance/raw_host.h"
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(CtlGet, TakesWhateverConditionsTake) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  ASSERT_EQ(daemon.ctl({"advance", "1500ms"}).exit_code, 0);
+  ASSERT_EQ(daemon.ctl({"input", "AIN_A=2.5V"}).exit_code, 0);
+  EXPECT_EQ(
+      daemon.ctl({"get", "time", "device.A.position", "AIN_A", "power", "line.bytes_in", "0x0001"}).output,
+      "time 1.5s\ndevice.A.position 0\nAIN_A 2.5V\npower 1\nline.bytes_in 0\n0x0001 49153\n");
+  EXPECT_EQ(daemon.ctl({"get", "device"}).errors,
+            "understudy: ctl get: 'device' is a device; expected device.NAME\n");
+}
+
+TEST(CtlEval, PrintsWhatAnExpressionComesTo) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  EXPECT_EQ(daemon.ctl({"eval", "HW_Code - 0xC000"}).output, "1\n");
+  EXPECT_EQ(daemon.ctl({"eval", "time + 250ms"}).output, "250ms\n");
+  EXPECT_EQ(daemon.ctl({"eval", "device.A.position == 0 && DIN_1 == off"}).output, "1\n");
+  const Finished refused = daemon.ctl({"eval", "HW_Code +"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("column 10 of 'HW_Code +': unexpected end"), std::string::npos)
+      << refused.errors;
+  EXPECT_EQ(daemon.ctl({"eval"}).exit_code, 2);
+}
+
+TEST(CtlWatch, ShowsJustWhatIsNamed) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  EXPECT_EQ(daemon.ctl({"watch", "--times", "2", "--every", "10ms", "HW_Code", "A.position"}).output,
+            "time        0s\nHW_Code     49153\nA.position  0\n\n"
+            "time        0s\nHW_Code     49153\nA.position  0\n\n");
+  const Finished refused = daemon.ctl({"watch", "--times", "1", "HW_Cod"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors,
+            "understudy: ctl watch: device: no register is called 'HW_Cod'; the nearest is "
+            "'HW_Code'\n");
+}
+
+/// The lines of `ctl frames --once WORDS` without their times.
+Words frames(const RunningUnderstudy& daemon, Words words) {
+  words.insert(words.begin(), {"frames", "--once"});
+  const Finished finished = daemon.ctl(words);
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  Words lines = lines_of(finished.output);
+  for (std::string& line : lines) {
+    EXPECT_TRUE(std::regex_search(line, std::regex("^[0-9.]+m?s "))) << line;
+    line.erase(0, line.find(' ') + 1);
+  }
+  return lines;
+}
+
+TEST(CtlFrames, TellsWhatHasJustGoneOverTheLine) {
+  const RunningUnderstudy daemon({"--timing", "instant"});
+  EXPECT_EQ(frames(daemon, {}), Words{});
+  ASSERT_EQ(understudy({"poll", daemon.port(), "--model", "simple2-r3", "Aaxis_SVON=1", "Cord_A"}).exit_code,
+            0);
+  Host host(daemon.port());
+  host.write(hex("01 03 00 00 00 01 BA D0"));
+  const Words all{"line -> write 0x1014 device.Aaxis_SVON = 1", "line <- done",
+                  "line -> read 0x0E04 device.Cord_A", "line <- device.Cord_A = 0",
+                  "line -> 01 03 00 00 00 01 BA D0  (dropped: bad CRC)"};
+  EXPECT_TRUE(eventually([&] { return frames(daemon, {}).size() == all.size(); }));
+  EXPECT_EQ(frames(daemon, {}), all);
+  EXPECT_EQ(frames(daemon, {"--last", "1"}), Words{all.back()});
+  const Words objects = lines_of(daemon.ctl({"--json", "frames", "--once", "--last", "2"}).output);
+  ASSERT_EQ(objects.size(), 2U);
+  EXPECT_EQ(Json::parse(objects[0])["number"], 4);
+  EXPECT_EQ(Json::parse(objects[0])["way"], "out");
+  EXPECT_EQ(Json::parse(objects[1])["remark"], "dropped: bad CRC");
+  EXPECT_EQ(daemon.ctl({"frames", "--last", "201"}).exit_code, 2);
+  EXPECT_EQ(daemon.ctl({"frames", "--times", "-1"}).exit_code, 2);
+  EXPECT_EQ(daemon.ctl({"frames", "--every", "1ms"}).exit_code, 2);
+}
+
+TEST(CtlFrames, TellsLinesOfTextAsWell) {
+  const auto daemon = RunningUnderstudy::of_model("slim", {"--timing", "instant"});
+  Host host(daemon->port());
+  const std::string text = "?PE\r";
+  host.write(Bytes(text.begin(), text.end()));
+  EXPECT_TRUE(eventually([&] { return frames(*daemon, {}).size() == 2; }));
+  EXPECT_EQ(frames(*daemon, {}), (Words{"line -> \"?PE\"", "line <- \"0\""}));
+}
+
+TEST(StandardInput, IsAFileWhereAListingIsExpected) {
+  const std::string program = UNDERSTUDY_BINARY;
+  for (const char* const path : {"-", "/dev/stdin"}) {
+    const Finished made = run({"/bin/sh", "-c", "printf 'Out DOUT_0 ON\n' | " + program + " asm " + path});
+    EXPECT_EQ(made.exit_code, 0) << made.errors;
+    EXPECT_EQ(lines_of(made.output).size(), 1U) << made.output;
+    const Finished back =
+        run({"/bin/sh", "-c",
+             "printf 'Out DOUT_0 ON\n' | " + program + " asm - | " + program + " disasm " + path});
+    EXPECT_NE(back.output.find("Out DOUT_0"), std::string::npos) << back.output << back.errors;
+    const Finished wrong = run({"/bin/sh", "-c", "printf 'Jmp\n' | " + program + " asm " + path});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_EQ(wrong.errors.find(std::string(path) + ":1"), 0U) << wrong.errors;
+  }
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  EXPECT_EQ(run({"/bin/sh", "-c",
+                 "printf 'Out DOUT_0 ON\n' | " + program + " ctl --control " + daemon.control() +
+                     " program device -"})
+                .exit_code,
+            0);
+  EXPECT_NE(daemon.ctl({"program"}).output.find("Out DOUT_0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace understudy::acceptance

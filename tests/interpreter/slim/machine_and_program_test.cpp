@@ -1,0 +1,114 @@
+// What a machine, an event or a host means for a program that is not its next line.
+#include <gtest/gtest.h>
+
+#include "tests/interpreter/slim/scripted_machine.h"
+
+namespace understudy::interpreter::slim {
+namespace {
+
+TEST(SlimMachine, MayEndTheProgramByACommand) {
+  ProgramRun run({"SET P1", "TASTOP", "SET P2"});
+  run.machine.endings["TASTOP"] = Outcome::Program::ends;
+  run.begin();
+  run.until(10);
+  EXPECT_EQ(run.machine.log, (Log{"1 SET P1", "2 TASTOP"}));
+  EXPECT_FALSE(run.execution.running);
+  EXPECT_EQ(run.execution.ending, Ending::exited);
+}
+
+const std::vector<std::string> kInterrupted{"SET EV1 I,1", "ON EV1,$E", "WT 100",  "SET P1",
+                                            "RET",         "$E TASTOP", "CALL $S", "SET P3",
+                                            "RET",         "$S SET P2", "RET"};
+
+TEST(SlimMachine, MayForgetWhatAnEventHasInterrupted) {
+  for (const bool forgets : {true, false}) {
+    ProgramRun run(kInterrupted);
+    if (forgets) run.machine.endings["TASTOP"] = Outcome::Program::forgets_what_it_interrupted;
+    run.begin();
+    run.until(10);
+    run.machine.inputs.insert(1);
+    run.until(400);
+    // The routine and its subroutine go on to their ends.
+    Log expected{"11 TASTOP", "13 SET P2", "15 SET P3"};
+    if (!forgets) expected.emplace_back("117 SET P1");
+    EXPECT_EQ(run.machine.log, expected);
+    EXPECT_FALSE(run.execution.running);
+  }
+}
+
+TEST(SlimMachine, InItsMainLineAProgramHasNothingToForget) {
+  ProgramRun run({"TASTOP", "SET P1"});
+  run.machine.endings["TASTOP"] = Outcome::Program::forgets_what_it_interrupted;
+  run.begin();
+  run.until(10);
+  EXPECT_EQ(run.machine.log, (Log{"1 TASTOP", "2 SET P1"}));
+}
+
+TEST(SlimEvents, MayRunTheirRoutineWithoutAProgram) {
+  ProgramRun run({"SET P1", "RET", "$E SET P2", "RET"}, {.events_need_program = false});
+  const auto define = [&](std::string_view line) {
+    define_event(run.execution.events, *parse_line(line).line.command, run.options.events);
+  };
+  define("SET EV1 I,1");
+  define("ON EV1,$E");
+  run.until(20);
+  EXPECT_TRUE(run.machine.log.empty());
+  run.machine.inputs.insert(1);
+  run.until(40);
+  EXPECT_EQ(run.machine.log, (Log{"22 SET P2"}));
+  EXPECT_FALSE(run.execution.running);
+  // Once for each time that it becomes true.
+  run.machine.inputs.clear();
+  run.until(50);
+  run.machine.inputs.insert(1);
+  run.until(60);
+  EXPECT_EQ(run.machine.log.size(), 2U);
+  // To a label that there is not: an error, once.
+  define("ON EV1,$NOWHERE");
+  run.until(90);
+  EXPECT_EQ(run.errors, (std::vector<Error>{Error::address}));
+}
+
+TEST(SlimFlow, ABareNumberMayHaveAVariable) {
+  for (const auto bare : {FlowOptions::BareNumber::is_dropped, FlowOptions::BareNumber::into_n0_or_r0}) {
+    ProgramRun run({"GETI", "GETR", "SET P1"}, {.bare_number = bare});
+    run.begin();
+    run.until(5);
+    EXPECT_EQ(give_number(run.execution, run.program, "17"), Error::none);
+    run.until(10);
+    EXPECT_EQ(give_number(run.execution, run.program, "2.5"), Error::none);
+    run.until(20);
+    const bool has = bare == FlowOptions::BareNumber::into_n0_or_r0;
+    EXPECT_EQ(run.machine.variables, (has ? std::map<std::string, double>{{"N0", 17}, {"R0", 2.5}}
+                                          : std::map<std::string, double>{}));
+    EXPECT_EQ(run.machine.log.back(), "12 SET P1");
+  }
+}
+
+TEST(SlimProgram, AMachineChecksLinesAsTheyAreEntered) {
+  ProgramOptions options;
+  options.check_command = [](const Command& command) {
+    return command.verb == Verb::set_parameter && command.name == "FOO" ? Error::syntax : Error::none;
+  };
+  Program program;
+  EXPECT_EQ(program.insert(0, "FOO=5", options), Error::syntax);
+  EXPECT_EQ(program.insert(0, "PR3=5", options), Error::none);
+  EXPECT_EQ(program.replace(0, "FOO=5", options), Error::syntax);
+  options.check = ProgramOptions::Check::as_run;
+  EXPECT_EQ(program.insert(1, "$A FOO=5", options), Error::none);
+  EXPECT_EQ(program.line(1).error, Error::syntax);
+  EXPECT_EQ(program.line(1).parsed.label, "A");
+}
+
+TEST(SlimProgram, ALabelStandsOnce) {
+  Program program;
+  EXPECT_EQ(program.insert(0, "$A SET P1"), Error::none);
+  EXPECT_EQ(program.insert(0, "$a"), Error::address);
+  EXPECT_EQ(program.insert(1, "$B"), Error::none);
+  EXPECT_EQ(program.replace(0, "$A SET P2"), Error::none);  // its own
+  EXPECT_EQ(program.replace(1, "$A SET P2"), Error::address);
+  EXPECT_EQ(program.size(), 2);
+}
+
+}  // namespace
+}  // namespace understudy::interpreter::slim
