@@ -84,7 +84,7 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {"understudy: 1\n" + kLines + "lines: {}\n", "3: lines: is given twice; expected it once"},
       {"understudy: 1\nunderstudy: 1\n" + kLines, "2: understudy: is given twice; expected it once"},
       {with_line("speed: 1, " + kStation),
-       "3: lines.a.speed: is no key here; expected one of link, baud, timing, stations"},
+       "3: lines.a.speed: is no key here; expected one of link, baud, baud_tolerance, timing, stations"},
       {with("adress: 2"),
        "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, "
        "modules, set, "
