@@ -82,7 +82,8 @@ TEST(MakeDevice, RefusesSettingsThatTheModelDoesNotHave) {
   }
   DeviceSettings choice;
   choice.choices["stop"] = "softly";
-  EXPECT_EQ(error_of(choice), "choices: choice 'stop' has no option 'softly'; expected one of at_once");
+  EXPECT_EQ(error_of(choice),
+            "choices: choice 'stop' has no option 'softly'; expected one of at_once|slows_down");
 }
 
 TEST(MakeDevice, GivesRegistersTheirValues) {

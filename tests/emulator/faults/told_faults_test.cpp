@@ -83,13 +83,16 @@ const std::vector<Told>& cells() {
       {"alarm feeder.A nth=1", {kAsked, "in  L  # fault 1 alarm: begins", kSaid}},
       {"stuck feeder.DIN_2 level=1 nth=1", {kAsked, "in  L  # fault 1 stuck: begins", kSaid}},
       {"encoder_noise feeder.A counts=5 nth=1", {kAsked, "in  L  # fault 1 encoder_noise: begins", kSaid}},
+      {"turn feeder.B counts=400 nth=1", {kAsked, "in  L  # fault 1 turn: turned", kSaid}},
   };
   return all;
 }
 
 TEST(ToldFaults, EachKindIsToldOfWhereItActs) {
   for (const Told& cell : cells()) {
-    FaultyLine line("plant: { feeder.A: { encoder: { per_revolution: 4000 } } }\n");
+    FaultyLine line(
+        "plant: { feeder.A: { encoder: { per_revolution: 4000 } }, feeder.B: { encoder: { on: wheel, "
+        "per_revolution: 4000 } } }\n");
     Captured captured(line);
     line.inject(cell.fault);
     line.ask(kAskFeeder);
