@@ -74,8 +74,7 @@ TEST(ControlFaults, AreInjectedListedAndCleared) {
 
 TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   const RunningUnderstudy daemon({"--speed", "manual"});
-  expect_refused(daemon, {"inject", "jam", "A"},
-                 "inject: 'jam' is no fault; expected one such as 'stall'");
+  expect_refused(daemon, {"inject", "jam", "A"}, "inject: 'jam' is no fault; expected one such as 'stall'");
   expect_refused(daemon, {"inject", "stall", "C"},
                  "inject: no axis of device is called 'C'; expected one of A, B");
   expect_refused(daemon, {"inject", "lost_steps", "A"},
@@ -155,8 +154,7 @@ TEST(ControlPower, ThatIsWrongIsRefusedWithOneLine) {
                  "power: to: 'down' is unknown; expected on, off or cycle");
   expect_refused(*daemon, {"power", "feedr", "off"},
                  "power: no device is called 'feedr'; the nearest is 'feeder'");
-  expect_refused(*daemon, {"power", "off"},
-                 "power: no device is called ''; expected one of feeder, turner");
+  expect_refused(*daemon, {"power", "off"}, "power: no device is called ''; expected one of feeder, turner");
   EXPECT_EQ(obeyed(*daemon, {"get", "feeder.HW_Code"}), "feeder.HW_Code 49153\n");
 }
 
@@ -191,7 +189,7 @@ TEST(ControlProgram, ThatIsWrongIsRefusedWithOneLineAndTheOldOneStays) {
                  "(nearest: 'Delay_mSec')");
   const std::string nowhere = daemon.folder() / "nowhere.lst";
   expect_refused(daemon, {"program", "device", nowhere},
-                 "program: " + nowhere + ": cannot be read; expected a listing");
+                 "program: " + nowhere + ": cannot be read (No such file or directory); expected a listing");
   expect_refused(daemon, {"program", "devise", good},
                  "program: no device is called 'devise'; the nearest is 'device'");
   expect_refused(daemon, {"program", "device", good, good}, "program: expected a device and a listing");
