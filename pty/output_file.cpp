@@ -26,6 +26,20 @@ bool is_left_by_a_stranger(const fs::path& link, const struct stat& status) {
   return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
 }
 
+/// Throws where a folder on the way to a file is a link that a stranger has left.
+void demand_own_way(const fs::path& absolute) {
+  fs::path way;
+  for (const fs::path& step : absolute.parent_path()) {
+    way /= step;
+    struct stat status = {};
+    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it is told
+    if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
+      throw OutputError(way.string() +
+                        " is another user's link in a folder that is open to all; expected a path of ours");
+    }
+  }
+}
+
 }  // namespace
 
 std::string kind_of_file(mode_t mode) {
@@ -40,6 +54,7 @@ std::string output_target(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
   for (int links = 0; links <= kMostLinks; ++links) {
+    demand_own_way(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
       if (errno == ENOENT) return target.string();  // free, or whoever makes it is told what is missing

@@ -93,7 +93,7 @@ RunFolders folders_of(const RunArguments& arguments) {
 }
 
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
-void demand_own_files(FileClaims claims, const std::vector<Scenario>& scenarios,
+void demand_own_files(FileClaims& claims, const std::vector<Scenario>& scenarios,
                       const RunArguments& arguments) {
   for (const Scenario& scenario : scenarios) {
     for (const std::string& path : scenario.saved) {
@@ -153,10 +153,10 @@ int run_scenarios(const RunArguments& arguments) {
   FileClaims claims;  // also by those that are not chosen
   for (const Scenario& scenario : *loaded) claims.add(scenario.files);
   const std::vector<Scenario> scenarios = choose_some(std::move(*loaded), arguments);
-  demand_own_files(std::move(claims), scenarios, arguments);
+  demand_own_files(claims, scenarios, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
-  RunFiles files(folders_of(arguments), arguments.real_time, arguments.version);
+  RunFiles files(folders_of(arguments), std::move(claims), arguments.real_time, arguments.version);
   junit.empty();
   report.empty();
   std::vector<ScenarioResult> all;

@@ -155,8 +155,11 @@ void demand_folders(const FileClaims& claims, const RunFolders& folders) {
   }
 }
 
-RunFiles::RunFiles(RunFolders folders, bool real_time, std::string version)
-    : folders_(std::move(folders)), real_time_(real_time), version_(std::move(version)) {
+RunFiles::RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::string version)
+    : folders_(std::move(folders)),
+      claims_(std::move(claims)),
+      real_time_(real_time),
+      version_(std::move(version)) {
   std::error_code error;
   for (const FileKind& kind : kKinds) {
     const std::string& folder = folders_.*kind.folder;
@@ -237,6 +240,9 @@ void RunFiles::settle(ScenarioResult& result) {
       std::error_code error;
       if (!fs::exists(spooled + part, error)) continue;
       if (is_kept) {
+        if (const std::string why = claims_.objection_to(place + part); !why.empty()) {
+          throw GrowingFileError(std::string(kind.flag) + ": " + place + part + ": " + why);
+        }
         move_file(kind.flag, spooled + part, place + part);
       } else {
         fs::remove(spooled + part, error);

@@ -31,8 +31,9 @@ void demand_folders(const FileClaims& claims, const RunFolders& folders);
 
 class RunFiles {
  public:
-  /// Throws pty::PortError and std::system_error.
-  RunFiles(RunFolders folders, bool real_time, std::string version);
+  /// Nothing that is claimed is written over, wherever a link in a folder leads. Throws pty::PortError and
+  /// std::system_error.
+  RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::string version);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
@@ -48,6 +49,7 @@ class RunFiles {
   std::string free_name(const std::string& name);
 
   RunFolders folders_;
+  FileClaims claims_;
   bool real_time_;
   std::string version_;
   PrivateFolder private_folder_;

@@ -12,7 +12,7 @@ namespace understudy::emulator {
 inline constexpr std::array kFaultKeys{
     // Kinds, in the order of Fault::Kind.
     KeyRow{"stall", "The motor of this axis is blocked.", &kText},
-    KeyRow{"lost_steps", "Every so manieth pulse on this axis is lost.", &kText},
+    KeyRow{"lost_steps", "One pulse in so many on this axis is lost: `one_in`.", &kText},
     KeyRow{"slip", "The machine on this axis is pushed.", &kText},
     KeyRow{"alarm", "The drive of this axis has an alarm.", &kText},
     KeyRow{"stuck", "This input stays as it is.", &kText},
@@ -31,7 +31,7 @@ inline constexpr std::array kFaultKeys{
     KeyRow{"noise", "Bytes come before and after replies (or requests).", &kText},
     KeyRow{"collision", "Somebody talks at the same time.", &kText},
     // Their fields.
-    KeyRow{"one_in", "lost_steps: every so manieth.", &kText},
+    KeyRow{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
     KeyRow{"pulses", "slip: how far.", &kText},
     KeyRow{"level", "stuck: on or off.", &kText},
     KeyRow{"counts", "turn: how far; encoder_noise: so many too many.", &kText},
@@ -49,7 +49,7 @@ inline constexpr std::array kFaultKeys{
     KeyRow{"station", "Requests for this station.", &kText},
     KeyRow{"address", "Requests about this register, or one of 0x1000..0x1010.", &kText},
     KeyRow{"nth", "The third of those that match: 3; 3..7, 3..", &kText},
-    KeyRow{"every", "Every so manieth of those that match.", &kText},
+    KeyRow{"every", "One in this many of those that match.", &kText},
     KeyRow{"at", "The first from then on.", &kText},
     KeyRow{"from", "From then on.", &kText},
     KeyRow{"to", "Before then.", &kText},

@@ -12,6 +12,14 @@ namespace {
 /// Farther than the pulses of a century reach: where a machine without stops ends.
 constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
 
+/// How much of its turn the wheel has made: even over all of its ticks, however few the counts are.
+std::int64_t turned(const PlantAxis::State& state) {
+  __extension__ using Wide = __int128;
+  if (state.turn_ticks == 0) return 0;
+  const Wide gone = state.turn_ticks - state.ticks_to_turn;
+  return static_cast<std::int64_t>(Wide{state.turn_counts} * gone / state.turn_ticks);
+}
+
 }  // namespace
 
 void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
@@ -64,16 +72,17 @@ Tick PlantAxis::next_active_tick(Tick done) const {
 }
 
 void PlantAxis::turn(std::int64_t counts, Tick ticks) {
-  state_.counts_to_turn += counts;
-  state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
+  // What is left of the turn before goes with the new one.
+  state_.turn_counts = state_.turn_counts - turned(state_) + counts;
+  state_.turn_ticks = state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
 }
 
 void PlantAxis::turn_wheel() {
   if (state_.ticks_to_turn == 0) return;
-  const std::int64_t now = state_.counts_to_turn / state_.ticks_to_turn;
-  state_.wheel_counts += now;
-  state_.counts_to_turn -= now;
+  const std::int64_t before = turned(state_);
   --state_.ticks_to_turn;
+  state_.wheel_counts += turned(state_) - before;
+  if (state_.ticks_to_turn == 0) state_.turn_counts = state_.turn_ticks = 0;
 }
 
 bool PlantAxis::has_contact(Contact which) const {
@@ -133,9 +142,10 @@ void PlantAxis::check(const State& state) {
   }
   demand_reach(state.faults.slipped_pulses);
   demand_reach(state.wheel_counts);
-  demand_reach(state.counts_to_turn);
+  demand_reach(state.turn_counts);
+  demand_reach(state.turn_ticks);
   demand_state(state.ticks_to_turn >= 0, "a wheel has less than no time to turn");
-  demand_reach(state.ticks_to_turn);
+  demand_state(state.ticks_to_turn <= state.turn_ticks, "a wheel has more time to turn than its turn takes");
   demand_reach(state.faults.encoder_noise_counts);
   if (state.enabled_at != kNever) demand_reach(state.enabled_at);
 }

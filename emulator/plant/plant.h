@@ -64,7 +64,7 @@ struct PlantSetup {
 /// What is wrong with a machine.
 struct MachineFaults {
   bool stalled = false;                   // the motor is blocked: every pulse is lost
-  std::int64_t loses_one_in = 0;          // every so manieth pulse is lost; 0: none
+  std::int64_t loses_one_in = 0;          // one pulse in this many is lost; 0: none
   std::int64_t slipped_pulses = 0;        // how far it has been pushed by force since the last tick
   bool alarm = false;                     // what the drive's alarm is for; it outlives it until it is cleared
   std::int64_t encoder_noise_counts = 0;  // so many too many
@@ -133,7 +133,9 @@ class PlantAxis {
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
-    std::int64_t counts_to_turn = 0;  // in the ticks that are left
+    // The wheel's turn: so many counts in so many ticks, and how many of those are left.
+    std::int64_t turn_counts = 0;
+    Tick turn_ticks = 0;
     Tick ticks_to_turn = 0;
     bool operator==(const State&) const = default;
   };

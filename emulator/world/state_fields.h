@@ -33,7 +33,8 @@ struct WorldFields {
   static void of(Like<ArmedFault> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<MachineFaults> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
   static void of(Like<PlantAxis::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
   }
 
   static void of(Like<pty::LineSettings> auto& v, auto visit) {

@@ -146,6 +146,22 @@ TEST_F(OutputPaths, OfSnapshotsAreNotTheDaemonsLinkPortOrSocket) {
   EXPECT_EQ(daemon.ctl({"status"}).exit_code, 0);
 }
 
+TEST_F(OutputPaths, OfARunsFilesAreNothingThatALinkThereLeadsTo) {
+  fs::create_directory(at("kept"));
+  for (const char* const ending : {".csv", ".pcapng", ".jsonl"}) {
+    fs::create_symlink("../bench.yaml", at("kept") + "/play" + ending);
+  }
+  const std::string before = contents();
+  for (const char* const flag : {"--trace", "--capture", "--record"}) {
+    const Finished finished = understudy({"run", at("play.yaml"), flag, at("kept")});
+    EXPECT_EQ(finished.exit_code, 3) << flag;
+    EXPECT_NE(finished.errors.find(std::string(flag) + ": " + at("kept") + "/play."), std::string::npos)
+        << finished.errors;
+    EXPECT_NE(finished.errors.find("expected a path of its own"), std::string::npos) << finished.errors;
+    EXPECT_EQ(contents(), before) << flag;
+  }
+}
+
 TEST_F(OutputPaths, KeepTheFilesOfTheRunBeforeWhereOneCannotBeHad) {
   for (const char* const name : {"old.txt", "old.jsonl", "old.csv", "old.xml"}) folder_.write(name, "old");
   const std::string before = contents();

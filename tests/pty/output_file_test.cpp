@@ -91,6 +91,13 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
             "it is another user's link in a folder that is open to all; expected a path of ours");
   ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), 0), 0);
   EXPECT_EQ(refusal(link), "");
+  // Nor through a folder on the way.
+  const std::string way = open_folder + "/way";
+  fs::create_directory_symlink(fs::path(precious).parent_path(), way);
+  EXPECT_EQ(refusal(way + "/precious"), "");
+  ASSERT_EQ(::lchown(way.c_str(), 12345, 12345), 0);
+  EXPECT_EQ(refusal(way + "/precious"),
+            way + " is another user's link in a folder that is open to all; expected a path of ours");
 }
 
 }  // namespace

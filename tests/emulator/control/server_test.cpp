@@ -421,6 +421,10 @@ TEST(ControlServer, WithoutDescriptorsItRestsUntilAClientHasGone) {
 }
 
 TEST(ControlServer, WithoutDescriptorsItTriesAgainByItself) {
+#ifdef __SANITIZE_ADDRESS__
+  // Its check of a virtual call opens a pipe to see whether memory can be read.
+  GTEST_SKIP() << "the sanitizer needs descriptors of its own";
+#endif
   ServerRig rig;
   rig.serve(rig.path);
   Client waiting(rig.path);

@@ -68,7 +68,7 @@ inline BenchOfNames a_feeder() {
                        {"feeder.DOUT_4", 1},
                        {"feeder.0x1000", 3'200},
                        {"feeder.A.pulses", 12'001},
-                       {"feeder.A.speed_pps", 1500.25},
+                       {"feeder.A.speed", 1500.25},
                        {"feeder.Logic Position X", -400},
                        {"feeder.AIN_1", 2500, Unit::millivolts},
                        {"mill-2.D8097", 3},

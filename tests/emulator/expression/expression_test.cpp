@@ -61,8 +61,8 @@ TEST(Expression, names) {
       {"feeder.Cord_A", "32000"},
       {"feeder.STATUS.4", "1"},
       {"feeder.A.pulses > 12000", "1"},
-      {"feeder.A.speed_pps <= 1.5e3", "0"},  // 1500.25
-      {"feeder.A.speed_pps <= 1500.25", "1"},
+      {"feeder.A.speed <= 1.5e3", "0"},  // 1500.25
+      {"feeder.A.speed <= 1500.25", "1"},
       {"feeder[\"Logic Position X\"] == -400", "1"},
       {"feeder['Logic Position X'] == -400", "1"},  // quotes of either kind: the file around it has its own
       {"[\"mill-2\"].D8097", "3"},
@@ -170,8 +170,8 @@ TEST(Expression, tolerances) {
       {"151 == 150 +- 1%", "1"},  // 1.5
       {"152 == 150 +- 1%", "0"},
       {"time == 3s +- 2%", "1"},  // 60 ms
-      {"feeder.A.speed_pps == 1500 +- 0.25", "1"},
-      {"feeder.A.speed_pps == 1500 +- 0.2", "0"},
+      {"feeder.A.speed == 1500 +- 0.25", "1"},
+      {"feeder.A.speed == 1500 +- 0.2", "0"},
       {"1.6 == 1.5 +- 0.1", "1"},
       {"7 == 5 + 1 +- 3 % 2", "1"},  // with a space it is a remainder: 6 +- 1
       {"a == 5 +- 2 && b == 0 +- 1", "1"},
@@ -208,12 +208,12 @@ TEST(Expression, what_has_no_result_says_why_and_with_which_values) {
       {"1 << 63", "no result: column 3 of '1 << 63': the result does not fit 64 bits"},
       {"1 << 64", "no result: column 3 of '1 << 64': a shift by 64 places; expected 0 to 63"},
       {"1 >> c", "no result: column 3 of '1 >> c': a shift by -7 places; expected 0 to 63  (c is -7)"},
-      {"feeder.A.speed_pps & 1",
-       "no result: column 20 of 'feeder.A.speed_pps & 1': bits, shifts and '%' take whole numbers  "
-       "(feeder.A.speed_pps is 1500.25)"},
-      {"~feeder.A.speed_pps",
-       "no result: column 1 of '~feeder.A.speed_pps': bits, shifts and '%' take whole numbers  "
-       "(feeder.A.speed_pps is 1500.25)"},
+      {"feeder.A.speed & 1",
+       "no result: column 16 of 'feeder.A.speed & 1': bits, shifts and '%' take whole numbers  "
+       "(feeder.A.speed is 1500.25)"},
+      {"~feeder.A.speed",
+       "no result: column 1 of '~feeder.A.speed': bits, shifts and '%' take whole numbers  "
+       "(feeder.A.speed is 1500.25)"},
   });
 }
 
@@ -261,7 +261,7 @@ TEST(Expression, is_explained_with_the_values_of_the_moment) {
       {"feeder['Logic Position X'] == feeder.Cord_A",
        "feeder['Logic Position X'] == feeder.Cord_A  (feeder['Logic Position X'] is -400, feeder.Cord_A is "
        "32000)"},
-      {"feeder.A.speed_pps > 2e3", "feeder.A.speed_pps > 2e3  (feeder.A.speed_pps is 1500.25)"},
+      {"feeder.A.speed > 2e3", "feeder.A.speed > 2e3  (feeder.A.speed is 1500.25)"},
       {"a + a == a", "a + a == a  (a is 5)"},
       {"1 == 2", "1 == 2"},
       {"b == 1 &&\n a", "b == 1 &&  a  (b is 0, a is 5)"},

@@ -199,7 +199,7 @@ class Draw {
         {"1.0", 1},
         {"9007199254740992.0", 9007199254740992.0},
         {"1e300", 1e300},
-        {"feeder.A.speed_pps", 1500.25},
+        {"feeder.A.speed", 1500.25},
         {"9.3e18", 9.3e18}};
     if (below(6) == 0) {
       const auto& [leaf_text, value] =
@@ -270,7 +270,7 @@ TEST(RandomExpressions, come_to_what_walking_the_tree_gives) {
 TEST(RandomExpressions, names_in_tells_all_that_can_change_the_result) {
   // Whatever is not named may change at will.
   const std::vector<std::string> names = {
-      "a", "b", "c", "largest", "smallest", "feeder.A.speed_pps", "feeder.Logic Position X"};
+      "a", "b", "c", "largest", "smallest", "feeder.A.speed", "feeder.Logic Position X"};
   for (std::uint64_t seed = 1; seed <= 3'000; ++seed) {
     BenchOfNames bench = a_feeder();
     Draw draw(seed);

@@ -136,6 +136,18 @@ TEST(HandWheels, AreTurnedByHandAlone) {
                         "  - assert: x.A.encoder == 4\n"
                         "  - advance: 5ms\n"
                         "  - assert: [ x.A.encoder == 7, x.A.position == 100 ]\n"
+                        // Fewer counts than ticks are spread over all of them.
+                        "  - inject: { turn: x.A, counts: 5, in: 1s }\n"
+                        "  - advance: 500ms\n"
+                        "  - assert: x.A.encoder == 9\n"
+                        "  - advance: 499ms\n"
+                        "  - assert: x.A.encoder == 11\n"
+                        // A turn that meets another goes with it.
+                        "  - inject: { turn: x.A, counts: -5, in: 4ms }\n"
+                        "  - advance: 2ms\n"
+                        "  - assert: x.A.encoder == 9\n"
+                        "  - advance: 2ms\n"
+                        "  - assert: x.A.encoder == 7\n"
                         "  - inject: { turn: x.A, counts: -1000000 }\n"
                         "  - advance: 1ms\n"
                         "  - assert: x.A.encoder == -999993\n"
