@@ -23,7 +23,7 @@ struct Fault {
     alarm,       // the drive is in alarm; with a drive it stays so until the controller clears it afterwards
     stuck,       // an input stays at the level `amount`, whatever drives it
     encoder_noise,  // the encoder counts `amount` too many, then too few, half a `period_ticks` each
-    turn,        // the wheel of an encoder of its own is turned by `amount` counts, over `over_ticks`
+    turn,           // the wheel of an encoder of its own is turned by `amount` counts, over `over_ticks`
     // of a device
     power_cut,  // it has no power
     slow,       // it carries out each request `amount` ns late

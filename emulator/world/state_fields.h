@@ -12,9 +12,9 @@ struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
     // What it is made of, and who looks at it, is no state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
-    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires, watchers,
-           listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed,
-           bulk_ticks] = world;
+    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
+           watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
+           ticks_crossed, bulk_ticks] = world;
     return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
   }
   static auto& plants(Like<World> auto& world) { return world.plants_; }
@@ -64,9 +64,9 @@ struct WorldFields {
 /// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
-    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires, watchers,
-           listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run, ticks_crossed,
-           bulk_ticks] = world;
+    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
+           watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
+           ticks_crossed, bulk_ticks] = world;
     return visit(ticks_run, ticks_crossed);
   }
   static void of(Like<pty::Line::State> auto& v, auto visit) {

@@ -222,7 +222,8 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"Tp<name>=data",
      "T2PR3=200; ?T2PR3 -> 200; ?PR3 -> 100; T5PR3=200 -> ERR 5; T2PR3=-1 -> ERR 2; {runs}; "
      "T2PR3=100 -> ERR 3"},
-    {"DF", "VM=500; T1PR3=5; N0=7; DF; ?VM -> 1000; ?T1PR3 -> 100; ?N0 -> 7; MR 9; DF -> ERR 3; {new}; "
+    {"DF",
+     "VM=500; T1PR3=5; N0=7; DF; ?VM -> 1000; ?T1PR3 -> 100; ?N0 -> 7; MR 9; DF -> ERR 3; {new}; "
      "FT 5; DF -> ERR 3; {new}; JGF; @9; TAPZ; @99; DF -> ERR 3"},
     {"SAVE C", "VM=500; N3=7; SAVE C; VM=600; off; on; ?VM -> 500; ?N3 -> 0; {runs}; SAVE C -> ERR 3"},
     {"SAVE P", "PG; MA 5; .; SAVE P; PA; MA 6; .; off; on; PL -> 0: MA 5; {runs}; SAVE P -> ERR 3"},

@@ -63,7 +63,8 @@ TEST(SlimStopOptions, TheChainIsSteeredWhileANumberIsAwaited) {
   DialogueScript script(2);
   script.play(kAtNumber + "> TAPZ\n@ 200\n> ?PE\n< ERR 1\n");
   EXPECT_DOUBLE_EQ(script.device().value_named("PE").value(), 60);
-  script.play("> TVM=50\n> TAREDO\n@ 1051\n> TASTOP\n@ 10\n> ?ST\n< 33\n> ?PE\n< 91\n");  // 1.25 in 50 ms, and 50 a second
+  script.play("> TVM=50\n> TAREDO\n@ 1051\n> TASTOP\n@ 10\n> ?ST\n< 33\n> ?PE\n< 91\n");  // 1.25 in 50 ms,
+                                                                                          // and 50 a second
   // What asks for a number takes none of that.
   DialogueScript later(2);
   later.play(kAtNumber + "> TAPZ\n> TAREDO\n> NONSENSE\n< ERR 1\n> 7\n@ 2\n< 7\n");

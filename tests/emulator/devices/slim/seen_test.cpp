@@ -5,8 +5,8 @@
 #include "emulator/bench/bench_file.h"
 #include "emulator/scenario/state_text.h"
 #include "emulator/trace/trace.h"
-#include "tests/emulator/devices/slim/dialogue_script.h"
 #include "tests/emulator/bench/without_columns.h"
+#include "tests/emulator/devices/slim/dialogue_script.h"
 
 namespace understudy::emulator::slim {
 
