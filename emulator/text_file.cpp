@@ -66,11 +66,15 @@ int make_beside(const std::string& path, std::string& name) {
 FileText read_text_file(const std::string& path) {
   FileText text;
   const pty::Descriptor file = open_regular(path, text.why);
-  if (!file) return text;
+  return file ? read_text_of(file.get()) : text;
+}
+
+FileText read_text_of(int descriptor) {
+  FileText text;
   std::string bytes;
   std::array<char, std::size_t{1} << 16> piece{};
   while (true) {
-    const ssize_t size = ::read(file.get(), piece.data(), piece.size());
+    const ssize_t size = ::read(descriptor, piece.data(), piece.size());
     if (size < 0 && errno == EINTR) continue;
     if (size < 0) {
       text.why = std::string("cannot be read (") + std::strerror(errno) + ")";

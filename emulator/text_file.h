@@ -17,6 +17,8 @@ struct FileText : std::optional<std::string> {
 /// Only a regular file is read, up to kMostTextBytes: a pipe would be waited for without end, and a device
 /// may never come to its own.
 FileText read_text_file(const std::string& path);
+/// The same of what is open already, up to its end: standard input, say.
+FileText read_text_of(int descriptor);
 
 /// The same for what is read piece by piece, of any length: empty if it is a regular file.
 std::string why_not_readable(const std::string& path);
