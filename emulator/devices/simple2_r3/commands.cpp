@@ -197,7 +197,7 @@ void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
 }
 
 std::int64_t Simple2R3::followed_count(int axis) const {
-  return state_.axes[static_cast<std::size_t>(chose(kSyncFollowsOther) ? 1 - axis : axis)].encoder_counts;
+  return state_.axes[static_cast<std::size_t>(sync_follows_other_ ? 1 - axis : axis)].encoder_counts;
 }
 
 motion::Follower Simple2R3::sync_follower(int axis_number) const {
