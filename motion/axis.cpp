@@ -50,6 +50,17 @@ Profile forward_to(const Sample& here, double target_u, const SpeedLaw& law) {
   return rest;
 }
 
+/// A stop never slows down less than the motion does already: by a law of time the same ramp would begin
+/// afresh, from the speed that is left.
+SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
+  SpeedLaw stop = law;
+  const double left_u_s = here.speed_u_s - law.start_speed_u_s;
+  if (law.down.kind == RampLaw::Kind::time && here.acceleration_u_s2 < 0 && left_u_s > 0) {
+    stop.down.duration_s = std::min(law.down.duration_s, left_u_s / -here.acceleration_u_s2);
+  }
+  return stop;
+}
+
 }  // namespace
 
 Cause Axis::forbidden(int way) const {
@@ -325,14 +336,19 @@ void Axis::slow(Instant at, Cause why) {
     end(why, at);
     return;
   }
-  Profile rest = slow_to_stop(forward_sample(drive, at), law);
+  const Sample here = forward_sample(drive, at);
+  Profile rest = slow_to_stop(here, no_gentler(law, here));
   if (rest.segment_count == 0) {
     end(why, at);
     return;
   }
   // A stop while a move slows down anyhow must not pass its target.
   if (task == Task::move) {
-    rest.cut_at(std::max(static_cast<double>(target_pulses), rest.segments[0].position_u));
+    const auto target = static_cast<double>(target_pulses);
+    rest.cut_at(std::max(target, rest.segments[0].position_u));
+    // By the ramp that ran already it ends there, but for roundings.
+    constexpr double kRounding_pulses = 1e-5;
+    if (std::abs(rest.end_position_u - target) < kRounding_pulses) rest.end_exactly_at(target);
   }
   slowing = true;
   drive.go_on(rest, at);

@@ -1,6 +1,7 @@
 #include "motion/following.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "motion/bad_motion.h"
 
@@ -17,6 +18,18 @@ std::int64_t floor_divide(std::int64_t value, std::int64_t by) {
 
 std::int64_t saturated(Wide value) {
   return static_cast<std::int64_t>(std::clamp<Wide>(value, INT64_MIN / 4, INT64_MAX / 4));
+}
+
+/// The most that may be made up for in a period, so that in the periods behind it, by `change` less each, no
+/// more comes out than is missing.
+std::int64_t stoppable(std::int64_t missing, std::int64_t change) {
+  const Wide size = missing < 0 ? -Wide{missing} : Wide{missing};
+  const auto sum_of = [&](Wide steps) { return change * steps * (steps + 1) / 2; };
+  auto steps = static_cast<Wide>(std::sqrt(2.0 * static_cast<double>(size) / static_cast<double>(change)));
+  while (sum_of(steps) > size) --steps;
+  while (sum_of(steps + 1) <= size) ++steps;
+  const auto most = static_cast<std::int64_t>(steps * change + (size - sum_of(steps)) / (steps + 1));
+  return missing < 0 ? -most : most;
 }
 
 }  // namespace
@@ -40,11 +53,12 @@ std::int64_t Follower::step() {
     if (scaled % denominator < 0) --whole;
     left_over = static_cast<std::int64_t>(scaled - whole * denominator);
     gathered = 0;
-    std::int64_t wanted = saturated(whole + (catches_up ? behind_pulses : 0));
-    const std::int64_t asked = wanted;
+    const std::int64_t asked = saturated(whole + (catches_up ? behind_pulses : 0));
+    std::int64_t wanted = asked;
     const auto in_a_period = [&](std::int64_t pps) { return pps * period_ticks / 1000; };
     if (slope_pps > 0) {
       const std::int64_t change = std::max<std::int64_t>(in_a_period(slope_pps), 1);
+      if (catches_up) wanted = saturated(whole + stoppable(behind_pulses, change));
       wanted = std::clamp(wanted, period_pulses - change, period_pulses + change);
     }
     if (top_speed_pps > 0) {

@@ -15,7 +15,9 @@ struct Follower {
   std::int32_t period_ticks = 1;
   std::int64_t top_speed_pps = 0;  // no faster than this; 0: no bound
   std::int64_t slope_pps = 0;      // and the speed changes by at most this from period to period; 0: no bound
-  bool catches_up = false;         // pulses lost to the bounds are sent later, else they are forgotten
+  // Pulses lost to the bounds are sent later, and it slows down in time for where it should be; else they
+  // are forgotten.
+  bool catches_up = false;
 
   // State.
   std::int64_t gathered = 0;         // counts of this period

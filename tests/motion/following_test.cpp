@@ -183,6 +183,29 @@ TEST(Following, ItsSpeedChangesByNoMoreThanTheSlope) {
   }
 }
 
+TEST(Following, CatchesUpAlongTheSlopeWithoutGoingTooFar) {
+  for (const std::int64_t top_pps : {0, 20'000}) {
+    for (const std::int64_t slope_pps : {1'000, 2'500, 40'000}) {
+      for (const std::int64_t counts : {1, 7, 100, 1'000, 123'457, -5'000}) {
+        Follower follower{
+            .period_ticks = 5, .top_speed_pps = top_pps, .slope_pps = slope_pps, .catches_up = true};
+        const std::int64_t most = slope_pps * 5 / 1000;
+        std::int64_t sent = period(follower, counts);
+        std::int64_t before = sent;
+        for (int i = 0; i < 20'000 && !follower.quiet(); ++i) {
+          const std::int64_t now = period(follower, 0);
+          ASSERT_LE(std::abs(now - before), most) << counts << " in period " << i;
+          ASSERT_GE(now * (counts < 0 ? -1 : 1), 0) << counts << " turns back in period " << i;
+          sent += now;
+          before = now;
+        }
+        EXPECT_TRUE(follower.quiet()) << counts << " by " << slope_pps;
+        EXPECT_EQ(sent, counts) << "by " << slope_pps;
+      }
+    }
+  }
+}
+
 TEST(Following, SpeedsUpAndSlowsDownAlongTheSlope) {
   Follower follower{.period_ticks = 1, .slope_pps = 2'000};  // two pulses a tick more in each tick
   const std::array<std::int64_t, 10> fed{7, 7, 7, 7, 7, 0, 0, 0, 0, 0};
