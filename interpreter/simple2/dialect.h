@@ -84,12 +84,16 @@ struct Dialect {
     with_sign
   } timer_compare = TimerCompare::without_sign;
 
-  /// A line that waits for a move, and that move is ended by something else before its end: the line is over
-  /// (unless the machine goes on calling it moving), or the program is.
+  /// A line that waits for a move, and that move is ended by something else before its end: the line is over,
+  /// or it waits until a later move gets to its end, or the program is over.
   enum class WaitCutShort : std::uint8_t {
     line_is_over,
+    waits_on,
     program_ends
   } wait_cut_short = WaitCutShort::line_is_over;
+  /// A line that is overwritten while it waits: what stands there now runs in the next slot, or the wait goes
+  /// on as it began.
+  enum class RewrittenLine : std::uint8_t { read_anew, waits_on } rewritten_line = RewrittenLine::read_anew;
 
   bool operator==(const Dialect&) const = default;
 };

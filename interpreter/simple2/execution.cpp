@@ -14,9 +14,27 @@ void finish(Execution& execution, Ending ending) {
   execution = {.ending = ending, .now_line = execution.now_line};
 }
 
-bool waited_for_move_goes_on(const Execution& execution, const Machine& machine) {
+bool waited_for_move_goes_on(const Execution& execution, const Dialect& dialect, const Machine& machine) {
   return (execution.waits_for_a && machine.moving(Axis::a)) ||
-         (execution.waits_for_b && machine.moving(Axis::b));
+         (execution.waits_for_b && machine.moving(Axis::b)) || waits_on(execution, dialect, machine);
+}
+
+Line without_flag(const Line& line) {
+  return {.command = line.command, .data1 = line.data1, .data2 = line.data2};
+}
+
+bool holds(const Execution& execution) { return execution.held.command != 0; }
+
+/// Whether the line at work waits, and is another by now.
+bool must_be_read_anew(const Execution& execution, const Program& program, const Dialect& dialect) {
+  return dialect.rewritten_line == Dialect::RewrittenLine::read_anew && holds(execution) &&
+         without_flag(program.line(execution.now_line)) != execution.held;
+}
+
+/// As it stands in the program, or as it began to wait.
+const Line& line_to_run(const Execution& execution, const Program& program, const Dialect& dialect) {
+  const bool as_it_began = dialect.rewritten_line == Dialect::RewrittenLine::waits_on && holds(execution);
+  return as_it_began ? execution.held : program.line(execution.next_line);
 }
 
 void go_on_at(Execution& execution, int line, const Dialect& dialect) {
@@ -58,7 +76,8 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
   if (number >= kLineCount) return finish(execution, Ending::past_last_line);
   execution.now_line = static_cast<std::uint8_t>(number);
 
-  const Line& line = program.line(number);
+  const Line line = line_to_run(execution, program, dialect);
+  execution.held = {};
   const Action action = kActions[line.command];
   if (action == nullptr) {
     if (dialect.unknown_command == Dialect::UnknownCommand::ends) {
@@ -74,7 +93,9 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
             .program = program,
             .dialect = dialect,
             .machine = machine};
-  switch (action(step)) {
+  const Then then = action(step);
+  if (then == Then::same_line || execution.phase != Phase::line) execution.held = without_flag(line);
+  switch (then) {
     case Then::next_line: return go_on_at(execution, number + 1, dialect);
     case Then::line_after_next: return go_on_at(execution, number + 2, dialect);
     case Then::flag: return go_on_at(execution, step.is_void_jump() ? number + 1 : step.flag_line(), dialect);
@@ -93,17 +114,23 @@ bool would_wait_on(const Execution& execution, const Program& program, const Dia
                    const Machine& machine) {
   if (execution.next_line != execution.now_line) return false;
   if (dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it && !execution.waits) return false;
-  const Line& line = program.line(execution.now_line);
+  if (!holds(execution) || must_be_read_anew(execution, program, dialect)) return false;
+  const Line& line = line_to_run(execution, program, dialect);
   if (ends_for_an_operand(line, dialect)) return false;
-  const auto stays = [&](Then then) { return then == Then::same_line; };
+  // An axis that has begun to move meanwhile is waited for as well.
+  const bool all_noted = (execution.waits_for_a || !machine.moving_for_wait(Axis::a)) &&
+                         (execution.waits_for_b || !machine.moving_for_wait(Axis::b));
+  const bool notes = dialect.wait_cut_short != Dialect::WaitCutShort::line_is_over && !all_noted;
+  const auto stays = [&](Then then) { return then == Then::same_line && !notes; };
   switch (line.command) {
     case opcode_of("Wait_IO"): return !wait_io_is_over(line, dialect, machine);
-    case opcode_of("Wait_Move_A"): return stays(after_wait_move<Axes::a>(line, program, dialect, machine));
+    case opcode_of("Wait_Move_A"):
+      return stays(after_wait_move<Axes::a>(line, execution, program, dialect, machine));
     case opcode_of("Wait_Move_B"):
       return !dialect.quirk_wait_move_b_is_move_inc_b_wait &&
-             stays(after_wait_move<Axes::b>(line, program, dialect, machine));
+             stays(after_wait_move<Axes::b>(line, execution, program, dialect, machine));
     case opcode_of("Wait_Move_ALL"):
-      return stays(after_wait_move<Axes::all>(line, program, dialect, machine));
+      return stays(after_wait_move<Axes::all>(line, execution, program, dialect, machine));
     default: return false;
   }
 }
@@ -122,15 +149,22 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
           Machine& machine) {
   if (!execution.running) return;
   const bool next_line_runs_at_once = dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it;
+  if (must_be_read_anew(execution, program, dialect)) {
+    execution = {.running = true,
+                 .now_line = execution.now_line,
+                 .next_line = execution.now_line,
+                 .loop = execution.loop};
+  }
   switch (execution.phase) {
     case Phase::line: break;
     case Phase::delay:
       if (now_ms < execution.delay_until_ms) return;
       execution.phase = Phase::line;
       execution.delay_until_ms = 0;
+      execution.held = {};
       break;
     case Phase::move:
-      if (waited_for_move_goes_on(execution, machine)) return;
+      if (waited_for_move_goes_on(execution, dialect, machine)) return;
       if (dialect.wait_cut_short == Dialect::WaitCutShort::program_ends &&
           wait_is_cut_short(execution, machine)) {
         return finish(execution, Ending::wait_cut_short);
@@ -138,6 +172,7 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
       execution.phase = Phase::line;
       execution.waits_for_a = false;
       execution.waits_for_b = false;
+      execution.held = {};
       if (next_line_runs_at_once) break;
       return;  // the slot in which the move is found over still belongs to its line
   }
@@ -154,9 +189,10 @@ std::int64_t next_active_slot_ms(const Execution& execution, std::int64_t done_m
   if (!execution.running) return kNoSlot;
   const auto first_slot_from = [](std::int64_t ms) { return (ms + kSlotMs - 1) / kSlotMs * kSlotMs; };
   const std::int64_t next = first_slot_from(done_ms + 1);
+  if (must_be_read_anew(execution, program, dialect)) return next;
   switch (execution.phase) {
     case Phase::delay: return std::max(next, first_slot_from(execution.delay_until_ms));
-    case Phase::move: return waited_for_move_goes_on(execution, machine) ? kNoSlot : next;
+    case Phase::move: return waited_for_move_goes_on(execution, dialect, machine) ? kNoSlot : next;
     case Phase::line: return would_wait_on(execution, program, dialect, machine) ? kNoSlot : next;
   }
   return next;

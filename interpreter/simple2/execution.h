@@ -51,10 +51,12 @@ struct Execution {
   std::uint16_t next_line = 0;          // from 256 on: past the last one
   Phase phase = Phase::line;
   std::int64_t delay_until_ms = 0;
-  bool waits_for_a = false;  // for a move that it has started, or (by WaitCutShort) for any
+  bool waits_for_a = false;  // for a move that it has started, or (by WaitCutShort) has met under way
   bool waits_for_b = false;
   bool waits = false;  // the line at work was tested and holds the program; kept where a choice asks for it
   LoopState loop = {};
+  Line held =
+      {};  // the line at work as it began to wait, without its flag; NOP, which never waits: it does not
 
   bool operator==(const Execution&) const = default;
 };

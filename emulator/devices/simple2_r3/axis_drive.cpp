@@ -204,6 +204,14 @@ void count_encoder(AxisState& axis, std::int64_t raw, bool reversed) {
   axis.encoder_raw = raw;
 }
 
+std::int64_t remaining_pulses(const AxisState& axis) {
+  const motion::Axis& motor = axis.motor;
+  const bool is_move = axis.command == Command::incremental || axis.command == Command::absolute;
+  if (!is_move || (motor.slowing && !motor.comes_back)) return 0;
+  const bool hangs = motor.task == motion::Task::hanging;
+  return (hangs ? motor.target_pulses : motor.remaining_pulses()) * motor.drive.direction;
+}
+
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now) {
   motion::Axis& motor = axis.motor;
   // Distances count from where the move began, in its direction.

@@ -111,6 +111,10 @@ void count_encoder(AxisState& axis, std::int64_t raw, bool reversed);
 /// Homing that looks for the switch only once, in either direction, slows down there, and stays.
 motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
 
+/// What the position move that runs has still to go, signed; one at speed 0 has all of its way before it. 0
+/// for what is being stopped, and for homing.
+std::int64_t remaining_pulses(const AxisState& axis);
+
 /// The move that runs goes on to where the coordinate will be what it would have been, although that is
 /// `pulses` more from now on.
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now);

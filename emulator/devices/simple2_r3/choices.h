@@ -95,7 +95,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "the register stands for the output, so it shows what is on it"},
     {"input_sampling", "輸入輸出相關", "when inputs, limits and the home switch are looked at", "every_1ms",
      kProposal,
-     "once a tick: at 1000 RPM and the factory's resolution an axis overruns a switch by up to 53 pulses"},
+     "at power-up, and then once a tick: at 1000 RPM and the factory's resolution an axis overruns a switch "
+     "by up to 53 pulses"},
     {"unassigned_input_status", "狀態相關", "alarm, Ready and limit bits of STATUS without an assigned input",
      "zero|level_of_pin", kProposal,
      "nothing is connected that could say so; the pin's level has no effect either way"},
@@ -151,23 +152,29 @@ inline constexpr ChoiceRow kChoices[] = {
      "pulses are said to come only after SVON; no_effect: there is no drive that it could switch off"},
     {"command_while_servo_off", "程式指令列表", "a motion command while SVOFF", "dropped|kept_until_servo_on",
      kLikely,
-     "pulses are inhibited; the trigger reads 0. Kept: the last command begins with SVON; STOP forgets it"},
+     "pulses are inhibited; the trigger reads 0. Kept: the last command begins with SVON, a program's line "
+     "waits for it as for a move, and STOP forgets it"},
     {"dropped_value", "系統參數相關",
-     "DirectmRPM and DirectPWM after a write that was dropped (SVOFF, alarm, limit)", "stored|forgotten",
-     kProposal, "a register keeps what is written to it; forgotten: it shows what is in force"},
+     "DirectmRPM and DirectPWM after a write that was dropped (SVOFF, alarm, limit, Ready, 100 kHz)",
+     "stored|forgotten", kProposal,
+     "a register keeps what is written to it; forgotten: it shows what is in force"},
     {"command_while_moving", "附錄 A", "a position move or homing commanded while one is in progress",
-     "replaces|ignored", kProposal, "the old one is dropped where it is, the new one starts from standstill"},
+     "replaces|ignored", kProposal,
+     "the old one is dropped where it is, the new one starts from standstill; a distance of 0 stops the axis "
+     "at once with either, as appendix A has it"},
     {"mode_change_while_moving", "運動相關",
      "velocity, PWM or sync mode commanded during a position move or homing", "replaces|ignored", kProposal,
      "the last command wins"},
     {"move_in_other_mode", "運動相關", "a position move or homing commanded in velocity, PWM or sync mode",
      "replaces|ignored|goes_on_from_the_speed", kProposal,
      "what runs ends at once, in mode 0, and the move begins from standstill; from_the_speed: a move from "
-     "velocity "
-     "or sync mode, by its own ramps, turning round where it must. PWM has no speed, and homing begins at "
-     "rest"},
+     "velocity or sync mode, by its own ramps, turning round where it must. PWM has no speed, and homing "
+     "begins at rest; a distance of 0 stops the axis at once with all three, as appendix A has it"},
     {"incremental_while_moving", "附錄 A", "from where an incremental move counts that replaces a move",
-     "present_place|old_target", kProposal, "the old move is dropped, and its rest with it"},
+     "present_place|old_target", kProposal,
+     "the old move is dropped, and its rest with it; old_target: one at speed 0 counts as well. A distance "
+     "of "
+     "0 stops the axis at once with either, as appendix A has it"},
     {"speed_while_moving", "運動相關",
      "Speed, AccTime, DecTime or Resoultion written during a move that was started with them",
      "next_move|at_once", kProposal,
@@ -183,9 +190,11 @@ inline constexpr ChoiceRow kChoices[] = {
     {"stop", "運動相關", "how the STOP registers stop a position move or homing", "at_once|slows_down",
      kLikely,
      "the instructions say forcibly, the registers say stop: one behaviour for both; slows_down: by DecTime "
-     "(Home_AccTime)"},
+     "(Home_AccTime), and never less than the axis slows down already"},
     {"pulse_rate_cap", "附錄 B", "a move, homing or velocity faster than 100 kHz",
-     "speed_lowered|command_dropped", kProposal, "the limit is the manual's, the way to keep it is ours"},
+     "speed_lowered|command_dropped", kProposal,
+     "the limit is the manual's, the way to keep it is ours; dropped: a velocity that runs goes on, and "
+     "DirectmRPM reads by dropped_value"},
     {"limit_reaction", "輸入輸出功能指配相關", "what a limit switch does", "stops_that_direction|none",
      kProposal,
      "the cover promises limit protection and no more: at once, in every mode but PWM; motion away from the "
@@ -204,17 +213,19 @@ inline constexpr ChoiceRow kChoices[] = {
      kProposal, "the user's positive direction; physical: the motor's, after DIR_Polarity"},
     {"alarm_reaction", "狀態相關", "what an alarm does to motion", "stops|none|stops_and_servo_off",
      kProposal,
-     "in every mode; commands are dropped while it lasts, but for a velocity or a duty of 0; the servo stays "
-     "on, as the drive switches itself off"},
+     "in every mode; commands are dropped while it lasts. A velocity, a duty or a distance of 0 is carried "
+     "out "
+     "and changes the mode, as it drives nothing. The servo stays on, as the drive switches itself off"},
     {"after_alarm", "系統參數相關", "velocity and PWM mode when the alarm that stopped them is gone",
      "stays_stopped|resumes", kProposal,
-     "nothing starts by itself behind an alarm; resumes: by DirectmRPM or DirectPWM, which wait meanwhile"},
+     "nothing starts by itself behind an alarm; resumes: by DirectmRPM or DirectPWM, which wait meanwhile; a "
+     "command of another kind is dropped, but ends that"},
     {"sync_after_alarm", "系統參數相關", "sync mode when an alarm is gone", "follows_again|mode_left",
      kProposal, "the manual names STOP alone to leave it; counts meanwhile are forgotten"},
     {"alarm_latch", "狀態相關", "whether the alarm bit outlasts its input", "level|latched", kProposal,
      "it shows the input, and ACLR only pulses its output; latched: until ACLR with the input gone"},
     {"ready_gates", "狀態相關", "whether commands need an assigned Ready input to be on", "no|yes", kProposal,
-     "Ready appears as a bit of STATUS alone"},
+     "Ready appears as a bit of STATUS alone; yes: but for a velocity, a duty or a distance of 0"},
     {"coordinate_overflow", "編碼器，座標，類比輸入相關", "a coordinate beyond 32 bits", "wraps|saturates",
      kProposal, "what a counter of 32 bits does by itself"},
     {"preset_while_moving", "編碼器，座標，類比輸入相關", "a coordinate written during an absolute move",
@@ -259,7 +270,8 @@ inline constexpr ChoiceRow kChoices[] = {
     {"sync_slope", "系統參數相關", "the unit of SyncSlope, for each step of 5 ms", "rpm|pulses", kProposal,
      "the unit of SyncRPM beside it: 1 is 200 RPM/s"},
     {"sync_lost_pulses", "系統參數相關", "pulses lost to SyncRPM or SyncSlope", "forgotten|caught_up",
-     kProposal, "the axis follows speed"},
+     kProposal,
+     "the axis follows speed; caught_up: with a SyncSlope it slows down in time for where it should be"},
     {"sync_settings", "系統參數相關", "EncSync, SyncRPM and SyncSlope written in sync mode",
      "next_command|at_once", kProposal, "SyncMode latches them"},
     {"sync_slope_end", "系統參數相關", "an axis with a SyncSlope when its encoder stands still",
@@ -288,7 +300,13 @@ inline constexpr ChoiceRow kChoices[] = {
     {"wait_cut_short", "程式指令列表",
      "a line that waits for a move which an alarm, a limit, STOP or SVOFF ends",
      "goes_on|waits_on|program_ends", kProposal,
-     "the axis no longer moves; waits_on: until a later move gets to its end"},
+     "the axis no longer moves; waits_on: until a later move gets to its end. A Wait_Move_* that is met when "
+     "the axis stands already goes on with all three"},
+    {"rewritten_line", "程式碼通訊位址相關", "a program's line that is overwritten while it waits",
+     "read_anew|waits_on", kProposal,
+     "what stands there now runs in the next slot, as a line's flag counts at once; waits_on: the wait goes "
+     "on "
+     "as it began"},
     {"wait_move_homing", "程式指令列表", "whether Wait_Move_* waits for homing", "waits|does_not_wait",
      kProposal, "position moves are named; homing is in position mode. The other modes are not waited for"},
     {"unknown_command", "程式指令列表", "a command that the list does not have", "does_nothing|ends",

@@ -62,10 +62,22 @@ bool Simple2R3::may_begin(int axis_number, Outcome outcome, const KeptCommand& w
   switch (outcome) {
     case Outcome::begins:
     case Outcome::changes: return true;
-    case Outcome::kept: state_.kept[static_cast<std::size_t>(axis_number)] = what; return false;
+    case Outcome::kept:
+      forget_kept(axis_number);
+      state_.kept[static_cast<std::size_t>(axis_number)] = what;
+      if (what.command != Command::none) {
+        state_.axes[static_cast<std::size_t>(axis_number)].cut_short = false;
+      }
+      return false;
     case Outcome::ends: stop_drive(state_.axes[static_cast<std::size_t>(axis_number)]); return false;
     default: return false;
   }
+}
+
+void Simple2R3::forget_kept(int axis) {
+  const KeptCommand kept = std::exchange(state_.kept[static_cast<std::size_t>(axis)], {});
+  // A line may wait for it.
+  if (kept.command != Command::none) state_.axes[static_cast<std::size_t>(axis)].cut_short = true;
 }
 
 /// In velocity and sync mode, signed as the axis goes: 0 where a limit is in the way.
@@ -78,17 +90,18 @@ double Simple2R3::speed_of_pulses(int axis_number) const {
 
 void Simple2R3::start_move(int axis_number, Command command, const MoveParameters& move) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  if (lacks_ready(axis_number)) return;
-  if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm)) return;
   std::int64_t distance_pulses = move.distance_pulses;
-  if (command == Command::incremental && chose(kIncrementalFromOldTarget)) {
-    distance_pulses += axis.motor.remaining_pulses() * axis.motor.drive.direction;
+  // Whatever the speed, a distance of 0 stops at once (appendix A).
+  if (distance_pulses != 0) {
+    if (lacks_ready(axis_number)) return;
+    if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm)) return;
+    const bool counts_on = command == Command::incremental && chose(kIncrementalFromOldTarget);
+    if (counts_on) distance_pulses += remaining_pulses(axis);
   }
   refresh_signals(axis_number);
   const int direction = distance_pulses < 0 ? -1 : +1;
-  // A distance of 0 leads into no limit.
   const Event event = distance_pulses == 0
-                          ? Event::move_away
+                          ? Event::move_nowhere
                           : way_event(axis_number, direction, Event::move_towards, Event::move_away);
   const Outcome outcome = reaction(axis_number, event);
   if (!may_begin(axis_number, outcome, {.command = command, .move = move})) return;
@@ -103,6 +116,8 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
                                     ? axis.motor.move_on(speed_pps, distance_pulses, law, now())
                                     : axis.motor.move(distance_pulses, law, tick_before_motion());
   if (refused != motion::Cause::none) return;
+  // Its rest may be asked for.
+  if (move.speed_rpm == 0) axis.motor.target_pulses = distance_pulses * direction;
   axis.command = command;
   axis.has_own_speed = move.of_the_axis;
   axis.by_trigger = move.by_trigger;
@@ -193,7 +208,7 @@ void Simple2R3::show_pwm(int axis, std::uint8_t percent) {
 void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   refresh_signals(axis_number);
-  const Outcome outcome = lacks_ready(axis_number)
+  const Outcome outcome = percent != 0 && lacks_ready(axis_number)
                               ? Outcome::dropped
                               : reaction(axis_number, percent == 0 ? Event::pwm_zero : Event::pwm);
   if (outcome == Outcome::waits) {
@@ -275,11 +290,11 @@ void Simple2R3::carry_out_kept(int axis) {
 void Simple2R3::stop(int axis_number, Stopping how) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
-  state_.kept[static_cast<std::size_t>(axis_number)] = {};
+  forget_kept(axis_number);
   if (chose(kValuesZeroAfterStop)) state_.image[slots.velocity] = state_.image[slots.pwm] = 0;
   if (how == Stopping::by_register && reaction(axis_number, Event::stop) == Outcome::slows) {
     axis.motor.slow_down(now());
-    return;
+    if (axis.motor.moving()) return;
   }
   const Mode mode = axis.mode;
   stop_drive(axis);

@@ -81,13 +81,13 @@ bool Simple2R3::assigned(std::size_t assignment_slot) const {
 }
 
 bool Simple2R3::assigned_input(std::size_t assignment_slot, int number) const {
-  return assigned(assignment_slot) && ((state_.inputs >> number) & 1) != 0;
+  return assigned(assignment_slot) && ((inputs() >> number) & 1) != 0;
 }
 
 bool Simple2R3::alarm(int axis) const {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
   if (!assigned(slots.alarm_assigned)) return false;
-  const bool on = ((state_.inputs >> slots.alarm_input) & 1) != 0;
+  const bool on = ((inputs() >> slots.alarm_input) & 1) != 0;
   return on != (state_.image[slots.alarm_polarity] == 1) ||
          state_.axes[static_cast<std::size_t>(axis)].alarm_latched;
 }
@@ -293,7 +293,8 @@ double Simple2R3::speed_pps(int axis) const {
   const auto number = static_cast<std::size_t>(axis);
   const AxisState& its = state_.axes[number];
   const double speed = simple2_r3::speed_pps(its, now(), resolution_in_velocity(axis));
-  return state_.image[kAxisSlots[number].direction_polarity] != 0 ? -speed : speed;
+  const bool reversed = state_.image[kAxisSlots[number].direction_polarity] != 0;
+  return (reversed ? -speed : speed) + 0.0;  // 0 has no sign
 }
 
 std::span<const std::string_view> Simple2R3::pulse_formats() const {

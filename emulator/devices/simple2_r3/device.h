@@ -156,6 +156,12 @@ class Simple2R3 final : public Device {
   std::optional<int> duty_percent(int axis) const override;
 
   // --- for effects.cpp ---------------------------------------------------------------------
+  /// DIN 0 to 10 as they were looked at in the last tick. Before the first one time has stood since power-up,
+  /// and they are looked at there.
+  std::uint16_t inputs() const { return is_just_up() ? input_levels() : state_.inputs; }
+  std::uint16_t adc(std::size_t number) const {
+    return is_just_up() ? adc_at(static_cast<int>(number)) : state_.adc[number];
+  }
   State& state() { return state_; }
   const State& state() const { return state_; }
 
@@ -217,6 +223,8 @@ class Simple2R3 final : public Device {
   /// DIP1 is number 0.
   bool dip_switch(int number) const;
   std::uint8_t switch_levels() const;
+  /// No tick has been run since power-up.
+  bool is_just_up() const { return now() + 1 + boot_ticks_ == state_.first_tick; }
   /// What is at the terminals now.
   std::uint16_t input_levels() const;
   std::uint16_t adc_at(int number) const;
@@ -250,6 +258,7 @@ class Simple2R3 final : public Device {
   /// Whether a command is carried out; otherwise what else comes of it is done.
   bool may_begin(int axis, Outcome outcome, const KeptCommand& what);
   void carry_out_kept(int axis);
+  void forget_kept(int axis);
   /// Whether SVOFF forbids pulses may have changed.
   void heed_servo(int axis);
   /// Its limits and alarm are these from now on.

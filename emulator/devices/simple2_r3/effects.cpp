@@ -50,7 +50,7 @@ void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
 /// so, the pin's level.
 bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slot, int input) {
   if (device.assigned(assignment_slot) || !device.chose(kStatusShowsPin)) return by_function;
-  return ((device.state().inputs >> input) & 1) != 0;
+  return ((device.inputs() >> input) & 1) != 0;
 }
 
 /// A trigger that goes on, as it reads.
@@ -123,9 +123,9 @@ Value read_all_outputs(const Device& device, Cell) {
   return levels;
 }
 
-Value read_input(const Device& device, Cell cell) { return (self(device).state().inputs >> cell.index) & 1; }
+Value read_input(const Device& device, Cell cell) { return (self(device).inputs() >> cell.index) & 1; }
 
-Value read_all_inputs(const Device& device, Cell) { return self(device).state().inputs; }
+Value read_all_inputs(const Device& device, Cell) { return self(device).inputs(); }
 
 Value read_encoder(const Device& device, Cell cell) {
   const AxisState& axis = axis_of(device, cell);
@@ -175,7 +175,7 @@ Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell)
 Value read_alarm_clear(const Device& device, Cell cell) { return self(device).alarm_clear(cell.argument); }
 
 Value read_adc(const Device& device, Cell cell) {
-  return self(device).state().adc[static_cast<std::size_t>(cell.argument)];
+  return self(device).adc(static_cast<std::size_t>(cell.argument));
 }
 
 Value read_analog(const Device& device, Cell cell) {

@@ -59,7 +59,7 @@ void show_pulse(Simple2R3& device, std::size_t axis, std::int32_t pulses) {
 
 }  // namespace
 
-bool ProgramMachine::input(int din) const { return ((device_.state().inputs >> din) & 1) != 0; }
+bool ProgramMachine::input(int din) const { return ((device_.inputs() >> din) & 1) != 0; }
 
 bool ProgramMachine::status_bit(int bit) const { return ((read_status(device_, {}) >> bit) & 1) != 0; }
 
@@ -114,12 +114,16 @@ void ProgramMachine::move_absolute(Axis axis, std::int32_t pulses) {
 void ProgramMachine::go_home(Axis axis) { device_.go_home(static_cast<int>(number_of(axis))); }
 
 bool ProgramMachine::moving(Axis axis) const {
-  const AxisState& its = device_.state().axes[number_of(axis)];
-  return its.command != Command::none || (its.cut_short && device_.chose(kWaitsForCutShort));
+  const State& state = device_.state();
+  const std::size_t number = number_of(axis);
+  return state.axes[number].command != Command::none || state.kept[number].command != Command::none;
 }
 
 bool ProgramMachine::moving_for_wait(Axis axis) const {
-  const bool homes = device_.state().axes[number_of(axis)].command == Command::homing;
+  const State& state = device_.state();
+  const std::size_t number = number_of(axis);
+  const bool homes =
+      state.axes[number].command == Command::homing || state.kept[number].command == Command::homing;
   return moving(axis) && !(homes && device_.chose(kWaitMoveLeavesHoming));
 }
 
@@ -192,6 +196,8 @@ Dialect dialect_of(const Simple2R3& device) {
   take(kCountersSaturate, dialect.counter_overflow, Dialect::CounterOverflow::saturates);
   take(kUndefinedFlagVoid, dialect.undefined_flag, Dialect::UndefinedFlag::line_void);
   take(kTimersWithSign, dialect.timer_compare, Dialect::TimerCompare::with_sign);
+  take(kWaitsForLaterMove, dialect.wait_cut_short, Dialect::WaitCutShort::waits_on);
+  take(kRewrittenWaitsOn, dialect.rewritten_line, Dialect::RewrittenLine::waits_on);
   take(kCutShortEndsProgram, dialect.wait_cut_short, Dialect::WaitCutShort::program_ends);
   return dialect;
 }

@@ -41,6 +41,7 @@ enum class Event : std::uint8_t {
   // Commands.
   move_towards,
   move_away,
+  move_nowhere,  // a distance of 0
   home,
   velocity_towards,
   velocity_away,
@@ -49,7 +50,7 @@ enum class Event : std::uint8_t {
   pwm_zero,
   sync,
 };
-inline constexpr int kEvents = 16;
+inline constexpr int kEvents = 17;
 
 enum class Outcome : std::uint8_t {
   goes_on,          // as if nothing had been
@@ -123,13 +124,14 @@ inline constexpr Set kPowered = kReady | set_of(in_alarm);
 inline constexpr Set kMoves = set_of(E::move_towards, E::move_away);
 inline constexpr Set kVelocities = set_of(E::velocity_towards, E::velocity_away);
 inline constexpr Set kDuties = set_of(E::pwm, E::pwm_zero);
-inline constexpr Set kCommands =
-    kMoves | set_of(E::home) | kVelocities | set_of(E::velocity_zero) | kDuties | set_of(E::sync);
+inline constexpr Set kCommands = kMoves | set_of(E::move_nowhere, E::home) | kVelocities |
+                                 set_of(E::velocity_zero) | kDuties | set_of(E::sync);
 
 inline constexpr OtherOutcome kUnlessMoving{kMoveWhileMovingIgnored, dropped};
 inline constexpr OtherOutcome kUnlessPositioning{kModeWhileMovingIgnored, dropped};
 inline constexpr OtherOutcome kUnlessInOtherMode{kMoveInOtherModeIgnored, dropped};
 inline constexpr OtherOutcome kUnlessIntoLimit{kIntoLimitDropped, dropped};
+inline constexpr OtherOutcome kForgotten{kAfterAlarmResumes, ends};  // what would have resumed
 inline constexpr OtherOutcome kFromTheSpeed{kMoveFromTheSpeed, changes};
 
 // clang-format off
@@ -185,15 +187,22 @@ inline constexpr ReactionRow kRows[] = {
     {kPosition | kVelocity | kPwm, set_of(servo_off), kCommands & ~kDuties, dropped, "command_while_servo_off", {kKeptUntilServoOn, kept}},
     {kPosition | kVelocity, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmWithoutServo, begins}, {kKeptUntilServoOn, kept}},
     {kPwm, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmWithoutServo, changes}, {kKeptUntilServoOn, kept}},
-    {kAny, set_of(in_alarm), kMoves | set_of(E::home, E::sync), dropped, "alarm_reaction"},
+    {kPosition | kSync, set_of(in_alarm), kMoves | set_of(E::home, E::sync), dropped, "alarm_reaction"},
+    {kVelocity | kPwm, set_of(in_alarm), kMoves | set_of(E::home), dropped, "after_alarm", kUnlessInOtherMode, kForgotten},
+    {kVelocity | kPwm, set_of(in_alarm), set_of(E::sync), dropped, "after_alarm", kForgotten},
     {kVelocity, set_of(in_alarm), kVelocities, dropped, "after_alarm", {kAfterAlarmResumes, waits}},
     {kVelocity, set_of(in_alarm), set_of(E::velocity_zero), changes, "系統參數相關: 0xF006, at once"},
-    {kAny & ~kVelocity, set_of(in_alarm), kVelocities | set_of(E::velocity_zero), dropped, "alarm_reaction"},
+    {kPosition | kSync, set_of(in_alarm), kVelocities, dropped, "alarm_reaction"},
+    {kPwm, set_of(in_alarm), kVelocities, dropped, "after_alarm", kForgotten},
+    {kAny & ~kVelocity, set_of(in_alarm), set_of(E::velocity_zero), begins, "系統參數相關: 0xF006, at once"},
     {kPwm, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", {kAfterAlarmResumes, waits}},
     {kPwm, set_of(in_alarm), set_of(E::pwm_zero), changes, "運動相關: 0x1019, at once"},
-    {kAny & ~kPwm, set_of(in_alarm), kDuties, dropped, "alarm_reaction"},
+    {kPosition | kSync, set_of(in_alarm), set_of(E::pwm), dropped, "alarm_reaction"},
+    {kVelocity, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", kForgotten},
+    {kAny & ~kPwm, set_of(in_alarm), set_of(E::pwm_zero), begins, "運動相關: 0x1019, at once"},
 
     // --- moves and homing ---
+    {kAny, kPowered, set_of(E::move_nowhere), begins, "附錄 A: (2), at once"},
     {kPosition, kResting, set_of(E::home, E::move_away), begins, "附錄 A"},
     {kPosition, set_of(standing), set_of(E::move_towards), begins, "附錄 A"},
     {kPosition, set_of(at_limit), set_of(E::move_towards), dropped, "limit_reaction"},

@@ -14,7 +14,10 @@ struct StateFields {
     auto& [a, b, c, d] = v; visit(a, b, c, d);
   }
   static void of(Like<interpreter::simple2::Execution> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
+  }
+  static void of(Like<interpreter::simple2::Line> auto& v, auto visit) {
+    auto& [a, b, c, d] = v; visit(a, b, c, d);
   }
   static void of(Like<interpreter::simple2::FlagRules> auto& v, auto visit) {
     auto& [a, b, c] = v; visit(a, b, c);

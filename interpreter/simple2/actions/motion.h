@@ -105,24 +105,31 @@ bool any_moving(const Machine& machine) {
          (has(axes, Axis::b) && machine.moving_for_wait(Axis::b));
 }
 
-/// Where Wait_Move_* goes on. It does nothing else.
-template <Axes axes>
-Then after_wait_move(const Line& line, const Program& program, const Dialect& dialect,
-                     const Machine& machine) {
-  if (!any_moving<axes>(machine)) return Then::next_line;
-  const bool jumps = dialect.wait_move_jumps && program.line_with_flag(line.data1).has_value();
-  return jumps ? Then::flag : Then::same_line;
-}
-
 /// Whether what was waited for has been cut short.
 inline bool wait_is_cut_short(const Execution& execution, const Machine& machine) {
   return (execution.waits_for_a && machine.cut_short(Axis::a)) ||
          (execution.waits_for_b && machine.cut_short(Axis::b));
 }
+/// The same, and the line waits for a later move.
+inline bool waits_on(const Execution& execution, const Dialect& dialect, const Machine& machine) {
+  return dialect.wait_cut_short == Dialect::WaitCutShort::waits_on && wait_is_cut_short(execution, machine);
+}
+
+/// Where Wait_Move_* goes on. It does nothing else.
+template <Axes axes>
+Then after_wait_move(const Line& line, const Execution& execution, const Program& program,
+                     const Dialect& dialect, const Machine& machine) {
+  if (!any_moving<axes>(machine)) {
+    return waits_on(execution, dialect, machine) ? Then::same_line : Then::next_line;
+  }
+  const bool jumps = dialect.wait_move_jumps && program.line_with_flag(line.data1).has_value();
+  return jumps ? Then::flag : Then::same_line;
+}
 
 template <Axes axes>
 Then wait_move(Step& step) {
-  const Then then = after_wait_move<axes>(step.line, step.program, step.dialect, step.machine);
+  const Then then =
+      after_wait_move<axes>(step.line, step.execution, step.program, step.dialect, step.machine);
   if (step.dialect.wait_cut_short == Dialect::WaitCutShort::line_is_over) return then;
   Execution& execution = step.execution;
   if (then == Then::same_line) {
@@ -130,9 +137,10 @@ Then wait_move(Step& step) {
     execution.waits_for_b |= has(axes, Axis::b) && step.machine.moving_for_wait(Axis::b);
     return then;
   }
-  const bool is_cut_short = wait_is_cut_short(execution, step.machine);
+  const bool ends = step.dialect.wait_cut_short == Dialect::WaitCutShort::program_ends &&
+                    wait_is_cut_short(execution, step.machine);
   execution.waits_for_a = execution.waits_for_b = false;
-  return is_cut_short ? Then::end_for_cut_wait : then;
+  return ends ? Then::end_for_cut_wait : then;
 }
 
 inline Then wait_move_b(Step& step) {

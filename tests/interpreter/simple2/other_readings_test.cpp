@@ -63,7 +63,7 @@ ProgramRun waiting(std::uint8_t opcode, Dialect::WaitCutShort reading) {
 TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
   using enum Dialect::WaitCutShort;
   constexpr std::uint8_t kMoveAndWait = 0x25, kWaitMove = 0x24;
-  for (const auto reading : {line_is_over, program_ends}) {
+  for (const auto reading : {line_is_over, waits_on, program_ends}) {
     for (const std::uint8_t opcode : {kMoveAndWait, kWaitMove}) {
       for (const bool is_cut : {false, true}) {
         ProgramRun run = waiting(opcode, reading);
@@ -73,6 +73,12 @@ TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
         run.machine.moving_a = false;
         run.machine.cut_short_a = is_cut;
         run.until(40);
+        if (is_cut && reading == waits_on) {
+          EXPECT_TRUE(run.execution.running) << int{opcode};
+          EXPECT_EQ(next_active_slot_ms(run.execution, 40, run.program, run.dialect, run.machine), kNoSlot);
+          run.machine.cut_short_a = false;  // a later move has got to its end
+          run.until(60);
+        }
         const bool ends = is_cut && reading == program_ends;
         EXPECT_EQ(run.machine.parameters[0], ends ? 0 : 1) << int{opcode};
         EXPECT_EQ(run.execution.ending, ends ? Ending::wait_cut_short : Ending::end_instruction);
@@ -89,6 +95,62 @@ TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
       other.until(40);
       EXPECT_EQ(other.machine.parameters[0], 1) << int{opcode};
     }
+  }
+}
+
+/// Every line that can wait, on a machine that makes it wait.
+constexpr Line kWaitingLines[] = {{.command = 0x01, .data1 = 10, .data2 = 1},  // Wait_IO
+                                  {.command = 0x02, .data1 = 200},             // Delay_mSec
+                                  {.command = 0x24},                           // Wait_Move_A
+                                  {.command = 0x25}};                          // Move_INC_A_Wait
+
+ProgramRun waiting_run(const Line& line, Dialect::RewrittenLine reading) {
+  ProgramRun run(program_of({line, {0x6B, 0, 0, 0}, {0xFF, 0, 0, 0}}));
+  run.dialect.rewritten_line = reading;
+  run.machine.moving_a = true;
+  run.until(20);
+  EXPECT_EQ(run.execution.now_line, 0) << int{line.command};
+  return run;
+}
+
+TEST(Simple2OtherReadings, ARewrittenLineIsReadAnewOrWaitsOn) {
+  using enum Dialect::RewrittenLine;
+  for (const Line& line : kWaitingLines) {
+    for (const auto reading : {read_anew, waits_on}) {
+      ProgramRun run = waiting_run(line, reading);
+      run.program.set_cell(0, 0x00);  // NOP
+      const auto next = next_active_slot_ms(run.execution, 18, run.program, run.dialect, run.machine);
+      EXPECT_EQ(next == 20, reading == read_anew) << int{line.command};
+      run.until(40);
+      EXPECT_EQ(run.execution.running, reading == waits_on) << int{line.command};
+      EXPECT_EQ(run.machine.parameters[0], reading == read_anew ? 1 : 0) << int{line.command};
+      // What it waits for comes: DIN_10, the end of the move, the end of the delay.
+      run.machine.inputs = 1 << 10;
+      run.machine.moving_a = false;
+      run.until(300);
+      EXPECT_FALSE(run.execution.running) << int{line.command};
+      EXPECT_EQ(run.machine.parameters[0], 1) << int{line.command};
+    }
+  }
+}
+
+TEST(Simple2OtherReadings, AFlagGivenToAWaitingLineDoesNotEndIt) {
+  for (const Line& line : kWaitingLines) {
+    ProgramRun run = waiting_run(line, Dialect::RewrittenLine::read_anew);
+    run.program.set_cell(3, 7);
+    run.until(40);
+    EXPECT_EQ(run.execution.now_line, 0) << int{line.command};
+    EXPECT_EQ(run.machine.take_calls(), line.command == 0x25 ? "A by 0" : "") << "once";
+  }
+}
+
+TEST(Simple2OtherReadings, ALineInPlaceOfAWaitingOneRuns) {
+  for (const Line& line : kWaitingLines) {
+    ProgramRun run = waiting_run(line, Dialect::RewrittenLine::read_anew);
+    run.program.set_cell(0, 0xFF);
+    run.until(22);
+    EXPECT_EQ(run.execution.ending, Ending::end_instruction) << int{line.command};
+    EXPECT_FALSE(run.execution.running) << int{line.command};
   }
 }
 

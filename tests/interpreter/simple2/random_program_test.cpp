@@ -34,7 +34,8 @@ Dialect random_dialect(Random& random) {
   dialect.delay_counts = static_cast<Dialect::DelayCounts>(random() % 2);
   dialect.undefined_flag = static_cast<Dialect::UndefinedFlag>(random() % 2);
   dialect.timer_compare = static_cast<Dialect::TimerCompare>(random() % 2);
-  dialect.wait_cut_short = static_cast<Dialect::WaitCutShort>(random() % 2);
+  dialect.wait_cut_short = static_cast<Dialect::WaitCutShort>(random() % 3);
+  dialect.rewritten_line = static_cast<Dialect::RewrittenLine>(random() % 2);
   return dialect;
 }
 
@@ -165,7 +166,8 @@ TEST(Simple2NextActiveSlot, ComesForAWaitMoveBThatMovesUpTo139) {
   run.machine.moving_b = true;
   EXPECT_EQ(next_active_slot_ms(run.execution, -1, run.program, run.dialect, run.machine), 0);
   run.dialect = dialect_of_firmware(140);
-  EXPECT_EQ(next_active_slot_ms(run.execution, -1, run.program, run.dialect, run.machine), kNoSlot);
+  run.slot();
+  EXPECT_EQ(next_active_slot_ms(run.execution, 0, run.program, run.dialect, run.machine), kNoSlot);
 }
 
 }  // namespace

@@ -202,20 +202,17 @@ TEST(Simple2Timing, StopLeavesAProgramThatIsOverAsItWas) {
   EXPECT_EQ(run.execution.ending, Ending::end_instruction);
 }
 
-TEST(Simple2Timing, ALineRewrittenWhileItWaitsIsReadAgainAndADelayIsNot) {
-  ProgramRun wait(program_of({{0x01, 0, 1, 0}, {0x05, 0, 1, 0}}));
-  wait.until(10);
-  wait.program.set_cell(0, 0x00);  // NOP
-  wait.until(14);
-  EXPECT_EQ(wait.execution.now_line, 1);
-
-  ProgramRun delay(program_of({{0x02, 100, 0, 0}, {0x05, 0, 1, 0}}));
-  delay.until(10);
-  delay.program.set_cell(0, 0x00);
-  delay.until(100);
-  EXPECT_EQ(delay.execution.now_line, 0);
-  delay.slot();
-  EXPECT_EQ(delay.execution.now_line, 1);
+TEST(Simple2Timing, ALineRewrittenWhileItWaitsIsReadAgain) {
+  for (const Line& waits : {Line{0x01, 0, 1, 0}, Line{0x02, 100, 0, 0}}) {  // Wait_IO, Delay_mSec
+    ProgramRun run(program_of({waits, {0x05, 0, 1, 0}}));
+    run.until(10);
+    EXPECT_EQ(run.execution.now_line, 0);
+    run.program.set_cell(0, 0x00);  // NOP
+    run.until(12);
+    EXPECT_EQ(run.execution.now_line, 0);
+    run.slot();
+    EXPECT_EQ(run.execution.now_line, 1);
+  }
 }
 
 }  // namespace

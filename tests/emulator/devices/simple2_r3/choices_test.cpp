@@ -46,7 +46,7 @@ TEST(Choices, ThereIsACaseForEveryOneThatCanBeChosen) {
       "sync_encoder", "sync_settings", "sync_slope_end", "velocity_settings", "wait_cut_short",
       "wait_move_homing", "undefined_flag", "timer_compare", "timer_overflow", "request_with_bad_value",
       "least_ramp", "homing_bits", "triggers_shown", "servo_unassigned", "locked_reset",
-      "program_value_of_32_bits", "counter_by_var", "boot_time",
+      "program_value_of_32_bits", "counter_by_var", "boot_time", "rewritten_line",
       // choices_operands_test.cpp, choices_program_test.cpp, choices_program_run_test.cpp
       "logic_operand", "read_only_parameter", "timers_at_power_up", "timer1_defect", "undefined_operand",
       "undefined_parameter", "value_out_of_range", "program_speed", "program_pulse", "wait_slot",

@@ -150,6 +150,7 @@ inline void cause(Rig& rig, Phase phase, Event event) {
     case Event::servo_off: return rig.set("Aaxis_SVON", 0);
     case Event::move_towards: return rig.move(kDistance);
     case Event::move_away: return rig.move(-kDistance);
+    case Event::move_nowhere: return rig.move(0);
     case Event::home: return rig.set("Aaxis_GoHome", 1);
     case Event::velocity_towards: return rig.set("Aaxis_DirectmRPM", kOtherVelocity_mrpm);
     case Event::velocity_away: return rig.set("Aaxis_DirectmRPM", -kOtherVelocity_mrpm);

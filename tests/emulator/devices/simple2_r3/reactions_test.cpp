@@ -141,6 +141,7 @@ class Cell {
         EXPECT_EQ(rig_.get("Aaxis_Mode"), 0);
         EXPECT_EQ(sum(rig_.watch(400)), event_ == Event::move_towards ? kDistance : -kDistance);
         return;
+      case Event::move_nowhere: EXPECT_EQ(rig_.get("Aaxis_Mode"), 0); return expect_nothing();
       case Event::home:
         EXPECT_TRUE(rig_.bit("STATUS.6"));
         EXPECT_NE(sum(rig_.watch(200)), 0);
