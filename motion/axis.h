@@ -156,6 +156,9 @@ struct alignas(64) Axis {
   /// A move by `distance_pulses`, signed, from where the axis is; what runs is dropped. 0 ends it and is over
   /// at once.
   Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
+  /// The same from a signed speed that the axis has already, by another generator: on to the target, or,
+  /// where it is too near or behind, to a stop and back to it.
+  Cause move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
   /// On and on in `way` (+1 or -1).
   Cause run(int way, const SpeedLaw& speed, Tick now);
   /// A move at speed 0: moving, but no pulse (Simple2-R3).

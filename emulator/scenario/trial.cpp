@@ -1,6 +1,6 @@
 #include "emulator/scenario/trial.h"
 
-#include "emulator/bench/machine_fields.h"
+#include "emulator/bench/disturbance_fields.h"
 #include "emulator/expression/parser.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
@@ -170,8 +170,12 @@ void Trial::demand_program(const YamlFields& field, std::size_t device, const st
   }
 }
 
-void Trial::demand_fault(const YamlFields& field, const Fault& fault) const {
-  demand_possible(field, world_, fault);
+Fault Trial::fault(const YamlFields& field, std::string_view other_key) const {
+  Complaints complaints;
+  const auto fault = read_fault(field, known(), complaints, other_key);
+  demand_possible(field, world_, fault, complaints);
+  complaints.throw_if_any();
+  return *fault;
 }
 
 void Trial::demand_memory(const YamlFields& field, std::size_t device, const NvImage& image) const {

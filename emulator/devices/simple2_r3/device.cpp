@@ -284,12 +284,15 @@ std::int64_t Simple2R3::pulses_this_tick(int axis) const {
   return state_.axes[static_cast<std::size_t>(axis)].pulses_this_tick;
 }
 
+std::uint32_t Simple2R3::resolution_in_velocity(int axis) const {
+  const AxisState& its = state_.axes[static_cast<std::size_t>(axis)];
+  return velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
+}
+
 double Simple2R3::speed_pps(int axis) const {
   const auto number = static_cast<std::size_t>(axis);
   const AxisState& its = state_.axes[number];
-  const std::uint32_t resolution =
-      velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
-  const double speed = simple2_r3::speed_pps(its, now(), resolution);
+  const double speed = simple2_r3::speed_pps(its, now(), resolution_in_velocity(axis));
   return state_.image[kAxisSlots[number].direction_polarity] != 0 ? -speed : speed;
 }
 

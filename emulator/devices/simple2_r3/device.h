@@ -146,6 +146,9 @@ class Simple2R3 final : public Device {
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
+  /// What velocity mode goes by: as it is now, or as its last command found it.
+  std::uint32_t resolution_in_velocity(int axis) const;
+  double speed_of_pulses(int axis) const;
   void set_encoder(int axis, std::int64_t counts) override;
   std::string_view pulse_format() const override { return pulse_formats()[pulse_format_number()]; }
   std::span<const std::string_view> pulse_formats() const override;

@@ -48,7 +48,7 @@ struct StateFields {
   static constexpr Command last(Command) { return Command::homing; }
   static constexpr Eeprom::Slot last(Eeprom::Slot) { return Eeprom::Slot::waits; }
   static constexpr interpreter::simple2::Ending last(interpreter::simple2::Ending) {
-    return interpreter::simple2::Ending::stopped;
+    return interpreter::simple2::Ending::wait_cut_short;
   }
   static constexpr interpreter::simple2::Phase last(interpreter::simple2::Phase) {
     return interpreter::simple2::Phase::move;
