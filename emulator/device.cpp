@@ -8,23 +8,21 @@ namespace understudy::emulator {
 
 Device::Device(const Model& model, DeviceSettings settings)
     : model_(model),
-      settings_(std::move(settings)),
-      choices_(resolve_choices(model.choices, settings_.choices)),
+      choices_(resolve_choices(model.choices, settings.choices)),
       inputs_(model.terminals.size(), 0),
+      settings_(std::move(settings)),
       mentioned_(model.registers.rows().size(), false) {}
 
 void Device::prefetch(Tick /*tick*/) const {
-  // Of the device itself its kind, and what is behind the settings: they are large, and no tick reads them.
-  __builtin_prefetch(this, 1);
-  const auto* const first = reinterpret_cast<const std::byte*>(&choices_);
-  emulator::prefetch(first, static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&now_ + 1) - first));
-  emulator::prefetch(choices_.data(), choices_.size());
-  emulator::prefetch(inputs_.data(), inputs_.size() * sizeof inputs_[0]);
+  // Of the device itself the beginning; its settings are large, and no tick reads them.
+  prefetch_line(this);
+  if (inputs_changed_) emulator::prefetch(inputs_.data(), inputs_.size() * sizeof inputs_[0]);
 }
 
 void Device::switch_power(bool on) {
   if (on == powered_) return;
   powered_ = on;
+  inputs_changed_ = true;
   if (on) {
     power_up();
   } else {

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "emulator/memory/nv_image.h"
@@ -126,7 +127,10 @@ class Device {
 
   // --- terminals, by their number in the model's table -----------------------------------------------
   /// Levels from outside, in the terminal's unit; the device looks at them in sample_inputs().
-  void set_input(int terminal, std::int32_t level) { inputs_[static_cast<std::size_t>(terminal)] = level; }
+  void set_input(int terminal, std::int32_t level) {
+    inputs_[static_cast<std::size_t>(terminal)] = level;
+    inputs_changed_ = true;
+  }
   std::int32_t input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
   virtual bool output(int terminal) const = 0;
 
@@ -157,6 +161,9 @@ class Device {
   void set_log(std::function<void(const std::string&)> log) { log_ = std::move(log); }
 
  protected:
+  /// Whether set_input(), the power or a restored state may have changed them since take_inputs_changed().
+  bool inputs_changed() const { return inputs_changed_; }
+  bool take_inputs_changed() { return std::exchange(inputs_changed_, false); }
   /// The state as it is when the power comes: from kept_image() and the inputs.
   virtual void power_up() = 0;
   /// Nothing is driven any more, and all that is not kept is lost.
@@ -176,12 +183,14 @@ class Device {
  private:
   struct CommonFields;  // device_state.cpp
 
+  // What every tick needs, first: the rest lies behind the first cache line.
   const Model& model_;
-  DeviceSettings settings_;
+  Tick now_ = 0;
+  bool powered_ = false;
+  bool inputs_changed_ = true;  // no state: only whether a device may spare itself a look at them
   std::vector<std::uint8_t> choices_;
   std::vector<std::int32_t> inputs_;
-  bool powered_ = false;
-  Tick now_ = 0;
+  DeviceSettings settings_;
   std::function<void(const std::string&)> log_;
   mutable std::vector<bool> mentioned_;            // rows; of the log, not of the model
   mutable std::set<std::string> mentioned_names_;  // likewise

@@ -10,7 +10,7 @@ namespace understudy::emulator {
 struct Device::CommonFields {
   /// Model, settings and choices are what it was made from; the log is its user's.
   static auto of(Like<Device> auto& device, auto visit) {
-    auto& [model, settings, choices, inputs, powered, now, log, mentioned, names] = device;
+    auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned, names] = device;
     return visit(inputs, powered, now);
   }
 };
@@ -37,6 +37,7 @@ std::function<void()> Device::read_state(std::span<const std::byte> bytes) {
   reader.demand_end();
   return [this, restored = std::move(restored), put_own = std::move(put_own)] {
     CommonFields::of(*this, [&](auto&... field) { std::tie(field...) = restored; });
+    inputs_changed_ = true;
     put_own();
   };
 }

@@ -8,6 +8,7 @@
 #include "emulator/devices/slim/model.h"
 #include "emulator/one_line.h"
 #include "emulator/register_map/access.h"
+#include "emulator/setting_entry.h"
 #include "emulator/suggestion.h"
 
 namespace understudy::emulator {
@@ -96,8 +97,42 @@ int demand_switch(const Model& model, const std::string& name) {
     if (model.terminals[i].name == name) return static_cast<int>(i);
     names.emplace_back(model.terminals[i].name);
   }
-  throw SettingError("dip", quoted(name) + " is no switch of " + std::string(model.name) +
-                                suggestion(name, names, "it has none"));
+  throw SettingEntryError(
+      "dip", name,
+      quoted(name) + " is no switch of " + std::string(model.name) + suggestion(name, names, "it has none"));
+}
+
+void demand_choices(const Model& model, const DeviceSettings& settings) {
+  for (const auto& [id, option] : settings.choices) {
+    try {
+      resolve_choices(model.choices, {{id, option}});
+    } catch (const ChoiceError& error) {
+      throw SettingEntryError("choices", id, error.what());
+    }
+  }
+}
+
+void set_registers(Device& device, const DeviceSettings& settings) {
+  const RegisterMap& registers = device.registers();
+  for (const auto& [name, value] : settings.set) {
+    const auto place = registers.find(name, settings.firmware);
+    if (!place) throw SettingEntryError("set", name, registers.why_not(name, settings.firmware));
+    switch (write_value(device, *place, value)) {
+      case Refusal::none: break;
+      case Refusal::no_register:
+        throw SettingEntryError("set", name, "cannot be written; it is read-only",
+                                name + " cannot be written; it is read-only");
+      case Refusal::bad_value: {
+        const std::string expected = "; expected " + range_text(*place->place.row);
+        throw SettingEntryError("set", name, std::to_string(value) + " is out of range" + expected,
+                                std::to_string(value) + " is out of range for " + name + expected);
+      }
+    }
+  }
+  for (const auto& [name, value] : settings.assignments) {
+    if (const auto complaint = device.assign(name, value))
+      throw SettingEntryError("set", name, *complaint, name + ": " + *complaint);
+  }
 }
 
 }  // namespace
@@ -109,12 +144,8 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
   if (settings.baud == 0) settings.baud = model.bauds().front();
 
-  std::unique_ptr<Device> device;
-  try {
-    device = model.make(settings);
-  } catch (const ChoiceError& error) {
-    throw SettingError("choices", error.what());
-  }
+  demand_choices(model, settings);
+  std::unique_ptr<Device> device = model.make(settings);
   device->set_log(std::move(log));
   for (const auto& [name, on] : settings.dip) device->set_input(demand_switch(model, name), on ? 1 : 0);
   if (settings.nv) device->load_nv(*settings.nv);
@@ -124,25 +155,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
                                   std::to_string(given.baud) + "; expected the same");
   }
   if (!settings.program.empty()) device->load_program(settings.program);
-  for (const auto& [name, value] : settings.set) {
-    const auto place = model.registers.find(name, settings.firmware);
-    if (!place) {
-      throw SettingError("set", model.registers.why_not(name, settings.firmware));
-    }
-    switch (write_value(*device, *place, value)) {
-      case Refusal::none: break;
-      case Refusal::no_register: throw SettingError("set", name + " cannot be written; it is read-only");
-      case Refusal::bad_value: {
-        const RegisterRow& row = *place->place.row;
-        throw SettingError(
-            "set", std::to_string(value) + " is out of range for " + name + "; expected " + range_text(row));
-      }
-    }
-  }
-  for (const auto& [name, value] : settings.assignments) {
-    if (const auto complaint = device->assign(name, value))
-      throw SettingError("set", name + ": " + *complaint);
-  }
+  set_registers(*device, settings);
   device->settle_memory();
   return device;
 }

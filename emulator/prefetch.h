@@ -6,9 +6,10 @@
 
 namespace understudy::emulator {
 
+inline constexpr std::size_t kCacheLine = 64;  // bytes
+
 /// Nothing but time depends on it; any address will do.
 inline void prefetch(const void* first, std::size_t bytes) {
-  constexpr std::size_t kCacheLine = 64;
   const char* address = static_cast<const char*>(first);
   for (std::size_t i = 0; i < bytes; i += kCacheLine) __builtin_prefetch(address + i, 1);
   if (bytes > 0) __builtin_prefetch(address + bytes - 1, 1);
@@ -18,5 +19,8 @@ template <typename T>
 void prefetch(const T& object) {
   prefetch(&object, sizeof object);
 }
+
+/// The one line that an address is on.
+inline void prefetch_line(const void* address) { __builtin_prefetch(address, 1); }
 
 }  // namespace understudy::emulator

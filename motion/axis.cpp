@@ -144,6 +144,36 @@ Cause Axis::move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) 
   return begin(Task::move, sign_of(distance_pulses), distance_pulses, speed, {.tick = now + 1});
 }
 
+Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) {
+  if (speed_pps == 0 || distance_pulses == 0) return move(distance_pulses, speed, now);
+  const int way = speed_pps < 0 ? -1 : +1;
+  const std::int64_t target = distance_pulses * way;
+  demand_reach(distance_pulses);
+  check(speed);
+  const Sample here{.speed_u_s = std::abs(speed_pps)};
+  const Profile to_stop = slow_to_stop(here, speed);
+  if (to_stop.segment_count == 0) return move(distance_pulses, speed, now);
+  // As change_distance() has it: what stops within half a pulse of the target reaches it, and a return that
+  // cannot be is refused now.
+  const bool passes = to_stop.end_position_u > static_cast<double>(target) + 0.5;
+  if (passes) plan(std::abs(std::floor(to_stop.end_position_u) - static_cast<double>(target)), speed);
+  const Profile rest = passes ? to_stop : forward_to(here, static_cast<double>(target), speed);
+  for (const int each : {way, sign_of(distance_pulses)}) {
+    if (const Cause why_not = forbidden(each); why_not != Cause::none) return why_not;
+  }
+  drop();
+  homing.phase = -1;
+  task = Task::move;
+  law = speed;
+  target_pulses = target;
+  cause = Cause::none;
+  comes_back = slowing = passes;
+  events_between |= bit(Event::started);
+  last_direction = static_cast<std::int8_t>(way);
+  drive.start(rest, way, Instant{.tick = now});
+  return Cause::none;
+}
+
 Cause Axis::run(int way, const SpeedLaw& speed, Tick now) {
   return begin(Task::endless, way < 0 ? -1 : +1, 0, speed, {.tick = now + 1});
 }

@@ -108,16 +108,23 @@ enum class Task : std::uint8_t {
   coordinated,  // carried along a path with others (motion/coordinated.h)
 };
 
-struct Axis {
-  // What every tick needs, first.
+struct alignas(64) Axis {
+  // What every tick needs, first: with the beginning of the drive it is two cache lines.
   std::int64_t travel_pulses = 0;
   std::int64_t watch_low = 0;  // while travel stays within, nothing can happen on account of the place
   std::int64_t watch_high = 0;
   std::int64_t base_pulses = 0;  // travel where the drive's coordinate is 0
   std::uint32_t seen_version = 0;
-  Events events = 0;      // of the last tick
-  bool attentive = true;  // look at everything in the next tick
-  bool inverted = false;  // pulses come out in the other sense
+  Events events = 0;          // of the last tick
+  bool attentive = true;      // look at everything in the next tick
+  bool inverted = false;      // pulses come out in the other sense
+  Signals signals = 0;        // as last seen
+  Events events_between = 0;  // since the last tick
+  // The motion that was asked for. While backlash is taken up the drive runs that, and this waits.
+  Task task = Task::none;
+  Cause cause = Cause::none;       // of the last end, or of the stop under way
+  std::int8_t last_direction = 0;  // of the last motion; 0 before the first
+  bool servo_on = false;
   PulseDrive drive;
 
   AxisSettings settings;
@@ -126,15 +133,9 @@ struct Axis {
   std::int64_t encoder_seen = 0;      // up to where comparators have looked
   std::int64_t backlash_sent = 0;     // all extra pulses so far, signed by direction
   std::int64_t play_pulses = 0;       // 0 .. backlash_pulses: how far in its play the axis is towards plus
-  Signals signals = 0;                // as last seen
-  Events events_between = 0;          // since the last tick
   std::array<Instant, 8> event_at{};  // of each comparator and mark event the last one, to the pulse
-  Cause cause = Cause::none;          // of the last end, or of the stop under way
-  std::int8_t last_direction = 0;     // of the last motion; 0 before the first
-  bool servo_on = false;
 
-  // The motion that was asked for. While backlash is taken up the drive runs that, and this waits.
-  Task task = Task::none;
+  // Of the motion that was asked for.
   bool in_backlash = false;
   bool slowing = false;             // to a stop, for `cause`
   bool comes_back = false;          // and then back to the target, which was passed
@@ -155,6 +156,9 @@ struct Axis {
   /// A move by `distance_pulses`, signed, from where the axis is; what runs is dropped. 0 ends it and is over
   /// at once.
   Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
+  /// The same from a signed speed that the axis has already, by another generator: on to the target, or,
+  /// where it is too near or behind, to a stop and back to it.
+  Cause move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
   /// On and on in `way` (+1 or -1).
   Cause run(int way, const SpeedLaw& speed, Tick now);
   /// A move at speed 0: moving, but no pulse (Simple2-R3).

@@ -57,8 +57,11 @@ struct StateFields {
     auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
   }
   static void of(Like<Axis> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, ab, ac, ad, ae, af] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, ab, ac, ad, ae, af);
+    // As they lie in memory; in the bytes settings follow the drive.
+    auto& [a, b, c, d, e, f, g, h, signals, events_between, task, cause, last_direction, servo_on,
+           i, j, k, l, m, n, o, event_at, in_backlash, x, y, z, aa, ab, ac, ad, ae] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, signals, events_between, event_at, cause, last_direction,
+          servo_on, task, in_backlash, x, y, z, aa, ab, ac, ad, ae);
   }
   static void of(Like<SyncAction> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);

@@ -1,6 +1,7 @@
 #include "emulator/bench/bench_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "emulator/bench/bench_form.h"
 #include "emulator/bench/complaints.h"
 #include "emulator/bench/device_fields.h"
+#include "emulator/bench/disturbance_fields.h"
 #include "emulator/bench/machine_fields.h"
 #include "emulator/bench/names.h"
 #include "emulator/bench/yaml_fields.h"
@@ -55,8 +57,7 @@ class BenchReader {
       bench_.seed = static_cast<std::uint64_t>(seed.integer(kSeedForm));
     });
     check_devices();
-    if (unknown_.empty()) read_disturbances(root);
-    if (all_.count() == 0 && root.has("faults")) check_faults(root.at("faults").elements());
+    read_disturbances(root);
   }
 
   // --- devices -------------------------------------------------------------------------------
@@ -74,12 +75,12 @@ class BenchReader {
     if (find_device(name) >= 0)
       name_field.fail("two devices are called " + emulator::quoted(name) + "; expected a new name");
     unknown_.insert(name);
-    const std::size_t before = all_.count();
-    bench_.devices.push_back(read_device(fields, name, folder_, bench_, all_));
+    DeviceSetup device = read_device(fields, name, folder_, bench_, all_);
+    if (device.model == nullptr) throw Untold();
+    bench_.devices.push_back(std::move(device));
     unknown_.erase(name);
     device_fields_.push_back(fields);
     on_a_line_.push_back(false);
-    is_sound_.push_back(all_.count() == before);
     return bench_.devices.size() - 1;
   }
 
@@ -104,7 +105,12 @@ class BenchReader {
     lines.demand_map();
     if (lines.entries().empty()) lines.fail("has no line; expected at least one");
     for (const auto& [name, fields] : lines.entries()) {
-      all_.attempt([&, &called = name, &keys = fields] { read_line(called, keys); });
+      all_.attempt([&, &called = name, &keys = fields] {
+        const std::size_t before = all_.count();
+        unread_.insert(called);
+        read_line(called, keys);
+        if (all_.count() == before) unread_.erase(called);
+      });
     }
   }
 
@@ -182,13 +188,18 @@ class BenchReader {
       device = demand_device(station.at("device"), station.at("device").text());
     } else {
       all_.attempt([&] { station.demand_keys(kStationKeys); });
-      device = add_device(station.at("name"), station.at("name").text(), station);
+      const bool is_known =
+          all_.attempt([&] { device = add_device(station.at("name"), station.at("name").text(), station); });
+      if (!is_known) {
+        if (station.has("address"))
+          take_address(station, kAddressForm.lowest, kAddressForm.highest, addresses);
+        throw Untold();
+      }
     }
     if (on_a_line_[device]) station.fail("the device is on a line already; expected it on one line");
     on_a_line_[device] = true;
     DeviceSetup& setup = bench_.devices[device];
     setup.settings.baud = line.baud;
-    setup.settings.address = 1;
     const bool is_alone = setup.model->protocol() == Protocol::text;
     const auto is_text = [&](std::size_t other) {
       return bench_.devices[other].model->protocol() == Protocol::text;
@@ -201,17 +212,19 @@ class BenchReader {
     if (is_alone && station.has("address")) {
       station.at("address").fail(std::string(setup.model->name) + " has no station number; expected none");
     }
-    if (station.has("address")) {
-      const YamlFields address = station.at("address");
-      setup.settings.address = static_cast<int>(
-          address.integer(setup.model->rtu.lowest_address, setup.model->rtu.highest_address));
-    }
-    if (!addresses.insert(setup.settings.address).second) {
-      station.fail("address " + std::to_string(setup.settings.address) +
-                   " is taken on this line; expected another");
-    }
+    setup.settings.address =
+        take_address(station, setup.model->rtu.lowest_address, setup.model->rtu.highest_address, addresses);
     device_fields_[device] = station.has("device") ? device_fields_[device] : station;
     line.stations.push_back(device);
+  }
+
+  static int take_address(const YamlFields& station, std::int64_t lowest, std::int64_t highest,
+                          std::set<std::int64_t>& addresses) {
+    const std::int64_t address = station.has("address") ? station.at("address").integer(lowest, highest) : 1;
+    if (!addresses.insert(address).second) {
+      station.fail("address " + std::to_string(address) + " is taken on this line; expected another");
+    }
+    return static_cast<int>(address);
   }
 
   // --- plant and wires -------------------------------------------------------------------------
@@ -242,8 +255,10 @@ class BenchReader {
       fields.fail(emulator::quoted(axis_name) + " is no axis of " + std::string(model.name) +
                   "; expected one of " + axes);
     }
+    const std::size_t before = all_.count();
     bench_.machines.push_back(
         {.device = device, .axis = axis, .plant = read_machine(fields, model, axis, all_)});
+    if (all_.count() != before) unread_.insert(name);
   }
 
   /// A switch that is wired elsewhere may come upon another one.
@@ -258,7 +273,7 @@ class BenchReader {
         if (input < 0) continue;
         const std::string contact = name + "." + std::string(kContactNames[i]);
         const auto [other, is_free] = taken.emplace(std::pair(machine.device, input), contact);
-        if (is_free) continue;
+        if (is_free || unread_.contains(name)) continue;
         plant.at(name).fail(contact + " and " + other->second + " are both wired to " +
                             std::string(device.model->terminals[static_cast<std::size_t>(input)].name) +
                             "; expected one contact on an input, and `wires` for more");
@@ -328,6 +343,7 @@ class BenchReader {
       if (machine.device != device || machine.axis != axis) continue;
       if (PlantAxis(machine.plant).has_contact(made.from_contact)) return true;
     }
+    if (unread_.contains(name.substr(0, dot))) throw Untold();
     wire.fail("the machine on " + name.substr(0, dot) + " has no " + word + "; expected it in `plant`");
   }
 
@@ -338,21 +354,8 @@ class BenchReader {
       all_.attempt([&] {
         if (!on_a_line_[i] && has_all_lines)
           device_fields_[i].fail("the device is on no line; expected a station that names it");
-        if (is_sound_[i]) check_device(i);
       });
-    }
-  }
-
-  void check_device(std::size_t number) const {
-    const DeviceSetup& device = bench_.devices[number];
-    try {
-      make_device(*device.model, device.settings);
-    } catch (const SettingError& error) {
-      device_fields_[number].fail(error.what());
-    } catch (const NvError& error) {
-      device_fields_[number].fail(std::string("nv: ") + error.what());
-    } catch (const ProgramError& error) {
-      throw FileError(device.settings.program_name + ":" + std::to_string(error.line) + ": " + error.what());
+      judge_device(device_fields_[i], bench_.devices[i], all_);
     }
   }
 
@@ -369,34 +372,64 @@ class BenchReader {
     }
     all_.attempt([&] {
       if (!root.has("inputs")) return;
-      root.at("inputs").demand_map();
+      all_.attempt([&] { root.at("inputs").demand_map(); });
       for (const auto& [name, level] : root.at("inputs").entries()) {
         all_.attempt([&, &called = name, &field = level] {
+          if (names_unread(called)) throw Untold();
           bench_.inputs.push_back(read_input(field, called, known));
         });
       }
     });
     all_.attempt([&] {
-      if (!root.has("faults")) return;
-      for (const YamlFields& fault : root.at("faults").elements()) {
-        all_.attempt([&] { bench_.faults.push_back(read_fault(fault, known)); });
-      }
+      if (root.has("faults")) read_faults(root.at("faults").elements(), known);
     });
   }
 
-  /// What faults wait for, in a world without them.
-  void check_faults(const std::vector<YamlFields>& fields) {
-    const auto is_simple = [this](const Fault& fault) {
-      return bench_.devices[fault.device].model->protocol() == Protocol::modbus_rtu &&
-             fault.trigger.when.empty() && fault.kind != Fault::Kind::encoder_noise;
+  /// What they wait for is judged in a world without them.
+  void read_faults(const std::vector<YamlFields>& elements, const KnownDevices& known) {
+    std::vector<YamlFields> fields;
+    std::vector<std::optional<Fault>> faults;
+    for (const YamlFields& element : elements) {
+      if (has_unread(element)) continue;
+      fields.push_back(element);
+      faults.push_back(read_fault(element, known, all_));
+      if (faults.back()) bench_.faults.push_back(*faults.back());
+    }
+    const auto is_simple = [&](const std::optional<Fault>& fault) {
+      return fault && bench_.devices[fault->device].model->protocol() == Protocol::modbus_rtu &&
+             fault->trigger.when.empty() && fault->kind != Fault::Kind::encoder_noise &&
+             fault->kind != Fault::Kind::turn;
     };
-    if (std::all_of(bench_.faults.begin(), bench_.faults.end(), is_simple)) return;
+    if (std::all_of(faults.begin(), faults.end(), is_simple)) return;
     Bench whole = bench_;
     whole.faults.clear();
+    std::erase_if(whole.lines, [](const LineSetup& line) { return line.stations.empty(); });
     const World world(whole, {}, {});
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      all_.attempt([&] { demand_possible(fields[i], world, bench_.faults[i]); });
-    }
+    for (std::size_t i = 0; i < fields.size(); ++i) demand_possible(fields[i], world, faults[i], all_);
+  }
+
+  /// Whether a text names a part of the bench that could not be read, so that nothing can be said of it.
+  bool names_unread(std::string_view text) const {
+    const auto is_of_name = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    };
+    const auto is_named = [&](const std::string& name) {
+      for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || !is_of_name(text[at - 1])) && (end == text.size() || !is_of_name(text[end])))
+          return true;
+      }
+      return false;
+    };
+    return std::any_of(unknown_.begin(), unknown_.end(), is_named) ||
+           std::any_of(unread_.begin(), unread_.end(), is_named);
+  }
+  bool has_unread(const YamlFields& fault) const {
+    if (!fault.is_map()) return false;
+    const auto entries = fault.entries();
+    return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) {
+      return entry.second.is_scalar() && names_unread(entry.second.text());
+    });
   }
 
   std::optional<std::string> folder_;
@@ -404,7 +437,7 @@ class BenchReader {
   Complaints all_;
   Bench bench_;
   std::set<std::string> unknown_;          // devices that could not be read
-  std::vector<bool> is_sound_;             // by device: nothing is wrong with what is said of it
+  std::set<std::string> unread_;           // lines and machines ("feeder.A"), or parts of them
   std::vector<YamlFields> device_fields_;  // where each device was described
   std::vector<bool> on_a_line_;
 };

@@ -5,11 +5,13 @@
 #include <cctype>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "emulator/bench/bench_form.h"
 #include "emulator/device.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_real.h"
+#include "emulator/setting_entry.h"
 #include "emulator/suggestion.h"
 #include "emulator/text_file.h"
 
@@ -54,22 +56,23 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
   }
 }
 
-/// The path of an image, or the registers themselves: those have no file, so what changes lasts as long as
-/// the run.
-void read_nv(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
-             DeviceSetup& device, Complaints& complaints) {
-  if (field.is_map()) {
-    NvImage image{.model = std::string(device.model->name), .firmware = {}, .registers = {}};
-    field.demand_map();
-    for (const auto& [register_name, value] : field.entries()) {
-      complaints.attempt([&, &name = register_name, &field = value] {
-        if (device.model->protocol() == Protocol::text) return read_value_of_memory(name, field, image);
-        image.registers.emplace_back(name, field.integer(kRegisterValueForm));
-      });
-    }
-    device.settings.nv = std::move(image);
-    return;
+/// The registers of a memory, given in the bench: they have no file, so what changes lasts as long as the
+/// run.
+NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
+  NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
+  complaints.attempt([&] { field.demand_map(); });
+  for (const auto& [register_name, value] : field.entries()) {
+    complaints.attempt([&, &name = register_name, &number = value] {
+      if (model.protocol() == Protocol::text) return read_value_of_memory(name, number, image);
+      image.registers.emplace_back(name, number.integer(kRegisterValueForm));
+    });
   }
+  return image;
+}
+
+/// The path of an image.
+void read_nv_path(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
+                  DeviceSetup& device) {
   device.nv_path = path_in(folder, field);
   for (const DeviceSetup& other : bench.devices) {
     if (other.nv_path == device.nv_path) {
@@ -85,17 +88,47 @@ const Model& demand_model(const YamlFields& field) {
   field.fail(emulator::quoted(field.text()) + " is no model" + suggestion(field.text(), names));
 }
 
-void read_set(const YamlFields& field, const Model& model, DeviceSettings& settings, Complaints& complaints) {
-  field.demand_map();
+/// Without a model they are numbers at least.
+void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings, Complaints& complaints) {
+  complaints.attempt([&] { field.demand_map(); });
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
-      if (model.protocol() == Protocol::text) {
+      if (model == nullptr) {
+        demand_real(number);
+      } else if (model->protocol() == Protocol::text) {
         settings.assignments.emplace_back(name, demand_real(number));
       } else {
         settings.set.emplace_back(name, number.integer(kRegisterValueForm));
       }
     });
   }
+}
+
+/// Takes away what the model has refused. Whether it was there.
+bool take_away(const SettingError& error, DeviceSettings& settings, const Model& model) {
+  const std::string& setting = error.setting;
+  if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
+    const auto is_it = [&](const auto& pair) { return pair.first == of_entry->entry; };
+    if (setting == "choices") return std::erase_if(settings.choices, is_it) > 0;
+    if (setting == "dip") return std::erase_if(settings.dip, is_it) > 0;
+    return std::erase_if(settings.set, is_it) + std::erase_if(settings.assignments, is_it) > 0;
+  }
+  if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
+  if (setting == "modules") {  // those that there may be, for what is said of them
+    return std::exchange(settings.modules, model.most_modules) != model.most_modules;
+  }
+  if (setting == "address") return std::exchange(settings.address, model.rtu.lowest_address) != 0;
+  return std::exchange(settings.baud, 0) != 0;  // or switches that say another one
+}
+
+/// Where the setting is, or the device.
+[[noreturn]] void complain(const YamlFields& device, const SettingError& error) {
+  const auto field = device.find(error.setting);
+  if (!field) device.fail(error.what());
+  if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
+    if (const auto entry = field->find(of_entry->entry)) entry->fail(of_entry->complaint);
+  }
+  field->fail(std::string(error.what()).substr(error.setting.size() + 2));
 }
 
 }  // namespace
@@ -122,9 +155,9 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   DeviceSetup device;
   DeviceSettings& settings = device.settings;
   settings.name = name;
-  device.model = &demand_model(fields.at("model"));
+  complaints.attempt([&] { device.model = &demand_model(fields.at("model")); });
   const auto read = [&](const char* key, const auto& how) {
-    complaints.attempt([&] {
+    return complaints.attempt([&] {
       if (const auto field = fields.find(key)) how(*field);
     });
   };
@@ -133,20 +166,52 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
     if (settings.firmware == 0)
       field.fail(emulator::quoted(field.text()) + " is no version; expected one like \"1.52\"");
   });
-  read("modules",
-       [&](const YamlFields& field) { settings.modules = static_cast<int>(field.integer(kModulesForm)); });
-  read("set", [&](const YamlFields& field) { read_set(field, *device.model, settings, complaints); });
+  const bool knows_modules = read("modules", [&](const YamlFields& field) {
+    settings.modules = static_cast<int>(field.integer(kModulesForm));
+  });
+  if (!knows_modules && device.model != nullptr) settings.modules = device.model->most_modules;
+  read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, complaints); });
   read("dip", [&](const YamlFields& field) {
-    field.demand_map();
-    for (const auto& [dip, level] : field.entries()) settings.dip[dip] = level.on_or_off();
+    complaints.attempt([&] { field.demand_map(); });
+    for (const auto& [dip, level] : field.entries()) {
+      complaints.attempt([&, &of = dip, &is = level] { settings.dip[of] = is.on_or_off(); });
+    }
   });
   read("program", [&](const YamlFields& field) { read_program(field, folder, bench, settings); });
-  read("nv", [&](const YamlFields& field) { read_nv(field, folder, bench, device, complaints); });
+  read("nv", [&](const YamlFields& field) {
+    if (!field.is_map()) return read_nv_path(field, folder, bench, device);
+    if (device.model != nullptr) settings.nv = read_memory(field, *device.model, complaints);
+  });
   read("choices", [&](const YamlFields& field) {
-    field.demand_map();
-    for (const auto& [id, option] : field.entries()) settings.choices[id] = option.text();
+    complaints.attempt([&] { field.demand_map(); });
+    for (const auto& [id, option] : field.entries()) {
+      complaints.attempt([&, &of = id, &is = option] { settings.choices[of] = is.text(); });
+    }
   });
   return device;
+}
+
+void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& complaints) {
+  DeviceSettings& settings = device.settings;
+  bool is_asked = true;
+  while (is_asked) {
+    is_asked = false;
+    complaints.attempt([&] {
+      try {
+        make_device(*device.model, settings);
+      } catch (const SettingError& error) {
+        is_asked = take_away(error, settings, *device.model);
+        complain(fields, error);
+      } catch (const NvError& error) {
+        is_asked = std::exchange(settings.nv, std::nullopt).has_value();
+        if (const auto nv = fields.find("nv")) nv->fail(error.what());
+        fields.fail(std::string("nv: ") + error.what());
+      } catch (const ProgramError& error) {
+        is_asked = !std::exchange(settings.program, "").empty();
+        throw FileError(settings.program_name + ":" + std::to_string(error.line) + ": " + error.what());
+      }
+    });
+  }
 }
 
 }  // namespace understudy::emulator

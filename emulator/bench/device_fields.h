@@ -14,11 +14,14 @@ namespace understudy::emulator {
 /// A name that other names can be joined to with a dot.
 void demand_name(const YamlFields& field, const std::string& name);
 
-/// The entry of a device without its name. What is wrong is kept, but for an unknown model, without which
-/// there is no device: that throws FileError. Paths are relative to `folder`, and refused without one; files
-/// that are read are added to the bench, whose devices have other memories.
+/// The entry of a device without its name. All that is wrong is kept; with an unknown model the device has
+/// none. Paths are relative to `folder`, and refused without one; files that are read are added to the bench,
+/// whose devices have other memories.
 DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, Bench& bench, Complaints& complaints);
+
+/// Keeps all that the model refuses of a device, and takes it away: what is left suits the model.
+void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& complaints);
 
 /// A path in `folder`; refused without one.
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field);

@@ -43,7 +43,7 @@ class Eeprom {
   // --- its state as bytes (emulator/state/state_bytes.h) ---------------------------------------
   enum class Slot : std::uint8_t { not_kept, rests, waits };
   static void fields(auto& self, auto visit) {
-    auto& [kept, slots, jobs, rewriting, done_at, revision] = self;
+    auto& [done_at, revision, kept, slots, jobs, rewriting] = self;
     visit(kept, slots, jobs, rewriting, done_at, revision);
   }
   /// Throws StateError unless it can be a later state of `earlier`: of the same registers, with jobs that can
@@ -67,12 +67,12 @@ class Eeprom {
   void keep(std::size_t slot, std::uint32_t bits);
   void keep_all(std::span<const std::uint32_t> image);
 
+  Tick done_at_ = kNever;  // first: each tick looks at it
+  std::uint64_t revision_ = 0;
   std::vector<std::uint32_t> kept_;  // by slot
   std::vector<Slot> slots_;
   std::vector<Job> jobs_;                 // the first is being done
   std::vector<std::uint32_t> rewriting_;  // by slot, while everything is; else empty
-  Tick done_at_ = kNever;
-  std::uint64_t revision_ = 0;
 };
 
 }  // namespace understudy::emulator

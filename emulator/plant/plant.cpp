@@ -33,6 +33,33 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
   state_.lost_pulses += std::abs(pulses - steps);
   if (steps != 0) move(steps);
   step_drive(tick, inputs);
+  find_quiet_places();
+}
+
+void PlantAxis::find_quiet_places() {
+  disturb();
+  const bool steps_all = state_.faults == MachineFaults{} && state_.loses_one_in == 0 && !in_alarm();
+  if (setup_.drive || setup_.has_wheel || state_.ticks_to_turn != 0 || !steps_all) return;
+  const std::int64_t at = state_.position_pulses;
+  const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
+  std::int64_t from = stops.first;
+  std::int64_t to = stops.last;
+  // Where a switch that is on stays on, or one that is off stays off.
+  const auto stay = [&](bool is_on, PulseSpan on) {
+    if (is_on) {
+      from = std::max(from, on.first);
+      to = std::min(to, on.last);
+    } else if (at < on.first) {
+      to = std::min(to, on.first - 1);
+    } else {
+      from = std::max(from, on.last + 1);
+    }
+  };
+  if (setup_.home) stay(state_.at_home, home_span());
+  if (setup_.lower_limit) stay(state_.at_lower_limit, {-kFarthest_pulses, lower_limit_end()});
+  if (setup_.upper_limit) stay(state_.at_upper_limit, {upper_limit_end(), kFarthest_pulses});
+  quiet_from_ = from;
+  quiet_to_ = to;
 }
 
 std::int64_t PlantAxis::pulses_that_step(std::int64_t pulses) {
@@ -72,6 +99,7 @@ Tick PlantAxis::next_active_tick(Tick done) const {
 }
 
 void PlantAxis::turn(std::int64_t counts, Tick ticks) {
+  disturb();
   // What is left of the turn before goes with the new one.
   state_.turn_counts = state_.turn_counts - turned(state_) + counts;
   state_.turn_ticks = state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
@@ -107,7 +135,10 @@ bool PlantAxis::contact(Contact which) const {
   }
 }
 
-void PlantAxis::move(std::int64_t steps) { state_.lost_pulses += std::abs(steps - shift(steps)); }
+void PlantAxis::move(std::int64_t steps) {
+  disturb();
+  state_.lost_pulses += std::abs(steps - shift(steps));
+}
 
 std::int64_t PlantAxis::shift(std::int64_t steps) {
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
@@ -120,17 +151,24 @@ std::int64_t PlantAxis::shift(std::int64_t steps) {
 void PlantAxis::move_switches() {
   const std::int64_t at = state_.position_pulses;
   if (setup_.home) {
-    const std::int64_t wider = state_.at_home ? setup_.home_hysteresis_pulses : 0;
-    state_.at_home = at >= setup_.home->first - wider && at <= setup_.home->last + wider;
+    const PulseSpan on = home_span();
+    state_.at_home = at >= on.first && at <= on.last;
   }
-  if (setup_.lower_limit) {
-    const std::int64_t wider = state_.at_lower_limit ? setup_.limit_hysteresis_pulses : 0;
-    state_.at_lower_limit = at <= *setup_.lower_limit + wider;
-  }
-  if (setup_.upper_limit) {
-    const std::int64_t wider = state_.at_upper_limit ? setup_.limit_hysteresis_pulses : 0;
-    state_.at_upper_limit = at >= *setup_.upper_limit - wider;
-  }
+  if (setup_.lower_limit) state_.at_lower_limit = at <= lower_limit_end();
+  if (setup_.upper_limit) state_.at_upper_limit = at >= upper_limit_end();
+}
+
+PulseSpan PlantAxis::home_span() const {
+  const std::int64_t wider = state_.at_home ? setup_.home_hysteresis_pulses : 0;
+  return {setup_.home->first - wider, setup_.home->last + wider};
+}
+
+std::int64_t PlantAxis::lower_limit_end() const {
+  return *setup_.lower_limit + (state_.at_lower_limit ? setup_.limit_hysteresis_pulses : 0);
+}
+
+std::int64_t PlantAxis::upper_limit_end() const {
+  return *setup_.upper_limit - (state_.at_upper_limit ? setup_.limit_hysteresis_pulses : 0);
 }
 
 void PlantAxis::check(const State& state) {
@@ -153,22 +191,29 @@ void PlantAxis::check(const State& state) {
 void PlantAxis::restore(const State& state) {
   check(state);
   state_ = state;
+  disturb();
+}
+
+std::uint64_t PlantAxis::Encoder::wide_counts_at(std::int64_t position_pulses) const {
+  // Whole revolutions and the rest of one, so that nothing overflows but the count itself.
+  const std::int64_t at = position_pulses - pulses_at_0;
+  const std::int64_t per_revolution = pulses_per_revolution;
+  const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);
+  const std::int64_t rest = at - revolutions * per_revolution;
+  const auto counts_each = static_cast<std::uint64_t>(counts_per_revolution);
+  const std::uint64_t counts =
+      static_cast<std::uint64_t>(revolutions) * counts_each +
+      static_cast<std::uint64_t>(rest) * counts_each / static_cast<std::uint64_t>(per_revolution);
+  return reversed ? 0 - counts : counts;
 }
 
 std::int64_t PlantAxis::encoder_counts() const {
-  // Whole revolutions and the rest of one, so that nothing overflows but the count itself.
-  const std::int64_t at = state_.position_pulses - setup_.position_pulses;
-  const std::int64_t per_revolution = setup_.pulses_per_revolution;
-  const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);
-  const std::int64_t rest = at - revolutions * per_revolution;
-  const auto counts_per_revolution = static_cast<std::uint64_t>(setup_.encoder_counts_per_revolution);
-  std::uint64_t counts = static_cast<std::uint64_t>(revolutions) * counts_per_revolution;
-  counts +=
-      static_cast<std::uint64_t>(rest) * counts_per_revolution / static_cast<std::uint64_t>(per_revolution);
-  if (setup_.has_wheel) counts = static_cast<std::uint64_t>(state_.wheel_counts);
-  if (setup_.encoder_reversed) counts = 0 - counts;
-  counts += static_cast<std::uint64_t>(state_.faults.encoder_noise_counts);
-  return static_cast<std::int64_t>(counts << 2) >> 2;  // its low 62 bits, with their sign
+  std::uint64_t counts = encoder_.wide_counts_at(state_.position_pulses);
+  if (setup_.has_wheel) {
+    counts = static_cast<std::uint64_t>(state_.wheel_counts);
+    if (encoder_.reversed) counts = 0 - counts;
+  }
+  return Encoder::in_62_bits(counts + static_cast<std::uint64_t>(state_.faults.encoder_noise_counts));
 }
 
 }  // namespace understudy::emulator

@@ -77,9 +77,14 @@ struct DriveInputs {
   bool alarm_clear = false;
 };
 
-class PlantAxis {
+class alignas(64) PlantAxis {
  public:
-  explicit PlantAxis(PlantSetup setup = {}) : setup_(setup) {
+  explicit PlantAxis(PlantSetup setup = {})
+      : encoder_{.pulses_at_0 = setup.position_pulses,
+                 .counts_per_revolution = setup.encoder_counts_per_revolution,
+                 .pulses_per_revolution = setup.pulses_per_revolution,
+                 .reversed = setup.encoder_reversed},
+        setup_(setup) {
     state_.position_pulses = setup_.position_pulses;
     move_switches();
   }
@@ -88,11 +93,22 @@ class PlantAxis {
   void move(std::int64_t steps);
   /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
+  /// The same for a tick in which nothing changes but the place, and the encoder with it, as almost every
+  /// tick is: it costs one cache line. False for any other, and nothing is done then.
+  bool step_quietly(std::int64_t pulses) {
+    const std::int64_t place = state_.position_pulses + pulses;
+    if (place < quiet_from_ || place > quiet_to_) return false;
+    state_.position_pulses = place;
+    return true;
+  }
   /// The wheel of the encoder, evenly over so many ticks from the next one on; what is left of a turn before
   /// joins it.
   void turn(std::int64_t counts, Tick ticks);
-  MachineFaults& faults() { return state_.faults; }
-  void set_faults(const MachineFaults& faults) { state_.faults = faults; }
+  MachineFaults& faults() {
+    disturb();
+    return state_.faults;
+  }
+  void set_faults(const MachineFaults& faults) { this->faults() = faults; }
   const MachineFaults& faults() const { return state_.faults; }
 
   std::int64_t position_pulses() const { return state_.position_pulses; }
@@ -107,11 +123,13 @@ class PlantAxis {
   /// Whether a contact is closed. One that the machine does not have is open.
   bool contact(Contact which) const;
   bool has_contact(Contact which) const;
-  bool has_encoder() const { return setup_.encoder_counts_per_revolution != 0; }
+  bool has_encoder() const { return encoder_.counts_per_revolution != 0; }
   /// From where the machine stood at first. Rounded towards minus infinity, so that a slow turn through 0
   /// counts evenly; a reversed encoder counts the same edges the other way. Wraps at 62 bits, so that the
   /// difference of two fits.
   std::int64_t encoder_counts() const;
+  /// The same after a quiet step.
+  std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
 
   /// The first tick after `done` at which something changes by itself; kNever if nothing does.
   Tick next_active_tick(Tick done) const;
@@ -146,15 +164,48 @@ class PlantAxis {
   void restore(const State& state);
 
  private:
+  /// Of the setup what an encoder's count is made from.
+  struct Encoder {
+    std::int64_t pulses_at_0 = 0;
+    int counts_per_revolution = 0;
+    int pulses_per_revolution = 1;
+    bool reversed = false;
+
+    /// Modulo 2^64.
+    std::uint64_t wide_counts_at(std::int64_t position_pulses) const;
+    std::int64_t counts_at(std::int64_t position_pulses) const {
+      return in_62_bits(wide_counts_at(position_pulses));
+    }
+    static std::int64_t in_62_bits(std::uint64_t counts) {
+      return static_cast<std::int64_t>(counts << 2) >> 2;  // the low ones, with their sign
+    }
+  };
+
+  /// The next tick has to look at everything.
+  void disturb() {
+    quiet_from_ = 1;
+    quiet_to_ = 0;
+  }
+  /// Finds out how far it may go before it has to.
+  void find_quiet_places();
   /// How much of it there was room for.
   std::int64_t shift(std::int64_t steps);
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);
   void turn_wheel();
   void move_switches();
+  // Where the switches are on, as they stand now: one that is on lets go later than it came on.
+  PulseSpan home_span() const;
+  std::int64_t lower_limit_end() const;
+  std::int64_t upper_limit_end() const;
 
-  PlantSetup setup_;
+  // What a quiet tick needs is on the first cache line, `position_pulses` included. The quiet places are no
+  // state: they follow from it.
+  std::int64_t quiet_from_ = 1;
+  std::int64_t quiet_to_ = 0;
+  Encoder encoder_;
   State state_;
+  PlantSetup setup_;
 };
 
 }  // namespace understudy::emulator

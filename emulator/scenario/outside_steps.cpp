@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "emulator/bench/machine_fields.h"
+#include "emulator/bench/disturbance_fields.h"
 #include "emulator/memory/nv_file.h"
 #include "emulator/one_line.h"
 #include "emulator/scenario/step_forms.h"
@@ -43,8 +43,7 @@ void read_inputs(StepsReader& reader, const YamlFields& step, const YamlFields& 
 
 void read_inject(StepsReader& reader, const YamlFields& step, const YamlFields& value) {
   InjectStep inject;
-  inject.fault = read_fault(value, reader.trial().known(), "name");
-  reader.trial().demand_fault(value, inject.fault);
+  inject.fault = reader.trial().fault(value, "name");
   const std::string fault = to_text(reader.trial().known(), inject.fault);
   inject.name = fault;
   auto& in_force = reader.story().faults;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "emulator/bench/yaml_fields.h"
 #include "emulator/probe/probes.h"
@@ -35,8 +36,8 @@ class Trial {
   /// Text for a register map's device: a program, or an image of its memory.
   void demand_program(const YamlFields& field, std::size_t device, const std::string& text,
                       const std::string& name) const;
-  /// A fault that this world can have: what it waits for is there.
-  void demand_fault(const YamlFields& field, const Fault& fault) const;
+  /// A fault that this world can have: what it waits for is there. `other_key` is for others.
+  Fault fault(const YamlFields& field, std::string_view other_key) const;
   void demand_memory(const YamlFields& field, std::size_t device, const NvImage& image) const;
 
  private:

@@ -1,6 +1,8 @@
 // Whether a world can have a fault.
 #pragma once
 
+#include <string>
+
 #include "emulator/faults/fault.h"
 
 namespace understudy::emulator {
@@ -10,5 +12,7 @@ class World;
 /// NameError for one that it cannot have: a condition that it does not understand, noise on an encoder that
 /// is not there.
 void check_fault(const World& world, const Fault& fault);
+/// The condition alone: NameError for one that it does not understand.
+void check_condition(const World& world, const std::string& when);
 
 }  // namespace understudy::emulator

@@ -151,12 +151,20 @@ void check_fault(const World& world, const Fault& fault) {
   }
   demand_of_protocol(world.known()[fault.device], fault);
   if (fault.trigger.when.empty()) return;
+  try {
+    check_condition(world, fault.trigger.when);
+  } catch (const NameError& error) {
+    throw FaultFieldError(std::string(fault_kind(fault.kind).name), "when", error.what());
+  }
+}
+
+void check_condition(const World& world, const std::string& when) {
   const Probes probes(world);
   try {
-    const Expression condition = parse_condition(fault.trigger.when, probes);
+    const Expression condition = parse_condition(when, probes);
     for (const Expression::Name& name : condition.names) demand_value(probes, name);
   } catch (const std::runtime_error& error) {
-    throw FaultFieldError(std::string(fault_kind(fault.kind).name), "when", error.what());
+    throw NameError(error.what());
   }
 }
 

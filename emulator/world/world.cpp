@@ -218,10 +218,9 @@ void World::run_tick() {
 /// is.
 void World::prefetch_device(std::size_t number) const {
   if (number >= devices_.size()) return;
-  if (number + 2 < devices_.size()) __builtin_prefetch(devices_[number + 2].get());
+  if (number + 2 < devices_.size()) prefetch_line(devices_[number + 2].get());
   devices_[number]->prefetch(done_);
-  prefetch(plants_[number].data(), plants_[number].size() * sizeof(PlantAxis));
-  prefetch(inputs_[number].data(), inputs_[number].size() * sizeof(Input));
+  for (const PlantAxis& plant : plants_[number]) prefetch_line(&plant);
   prefetch(sent_pulses_[number].data(), sent_pulses_[number].size() * sizeof(std::int64_t));
 }
 
@@ -241,11 +240,18 @@ void World::run_device(std::size_t number) {
 void World::step_plant(std::size_t number) {
   Device& device = *devices_[number];
   const auto axes = device.model().axes;
+  bool all_quiet = true;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     PlantAxis& plant = plants_[number][a];
     const AxisRow& axis = axes[a];
     const std::int64_t pulses = device.pulses_this_tick(static_cast<int>(a));
     sent_pulses_[number][a] += pulses;
+    if (plant.step_quietly(pulses)) {
+      const bool has_turned = pulses != 0 && plant.has_encoder();
+      if (has_turned) device.set_encoder(static_cast<int>(a), plant.quiet_encoder_counts());
+      continue;
+    }
+    all_quiet = false;
     DriveInputs outputs;
     if (plant.has_drive()) {
       const auto driven = [&](int terminal) { return terminal >= 0 && device.output(terminal); };
@@ -258,6 +264,7 @@ void World::step_plant(std::size_t number) {
       device.set_encoder(static_cast<int>(a), plant.encoder_counts());
     }
   }
+  if (all_quiet) return;  // no contact has changed
   for (const ContactWire& wire : contacts_[number]) {
     bool& is_on = inputs_[number][static_cast<std::size_t>(wire.input)].plant;
     const bool level = plants_[number][wire.axis].contact(wire.contact);

@@ -84,6 +84,13 @@ struct Dialect {
     with_sign
   } timer_compare = TimerCompare::without_sign;
 
+  /// A line that waits for a move, and that move is ended by something else before its end: the line is over
+  /// (unless the machine goes on calling it moving), or the program is.
+  enum class WaitCutShort : std::uint8_t {
+    line_is_over,
+    program_ends
+  } wait_cut_short = WaitCutShort::line_is_over;
+
   bool operator==(const Dialect&) const = default;
 };
 

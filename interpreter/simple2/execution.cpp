@@ -83,6 +83,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
       return go_on_at(execution, number, dialect);
     case Then::end: return finish(execution, Ending::end_instruction);
     case Then::end_for_nested_loop: return finish(execution, Ending::nested_loop);
+    case Then::end_for_cut_wait: return finish(execution, Ending::wait_cut_short);
   }
 }
 
@@ -130,6 +131,10 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
       break;
     case Phase::move:
       if (waited_for_move_goes_on(execution, machine)) return;
+      if (dialect.wait_cut_short == Dialect::WaitCutShort::program_ends &&
+          wait_is_cut_short(execution, machine)) {
+        return finish(execution, Ending::wait_cut_short);
+      }
       execution.phase = Phase::line;
       execution.waits_for_a = false;
       execution.waits_for_b = false;

@@ -24,6 +24,7 @@ enum class Ending : std::uint8_t {
   unknown_command,
   undefined_operand,
   stopped,  // from outside
+  wait_cut_short,
 };
 
 /// What the next slot begins with.
@@ -50,7 +51,7 @@ struct Execution {
   std::uint16_t next_line = 0;          // from 256 on: past the last one
   Phase phase = Phase::line;
   std::int64_t delay_until_ms = 0;
-  bool waits_for_a = false;
+  bool waits_for_a = false;  // for a move that it has started, or (by WaitCutShort) for any
   bool waits_for_b = false;
   bool waits = false;  // the line at work was tested and holds the program; kept where a choice asks for it
   LoopState loop = {};

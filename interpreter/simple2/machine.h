@@ -36,6 +36,8 @@ class Machine {
   virtual bool moving(Axis axis) const = 0;
   /// The same as Wait_Move_* asks for it: whether homing is a move to it is the machine's business.
   virtual bool moving_for_wait(Axis axis) const { return moving(axis); }
+  /// Whether the last position move or homing that was accepted has ended before its end.
+  virtual bool cut_short(Axis) const { return false; }
   /// For the next position move: 0 to 32768 RPM.
   virtual void set_speed(Axis axis, std::int32_t rpm) = 0;
   /// For the next position move: 0 to 3000, in 10 ms.

@@ -51,6 +51,7 @@ bool is_let_through(const CommandRow& row) {
     case Verb::abandon_all:
     case Verb::pause:
     case Verb::redo:
+    case Verb::clear_buffer:
     case Verb::set_port_now:
     case Verb::clear_port_now:
     case Verb::servo_on_now:
@@ -78,7 +79,8 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
     case Place::external:
       // It leaves a running program: nowhere else has it a meaning.
       if (row.external == Printed::yes || row.verb == Verb::exit) return true;
-      return columns.external == Columns::External::lenient && is_let_through(row);
+      if (row.verb == Verb::reset) return columns.external == Columns::External::with_reset;
+      return columns.external != Columns::External::strict && is_let_through(row);
   }
   return false;
 }

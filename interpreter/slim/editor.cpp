@@ -59,9 +59,15 @@ Error enter_line(Editor& editor, Program& program, std::string_view text, const 
   }
   // Ignored where empty lines end nothing; a file sent by a terminal may have them.
   if (without_blanks(text).empty()) return Error::none;
+  const auto one_line = [&](Error error) {
+    const bool is_over =
+        error == Error::none || options.refused_line == ProgramOptions::RefusedLine::ends_pe_and_pi;
+    if (is_over) editor = {};
+    return error;
+  };
   switch (at_work.mode) {
-    case Editor::Mode::replace: editor = {}; return program.replace(at_work.line, text, options);
-    case Editor::Mode::insert: editor = {}; return program.insert(at_work.line, text, options);
+    case Editor::Mode::replace: return one_line(program.replace(at_work.line, text, options));
+    case Editor::Mode::insert: return one_line(program.insert(at_work.line, text, options));
     case Editor::Mode::download:
     case Editor::Mode::lines: return program.insert(program.size(), text, options);
     case Editor::Mode::none: break;

@@ -14,8 +14,8 @@ struct Editor {
   enum class Mode : std::uint8_t {
     none,
     lines,     // PG, PA: all, until an empty line (unless those are ignored), EXIT or ESC
-    replace,   // PE: the next one, in place of `line`
-    insert,    // PI: the next one, before `line`
+    replace,   // PE: the next good one, in place of `line`
+    insert,    // PI: the next good one, before `line`
     download,  // DLP: all, until END, EXIT or ESC
   } mode = Mode::none;
   int line = 0;  // from 0
@@ -29,8 +29,8 @@ constexpr bool is_editing(const Editor& editor) { return editor.mode != Editor::
 Error begin_edit(Editor& editor, Program& program, const Command& command,
                  const ProgramOptions& options = {});
 
-/// A line that arrives while editing. With an error the line is not stored; PE and PI are over all the same.
-/// A line that contains ESC (0x1B) ends the editing and is not stored.
+/// A line that arrives while editing. With an error the line is not stored, and editing goes on: what comes
+/// next is meant for the program, too. A line that contains ESC (0x1B) ends the editing and is not stored.
 Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options = {});
 
 /// The number that the next line gets, for a prompt.

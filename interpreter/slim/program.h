@@ -29,6 +29,11 @@ struct ProgramOptions {
   Error (*check_command)(const Command& command) = nullptr;
   /// An empty line while a program is entered.
   enum class EmptyLine : std::uint8_t { ends_editing, is_ignored } empty_line = EmptyLine::ends_editing;
+  /// A line that is refused after PE or PI: they wait for another one, or are over.
+  enum class RefusedLine : std::uint8_t {
+    is_asked_for_again,
+    ends_pe_and_pi
+  } refused_line = RefusedLine::is_asked_for_again;
   /// A line with a label that another line has already: refused, or only the first one is ever found.
   enum class SameLabel : std::uint8_t { refused, first_counts } same_label = SameLabel::refused;
   /// What PL shows: "0: MA 100", or the line as it is.

@@ -26,6 +26,54 @@ TEST(AxisChange, ASpeedChangedInTheMidstIsReachedAlongTheRamp) {
   EXPECT_EQ(course.steps(100), 500);
 }
 
+TEST(AxisChange, AMoveTakesOverASpeedThatThereIs) {
+  // From 1000 to 1000: 450 at speed, and 50 in 100 ms to stop. At once, without a tick in between.
+  for (const int way : {+1, -1}) {
+    AxisCourse course;
+    course.steps(10);
+    ASSERT_EQ(course.axis.move_on(way * 1000.0, way * 500, trapezoid(1000, 10'000), course.now), Cause::none);
+    EXPECT_EQ(course.steps(100), way * 100);
+    EXPECT_EQ(course.until_rest(), 350 + 100);
+    EXPECT_EQ(course.travel(), way * 500);
+    EXPECT_EQ(course.axis.cause, Cause::arrived);
+    // Faster than it is to be: 150 in 100 ms down to 1000, 800 ms there, 50 down.
+    AxisCourse faster;
+    ASSERT_EQ(faster.axis.move_on(way * 2000.0, way * 1000, trapezoid(1000, 10'000), 0), Cause::none);
+    EXPECT_EQ(faster.until_rest(), 100 + 800 + 100);
+    EXPECT_EQ(faster.travel(), way * 1000);
+    // The other way, and too near: 50 further to a stop, and back.
+    for (const int distance : {-100, 20}) {
+      AxisCourse back;
+      ASSERT_EQ(back.axis.move_on(way * 1000.0, way * distance, trapezoid(1000, 10'000), 0), Cause::none);
+      EXPECT_EQ(back.steps(100), way * 50);
+      EXPECT_GT(back.until_rest(), 0);
+      EXPECT_EQ(back.travel(), way * distance);
+      EXPECT_EQ(back.axis.cause, Cause::arrived);
+      EXPECT_EQ(back.endings, 1);
+    }
+  }
+}
+
+TEST(AxisChange, AMoveTakesOverWhatItMayAlone) {
+  AxisCourse course;
+  course.axis.switch_servo(false);
+  EXPECT_EQ(course.axis.move_on(1000, 500, trapezoid(1000, 10'000), 0), Cause::servo_off);
+  EXPECT_FALSE(course.axis.moving());
+  course.axis.switch_servo(true);
+  course.axis.signals = bit(Signal::limit_minus);
+  const Axis before = course.axis;
+  EXPECT_EQ(course.axis.move_on(1000, -500, trapezoid(1000, 10'000), 0), Cause::limit_minus);
+  EXPECT_EQ(course.axis.move_on(-1000, 500, trapezoid(1000, 10'000), 0), Cause::limit_minus);
+  EXPECT_THROW(course.axis.move_on(1000, 500, trapezoid(0, 10'000), 0), BadMotion);
+  EXPECT_EQ(course.axis, before);
+  // Without a speed it is a move, and a distance of 0 is over.
+  EXPECT_EQ(course.axis.move_on(0, 500, trapezoid(1000, 10'000), 0), Cause::none);
+  EXPECT_EQ(course.until_rest(), 601);
+  EXPECT_EQ(course.travel(), 500);
+  EXPECT_EQ(course.axis.move_on(1000, 0, trapezoid(1000, 10'000), course.now), Cause::none);
+  EXPECT_FALSE(course.axis.moving());
+}
+
 TEST(AxisChange, AMoveStillEndsOnItsTargetWhateverTheSpeedBecomes) {
   for (Tick when = 0; when <= 1100; when += 13) {
     for (const double speed : {500.0, 10'000.0, 77'777.0}) {

@@ -101,16 +101,9 @@ void remember_encoder(AxisState& axis, Tick tick) {
 }
 
 void prefetch(const AxisState& axis, Tick tick) {
-  emulator::prefetch(&axis.motor, 128);  // all that the middle of a move needs
-  emulator::prefetch(axis.motor.signals);
-  emulator::prefetch(axis.motor.task);
-  emulator::prefetch(&axis.signals,
-                     1);  // of them all a tick compares the first; the others follow at an edge
-  const auto* const mode = reinterpret_cast<const char*>(&axis.mode);
-  emulator::prefetch(mode,
-                     static_cast<std::size_t>(reinterpret_cast<const char*>(&axis.encoder_history) - mode));
-  emulator::prefetch(axis.encoder_history[ring_place(tick)]);
-  emulator::prefetch(axis.encoder_changed);
+  emulator::prefetch(&axis.motor, 2 * kCacheLine);  // all that the middle of a move needs
+  prefetch_line(&axis.mode);
+  prefetch_line(&axis.encoder_history[ring_place(tick)]);
 }
 
 Doing doing(const AxisState& axis) {

@@ -18,39 +18,41 @@ enum class Mode : std::uint8_t { position = 0, velocity = 1, pwm = 2, sync = 3 }
 /// Whose trigger register reads 1.
 enum class Command : std::uint8_t { none, incremental, absolute, homing };
 
-struct AxisState {
+/// What a tick needs lies side by side: the beginning of `motor` on two cache lines, and one line from `mode`
+/// to the beginning of `signals` (a test looks at it). In a crowd every line more costs time.
+struct alignas(64) AxisState {
   motion::Axis motor;
-  motion::Surroundings signals;  // the inputs that the motor meets, by their functions
-  Mode mode = Mode::position;
+
+  alignas(64) Mode mode = Mode::position;
   Command command = Command::none;
   bool homed = false;
   bool has_own_speed = false;  // the move that runs was started with Speed, AccTime and DecTime of the axis
   bool by_trigger = false;     // ... and by the trigger register itself
   bool cut_short = false;      // the last move or homing ended before its end
   bool alarm_latched = false;  // where a choice has the alarm outlast its input
+  std::uint8_t pwm_percent = 0;
   std::int32_t coordinate_pulses = 0;
-  std::int64_t pulses_this_tick = 0;  // as they leave the device: after DIR_Polarity
-  Tick alarm_clear_until = 0;         // the first tick at which ACLR is over
+  std::uint32_t velocity_step_urpm = 1;  // as the last velocity command found it, for a choice that has it so
+  std::int64_t pulses_this_tick = 0;     // as they leave the device: after DIR_Polarity
+  Tick alarm_clear_until = 0;            // the first tick at which ACLR is over
+  std::int64_t encoder_raw = 0;          // as the plant has it
+  std::int64_t encoder_counts = 0;       // since power-up, each by the polarity of its moment
+  // For ENCx_RPM: when the counts last changed.
+  static constexpr Tick kSpeedWindow = 100;
+  Tick encoder_changed = -kSpeedWindow;
+  motion::Surroundings signals;  // the inputs that the motor meets, by their functions
 
   // What velocity and PWM mode are to do. While a limit or an alarm forbids it, it waits; what does not wait
   // is set to 0 then (reactions.h).
   std::int64_t target_urpm = 0;  // 1000 a mRPM
   std::int64_t speed_urpm = 0;
-  // As the last velocity command found them, for a choice that has it so.
-  std::uint32_t velocity_resolution = 1;
-  std::uint32_t velocity_step_urpm = 1;
-  std::int64_t velocity_phase = 0;  // of the pulse being made, in 1 / kVelocityPhase
+  std::int64_t velocity_phase = 0;        // of the pulse being made, in 1 / kVelocityPhase
+  std::uint32_t velocity_resolution = 1;  // as velocity_step_urpm
 
-  std::uint8_t pwm_percent = 0;
-
-  std::int64_t encoder_raw = 0;       // as the plant has it
-  std::int64_t encoder_counts = 0;    // since power-up, each by the polarity of its moment
   std::int64_t encoder_preset = 0;    // what a write to ENCx added
   std::int64_t encoder_followed = 0;  // counts that sync mode has taken
-  // For ENCx_RPM: the counts at the ends of the last ticks, in a ring by tick, and when they last changed.
-  static constexpr Tick kSpeedWindow = 100;
+  // For ENCx_RPM: the counts at the ends of the last ticks, in a ring by tick.
   std::array<std::int64_t, kSpeedWindow + 1> encoder_history{};
-  Tick encoder_changed = -kSpeedWindow;
 
   bool operator==(const AxisState&) const = default;
 };

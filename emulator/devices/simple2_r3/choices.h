@@ -161,7 +161,11 @@ inline constexpr ChoiceRow kChoices[] = {
      "velocity, PWM or sync mode commanded during a position move or homing", "replaces|ignored", kProposal,
      "the last command wins"},
     {"move_in_other_mode", "運動相關", "a position move or homing commanded in velocity, PWM or sync mode",
-     "replaces|ignored", kProposal, "what runs ends at once, in mode 0, and the move begins from standstill"},
+     "replaces|ignored|goes_on_from_the_speed", kProposal,
+     "what runs ends at once, in mode 0, and the move begins from standstill; from_the_speed: a move from "
+     "velocity "
+     "or sync mode, by its own ramps, turning round where it must. PWM has no speed, and homing begins at "
+     "rest"},
     {"incremental_while_moving", "附錄 A", "from where an incremental move counts that replaces a move",
      "present_place|old_target", kProposal, "the old move is dropped, and its rest with it"},
     {"speed_while_moving", "運動相關",
@@ -282,8 +286,9 @@ inline constexpr ChoiceRow kChoices[] = {
     {"undefined_flag", "旗標", "a jump or a Loop to flag 0, or to one beyond 64", "line_0|line_void",
      kProposal, "as to a flag that no line has; 1 to 64 are said to be the only ones that count"},
     {"wait_cut_short", "程式指令列表",
-     "a line that waits for a move which an alarm, a limit, STOP or SVOFF ends", "goes_on|waits_on",
-     kProposal, "the axis no longer moves; waits_on: until a later move gets to its end"},
+     "a line that waits for a move which an alarm, a limit, STOP or SVOFF ends",
+     "goes_on|waits_on|program_ends", kProposal,
+     "the axis no longer moves; waits_on: until a later move gets to its end"},
     {"wait_move_homing", "程式指令列表", "whether Wait_Move_* waits for homing", "waits|does_not_wait",
      kProposal, "position moves are named; homing is in position mode. The other modes are not waited for"},
     {"unknown_command", "程式指令列表", "a command that the list does not have", "does_nothing|ends",

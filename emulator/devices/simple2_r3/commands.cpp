@@ -68,6 +68,14 @@ bool Simple2R3::may_begin(int axis_number, Outcome outcome, const KeptCommand& w
   }
 }
 
+/// In velocity and sync mode, signed as the axis goes: 0 where a limit is in the way.
+double Simple2R3::speed_of_pulses(int axis_number) const {
+  const AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
+  const double speed_pps = simple2_r3::speed_pps(axis, now(), resolution_in_velocity(axis_number));
+  const bool is_free = axis.motor.forbidden(speed_pps < 0 ? -1 : +1) == motion::Cause::none;
+  return is_free ? speed_pps : 0;
+}
+
 void Simple2R3::start_move(int axis_number, Command command, const MoveParameters& move) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   if (lacks_ready(axis_number)) return;
@@ -82,16 +90,18 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   const Event event = distance_pulses == 0
                           ? Event::move_away
                           : way_event(axis_number, direction, Event::move_towards, Event::move_away);
-  if (!may_begin(axis_number, reaction(axis_number, event), {.command = command, .move = move})) return;
+  const Outcome outcome = reaction(axis_number, event);
+  if (!may_begin(axis_number, outcome, {.command = command, .move = move})) return;
+  const double speed_pps = outcome == Outcome::changes ? speed_of_pulses(axis_number) : 0;
   stop_drive(axis);
   axis.cut_short = false;
   if (distance_pulses == 0) return;
-  const motion::Cause refused = move.speed_rpm == 0
-                                    ? axis.motor.hang(direction)
-                                    : axis.motor.move(distance_pulses,
-                                                      law_of(axis_number, move.speed_rpm,
-                                                             move.acceleration_10ms, move.deceleration_10ms),
-                                                      tick_before_motion());
+  const motion::SpeedLaw law =
+      law_of(axis_number, move.speed_rpm, move.acceleration_10ms, move.deceleration_10ms);
+  const motion::Cause refused = move.speed_rpm == 0 ? axis.motor.hang(direction)
+                                : speed_pps != 0
+                                    ? axis.motor.move_on(speed_pps, distance_pulses, law, now())
+                                    : axis.motor.move(distance_pulses, law, tick_before_motion());
   if (refused != motion::Cause::none) return;
   axis.command = command;
   axis.has_own_speed = move.of_the_axis;
@@ -197,7 +207,7 @@ void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
 }
 
 std::int64_t Simple2R3::followed_count(int axis) const {
-  return state_.axes[static_cast<std::size_t>(chose(kSyncFollowsOther) ? 1 - axis : axis)].encoder_counts;
+  return state_.axes[static_cast<std::size_t>(sync_follows_other_ ? 1 - axis : axis)].encoder_counts;
 }
 
 motion::Follower Simple2R3::sync_follower(int axis_number) const {

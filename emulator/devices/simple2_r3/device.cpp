@@ -39,6 +39,8 @@ Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), 
   velocity_pulses_first_ = chose(kVelocityPulsesFirst);
   velocity_settings_latched_ = chose(kVelocitySettingsLatched);
   stops_with_encoder_ = chose(kStopsWithEncoder);
+  sync_follows_other_ = chose(kSyncFollowsOther);
+  counts_physical_sense_ = firmware() <= 140;
   boot_ticks_ = chose(kBoot100ms) ? 100 : chose(kBoot1s) ? 1000 : 0;
   state_.eeprom = factory_memory();
   set_input(kFirstSwitch, settings().baud == simple2_r3::model().rtu.bauds.back() ? 1 : 0);  // DIP1
@@ -160,6 +162,7 @@ std::uint16_t Simple2R3::input_levels() const {
 }
 
 void Simple2R3::sample_inputs(Tick) {
+  if (!take_inputs_changed()) return;
   const std::uint16_t levels = input_levels();
   if (levels != state_.inputs) state_.touched = true;
   state_.inputs = levels;
@@ -167,6 +170,7 @@ void Simple2R3::sample_inputs(Tick) {
 }
 
 bool Simple2R3::sees_something_new() const {
+  if (!inputs_changed()) return false;
   if (input_levels() != state_.inputs) return true;
   for (int i = 0; i < kAnalogCount; ++i) {
     if (adc_at(i) != state_.adc[static_cast<std::size_t>(i)]) return true;
@@ -206,16 +210,15 @@ void Simple2R3::step_motion(Tick tick) {
       heed_servo(number);
       meet(number, signals_of(number));
     }
-    const bool latched = velocity_settings_latched_;
-    const std::uint32_t resolution = latched ? axis.velocity_resolution : resolution_of(state_, number);
-    const std::uint32_t velocity_step = latched ? axis.velocity_step_urpm : velocity_step_urpm(number);
-    const std::int64_t commanded = step_drive(axis,
-                                              {.pulses_per_revolution = resolution,
-                                               .velocity_step_urpm = velocity_step,
-                                               .encoder_counts = followed_count(number),
-                                               .stops_with_encoder = stops_with_encoder_,
-                                               .pulses_by_speed_before = velocity_pulses_first_},
-                                              tick);
+    DriveSettings settings{.encoder_counts = followed_count(number),
+                           .stops_with_encoder = stops_with_encoder_,
+                           .pulses_by_speed_before = velocity_pulses_first_};
+    if (axis.mode == Mode::velocity) {
+      const bool latched = velocity_settings_latched_;
+      settings.pulses_per_revolution = latched ? axis.velocity_resolution : resolution_of(state_, number);
+      settings.velocity_step_urpm = latched ? axis.velocity_step_urpm : velocity_step_urpm(number);
+    }
+    const std::int64_t commanded = step_drive(axis, settings, tick);
     const bool reversed = state_.image[slots.direction_polarity] != 0;
     axis.pulses_this_tick = reversed ? -commanded : commanded;
     const std::int64_t counted = quirk_coordinate_counts_physical_sense() ? axis.pulses_this_tick : commanded;
@@ -257,24 +260,14 @@ Tick Simple2R3::next_active_tick(Tick done) const {
 
 void Simple2R3::prefetch(Tick tick) const {
   Device::prefetch(tick);
-  emulator::prefetch(dialect_);
-  for (int number = 0; number < 2; ++number) {
-    const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
-    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(number)];
-    for (const std::size_t slot :
-         {slots.resolution, slots.velocity_acceleration, slots.encoder_polarity, slots.direction_polarity}) {
-      emulator::prefetch(state_.image[slot]);
-    }
-    simple2_r3::prefetch(axis, tick);
-  }
-  if (tick % interpreter::simple2::kSlotMs == 0) {
-    emulator::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
-    emulator::prefetch(state_.image[slot("Counter1_Value")]);
-    emulator::prefetch(&state_.program, 64);
-  }
-  emulator::prefetch(state_.execution);
-  emulator::prefetch(state_.eeprom);
-  emulator::prefetch(state_.touched);
+  prefetch_line(&dialect_);
+  prefetch_line(&state_);
+  for (const AxisState& axis : state_.axes) simple2_r3::prefetch(axis, tick);
+  prefetch_line(&state_.image[slot("Aaxis_DIR_Polarity")]);  // with the other polarities
+  if (tick % interpreter::simple2::kSlotMs != 0) return;
+  emulator::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
+  prefetch_line(&state_.image[slot("Counter1_Value")]);
+  prefetch_line(&state_.program);
 }
 
 bool Simple2R3::same_state(const Device& other) const {
@@ -291,12 +284,15 @@ std::int64_t Simple2R3::pulses_this_tick(int axis) const {
   return state_.axes[static_cast<std::size_t>(axis)].pulses_this_tick;
 }
 
+std::uint32_t Simple2R3::resolution_in_velocity(int axis) const {
+  const AxisState& its = state_.axes[static_cast<std::size_t>(axis)];
+  return velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
+}
+
 double Simple2R3::speed_pps(int axis) const {
   const auto number = static_cast<std::size_t>(axis);
   const AxisState& its = state_.axes[number];
-  const std::uint32_t resolution =
-      velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
-  const double speed = simple2_r3::speed_pps(its, now(), resolution);
+  const double speed = simple2_r3::speed_pps(its, now(), resolution_in_velocity(axis));
   return state_.image[kAxisSlots[number].direction_polarity] != 0 ? -speed : speed;
 }
 

@@ -83,24 +83,26 @@ struct KeptCommand {
 /// Who stops an axis. An instruction and SVOFF stop it forcibly.
 enum class Stopping : std::uint8_t { forcibly, by_register };
 
-struct State {
-  std::array<std::uint32_t, kSlotCount> image{};
-  std::array<AxisState, 2> axes;
-  interpreter::simple2::Program program;  // the cells of the image, laid out to run
-  interpreter::simple2::Execution execution;
-  std::array<Timer, 2> timers;
-  Eeprom eeprom;
-  Tick first_tick = 1;         // after power-up: AutoStart_MainProg is looked at there
-  std::uint8_t switches = 0;   // bit n: DIP n + 1, as it was at power-up
-  bool unlocked = true;        // PROG_UNLOCK
-  std::uint16_t password = 0;  // NEW_PWD, whatever the image holds of it while it is locked
+/// What a tick needs of it comes first and, up to the beginning of `eeprom`, on one cache line (a test looks
+/// at it).
+struct alignas(64) State {
+  bool touched = true;               // registers or inputs may have changed since motion looked at them
+  bool unlocked = true;              // PROG_UNLOCK
+  std::uint8_t switches = 0;         // bit n: DIP n + 1, as it was at power-up
+  std::uint8_t written_outputs = 0;  // bit n: the last level written to DOUT n
+  std::uint16_t inputs = 0;          // bit n: DIN n, as looked at in this tick
+  std::uint16_t assignments = 0;     // bit n: the register 0x0A00 + n, as it was at power-up
   std::array<std::uint16_t, kAnalogCount> adc{};  // as looked at in this tick
-  std::uint16_t inputs = 0;                       // bit n: DIN n, likewise
-  std::uint8_t written_outputs = 0;               // bit n: the last level written to DOUT n
-  std::uint16_t assignments = 0;                  // bit n: the register 0x0A00 + n, as it was at power-up
+  std::uint16_t password = 0;  // NEW_PWD, whatever the image holds of it while it is locked
+  Tick first_tick = 1;         // after power-up: AutoStart_MainProg is looked at there
+  interpreter::simple2::Execution execution;
+  Eeprom eeprom;
+  std::array<AxisState, 2> axes;
+  alignas(64) std::array<std::uint32_t, kSlotCount> image{};
+  interpreter::simple2::Program program;  // the cells of the image, laid out to run
+  std::array<Timer, 2> timers;
   std::array<ProgramSpeed, 2> program_speeds{};
   std::array<KeptCommand, 2> kept{};  // by axis
-  bool touched = true;                // registers or inputs may have changed since motion looked at them
 
   bool operator==(const State&) const = default;
 };
@@ -144,6 +146,9 @@ class Simple2R3 final : public Device {
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
+  /// What velocity mode goes by: as it is now, or as its last command found it.
+  std::uint32_t resolution_in_velocity(int axis) const;
+  double speed_of_pulses(int axis) const;
   void set_encoder(int axis, std::int64_t counts) override;
   std::string_view pulse_format() const override { return pulse_formats()[pulse_format_number()]; }
   std::span<const std::string_view> pulse_formats() const override;
@@ -225,7 +230,7 @@ class Simple2R3 final : public Device {
   /// An input's level, if the register at `assignment_slot` gives it its special function.
   bool assigned_input(std::size_t assignment_slot, int number) const;
   /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").
-  bool quirk_coordinate_counts_physical_sense() const { return firmware() <= 140; }
+  bool quirk_coordinate_counts_physical_sense() const { return counts_physical_sense_; }
 
   /// Appendix A and the 100 kHz limit: the law of a position move.
   motion::SpeedLaw law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
@@ -266,11 +271,8 @@ class Simple2R3 final : public Device {
   /// Gives the motor its signals as they are now, before a command that they may forbid.
   void refresh_signals(int axis);
 
-  // From firmware and choices, for what is asked for often: no state.
-  interpreter::simple2::Dialect dialect_;
-  MapPolicy map_policy_;
-  Tick timer_unit_ = 1;
-  Tick boot_ticks_ = 0;
+  // From firmware and choices, for what is asked for often: no state. One cache line.
+  alignas(64) interpreter::simple2::Dialect dialect_;
   bool assigned_at_power_up_ = false;
   bool adc_10_bits_ = false;
   bool motion_first_ = false;
@@ -282,7 +284,12 @@ class Simple2R3 final : public Device {
   bool velocity_pulses_first_ = false;
   bool velocity_settings_latched_ = false;
   bool stops_with_encoder_ = false;
+  bool sync_follows_other_ = false;
+  bool counts_physical_sense_ = false;
+  Tick timer_unit_ = 1;
 
+  Tick boot_ticks_ = 0;
+  MapPolicy map_policy_;
   std::optional<bool> was_saving_;  // within one request: whether the EEPROM was writing when it came
   State state_;
 };

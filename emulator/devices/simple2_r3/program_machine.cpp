@@ -123,6 +123,8 @@ bool ProgramMachine::moving_for_wait(Axis axis) const {
   return moving(axis) && !(homes && device_.chose(kWaitMoveLeavesHoming));
 }
 
+bool ProgramMachine::cut_short(Axis axis) const { return device_.state().axes[number_of(axis)].cut_short; }
+
 void ProgramMachine::set_speed(Axis axis, std::int32_t rpm) {
   const std::size_t number = number_of(axis);
   const auto speed_rpm = static_cast<std::uint32_t>(rpm);
@@ -190,6 +192,7 @@ Dialect dialect_of(const Simple2R3& device) {
   take(kCountersSaturate, dialect.counter_overflow, Dialect::CounterOverflow::saturates);
   take(kUndefinedFlagVoid, dialect.undefined_flag, Dialect::UndefinedFlag::line_void);
   take(kTimersWithSign, dialect.timer_compare, Dialect::TimerCompare::with_sign);
+  take(kCutShortEndsProgram, dialect.wait_cut_short, Dialect::WaitCutShort::program_ends);
   return dialect;
 }
 

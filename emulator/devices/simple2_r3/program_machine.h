@@ -24,6 +24,7 @@ class ProgramMachine final : public interpreter::simple2::Machine {
   void go_home(Axis axis) override;
   bool moving(Axis axis) const override;
   bool moving_for_wait(Axis axis) const override;
+  bool cut_short(Axis axis) const override;
   void set_speed(Axis axis, std::int32_t rpm) override;
   void set_ramps(Axis axis, std::int32_t acceleration_10ms, std::int32_t deceleration_10ms) override;
   void stop(Axis axis) override;

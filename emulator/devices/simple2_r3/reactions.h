@@ -130,6 +130,7 @@ inline constexpr OtherOutcome kUnlessMoving{kMoveWhileMovingIgnored, dropped};
 inline constexpr OtherOutcome kUnlessPositioning{kModeWhileMovingIgnored, dropped};
 inline constexpr OtherOutcome kUnlessInOtherMode{kMoveInOtherModeIgnored, dropped};
 inline constexpr OtherOutcome kUnlessIntoLimit{kIntoLimitDropped, dropped};
+inline constexpr OtherOutcome kFromTheSpeed{kMoveFromTheSpeed, changes};
 
 // clang-format off
 inline constexpr ReactionRow kRows[] = {
@@ -199,8 +200,11 @@ inline constexpr ReactionRow kRows[] = {
     {kPositioning, kGoing, set_of(E::home, E::move_away), begins, "command_while_moving", kUnlessMoving},
     {kPositioning, kRunning, set_of(E::move_towards), begins, "command_while_moving", kUnlessMoving},
     {kPositioning, set_of(leaving), set_of(E::move_towards), ends, "command_into_limit", kUnlessMoving, kUnlessIntoLimit},
-    {kOthers, kReady, set_of(E::home, E::move_away), begins, "move_in_other_mode", kUnlessInOtherMode},
-    {kOthers, kFree, set_of(E::move_towards), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kOthers, kReady, set_of(E::home), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kPwm, kReady, set_of(E::move_away), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kPwm, kFree, set_of(E::move_towards), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kVelocity | kSync, kReady, set_of(E::move_away), begins, "move_in_other_mode", kUnlessInOtherMode, kFromTheSpeed},
+    {kVelocity | kSync, kFree, set_of(E::move_towards), begins, "move_in_other_mode", kUnlessInOtherMode, kFromTheSpeed},
     {kOthers, kOnLimit, set_of(E::move_towards), ends, "command_into_limit", kUnlessInOtherMode, kUnlessIntoLimit},
 
     // --- velocity ---

@@ -20,8 +20,15 @@ struct StateFields {
     auto& [a, b, c] = v; visit(a, b, c);
   }
   static void of(Like<AxisState> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y);
+    // As they lie in memory, and as the bytes have them.
+    auto& [motor, mode, command, homed, own_speed, by_trigger, cut_short, alarm_latched, pwm_percent,
+           coordinate, velocity_step, pulses, alarm_clear_until, encoder_raw, encoder_counts, encoder_changed,
+           signals, target, speed, velocity_phase, velocity_resolution, encoder_preset, encoder_followed,
+           encoder_history] = v;
+    visit(motor, signals, mode, command, homed, own_speed, by_trigger, cut_short, alarm_latched, coordinate,
+          pulses, alarm_clear_until, target, speed, velocity_resolution, velocity_step, velocity_phase,
+          pwm_percent, encoder_raw, encoder_counts, encoder_preset, encoder_followed, encoder_history,
+          encoder_changed);
   }
   static void of(Like<ProgramSpeed> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
   static void of(Like<MoveParameters> auto& v, auto visit) {
@@ -29,8 +36,11 @@ struct StateFields {
   }
   static void of(Like<KeptCommand> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+    // As they lie in memory, and as the bytes have them.
+    auto& [touched, unlocked, switches, written_outputs, inputs, assignments, adc, password, first_tick,
+           execution, eeprom, axes, image, program, timers, program_speeds, kept] = v;
+    visit(image, axes, program, execution, timers, eeprom, first_tick, switches, unlocked, password, adc,
+          inputs, written_outputs, assignments, program_speeds, kept, touched);
   }
   // clang-format on
 
@@ -38,7 +48,7 @@ struct StateFields {
   static constexpr Command last(Command) { return Command::homing; }
   static constexpr Eeprom::Slot last(Eeprom::Slot) { return Eeprom::Slot::waits; }
   static constexpr interpreter::simple2::Ending last(interpreter::simple2::Ending) {
-    return interpreter::simple2::Ending::stopped;
+    return interpreter::simple2::Ending::wait_cut_short;
   }
   static constexpr interpreter::simple2::Phase last(interpreter::simple2::Phase) {
     return interpreter::simple2::Phase::move;

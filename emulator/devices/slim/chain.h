@@ -22,6 +22,7 @@
 #include "emulator/devices/slim/chain_options.h"
 #include "emulator/devices/slim/errors.h"
 #include "emulator/devices/slim/module.h"
+#include "emulator/devices/slim/pauses.h"
 #include "emulator/simulated_time.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
@@ -110,15 +111,15 @@ class Chain {
   /// CM 0, 1, 2.
   Error set_continuous_path(int mode);
 
-  // ---- Stopping and going on
+  // ---- Stopping and going on: pauses.h
 
-  Error pause();           // TAPZ
-  Error resume();          // TAREDO
-  Error discard();         // TAUPZ
-  Error emergency_stop();  // TASTOP
-  Error pause_queues();    // PZ
-  Error resume_queues();   // REDO
-  Error clear_queues();    // CLR BUF
+  Error pause() { return steer(InPause::tapz); }
+  Error resume() { return steer(InPause::taredo); }
+  Error discard() { return steer(InPause::taupz); }
+  Error emergency_stop() { return steer(InPause::tastop); }
+  Error pause_queues() { return steer(InPause::pz); }
+  Error resume_queues() { return steer(InPause::redo); }
+  Error clear_queues() { return steer(InPause::clear_buffer); }
 
   // ---- Settings. Ranges are those of ModuleSettings.
 
@@ -156,6 +157,8 @@ class Chain {
   /// It does something, or a command waits for it.
   bool busy(int module) const;
   bool moving(int module) const;
+  /// What it does, or what of that a pause holds.
+  Activity activity_or_held(int module) const;
   bool servo_on(int module) const { return axes_[at(module)].servo_on; }
   bool paused() const { return paused_; }
   bool queues_paused() const { return queues_paused_; }
@@ -203,13 +206,16 @@ class Chain {
   bool in_pause_scope(int module) const { return module == 0 || !options_.pause_is_of_module_0; }
   bool in_pause_scope(const Group& group) const;
   /// Of a module, or a group: by TAPZ, or by PZ as far as that goes.
-  bool held(const auto& what) const { return paused_ || (queues_paused_ && in_pause_scope(what)); }
+  Pauses pauses_of(const auto& what) const {
+    return slim::pauses_of(queues_paused_ && in_pause_scope(what), paused_);
+  }
+  bool held(const auto& what) const { return pauses_of(what) != Pauses::none; }
 
   // Commands: chain_commands.cpp, chain_coordinated.cpp, chain_outputs.cpp.
-  Error refusal(int module) const;            // any command
-  Error refusal_of_motion(int module) const;  // ... that moves
-  Error refusal_by_number(int module) const;  // ... by its number
-  Error refusal_of_jog(int module) const;     // ... or of thrust
+  Error refusal(int module) const;                                            // any command
+  Error refusal_of_motion(int module, InPause what = InPause::motion) const;  // ... that moves
+  Error refusal_by_number(int module, InPause what = InPause::motion) const;  // ... by its number
+  Error refusal_of_jog(int module) const;                                     // ... or of thrust
   bool mapped(int module) const;
   bool servo_expected(int module) const;  // when what is queued is done
   double end_expected(int module) const;
@@ -251,6 +257,11 @@ class Chain {
   void drop_head(int module, Error why);
 
   // Stopping: chain_stops.cpp.
+  Error steer(InPause what);
+  void give_up(bool in_scope_only);
+  void clear_waiting();
+  void stop_all();
+  void end_outputs(int module);
   void hold();
   void release();
   void cut(int module, motion::Cause why);              // no pulse more; what was running is forgotten

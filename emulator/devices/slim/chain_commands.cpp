@@ -24,9 +24,10 @@ Error Chain::refusal(int module) const {
   return is_module(module) && modules_[at(module)].linked ? Error::none : Error::not_linked;
 }
 
-Error Chain::refusal_of_motion(int module) const {
+Error Chain::refusal_of_motion(int module, InPause what) const {
   if (const Error why = refusal(module); why != Error::none) return why;
-  if (paused_) return Error::paused;
+  const PauseResult result = pause_result(options_, pauses_of(module), what);
+  if (result.outcome == PauseOutcome::is_refused) return Error::paused;
   return servo_expected(module) ? Error::none : Error::servo_off;
 }
 
@@ -37,16 +38,16 @@ bool Chain::mapped(int module) const {
   return false;
 }
 
-Error Chain::refusal_by_number(int module) const {
+Error Chain::refusal_by_number(int module, InPause what) const {
   if (const Error why = refusal(module); why != Error::none) return why;
   if (module != 0 && mapped(module)) return Error::axis;
-  return refusal_of_motion(module);
+  return refusal_of_motion(module, what);
 }
 
 Error Chain::refusal_of_jog(int module) const {
-  const Error why = options_.only_moves_reserved ? refusal_of_motion(module) : refusal_by_number(module);
+  const Error why = options_.only_moves_reserved ? refusal_of_motion(module, InPause::jog)
+                                                 : refusal_by_number(module, InPause::jog);
   if (why != Error::none) return why;
-  if (queues_paused_ && in_pause_scope(module)) return Error::not_allowed;
   const Activity activity = modules_[at(module)].activity;
   if (!busy(module) || activity == Activity::jog || activity == Activity::thrust) return Error::none;
   if (!options_.jog_ends_move) return Error::not_allowed;
@@ -287,10 +288,12 @@ Error Chain::set_servo_at_once(int module, bool on) {
 
 Error Chain::reset(int module) {
   if (const Error why = refusal(module); why != Error::none) return why;
+  if (module == 0) steer(InPause::reset);
   cut(module, motion::Cause::stopped);
   forget_queue(module);
   modules_[at(module)].analog_speed = false;
   modules_[at(module)].late_error = Error::none;
+  if (options_.stops_end_outputs) end_outputs(module);
   if (options_.triggers_stay_armed) {
     modules_[at(module)].triggers = {};
     place_triggers(module);

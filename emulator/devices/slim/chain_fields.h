@@ -13,8 +13,9 @@ struct ChainFields {
   // clang-format off
   static void of(Like<ChainOptions> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag,
-           ah] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag, ah);
+           ah, ai, aj, ak] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag, ah,
+          ai, aj, ak);
   }
   static void of(Like<motion::UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<ModuleSettings> auto& v, auto visit) {

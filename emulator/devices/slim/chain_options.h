@@ -27,13 +27,16 @@ struct ChainOptions {
   enum class SarHeight : std::uint8_t { relative, absolute };
 
   // Ours is false.
-  bool coordinate_at_rest_only = false;       // CS is refused while its module has anything to do
-  bool reset_clears_coordinate = false;       // RESET
-  bool first_bit_is_p4 = false;               // OUTP
-  bool triggers_stay_armed = false;           // P1SET ... act each time
-  bool pause_is_of_module_0 = false;          // PZ, REDO, CLR BUF: and of what is coordinated with it
-  bool jog_ends_move = false;                 // a jog or thrust gives up what its module has to do
-  bool spiral_growth_in_all = false;          // SPI's L is of the whole sweep, not of a turn
+  bool coordinate_at_rest_only = false;  // CS is refused while its module has anything to do
+  bool reset_clears_coordinate = false;  // RESET
+  bool first_bit_is_p4 = false;          // OUTP
+  bool triggers_stay_armed = false;      // P1SET ... act each time
+  bool pause_is_of_module_0 = false;     // PZ, REDO, CLR BUF: and of what is coordinated with it
+  bool one_pause = false;                // PZ is TAPZ, and REDO and CLR BUF end it as TAREDO and TAUPZ do
+  bool reset_ends_pause = false;         // RESET of T0, with all that it holds
+  bool stops_end_outputs = false;        // TASTOP and RESET: of PLS, PWM and P1SET
+  bool jog_ends_move = false;            // a jog or thrust gives up what its module has to do
+  bool spiral_growth_in_all = false;     // SPI's L is of the whole sweep, not of a turn
   bool emergency_switches_servo_off = false;  // TASTOP
   bool acceleration_of_next_command = false;  // TVA= in motion; what is issued already keeps its own
   bool second_decides_joint = false;          // CM of the command before it is no matter

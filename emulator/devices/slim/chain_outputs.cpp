@@ -121,6 +121,16 @@ void Chain::meet_triggers(int module) {
   }
 }
 
+/// What goes on by itself: pulses and PWM end, and no place switches any more. Levels stay.
+void Chain::end_outputs(int module) {
+  Module& mine = modules_[at(module)];
+  for (Output& output : mine.outputs) {
+    if (output.mode != Output::Mode::level) output = {};
+  }
+  mine.triggers = {};
+  place_triggers(module);
+}
+
 bool Chain::output(int module, int number) const { return output_state(module, number).level_at(now_); }
 
 const Output& Chain::output_state(int module, int number) const {

@@ -108,7 +108,7 @@ Error Chain::set_tvm(double units_s) {
 
 Error Chain::set_path_acceleration(int module, double units_s2) {
   if (!plannable(units_s2)) return Error::range;
-  if (groups_running() > 0 && !options_.acceleration_of_next_command) return Error::not_allowed;
+  if (group_of(module) != nullptr && !options_.acceleration_of_next_command) return Error::not_allowed;
   modules_[at(module)].settings.path_acceleration_units_s2 = units_s2;
   return Error::none;
 }
@@ -174,20 +174,30 @@ bool Chain::done(int module) const {
   return mine.activity == Activity::idle || (goes_on && !axes_[at(module)].slowing);
 }
 
+Activity Chain::activity_or_held(int module) const {
+  const Module& mine = modules_[at(module)];
+  if (mine.activity != Activity::idle) return mine.activity;
+  if (mine.held_thrust != 0) return Activity::thrust;
+  if (mine.held_jog_way != 0) return Activity::jog;
+  if (mine.fifo.empty() || !mine.fifo[0].begun) return Activity::idle;
+  return mine.fifo[0].kind == Job::Kind::home ? Activity::home : Activity::move;
+}
+
 ModuleStatus Chain::status(int module) const {
+  const Activity activity = activity_or_held(module);
   const Module& mine = modules_[at(module)];
   const Group* group = group_of(module);
   ModuleStatus status{.servo_on = axes_[at(module)].servo_on,
                       .moving = moving(module),
                       .paused = held(module),
                       .homed = mine.homed,
-                      .jog = mine.activity == Activity::jog,
+                      .jog = activity == Activity::jog,
                       .buffer_not_empty = !mine.fifo.empty()};
   if (group != nullptr && group->motion.run.running()) {
     const motion::PathRun& run = group->motion.run;
     status.in_blend = run.chain_length_u() != run.path().length_u;
   }
-  switch (mine.activity) {
+  switch (activity) {
     case Activity::idle: status.mode = mine.analog_speed ? Mode::analog : Mode::idle; break;
     case Activity::move:
     case Activity::home:

@@ -23,29 +23,23 @@ auto* taking(auto& groups, std::size_t module) {
 Chain::Group* Chain::group_of(int module) { return taking(groups_, at(module)); }
 const Chain::Group* Chain::group_of(int module) const { return taking(groups_, at(module)); }
 
-Error Chain::pause() {
-  paused_ = true;
-  hold();
-  return Error::none;
-}
-
-Error Chain::pause_queues() {
-  queues_paused_ = true;
-  hold();
-  return Error::none;
-}
-
-Error Chain::resume() {
-  if (!paused_) return in_vain(options_);
-  paused_ = false;
-  release();
-  return Error::none;
-}
-
-Error Chain::resume_queues() {
-  if (!queues_paused_) return in_vain(options_);
-  queues_paused_ = false;
-  release();
+Error Chain::steer(InPause what) {
+  const Pauses now = slim::pauses_of(queues_paused_, paused_);
+  const PauseResult result = pause_result(options_, now, what);
+  queues_paused_ = has_pz(result.left);
+  paused_ = has_tapz(result.left);
+  switch (result.outcome) {
+    case PauseOutcome::slows_down: hold(); break;
+    case PauseOutcome::goes_on: release(); break;
+    case PauseOutcome::gives_up: give_up(what == InPause::clear_buffer); break;
+    case PauseOutcome::clears: clear_waiting(); break;
+    case PauseOutcome::stops: stop_all(); break;
+    case PauseOutcome::in_vain: return in_vain(options_);
+    case PauseOutcome::resets:
+    case PauseOutcome::is_taken:
+    case PauseOutcome::waits:
+    case PauseOutcome::is_refused: break;  // whoever asks deals with it
+  }
   return Error::none;
 }
 
@@ -86,15 +80,18 @@ void Chain::release() {
   serve(now_ + 1);
 }
 
-Error Chain::discard() {
-  if (!paused_) return in_vain(options_);
-  paused_ = queues_paused_ = false;
+/// What PZ holds, or everything.
+void Chain::give_up(bool in_scope_only) {
+  const auto is_meant = [&](int module) { return !in_scope_only || in_pause_scope(module); };
   for (int module = 0; module < kModules; ++module) {
+    if (!is_meant(module)) continue;
     stop_jog(module);
     slow_for_discard(module);
   }
-  for (Module& each : modules_) each.fifo.truncate(0);
-  return Error::none;
+  for (int module = 0; module < kModules; ++module) {
+    if (is_meant(module)) forget_queue(module);
+  }
+  serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
 }
 
 /// Everything queued is about to go; what moves has begun to slow down.
@@ -115,18 +112,7 @@ void Chain::slow_for_discard(int module) {
   }
 }
 
-Error Chain::clear_queues() {
-  if ((paused_ || queues_paused_) && !options_.clear_keeps_half_done) {
-    queues_paused_ = false;
-    for (int module = 0; module < kModules; ++module) {
-      if (!in_pause_scope(module)) continue;
-      stop_jog(module);
-      slow_for_discard(module);
-      forget_queue(module);
-    }
-    serve(now_ + 1);  // what waited in other FIFOs for a command that is gone
-    return Error::none;
-  }
+void Chain::clear_waiting() {
   for (Group& group : groups_) {
     if (!group.motion.engaged || group.paths == 0 || !in_pause_scope(group)) continue;
     group.paths = static_cast<std::uint8_t>(group.motion.run.shorten(now_));
@@ -146,20 +132,18 @@ Error Chain::clear_queues() {
     forget_queue(module, group != nullptr ? group->paths : head_runs ? 1 : 0);
   }
   serve(now_ + 1);
-  return Error::none;
 }
 
-Error Chain::emergency_stop() {
-  paused_ = queues_paused_ = false;
+void Chain::stop_all() {
   for (int module = 0; module < kModules; ++module) cut(module, motion::Cause::stopped);
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
     mine.fifo.truncate(0);
+    if (options_.stops_end_outputs) end_outputs(module);
     if (!options_.emergency_switches_servo_off || !mine.linked) continue;
     mine.analog_speed = false;  // as HOFF does
     axes_[at(module)].switch_servo(false);
   }
-  return Error::none;
 }
 
 void Chain::cut(int module, motion::Cause why) {

@@ -29,6 +29,9 @@ ChainOptions Slim::chain_options() const {
   options.first_bit_is_p4 = chose(kFirstBitIsP4);
   options.triggers_stay_armed = chose(kTriggersStayArmed);
   options.pause_is_of_module_0 = chose(kPauseIsOfT0);
+  options.one_pause = chose(kOnePause);
+  options.reset_ends_pause = chose(kResetEndsPause);
+  options.stops_end_outputs = chose(kStopsEndOutputs);
   options.jog_ends_move = chose(kJogEndsMove);
   options.spiral_growth_in_all = chose(kSpiralGrowthInAll);
   options.emergency_switches_servo_off = chose(kEmergencyServoOff);
@@ -63,6 +66,7 @@ lang::ProgramOptions Slim::program_options() const {
   if (chose(kQueriesAreFunctions)) dialect.quantities = true;
   if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
   if (chose(kExternalColumnOnly)) options.columns.external = lang::Columns::External::strict;
+  if (chose(kResetWhileRunning)) options.columns.external = lang::Columns::External::with_reset;
   if (chose(kImmediateColumnIgnored))
     options.columns.variable_forms = lang::Columns::VariableForms::typed_too;
   if (chose(kSavesInPrograms)) options.columns.saves = lang::Columns::Saves::stored_too;
@@ -70,6 +74,7 @@ lang::ProgramOptions Slim::program_options() const {
   if (chose(kLinesFrom1)) options.first_number = 1;
   if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
   if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
+  if (chose(kRefusedLineEndsEditing)) options.refused_line = Options::RefusedLine::ends_pe_and_pi;
   options.check_command =
       chose(kModuleTakenFromLetter)
           ? [](const lang::Command& command) { return check_parameter_line(command, true); }

@@ -214,7 +214,10 @@ class Slim final : public TextDevice, private lang::Machine {
   void write_history(NvImage& image) const;
   std::array<Errors, kModules> read_history(NvImage& image) const;
   /// By PZ.
-  bool program_is_held() const { return chose(kPauseHoldsProgram) && state_.chain.queues_paused(); }
+  bool program_is_held() const {
+    const bool is_paused = state_.chain.queues_paused() || (chose(kOnePause) && state_.chain.paused());
+    return chose(kPauseHoldsProgram) && is_paused;
+  }
   void reboot();
   /// As if all ticks up to now had been run one by one.
   State settled() const;

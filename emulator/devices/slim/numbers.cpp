@@ -4,8 +4,36 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 namespace understudy::emulator::slim {
+
+namespace {
+
+/// The fewest digits that tell it apart; before the point zeros stand for the others. (to_chars() itself
+/// writes out all 39 of a large one.)
+std::string plain_digits(float real) {
+  std::array<char, 32> text{};
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), std::abs(real), std::chars_format::scientific);
+  const std::string_view written(text.data(), end);  // d.ddde+dd
+  const std::size_t e = written.find('e');
+  std::string digits(written.substr(0, e));
+  if (digits.size() > 1) digits.erase(1, 1);
+  int exponent = 0;
+  std::from_chars(written.data() + e + (written[e + 1] == '+' ? 2 : 1), written.data() + written.size(),
+                  exponent);
+  if (exponent < 0) {
+    digits.insert(0, static_cast<std::size_t>(-exponent), '0');
+    exponent = 0;
+  }
+  const auto whole = static_cast<std::size_t>(exponent) + 1;
+  if (digits.size() < whole) digits.append(whole - digits.size(), '0');
+  if (digits.size() > whole) digits.insert(whole, 1, '.');
+  return (real < 0 ? "-" : "") + digits;
+}
+
+}  // namespace
 
 std::string text_of_integer(double value) { return std::to_string(static_cast<std::int64_t>(value)); }
 
@@ -14,9 +42,9 @@ std::string text_of_real(double value, RealForm form) {
   if (real == 0) return "0";  // never "-0"
   std::array<char, 64> text{};
   const float size = std::abs(real);
-  const bool is_plain = form == RealForm::plain || (size >= 1e-4F && size < 1e9F);
-  const auto format = is_plain ? std::chars_format::fixed : std::chars_format::general;
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), real, format);
+  if (form == RealForm::plain || (size >= 1e-4F && size < 1e9F)) return plain_digits(real);
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), real, std::chars_format::general);
   return {text.data(), end};
 }
 

@@ -78,7 +78,7 @@ Error Slim::set_parameter(int module, std::string_view given_name, double value)
     return error;
   }
   if (name == "TM") {
-    state_.clock_zero = now() - static_cast<Tick>(std::trunc(value)) * 1000;
+    state_.clock_zero = now() - std::llround(value * 1000);
     return Error::none;
   }
   const auto number = find_parameter(name, names);

@@ -91,9 +91,11 @@ Then velocity_rpm_direct(Step& step) {
 template <Axes axes, Action start>
 Then and_wait(Step& step) {
   start(step);
+  // A move that was not accepted cannot be cut short.
+  const bool any = step.dialect.wait_cut_short == Dialect::WaitCutShort::line_is_over;
   step.execution.phase = Phase::move;
-  step.execution.waits_for_a = has(axes, Axis::a);
-  step.execution.waits_for_b = has(axes, Axis::b);
+  step.execution.waits_for_a = has(axes, Axis::a) && (any || step.machine.moving(Axis::a));
+  step.execution.waits_for_b = has(axes, Axis::b) && (any || step.machine.moving(Axis::b));
   return Then::next_line;
 }
 
@@ -112,9 +114,25 @@ Then after_wait_move(const Line& line, const Program& program, const Dialect& di
   return jumps ? Then::flag : Then::same_line;
 }
 
+/// Whether what was waited for has been cut short.
+inline bool wait_is_cut_short(const Execution& execution, const Machine& machine) {
+  return (execution.waits_for_a && machine.cut_short(Axis::a)) ||
+         (execution.waits_for_b && machine.cut_short(Axis::b));
+}
+
 template <Axes axes>
 Then wait_move(Step& step) {
-  return after_wait_move<axes>(step.line, step.program, step.dialect, step.machine);
+  const Then then = after_wait_move<axes>(step.line, step.program, step.dialect, step.machine);
+  if (step.dialect.wait_cut_short == Dialect::WaitCutShort::line_is_over) return then;
+  Execution& execution = step.execution;
+  if (then == Then::same_line) {
+    execution.waits_for_a |= has(axes, Axis::a) && step.machine.moving_for_wait(Axis::a);
+    execution.waits_for_b |= has(axes, Axis::b) && step.machine.moving_for_wait(Axis::b);
+    return then;
+  }
+  const bool is_cut_short = wait_is_cut_short(execution, step.machine);
+  execution.waits_for_a = execution.waits_for_b = false;
+  return is_cut_short ? Then::end_for_cut_wait : then;
 }
 
 inline Then wait_move_b(Step& step) {

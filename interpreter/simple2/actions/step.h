@@ -16,6 +16,7 @@ enum class Then : std::uint8_t {
   same_line,
   end,
   end_for_nested_loop,
+  end_for_cut_wait,
 };
 
 struct Step {

@@ -125,16 +125,16 @@ TEST(BenchErrors, SwitchesOnTheHousing) {
   const std::string at = "4: lines.a.stations[0]";
   expect_complaints({
       {and_then("", "dip: { DIP3: on }"),
-       at + ": dip: 'DIP3' is no switch of simple2-r3; the nearest is 'DIP1'"},
+       at + ".dip.DIP3: 'DIP3' is no switch of simple2-r3; the nearest is 'DIP1'"},
       {and_then("", "dip: { DIN_1: on }"),
-       at + ": dip: 'DIN_1' is no switch of simple2-r3; expected one of DIP1, DIP2"},
+       at + ".dip.DIN_1: 'DIN_1' is no switch of simple2-r3; expected one of DIP1, DIP2"},
       {and_then("", "dip: { DIP1: maybe }"), at + ".dip.DIP1: 'maybe' is neither; expected on or off"},
       {and_then("", "dip: { DIP1: 2 }"), at + ".dip.DIP1: '2' is neither; expected on or off"},
       {and_then("", "dip: [ DIP1 ]"), at + ".dip: expected a map, as in `key: value`"},
       {and_then("", "dip: { DIP1: on, DIP1: off }"), at + ".dip.DIP1: is given twice; expected it once"},
       {"understudy: 1\nlines:\n  a: { baud: 19200, stations: [ { name: x, model: simple2-r3, dip: { DIP1: on "
        "} } ] }\n",
-       "3: lines.a.stations[0]: dip: the switches say 115200 baud, the line 19200; expected the same"},
+       "3: lines.a.stations[0].dip: the switches say 115200 baud, the line 19200; expected the same"},
   });
 }
 

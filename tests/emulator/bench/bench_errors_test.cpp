@@ -89,6 +89,10 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, "
        "modules, set, "
        "choices, dip, program, nv (the nearest is 'address')"},
+      {with("address:2"),
+       "5: lines.a.stations[0].address:2: has no space after its ':'; expected `address: 2`"},
+      {with("set: { Aaxis_Speed:1 }"),
+       "5: lines.a.stations[0].set.Aaxis_Speed:1: has no space after its ':'; expected `key: value`"},
       {with("model: simple2-r3"), "5: lines.a.stations[0].model: is given twice; expected it once"},
       {with("set: { Aaxis_Speed: 1, Aaxis_Speed: 2 }"),
        "5: lines.a.stations[0].set.Aaxis_Speed: is given twice; expected it once"},
@@ -165,9 +169,9 @@ TEST(BenchErrors, Stations) {
       {with_station("{ name: '', model: simple2-r3 }"),
        at + ".name: '' is no name; expected letters, digits, _ and -"},
       {with("firmware: 1.5"), at + ".firmware: '1.5' is no version; expected one like \"1.52\""},
-      {with("firmware: 1.43"),
-       at + ": firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, "
-            "1.41, 1.42, 1.50, 1.51, 1.52"},
+      {with("firmware: 1.43"), at +
+                                   ".firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, "
+                                   "1.41, 1.42, 1.50, 1.51, 1.52"},
       {with("address: 16"), at + ".address: '16' is not possible; expected a whole number from 0 to 15"},
       {with("address: -1"), at + ".address: '-1' is not possible; expected a whole number from 0 to 15"},
       {with("address: 1.0"), at + ".address: '1.0' is not possible; expected a whole number from 0 to 15"},
@@ -204,10 +208,10 @@ TEST(BenchErrors, ValuesAndChoices) {
   const std::string most = "expected a whole number from -2147483648 to 4294967295";
   expect_complaints({
       {with("set: { Aaxis_AccTime: 3001 }"),
-       at + ": set: 3001 is out of range for Aaxis_AccTime; expected 0 to 3000"},
+       at + ".set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000"},
       {with("set: { Aaxis_AccTim: 3 }"),
-       at + ": set: no register is called 'Aaxis_AccTim'; the nearest is 'Aaxis_AccTime'"},
-      {with("set: { HW_Code: 3 }"), at + ": set: HW_Code cannot be written; it is read-only"},
+       at + ".set.Aaxis_AccTim: no register is called 'Aaxis_AccTim'; the nearest is 'Aaxis_AccTime'"},
+      {with("set: { HW_Code: 3 }"), at + ".set.HW_Code: cannot be written; it is read-only"},
       {with("set: { Aaxis_Pulse: 1e3 }"), at + ".set.Aaxis_Pulse: '1e3' is not possible; " + most},
       {with("set: { Aaxis_Pulse: 4294967296 }"),
        at + ".set.Aaxis_Pulse: '4294967296' is not possible; " + most},
@@ -215,9 +219,11 @@ TEST(BenchErrors, ValuesAndChoices) {
       {with("set: { Aaxis_Pulse: 0x }"), at + ".set.Aaxis_Pulse: '0x' is not possible; " + most},
       {with("set: { Aaxis_Pulse: 0x-1 }"), at + ".set.Aaxis_Pulse: '0x-1' is not possible; " + most},
       {with("set: [ 1 ]"), at + ".set: expected a map, as in `key: value`"},
-      {with("choices: { stopp: x }"), at + ": choices: no choice is called 'stopp'; the nearest is 'stop'"},
+      {with("choices: { stopp: x }"),
+       at + ".choices.stopp: no choice is called 'stopp'; the nearest is 'stop'"},
       {with("choices: { servo_at_power_up: maybe }"),
-       at + ": choices: choice 'servo_at_power_up' has no option 'maybe'; expected one of off|on"},
+       at + ".choices.servo_at_power_up: choice 'servo_at_power_up' has no option 'maybe'; expected one of "
+            "off|on"},
       {with("choices: [ stop ]"), at + ".choices: expected a map, as in `key: value`"},
   });
 }

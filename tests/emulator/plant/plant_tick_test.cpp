@@ -2,6 +2,7 @@
 // is stepped every tick.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "emulator/plant/plant.h"
@@ -97,6 +98,65 @@ TEST(PlantTicks, ThatNothingHappensInMayBeLeftOut) {
   }
   EXPECT_GT(left_out, 100'000);
   EXPECT_GT(became_ready, 500);
+}
+
+TEST(PlantTicks, AreTheSameQuietlyAndInFull) {
+  int quiet = 0;
+  int switched = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    PlantSetup setup = random_setup(random);
+    if (!random.one_in(8)) setup.drive.reset();
+    setup.has_wheel = random.one_in(8);
+    setup.position_pulses = random.between(-500, 500);
+    PlantAxis in_full(setup);
+    PlantAxis quietly(setup);
+    Outside outside;
+    for (Tick tick = 1; tick <= 2000; ++tick) {
+      if (random.one_in(60)) {
+        change(outside, random);
+        MachineFaults faults = outside.faults;
+        if (random.one_in(6)) faults.slipped_pulses = random.between(-200, 200);
+        if (random.one_in(6)) faults.encoder_noise_counts = random.between(-3, 3);
+        for (PlantAxis* plant : {&in_full, &quietly}) plant->set_faults(faults);
+      }
+      if (random.one_in(300)) outside.faults = {};
+      if (random.one_in(200)) {
+        const std::int64_t counts = random.between(-50, 50);
+        for (PlantAxis* plant : {&in_full, &quietly}) plant->turn(counts, 20);
+      }
+      if (random.one_in(500)) {
+        PlantAxis::State state = in_full.save();
+        state.position_pulses = random.between(-500, 500);
+        for (bool* on :
+             {&state.at_home, &state.at_lower_limit, &state.at_upper_limit, &state.alarm_latched}) {
+          *on = random.one_in(3);
+        }
+        for (PlantAxis* plant : {&in_full, &quietly}) plant->restore(state);
+      }
+      const std::int64_t pulses =
+          tick / 50 % 3 == 0 ? 0 : random.between(-12, 12) + (tick / 400 % 2 ? 3 : -3);
+      const auto contacts = [](const PlantAxis& plant) {
+        std::array<bool, kContactNames.size()> closed{};
+        for (std::size_t i = 0; i < closed.size(); ++i) closed[i] = plant.contact(static_cast<Contact>(i));
+        return closed;
+      };
+      const auto before = contacts(quietly);
+      in_full.step(tick, pulses, outside.inputs);
+      if (quietly.step_quietly(pulses)) {
+        ++quiet;
+        ASSERT_EQ(contacts(quietly), before) << "seed " << seed << " tick " << tick;
+        ASSERT_EQ(quietly.quiet_encoder_counts(), in_full.encoder_counts()) << "seed " << seed;
+      } else {
+        quietly.step(tick, pulses, outside.inputs);
+        switched += contacts(quietly) != before;
+      }
+      ASSERT_TRUE(in_full.same_state(quietly)) << "seed " << seed << " tick " << tick;
+      ASSERT_EQ(quietly.encoder_counts(), in_full.encoder_counts());
+    }
+  }
+  EXPECT_GT(quiet, 100'000);
+  EXPECT_GT(switched, 1000);
 }
 
 TEST(PlantTicks, AreWantedForASlipAndForReadyAlone) {

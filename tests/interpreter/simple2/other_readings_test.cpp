@@ -1,4 +1,4 @@
-// Flags that cannot be, and how timers are compared: ours, and the other readings.
+// Flags that cannot be, how timers are compared, waits that are cut short: ours, and the other readings.
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
@@ -49,6 +49,45 @@ TEST(Simple2OtherReadings, TimersAreComparedWithoutASignOrWith) {
       run.machine.parameters[1] = limit;
       run.to_the_end();
       EXPECT_EQ(run.machine.parameters[0], (has_sign ? with : without) ? 1 : 0) << timer << " " << limit;
+    }
+  }
+}
+
+/// Move_INC_A_Wait or Wait_Move_A, and behind it a line that counts in MEM0.
+ProgramRun waiting(std::uint8_t opcode, Dialect::WaitCutShort reading) {
+  ProgramRun run(program_of({{opcode, 0, 0, 0}, {0x6B, 0, 0, 0}, {0xFF, 0, 0, 0}}));
+  run.dialect.wait_cut_short = reading;
+  return run;
+}
+
+TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
+  using enum Dialect::WaitCutShort;
+  constexpr std::uint8_t kMoveAndWait = 0x25, kWaitMove = 0x24;
+  for (const auto reading : {line_is_over, program_ends}) {
+    for (const std::uint8_t opcode : {kMoveAndWait, kWaitMove}) {
+      for (const bool is_cut : {false, true}) {
+        ProgramRun run = waiting(opcode, reading);
+        run.machine.moving_a = true;
+        run.until(20);
+        EXPECT_TRUE(run.execution.running) << int{opcode};
+        run.machine.moving_a = false;
+        run.machine.cut_short_a = is_cut;
+        run.until(40);
+        const bool ends = is_cut && reading == program_ends;
+        EXPECT_EQ(run.machine.parameters[0], ends ? 0 : 1) << int{opcode};
+        EXPECT_EQ(run.execution.ending, ends ? Ending::wait_cut_short : Ending::end_instruction);
+      }
+      // What was cut before is no matter: the line has waited for nothing. Nor is the other axis.
+      ProgramRun before = waiting(opcode, reading);
+      before.machine.cut_short_a = true;
+      before.until(40);
+      EXPECT_EQ(before.machine.parameters[0], 1) << int{opcode};
+      ProgramRun other = waiting(opcode, reading);
+      other.machine.moving_a = other.machine.cut_short_b = true;
+      other.until(20);
+      other.machine.moving_a = false;
+      other.until(40);
+      EXPECT_EQ(other.machine.parameters[0], 1) << int{opcode};
     }
   }
 }

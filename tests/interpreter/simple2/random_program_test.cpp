@@ -34,6 +34,7 @@ Dialect random_dialect(Random& random) {
   dialect.delay_counts = static_cast<Dialect::DelayCounts>(random() % 2);
   dialect.undefined_flag = static_cast<Dialect::UndefinedFlag>(random() % 2);
   dialect.timer_compare = static_cast<Dialect::TimerCompare>(random() % 2);
+  dialect.wait_cut_short = static_cast<Dialect::WaitCutShort>(random() % 2);
   return dialect;
 }
 
@@ -41,7 +42,11 @@ void change_something(Random& random, ScriptedMachine& machine) {
   switch (random() % 3) {
     case 0: machine.inputs = static_cast<std::uint16_t>(random()); break;
     case 1: machine.status = static_cast<std::uint16_t>(random()); break;
-    default: machine.moving_a = random() % 2 != 0; machine.moving_b = random() % 2 != 0;
+    default:
+      machine.moving_a = random() % 2 != 0;
+      machine.moving_b = random() % 2 != 0;
+      machine.cut_short_a = !machine.moving_a && random() % 4 == 0;
+      machine.cut_short_b = !machine.moving_b && random() % 4 == 0;
   }
 }
 
@@ -88,6 +93,8 @@ TEST(Simple2RandomProgram, GoesOnTheSameFromACopyInTheMiddle) {
         copy.machine.status = run.machine.status;
         copy.machine.moving_a = run.machine.moving_a;
         copy.machine.moving_b = run.machine.moving_b;
+        copy.machine.cut_short_a = run.machine.cut_short_a;
+        copy.machine.cut_short_b = run.machine.cut_short_b;
       }
       run.slot();
       copy.slot();

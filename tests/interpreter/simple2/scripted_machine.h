@@ -26,6 +26,8 @@ class ScriptedMachine final : public Machine {
   std::array<std::int32_t, 256> parameters{};
   bool moving_a = false;
   bool moving_b = false;
+  bool cut_short_a = false;
+  bool cut_short_b = false;
 
   // What the program did.
   std::uint8_t outputs = 0;  // bit n: DOUT n
@@ -75,6 +77,7 @@ class ScriptedMachine final : public Machine {
   void move_absolute(Axis axis, std::int32_t pulses) override { say(axis, "to " + std::to_string(pulses)); }
   void go_home(Axis axis) override { say(axis, "home"); }
   bool moving(Axis axis) const override { return axis == Axis::a ? moving_a : moving_b; }
+  bool cut_short(Axis axis) const override { return axis == Axis::a ? cut_short_a : cut_short_b; }
   void set_speed(Axis axis, std::int32_t rpm) override { say(axis, "speed " + std::to_string(rpm)); }
   void set_ramps(Axis axis, std::int32_t acceleration_10ms, std::int32_t deceleration_10ms) override {
     say(axis, "ramps " + std::to_string(acceleration_10ms) + " " + std::to_string(deceleration_10ms));

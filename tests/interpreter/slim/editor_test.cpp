@@ -78,6 +78,11 @@ TEST(SlimEditor, WrongLinesAreNotStored) {
   EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "SET P2"}));
   desk.give_all({"PE 0"});
   EXPECT_EQ(desk.give("SET P5"), Error::range);
+  EXPECT_TRUE(is_editing(desk.editor));
+  EXPECT_EQ(desk.give("PE 1"), Error::not_allowed);
+  desk.give_all({"EXIT", "PI 1"});
+  EXPECT_EQ(desk.give("SET P5"), Error::range);
+  desk.give_all({""});
   EXPECT_FALSE(is_editing(desk.editor));
   EXPECT_EQ(desk.program.texts(), (Lines{"SET P1", "SET P2"}));
 }

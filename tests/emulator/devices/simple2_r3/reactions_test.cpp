@@ -171,6 +171,7 @@ class Cell {
 
   void expect_change() {
     if (doing_ == Doing::pwm) return expect_beginning();
+    if (event_ == Event::move_towards || event_ == Event::move_away) return expect_move_on();
     EXPECT_EQ(sum(rig_.watch(5)) * way_ >= 4, way_ != 0) << "from the speed that there was";
     rig_.watch(1500);
     const std::int64_t pulses = sum(rig_.watch(100));
@@ -178,6 +179,19 @@ class Cell {
                                 : event_ == Event::velocity_away ? -50
                                                                  : 50;
     EXPECT_NEAR(static_cast<double>(pulses), static_cast<double>(wanted), 1);
+  }
+
+  /// On by the speed that there is, and to the target: 200 pulses from where the command came.
+  void expect_move_on() {
+    EXPECT_EQ(rig_.get("Aaxis_Mode"), 0);
+    // A pulse a millisecond, or what is left of it where a slope runs down, for 10 ms of ramp.
+    const std::int64_t first = sum(rig_.watch(4)) * way_;
+    const bool stands = way_ == 0 || phase_ == Phase::at_limit;
+    EXPECT_EQ(first, stands ? 0 : std::abs(first));
+    EXPECT_EQ(first == 0, stands);
+    const std::int64_t target = event_ == Event::move_towards ? kDistance : -kDistance;
+    EXPECT_EQ(first * way_ + sum(rig_.watch(600)), target);
+    EXPECT_FALSE(rig_.moving('A'));
   }
 
   Doing doing_;

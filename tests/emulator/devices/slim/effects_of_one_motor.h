@@ -156,11 +156,11 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"ON EVk,addr",
      "SET EV1 I,1; ON EV1,$E; PG; WI 8; RET; $E OUT \"EVENT\"; RET; .; G; @20; IN1 = 1; @5; "
      "< EVENT; @20; ?ST -> 5; IN8 = 1; @5; ?ST -> 1; {new}; {runs}; ON EV1,0 -> ERR 3"},
-    {"PZ", "MR 100000; @301; PZ; @110; ?PE -> 50000; @500; ?PE -> 50000; JGF -> ERR 3; {new}; {runs}; PZ"},
+    {"PZ", "MR 100000; @301; PZ; @110; ?PE -> 50000; @500; ?PE -> 50000; JGF -> ERR 6; {new}; {runs}; PZ"},
     {"REDO", "REDO; MR 100000; @301; PZ; @200; REDO; @390; ?ST -> 259; @20; ?PE -> 100000; ?ST -> 1"},
     {"CLR BUF",
      "MR 10000; MR 10000; CLR BUF; @400; ?PE -> 10000; {new}; MR 100000; MR 5; @301; PZ; @110; CLR BUF; "
-     "REDO; @900; ?PE -> 50000; {new}; {runs}; CLR BUF -> ERR 3"},
+     "REDO; @900; ?PE -> 50000; {new}; {runs}; CLR BUF"},
     // --- speed: half of VJ is 8333.3 pulses/s; VJ 0.5 RPS and 30 RPM are 5000.
     {"AVM",
      "AIN = 500; @1; AVM; JGF; @1000; ?MD -> 5; JG0; @50; ?PE -> 8325; {new}; {runs}; "
@@ -174,10 +174,12 @@ inline constexpr Effect kOneMotorEffects[] = {
     {"PL", "PL; PG; $A; WT 3; .; PL -> 0: $A|1: WT 3; {new}; {runs}; PL -> ERR 3"},
     {"PE n",
      "PG; MA 5; MA 6; .; PE 1; MA 7; PL -> 0: MA 5|1: MA 7; PE 2 -> ERR 2; PE 0; FOO -> ERR 1; "
-     "PL -> 0: MA 5|1: MA 7; {new}; {runs}; PE 0 -> ERR 3"},
+     "FOO -> ERR 1; .; PL -> 0: MA 5|1: MA 7; PE 0; FOO -> ERR 1; MA 8; @99; ?PE -> 0; PL -> 0: MA 8|1: MA "
+     "7; "
+     "{new}; {runs}; PE 0 -> ERR 3"},
     {"PI n",
-     "PG; MA 5; MA 6; .; PI 1; MA 7; PL -> 0: MA 5|1: MA 7|2: MA 6; PI 4 -> ERR 2; {new}; {runs}; "
-     "PI 0 -> ERR 3"},
+     "PG; MA 5; MA 6; .; PI 1; MA 7; PL -> 0: MA 5|1: MA 7|2: MA 6; PI 4 -> ERR 2; PI 0; "
+     "MA -> ERR 1; MA 8; @99; ?PE -> 0; PL -> 0: MA 8|1: MA 5|2: MA 7|3: MA 6; {new}; {runs}; PI 0 -> ERR 3"},
     {"PD n", "PG; MA 5; MA 6; .; PD 0; PL -> 0: MA 6; PD 1 -> ERR 2; {new}; {runs}; PD 0 -> ERR 3"},
     {"ULP", "PG; MA 5; MA 6; .; ULP -> MA 5|MA 6|END; {new}; {runs}; ULP -> ERR 3"},
     {"DLP", "PG; MA 5; .; DLP; MA 6; .; WT 1; END; PL -> 0: MA 6|1: WT 1; {new}; {runs}; DLP -> ERR 3"},

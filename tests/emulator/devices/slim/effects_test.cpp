@@ -72,13 +72,15 @@ TEST(SlimEffects, WhatAHostMaySayBesidesAProgramByTheColumnAlone) {
 }
 
 TEST(SlimEffects, WhatAHostMaySayBesidesAProgram) {
-  std::set<std::string_view> taken{"TAPZ", "TASTOP", "TVM=f32", "EXIT",    "TAREDO", "TAUPZ",
-                                   "PZ",   "REDO",   "ISET Pn", "ICLR Pn", "IHON",   "IHOFF"};
+  std::set<std::string_view> taken{"TAPZ", "TASTOP",  "TVM=f32", "EXIT", "TAREDO", "TAUPZ",  "PZ",
+                                   "REDO", "ISET Pn", "ICLR Pn", "IHON", "IHOFF",  "CLR BUF"};
   for (const auto& row : lang::kCommands) {
     if (row.syntax.starts_with('?')) taken.insert(row.syntax);
   }
-  EXPECT_EQ(taken.size(), 12u + 23u);
+  EXPECT_EQ(taken.size(), 13u + 23u);
   EXPECT_EQ(not_allowed(run_a_program, {}), all_but(taken));
+  taken.insert({"RESET", "TpRESET"});
+  EXPECT_EQ(not_allowed(run_a_program, {{"while_program_runs", "reset_too"}}), all_but(taken));
 }
 
 /// What can only be stored: the flow of a program, and what has no mark under 立即. GETI and GETR have nobody

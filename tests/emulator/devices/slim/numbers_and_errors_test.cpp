@@ -58,6 +58,30 @@ TEST(SlimNumbers, RealsAreWrittenWithoutAnExponent) {
        "> R0=0.00001\n> ?R0\n< 1e-05\n> R0=1e10\n> ?R0\n< 1e+10\n> R0=0.01\n> ?R0\n< 0.01\n");
 }
 
+TEST(SlimNumbers, NoDigitsAreMadeUp) {
+  for (const auto& [typed, said] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"3.4028235e38", "340282350" + std::string(30, '0')},
+           {"-3.4028235e38", "-340282350" + std::string(30, '0')},
+           {"1e38", "1" + std::string(38, '0')},
+           {"1e-45", "0." + std::string(44, '0') + "1"},
+           {"-0.00125", "-0.00125"},
+           {"9.5", "9.5"},
+           {"1234567", "1234567"},
+           {"123456.75", "123456.75"},
+           {"0.1", "0.1"}}) {
+    DialogueScript script;
+    script.type("R0=" + typed);
+    EXPECT_EQ(script.ask("?R0"), said);
+  }
+}
+
+TEST(SlimNumbers, TheClockKeepsAFraction) {
+  play(
+      {},
+      "> TM=1.5\n> ?TM\n< 1\n@ 499\n> ?TM\n< 1\n@ 1\n> ?TM\n< 2\n> R0=0.25\n> TM=R0\n@ 749\n> ?TM\n< 0\n@ 1\n"
+      "> ?TM\n< 1\n");
+}
+
 TEST(SlimNumbers, WhatIsSaidCanBeTypedAgain) {
   for (const std::string form : {"plain_digits", "exponent_of_the_large_and_small"}) {
     DialogueScript script(1, {{"real_format", form}});
@@ -149,6 +173,9 @@ TEST(SlimEntry, LinesAreCheckedAsTheyAreEntered) {
                                   {"T1PR3=0", "ERR 2"},
                                   {"FOO=R0", "ERR 1"},
                                   {"PWM P1,0,50", "ERR 2"},
+                                  // Lines and links may come later.
+                                  {"T7MR 5", ""},
+                                  {"CALL 3000", ""},
                                   {"PR3=R0", ""},
                                   {"TVM=GETR", ""},
                                   {"T7PR3=5", ""},

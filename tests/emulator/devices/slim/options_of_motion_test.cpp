@@ -63,6 +63,54 @@ TEST(SlimMotionOptions, WhatResetClears) {
   const std::string begin = "HORG = 1\n> H\n@ 10\n> ?ST\n< 17\n> MA 1000\n@ 501\n> RESET\n";
   play_all("reset", {{"error_motion_and_buffer", begin + "> ?PE\n< 450\n> ?ST\n< 17\n"},
                      {"coordinate_too", begin + "> ?PE\n< 0\n> ?ST\n< 1\n> MA 20\n@ 200\n> ?PE\n< 20\n"}});
+  // T0's ends a pause, and nothing that it has held goes on.
+  const std::string paused =
+      "> MR 1000\n> T1MR 1000\n> T2JGF\n@ 501\n> TAPZ\n> PZ\n@ 300\n> T1RESET\n> RESET\n";
+  play_all(
+      "reset",
+      {{"error_motion_and_buffer", paused + "> T1MR 5\n< ERR 6\n> ?T2MD\n< 2\n> TAREDO\n> REDO\n@ 300\n"
+                                            "> ?T2ST\n< 131\n"},
+       {"pause_too", paused + "> ?ST\n< 1\n> ?T2MD\n< 0\n> T1MR 5\n@ 300\n> ?T1PE\n< 505\n> ?T2ST\n< 1\n"}});
+}
+
+TEST(SlimMotionOptions, WhetherThePausesAreOne) {
+  const std::string moves = "> MR 1000\n@ 501\n> PZ\n@ 300\n";
+  play_all(
+      "pauses",
+      {{"each_ends_by_its_own", moves + "> MR 5\n> TAREDO\n> TAUPZ\n@ 900\n> ?PE\n< 500\n> ?MD\n< 1\n> ?ST\n"
+                                        "< 265\n> REDO\n@ 900\n> ?PE\n< 1005\n> ?ST\n< 1\n"},
+       {"one_pause", moves + "> MR 5\n< ERR 6\n> TAREDO\n@ 700\n> ?PE\n< 1000\n"},
+       {"one_pause", moves + "> TAPZ\n> REDO\n@ 700\n> ?PE\n< 1000\n"},
+       {"one_pause", moves + "> TAUPZ\n> REDO\n@ 700\n> ?PE\n< 500\n> ?ST\n< 1\n"},
+       {"one_pause", "> MR 1000\n@ 501\n> TAPZ\n@ 300\n> CLR BUF\n> MR 5\n@ 300\n> ?PE\n< 505\n"}});
+  // A program's line waits in either pause, also one that cannot stand in the buffer.
+  const std::string program = "> PG\n> PZ\n> JGF\n> OUT \"GOES\"\n>\n> G\n@ 50\n> ?ST\n< 13\n";
+  play_all("pauses", {{"each_ends_by_its_own", program + "> REDO\n@ 5\n< GOES\n> ?MD\n< 2\n"},
+                      {"one_pause", program + "> TAREDO\n@ 5\n< GOES\n> ?MD\n< 2\n"}});
+}
+
+TEST(SlimMotionOptions, WhatAStopDoesToOutputs) {
+  const std::string outputs = "> SET P1\n> PLS P2,1000\n> PWM P3,10,50\n> P1SET P4,100\n@ 40\n";
+  const std::string seen = "@ 35\n> MR 200\n@ 400\n";
+  for (const std::string stop : {"TASTOP", "RESET"}) {
+    for (const bool ends : {false, true}) {
+      SCOPED_TRACE(stop);
+      MotionScript script("outputs_at_stop", ends ? "end" : "go_on");
+      script.play(outputs + "> " + stop + "\n" + seen);
+      EXPECT_TRUE(script.output(1));
+      EXPECT_EQ(script.output(2), !ends);
+      int changes = 0;
+      for (int i = 0; i < 100; ++i) {
+        const bool before = script.output(3);
+        script.pass(1);
+        changes += script.output(3) != before ? 1 : 0;
+      }
+      EXPECT_EQ(changes, ends ? 0 : 2);
+      EXPECT_EQ(script.output(4), !ends);
+    }
+  }
+  play_all("outputs_at_stop", {{"go_on", outputs + "> TASTOP\n" + seen + "> RESET\n@ 50\n"},
+                               {"end", outputs + "> TASTOP\n" + seen + "> RESET\n@ 50\n"}});
 }
 
 TEST(SlimMotionOptions, Bit0OfOutp) {
@@ -118,14 +166,14 @@ TEST(SlimMotionOptions, WhatPzHolds) {
   // T1 waits behind a command that waits for T0.
   const std::string behind = "> TX=0\n> TY=1\n> MR 1000\n> 2MR 10,10\n> YMR 100\n@ 501\n";
   const std::string both = "> MR 1000\n> T2MR 1000\n@ 501\n> TAPZ\n> PZ\n@ 200\n> TAREDO\n@ 700\n";
-  play_all("pause_scope", {{"all_modules", path + "500\n> T2JGF\n< ERR 3\n" + goes_on},
+  play_all("pause_scope", {{"all_modules", path + "500\n> T2JGF\n< ERR 6\n" + goes_on},
                            {"all_modules", two + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T2PE\n< 1000\n"},
                            {"all_modules", behind + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T1PE\n< 0\n"},
                            {"all_modules", both + "> ?PE\n< 500\n> ?T2PE\n< 500\n"}});
   // A jog of 301 ms and its ramp: 50 + 200 + 50.
   play_all(
       "pause_scope",
-      {{"t0", path + "1000\n> T2JGF\n@ 301\n> T2JG0\n@ 200\n> ?T2PE\n< 1300\n> JGF\n< ERR 3\n" + goes_on},
+      {{"t0", path + "1000\n> T2JGF\n@ 301\n> T2JG0\n@ 200\n> ?T2PE\n< 1300\n> JGF\n< ERR 6\n" + goes_on},
        {"t0", path + "1000\n> CLR BUF\n@ 200\n> ?PE\n< 30\n> ?T1PE\n< 50\n> MR 5\n@ 200\n> ?PE\n< 35\n"},
        {"t0", two + "> CLR BUF\n@ 2000\n> ?PE\n< 1000\n> ?T2PE\n< 1500\n"},
        {"t0", two + "> PZ\n> CLR BUF\n@ 2000\n> ?PE\n< 500\n> ?T2PE\n< 1500\n"},

@@ -150,6 +150,26 @@ TEST(SlimProgramEntryChoices, EditEnd) {
   EXPECT_EQ(script.ask("?PE"), "0");
 }
 
+TEST(SlimProgramEntryChoices, ARefusedLine) {
+  const std::string begin = "> PG\n> RET\n>\n> PE 0\n> MR\n< ERR 1\n> ?ST\n";
+  play({}, begin + "< ERR 3\n> MR 500\n@ 300\n> ?PE\n< 0\n> PL\n< 0: MR 500\n");
+  // It was meant for the program.
+  play({{"refused_line", "ends_editing"}}, begin + "< 33\n> MR 500\n@ 300\n> ?PE\n< 500\n> PL\n< 0: RET\n");
+  // One that is too long, an empty one, EXIT and ESC.
+  for (const std::string end : {"", "EXIT", "\x1B"}) {
+    DialogueScript script(1, {{"prompt", "greater_than"}});
+    const auto prompted = [&](const std::string& line) {
+      script.send(line + "\r");
+      return script.device().state().editor.mode;
+    };
+    EXPECT_EQ(prompted("PI 0"), lang::Editor::Mode::insert);
+    EXPECT_EQ(prompted(std::string(128, 'A')), lang::Editor::Mode::insert);
+    EXPECT_EQ(prompted("MR"), lang::Editor::Mode::insert);
+    EXPECT_EQ(prompted(end), lang::Editor::Mode::none);
+    EXPECT_EQ(script.device().state().program.size(), 0);
+  }
+}
+
 TEST(SlimProgramEntryChoices, Listing) {
   play({{"listing", "text"}}, "> PG\n> $A  MA 5\n> RET\n>\n> PL\n< $A  MA 5\n< RET\n");
 }

@@ -84,12 +84,14 @@ TEST(SlimTvm, OneByOneSpoilsWhatComes) {
   EXPECT_EQ(bench.finish() - began - 1, 1100);
 }
 
-TEST(SlimTvm, TvaIsRefusedWhileAnythingIsCoordinated) {
+TEST(SlimTvm, TvaIsRefusedOfAModuleOnAPath) {
   OneChain bench = at_origin();
   bench.line({100, 0});
   bench.steps(500);
   EXPECT_EQ(bench.chain.set_path_acceleration(0, 500), Error::not_allowed);
-  bench.finish();
+  EXPECT_EQ(bench.chain.set_path_acceleration(1, 500), Error::not_allowed);
+  EXPECT_EQ(bench.chain.set_path_acceleration(2, 500), Error::none);  // on no path
+  EXPECT_EQ(bench.finish() - 1, 1100);
   for (int module = 0; module < 2; ++module) {
     EXPECT_EQ(bench.chain.set_path_acceleration(module, 500), Error::none);
   }

@@ -25,7 +25,7 @@ TEST(SlimQueues, PzHoldsAndRedoGoesOnWithTheRestAndWhatFollows) {
   // Unlike TAPZ it lets commands be queued; a jog cannot run now.
   EXPECT_EQ(bench.chain.move(0, false, 10), Error::none);
   EXPECT_EQ(bench.chain.move(1, false, 10), Error::none);
-  EXPECT_EQ(bench.chain.jog(2, +1), Error::not_allowed);
+  EXPECT_EQ(bench.chain.jog(2, +1), Error::paused);
   bench.steps(100);
   EXPECT_EQ(bench.travel(1), 0);
   const Tick again = bench.tick;
