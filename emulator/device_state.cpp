@@ -35,8 +35,8 @@ std::function<void()> Device::read_state(std::span<const std::byte> bytes) {
   demand_within(std::get<Tick>(restored), 0, tick_at(kHorizon));
   auto put_own = read_own_state(reader);
   reader.demand_end();
-  return [this, restored = std::move(restored), put_own = std::move(put_own)]() mutable {
-    CommonFields::of(*this, [&](auto&... field) { std::tie(field...) = std::move(restored); });
+  return [this, restored = std::move(restored), put_own = std::move(put_own)] {
+    CommonFields::of(*this, [&](auto&... field) { std::tie(field...) = restored; });
     inputs_changed_ = true;
     put_own();
   };

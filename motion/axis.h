@@ -108,8 +108,8 @@ enum class Task : std::uint8_t {
   coordinated,  // carried along a path with others (motion/coordinated.h)
 };
 
-struct Axis {
-  // What every tick needs, first: with the beginning of the drive it fills two cache lines.
+struct alignas(64) Axis {
+  // What every tick needs, first: with the beginning of the drive it is two cache lines.
   std::int64_t travel_pulses = 0;
   std::int64_t watch_low = 0;  // while travel stays within, nothing can happen on account of the place
   std::int64_t watch_high = 0;

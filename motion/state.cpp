@@ -37,12 +37,36 @@ auto as_bits(T value) {
   }
 }
 
-/// Gives every byte of a value to `sink`.
+/// The bytes of a number, of which there are as many as it takes.
+template <class Bits>
+std::array<std::byte, sizeof(Bits)> bytes_of(Bits bits) {
+  std::array<std::byte, sizeof(Bits)> bytes;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(bytes.data(), &bits, sizeof bits);
+  } else {
+    for (std::size_t i = 0; i < sizeof bits; ++i) bytes[i] = static_cast<std::byte>(bits >> (8 * i));
+  }
+  return bytes;
+}
+
+template <class Bits>
+Bits bits_of(std::span<const std::byte, sizeof(Bits)> bytes) {
+  Bits bits = 0;
+  if constexpr (std::endian::native == std::endian::little) {
+    std::memcpy(&bits, bytes.data(), sizeof bits);
+  } else {
+    for (std::size_t i = 0; i < sizeof bits; ++i) {
+      bits = static_cast<Bits>(bits | static_cast<Bits>(std::to_integer<std::uint8_t>(bytes[i])) << (8 * i));
+    }
+  }
+  return bits;
+}
+
+/// Gives all bytes of a value to `sink`, number by number.
 template <class T, class Sink>
 void write(const T& value, Sink& sink) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
-    const auto bits = as_bits(value);
-    for (std::size_t i = 0; i < sizeof bits; ++i) sink(static_cast<std::uint8_t>(bits >> (8 * i)));
+    sink(bytes_of(as_bits(value)));
   } else if constexpr (kIsOptional<T>) {
     write(value.has_value(), sink);
     if (value) write(*value, sink);
@@ -59,20 +83,20 @@ struct Source {
   std::span<const std::byte> bytes;
   std::size_t taken = 0;
 
-  std::uint8_t next() {
-    if (taken == bytes.size())
+  template <std::size_t count>
+  std::span<const std::byte, count> next() {
+    if (bytes.size() - taken < count)
       throw BadMotion(Refusal::out_of_range, "saved state", "the bytes end too early");
-    return std::to_integer<std::uint8_t>(bytes[taken++]);
+    taken += count;
+    return std::span<const std::byte, count>(bytes.data() + taken - count, count);
   }
 };
 
 template <class T>
 void read(T& value, Source& source) {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
-    decltype(as_bits(value)) bits = 0;
-    for (std::size_t i = 0; i < sizeof bits; ++i) {
-      bits = static_cast<decltype(bits)>(bits | static_cast<decltype(bits)>(source.next()) << (8 * i));
-    }
+    using Bits = decltype(as_bits(value));
+    const auto bits = bits_of<Bits>(source.next<sizeof(Bits)>());
     if constexpr (std::is_same_v<T, double>) {
       value = std::bit_cast<double>(bits);
     } else if constexpr (std::is_same_v<T, bool>) {
@@ -107,7 +131,7 @@ template <class T>
 std::vector<std::byte> save(const T& value) {
   std::vector<std::byte> bytes;
   bytes.reserve(sizeof value);
-  auto sink = [&](std::uint8_t byte) { bytes.push_back(std::byte{byte}); };
+  auto sink = [&](const auto& number) { bytes.insert(bytes.end(), number.begin(), number.end()); };
   write(value, sink);
   return bytes;
 }
@@ -129,7 +153,9 @@ std::size_t restore(T& value, std::span<const std::byte> bytes) {
 template <class T>
 std::uint64_t hash(const T& value) {
   std::uint64_t sum = 0xcbf29ce484222325;
-  auto sink = [&](std::uint8_t byte) { sum = (sum ^ byte) * 0x100000001b3; };
+  auto sink = [&](const auto& number) {
+    for (const std::byte byte : number) sum = (sum ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
+  };
   write(value, sink);
   return sum;
 }

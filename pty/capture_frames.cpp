@@ -89,9 +89,7 @@ void CaptureFrames::give_strikes() {
 }
 
 void CaptureFrames::run(SimTime now) {
-  for (auto at = due(); at && *at <= now; at = due()) {
-    const auto frame = framer_.take(now);
-    if (!frame) continue;
+  while (const auto frame = framer_.take_due(now)) {
     const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const TimedByte& character) {
       return character.number == frame->last_character;
     });

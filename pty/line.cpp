@@ -164,7 +164,12 @@ std::optional<SimTime> Line::due() const {
 }
 
 void Line::run(SimTime now) {
+  // A station that is due again and again, and does nothing, would never let go.
+  constexpr int kMostAtOnce = 1 << 23;
+  int at_once = 0;
   for (Event next = next_event(); next.what != What::nothing && next.at <= now; next = next_event()) {
+    at_once = next.at > clock_ ? 0 : at_once + 1;
+    if (at_once > kMostAtOnce) throw std::logic_error(name_ + ": what is due does not come to an end");
     clock_ = std::max(clock_, next.at);
     due_changed();
     handle(next);

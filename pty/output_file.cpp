@@ -18,10 +18,10 @@ constexpr int kMostLinks = 40;  // that lead to one another, as Linux has it
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// As Linux judges it where fs.protected_symlinks is on.
-bool is_left_by_a_stranger(const fs::path& link, const struct stat& status) {
+/// As Linux judges it where fs.protected_symlinks and fs.protected_regular are on.
+bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
   struct stat folder = {};
-  if (::stat(link.parent_path().c_str(), &folder) != 0) return true;
+  if (::stat(place.parent_path().c_str(), &folder) != 0) return true;
   const bool anybody_may_write = (folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0;
   return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
 }
@@ -59,6 +59,9 @@ std::string output_target(const std::string& path) {
     if (::lstat(target.c_str(), &status) != 0) {
       if (errno == ENOENT) return target.string();  // free, or whoever makes it is told what is missing
       throw OutputError(error_text(errno));
+    }
+    if (S_ISREG(status.st_mode) && is_left_by_a_stranger(target, status)) {
+      throw OutputError("it is another user's file in a folder that is open to all; expected a path of ours");
     }
     if (S_ISREG(status.st_mode)) return target.string();
     if (!S_ISLNK(status.st_mode)) {

@@ -2,7 +2,7 @@
 // replaced as a whole (a memory, a snapshot, a picture):
 // - Only a regular file is written, or a free path. A pipe, a device, a socket, a folder is left alone.
 // - A symbolic link is followed, and stays: the file that it leads to is written. In a folder where anybody
-//   may leave one (/tmp), another user's link is refused.
+//   may leave one (/tmp), another user's link is refused, and another user's file as well.
 // - What is there is kept until the first bytes are written. So everything can be opened before anything is
 //   emptied.
 // - A file that grows is locked: two programs never write one.

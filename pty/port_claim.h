@@ -1,7 +1,7 @@
 // Says of a port's link, for as long as we serve it, that it is served: so that another run does not take it
-// for a stale one. It is a lock on an empty file beside the link, `.NAME.lock`: only who may make the link
-// may claim it, whoever else is on the machine. The kernel lets go of the lock with the process; a file that
-// a killed one has left is taken over by the next.
+// for a stale one. (And of a memory's file that it is kept.) It is a lock on an empty file beside the link,
+// `.NAME.lock`: only who may make the link may claim it, whoever else is on the machine. The kernel lets go
+// of the lock with the process; a file that a killed one has left is taken over by the next.
 #pragma once
 
 #include <string>

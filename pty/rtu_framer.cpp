@@ -1,6 +1,7 @@
 #include "pty/rtu_framer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "pty/rtu_crc.h"
 
@@ -230,6 +231,15 @@ std::optional<RtuFrame> RtuFramer::take(SimTime now) {
   if (!character_under_way_ && is_silent(now)) end_of_silence();
   if (ready_count_ == 0 || now < *due()) return std::nullopt;
   return take_ready();
+}
+
+std::optional<RtuFrame> RtuFramer::take_due(SimTime now) {
+  for (std::optional<SimTime> at = due(); at && *at <= now;) {
+    if (const auto frame = take(now)) return frame;
+    const std::optional<SimTime> before = std::exchange(at, due());
+    if (at == before) break;  // nothing has come of it, and nothing would
+  }
+  return std::nullopt;
 }
 
 RtuFrame RtuFramer::take_ready() {

@@ -63,6 +63,10 @@ class RtuFramer {
   /// Call again while it returns a frame or due() is not later than now.
   std::optional<RtuFrame> take(SimTime now);
 
+  /// All calls of take() that are worth it until a good frame comes: nothing when there are none left. For
+  /// loops, which it ends in any case.
+  std::optional<RtuFrame> take_due(SimTime now);
+
   /// The frame that take() would give if no silence had to be waited for: a complete one, or under the strict
   /// rule all that has come since the last silence, if its checksum is right. For a device that is too quick.
   std::optional<RtuFrame> peek() const;

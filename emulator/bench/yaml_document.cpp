@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <deque>
 #include <map>
 #include <optional>
@@ -37,11 +38,17 @@ struct Stop {
   YAML::Mark mark;
   std::string_view line;
   std::string_view before;  // of the line, what the library has read
+  std::string_view above;   // the last line with something on it before this one
 
   Stop(std::string_view text, const YAML::Mark& where)
       : mark(where),
         line(line_at(text, where.line)),
-        before(line.substr(0, static_cast<std::size_t>(std::max(where.column, 0)))) {}
+        before(line.substr(0, static_cast<std::size_t>(std::max(where.column, 0)))) {
+    for (int number = where.line - 1; number >= 0 && above.empty(); --number) {
+      const std::string_view other = line_at(text, number);
+      if (other.find_first_not_of(kBlank) != std::string_view::npos) above = other;
+    }
+  }
   std::string_view indentation() const {
     return line.substr(0, std::min(line.find_first_not_of(kBlank), line.size()));
   }
@@ -57,6 +64,24 @@ bool has_second_colon(const Stop& stop) {
   const std::size_t colon = stop.line.find(": ");
   return colon != std::string_view::npos && static_cast<int>(colon) + 1 < stop.mark.column;
 }
+/// "model:simple2-r3": a key without the blank that makes it one.
+bool is_glued(std::string_view line) {
+  const auto is_of_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  std::size_t at = std::min(line.find_first_not_of(kBlank), line.size());
+  if (line.substr(at, 2) == "- ") at += 2;
+  const std::size_t begin = at;
+  while (at < line.size() && is_of_name(line[at])) ++at;
+  return at > begin && at + 1 < line.size() && line[at] == ':' && kBlank.find(line[at + 1]) == kBlank.npos &&
+         line.substr(at, 3) != "://";
+}
+bool is_below_glued_key(const Stop& stop) { return is_glued(stop.above); }
+bool is_glued_key(const Stop& stop) { return is_glued(stop.line); }
+/// Within braces or brackets that go on or end behind this.
+bool goes_on(const Stop& stop) {
+  return stop.line.find_first_of(",}]", stop.before.size()) != std::string_view::npos;
+}
 bool is_in_line(const Stop& stop) { return !stop.is_at_begin(); }
 bool always(const Stop& /*stop*/) { return true; }
 
@@ -68,6 +93,8 @@ struct PlainWords {
 };
 constexpr std::string_view kOtherIndentation =
     "this line is indented otherwise than those it belongs to; expected the same number of spaces";
+constexpr std::string_view kMissingComma =
+    "a ',' is missing before this; expected one between the entries of a '{' or '['";
 constexpr std::array kPlainWords{
     PlainWords{"", is_indented_by_tab, "a tab indents this line; expected spaces"},
     PlainWords{
@@ -76,16 +103,22 @@ constexpr std::array kPlainWords{
     PlainWords{"end of sequence flow not found", has_bare_parameter,
                "a '{' inside brackets begins a map; expected quotes around a ${...} between braces or "
                "brackets"},
+    PlainWords{"illegal map value", is_below_glued_key,
+               "the line before it has no space after its ':'; expected `key: value` there"},
     PlainWords{"illegal map value", has_second_colon,
                "a second ': ' in one line; expected quotes around a text with ': ', or a line of its own"},
     PlainWords{"illegal map value", always,
                "this key does not fit the line before it; expected `key: value` there, and the same number "
                "of spaces before the keys of one map"},
+    PlainWords{"end of map not found", is_glued_key,
+               "this line has no space after its ':'; expected `key: value`"},
     PlainWords{"illegal map key", always, "a key cannot stand here; expected it on a line of its own"},
     PlainWords{"end of map not found", is_in_line,
                "something follows a value that is complete; expected quotes around all of the text"},
     PlainWords{"end of map not found", always, kOtherIndentation},
     PlainWords{"end of sequence not found", always, kOtherIndentation},
+    PlainWords{"end of map flow not found", goes_on, kMissingComma},
+    PlainWords{"end of sequence flow not found", goes_on, kMissingComma},
     PlainWords{"end of map flow not found", always,
                "a '{' before this is not closed; expected ',' or '}' here"},
     PlainWords{"end of sequence flow not found", always,

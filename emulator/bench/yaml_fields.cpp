@@ -102,6 +102,11 @@ void YamlFields::refuse_key(const std::string& key, std::span<const KeyRow> know
     names.emplace_back(row.key);
     list += (list.empty() ? "" : ", ") + names.back();
   }
+  const std::string name = key.substr(0, key.find(':'));
+  if (name != key && std::find(names.begin(), names.end(), name) != names.end()) {
+    fail("has no space after its ':'; expected `" + name + ": " + one_line(key.substr(name.size() + 1)) +
+         "`");
+  }
   const auto nearest = near_word(key, names);
   fail("is no key here; expected one of " + list + (nearest ? " (the nearest is '" + *nearest + "')" : ""));
 }
@@ -142,6 +147,8 @@ std::vector<YamlFields> YamlFields::elements() const {
 }
 
 std::string YamlFields::text() const {
+  const bool is_glued = node_->kind == YamlNode::Kind::nothing && field_.find(':') != std::string::npos;
+  if (is_glued) fail("has no space after its ':'; expected `key: value`");
   if (!is_scalar()) fail("expected a word or a number");
   return read_scalar(*node_);
 }

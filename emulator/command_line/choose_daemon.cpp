@@ -80,11 +80,19 @@ bool has_port(const Running& running, const std::string& port) {
                      [&](const auto& known) { return known.link == link || known.pty == place; });
 }
 
-std::string only_one(const std::vector<Running>& all) {
+/// "--bench feeder.yaml --port feeder.port"
+std::string flags_of(const WhichDaemon& which) {
+  std::string flags;
+  if (!which.bench.empty()) flags += " --bench " + which.bench;
+  if (!which.port.empty()) flags += " --port " + which.port;
+  return flags.substr(1);
+}
+
+std::string only_one(const std::vector<Running>& all, const std::string& what_is_told,
+                     const std::string& flags) {
   if (all.size() == 1) return all.front().socket;
-  throw UsageError(
-      "ctl: " + std::to_string(all.size()) +
-      " are running; expected --bench FILE, --port LINK or --control SOCKET of one of: " + list_of(all));
+  throw UsageError("ctl: " + std::to_string(all.size()) + " " + what_is_told + "; expected " + flags +
+                   " of one of: " + list_of(all));
 }
 
 std::string find_by(const WhichDaemon& which) {
@@ -95,8 +103,14 @@ std::string find_by(const WhichDaemon& which) {
                       (which.port.empty() || has_port(running, which.port));
     if (running.has_answered && fits) fitting.push_back(running);
   }
-  if (!fitting.empty()) return only_one(fitting);
-  throw ControlError("ctl: nobody serves " + (which.port.empty() ? which.bench : which.port) + "; " +
+  if (!fitting.empty()) {
+    return only_one(fitting, "daemons fit " + flags_of(which),
+                    which.port.empty() ? "--port LINK as well, or --control SOCKET," : "--control SOCKET");
+  }
+  const std::string what = which.port.empty()    ? which.bench
+                           : which.bench.empty() ? which.port
+                                                 : which.bench + " on " + which.port;
+  throw ControlError("ctl: nobody serves " + what + "; " +
                      (all.empty() ? "no `understudy serve` is running here" : "running: " + list_of(all)));
 }
 
@@ -112,10 +126,27 @@ std::string choose_daemon(const WhichDaemon& which) {
     throw ControlError("ctl: nobody answers in " + control_folder() +
                        "; expected a running `understudy serve`, or --control SOCKET");
   }
-  return live.size() == 1 ? live.front() : only_one(identify_all());
+  return live.size() == 1
+             ? live.front()
+             : only_one(identify_all(), "are running", "--bench FILE, --port LINK or --control SOCKET");
 }
 
-int list_daemons() {
+int list_daemons(bool as_json) {
+  if (as_json) {
+    Json daemons = Json::array();
+    for (const Running& running : identify_all()) {
+      Json ports = Json::array();
+      for (const Running::Port& port : running.ports)
+        ports.push_back({{"pty", port.pty}, {"link", port.link}});
+      daemons.push_back({{"socket", running.socket},
+                         {"answers", running.has_answered},
+                         {"bench", running.bench},
+                         {"ports", ports}});
+    }
+    const Json reply{{"ok", true}, {"daemons", daemons}};
+    std::printf("%s\n", reply.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+    return kExitWell;
+  }
   for (const Running& running : identify_all()) std::printf("%s\n", one_line(text_of(running)).c_str());
   return kExitWell;
 }

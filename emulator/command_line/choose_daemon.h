@@ -12,7 +12,7 @@ namespace understudy::emulator {
 /// there is none.
 std::string choose_daemon(const WhichDaemon& which);
 
-/// Prints a line for each of this user's that runs: its socket, process, bench and ports.
-int list_daemons();
+/// Prints a line for each of this user's that runs: its socket, bench and ports. As JSON: one object.
+int list_daemons(bool as_json);
 
 }  // namespace understudy::emulator

@@ -2,9 +2,11 @@
 
 #include <cstdio>
 #include <functional>
+#include <set>
 #include <string_view>
 
 #include "emulator/command_line/commands.h"
+#include "emulator/faults/kinds.h"
 #include "emulator/model.h"
 #include "emulator/one_line.h"
 
@@ -25,6 +27,49 @@ std::string model_names() {
     names += (names.empty() ? "" : " ") + std::string(model->name);
   }
   return names;
+}
+
+std::string fault_names() {
+  std::string names;
+  for (const FaultKindRow& row : fault_kinds()) {
+    names += (names.empty() ? "" : " ") + std::string(row.name);
+  }
+  return names;
+}
+
+/// What may stand behind a command, at that place of the words that are no flags.
+struct OperandWords {
+  std::string path;
+  int place = 0;  // from 0
+  std::string words;
+};
+std::vector<OperandWords> operand_words() {
+  return {{"understudy describe", 0, model_names()},
+          {"understudy describe", 1, "registers parameters instructions commands choices"},
+          {"understudy schema", 0, "bench scenario"},
+          {"understudy completion", 0, "bash zsh fish"},
+          {"understudy ctl inject", 0, fault_names()},
+          {"understudy ctl clear", 0, "all"},
+          {"understudy ctl power", 1, "on off cycle"},
+          {"understudy ctl get", 0, "time"},
+          {"understudy ctl watch", 0, "time"}};
+}
+
+/// Flags whose value is the next word: "--bench", "--control", ...
+std::vector<std::string> flags_with_value(const CommandWords& words) {
+  std::set<std::string> flags;
+  for_each(words, words.name, [&](const std::string&, const CommandWords& command) {
+    for (const CommandWords::Flag& flag : command.flags) {
+      if (flag.takes_value) flags.insert("--" + flag.name);
+    }
+  });
+  return {flags.begin(), flags.end()};
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
 }
 
 /// In single quotes, as all three shells take it.
@@ -52,21 +97,35 @@ std::string bash_script(const CommandWords& words) {
     for (const CommandWords::Flag& flag : command.flags) flags += (flags.empty() ? "--" : " --") + flag.name;
     cases += "    '" + path + "') commands='" + commands + "' flags='" + flags + "' ;;\n";
   });
+  std::string operands;
+  for (const OperandWords& row : operand_words()) {
+    operands += "    '" + row.path + " " + std::to_string(row.place) + "') operands='" + row.words + "' ;;\n";
+  }
   return "# bash completion for understudy, made by `understudy completion bash`\n"
          "_understudy() {\n"
          "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
-         "  local commands= flags= path=understudy i\n"
+         "  local commands= flags= operands= path=understudy place=0 i\n"
          "  COMPREPLY=()\n"
          "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
          "    [[ ${COMP_WORDS[i]} == -- ]] && return\n"
          "    case \"$path ${COMP_WORDS[i]}\" in\n"
          "      " +
          patterns_of(words, " | ") +
-         ") path=\"$path ${COMP_WORDS[i]}\" ;;\n"
+         ") path=\"$path ${COMP_WORDS[i]}\"; continue ;;\n"
+         "    esac\n"
+         "    case ${COMP_WORDS[i]} in\n"
+         "      " +
+         joined(flags_with_value(words), " | ") +
+         ") ((++i)) ;;\n"
+         "      -*) ;;\n"
+         "      *) ((++place)) ;;\n"
          "    esac\n"
          "  done\n"
          "  case $path in\n" +
          cases +
+         "  esac\n"
+         "  case \"$path $place\" in\n" +
+         operands +
          "  esac\n"
          "  if [[ $before == --model ]]; then\n"
          "    COMPREPLY=($(compgen -W '" +
@@ -76,6 +135,8 @@ std::string bash_script(const CommandWords& words) {
          "    COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
          "  elif [[ -n $commands ]]; then\n"
          "    COMPREPLY=($(compgen -W \"$commands\" -- \"$word\"))\n"
+         "  elif [[ -n $operands ]]; then\n"
+         "    COMPREPLY=($(compgen -W \"$operands\" -- \"$word\"))\n"
          "  fi\n"
          "}\n"
          "complete -o default -F _understudy understudy\n";
@@ -95,21 +156,35 @@ std::string zsh_script(const CommandWords& words) {
     for (const CommandWords::Flag& flag : command.flags) cases += entry("--" + flag.name, flag.help);
     cases += ") ;;\n";
   });
+  std::string operands;
+  for (const OperandWords& row : operand_words()) {
+    operands += "    '" + row.path + " " + std::to_string(row.place) + "') operands=(" + row.words + ") ;;\n";
+  }
   return "#compdef understudy\n"
          "# zsh completion for understudy, made by `understudy completion zsh`\n"
          "_understudy() {\n"
-         "  local path_=understudy i\n"
-         "  local -a commands flags models\n"
+         "  local path_=understudy place=0 i\n"
+         "  local -a commands flags models operands\n"
          "  for ((i = 2; i < CURRENT; ++i)); do\n"
          "    if [[ ${words[i]} == -- ]]; then _files; return; fi\n"
          "    case \"$path_ ${words[i]}\" in\n"
          "      (" +
          patterns_of(words, "|") +
-         ") path_=\"$path_ ${words[i]}\" ;;\n"
+         ") path_=\"$path_ ${words[i]}\"; continue ;;\n"
+         "    esac\n"
+         "    case ${words[i]} in\n"
+         "      (" +
+         joined(flags_with_value(words), "|") +
+         ") (( ++i )) ;;\n"
+         "      (-*) ;;\n"
+         "      (*) (( ++place )) ;;\n"
          "    esac\n"
          "  done\n"
          "  case $path_ in\n" +
          cases +
+         "  esac\n"
+         "  case \"$path_ $place\" in\n" +
+         operands +
          "  esac\n"
          "  models=(" +
          model_names() +
@@ -120,6 +195,8 @@ std::string zsh_script(const CommandWords& words) {
          "    _describe -o flag flags\n"
          "  elif (( $#commands )); then\n"
          "    _describe command commands\n"
+         "  elif (( $#operands )); then\n"
+         "    compadd -a operands\n"
          "  else\n"
          "    _files\n"
          "  fi\n"
@@ -142,7 +219,39 @@ std::string fish_script(const CommandWords& words) {
       "    end\n"
       "  end\n"
       "  echo $path\n"
+      "end\n"
+      "function __understudy_place\n"
+      "  set -l path understudy\n"
+      "  set -l place 0\n"
+      "  set -l is_value 0\n"
+      "  for word in (commandline -opc)[2..-1]\n"
+      "    if test $is_value = 1\n"
+      "      set is_value 0\n"
+      "      continue\n"
+      "    end\n"
+      "    switch \"$path $word\"\n"
+      "      case " +
+      patterns_of(words, " ") +
+      "\n"
+      "        set path \"$path $word\"\n"
+      "        continue\n"
+      "    end\n"
+      "    switch $word\n"
+      "      case " +
+      joined(flags_with_value(words), " ") +
+      "\n"
+      "        set is_value 1\n"
+      "      case '-*'\n"
+      "      case '*'\n"
+      "        set place (math $place + 1)\n"
+      "    end\n"
+      "  end\n"
+      "  echo $path $place\n"
       "end\n";
+  for (const OperandWords& row : operand_words()) {
+    script += "complete -c understudy -n 'test \"(__understudy_place)\" = \"" + row.path + " " +
+              std::to_string(row.place) + "\"' -f -a '" + row.words + "'\n";
+  }
   for_each(words, words.name, [&](const std::string& path, const CommandWords& command) {
     const std::string here =
         "complete -c understudy -n " + in_quotes("test (__understudy_path) = \"" + path + "\"", "\\'");

@@ -20,8 +20,8 @@ struct CommandWords {
   std::vector<CommandWords> commands;
 };
 
-/// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can stand, files
-/// are offered; behind --model, the models.
+/// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can stand, what
+/// is known of that place is offered (models, faults), or files; behind --model, the models.
 std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell);
 
 /// `understudy completion SHELL`.

@@ -202,7 +202,9 @@ struct CommandLine {
         ->required();
     command->add_flag("--real-time", run.real_time,
                       "By the clock on the wall, over real ports, with libmodbus as the host");
-    command->add_option("--junit", run.junit, "Write the results to this file, as JUnit XML")
+    command
+        ->add_option("--junit", run.junit,
+                     "Write the results to this file, as JUnit XML; - for standard output")
         ->check(kNotEmpty);
     command->add_option("--report", run.report, "Write a page about all of it to this file, as HTML")
         ->check(kNotEmpty);
@@ -278,7 +280,8 @@ struct CommandLine {
     add_watch(*command);
     add_frames(*command);
     command->add_subcommand("daemons", "List the running ones: control socket, bench, ports")
-        ->callback([this] { chosen = list_daemons; });
+        ->fallthrough()
+        ->callback([this] { chosen = [this] { return list_daemons(control.json); }; });
     const auto add = [&](const char* verb, const char* help, const char* operand, const char* operand_help) {
       CLI::App* sub = command->add_subcommand(verb, help);
       if (operand != nullptr) sub->add_option(operand, control.operands, operand_help);
@@ -301,7 +304,7 @@ struct CommandLine {
     add("inject", "Break something", "FAULT",
         "stall AXIS, lost_steps AXIS one_in=N, slip AXIS pulses=N, alarm AXIS, or stuck INPUT level=N");
     add("clear", "Mend it", "NUMBER", "Of the fault, or all");
-    add("list", "The faults in force", nullptr, nullptr);
+    add("list", "List the faults, those in force and those that wait", nullptr, nullptr);
     add("snapshot", "Write the state of everything to a file", "FILE", "Is replaced if it is there");
     add("restore", "Make everything what it was", "FILE", "Of the same bench, by the same version");
     add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");

@@ -12,6 +12,7 @@
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/device.h"
 #include "emulator/one_line.h"
 #include "emulator/parse_integer.h"
 #include "emulator/scenario/free_stage.h"
@@ -30,6 +31,7 @@ struct Item {
   bool low_word_first = true;
   bool write = false;
   std::int64_t value = 0;
+  std::string range;  // that the table gives a register, if it does
 };
 
 std::int64_t demand_integer(std::string_view text, const std::string& item) {
@@ -93,6 +95,7 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
       place.part != Place::Part::whole && (place.part == Place::Part::high) == item.low_word_first;
   item.address = static_cast<std::uint16_t>(place.address() + (second ? 1 : 0));
   item.bit = found->bit;
+  if (place.row->ranged && place.part == Place::Part::whole) item.range = range_text(*place.row);
   if (item.write && item.bit >= 0)
     throw UsageError("poll: " + quoted(text) + " writes a bit; expected a whole register");
   return item;
@@ -188,8 +191,9 @@ void demand_fitting(const Item& item) {
   const std::int64_t lowest = wide ? INT32_MIN : INT16_MIN;
   const std::int64_t highest = wide ? std::int64_t{UINT32_MAX} : std::int64_t{UINT16_MAX};
   if (item.value < lowest || item.value > highest) {
+    const std::string words = std::to_string(lowest) + " to " + std::to_string(highest);
     throw UsageError("poll: " + std::to_string(item.value) + " does not fit into " + item.label +
-                     "; expected " + std::to_string(lowest) + " to " + std::to_string(highest));
+                     "; expected " + (item.range.empty() ? words : item.range));
   }
 }
 

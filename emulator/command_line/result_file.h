@@ -17,6 +17,9 @@
 
 namespace understudy::emulator {
 
+/// The path that means standard output.
+inline constexpr std::string_view kStandardOutput = "-";
+
 /// Opened before anything is played, so that a wrong path is told at once. What has no end, such as
 /// /dev/stdout, is written as well.
 class ResultFile {
@@ -24,6 +27,11 @@ class ResultFile {
   /// Nothing is written if the path is empty.
   ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
     if (path_.empty()) return;
+    if (path_ == kStandardOutput) {
+      stream_ = pty::Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
+      if (!stream_) refuse(std::strerror(errno));
+      return;
+    }
     try {
       if (!is_stream(path_)) {
         file_.emplace(path_);
@@ -63,7 +71,8 @@ class ResultFile {
     }
   }
   [[noreturn]] void refuse(const std::string& why) const {
-    throw GrowingFileError(flag_ + ": " + path_ + " cannot be written: " + why);
+    const std::string what = path_ == kStandardOutput ? "standard output" : path_;
+    throw GrowingFileError(flag_ + ": " + what + " cannot be written: " + why);
   }
   std::string flag_;
   std::string path_;

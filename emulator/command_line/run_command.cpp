@@ -103,7 +103,7 @@ void demand_own_files(FileClaims& claims, const std::vector<Scenario>& scenarios
     }
     for (const std::string& path : scenario.saved) claims.add({path, "what " + scenario.file + " saves"});
   }
-  demand_output(claims, "--junit", arguments.junit);
+  if (arguments.junit != kStandardOutput) demand_output(claims, "--junit", arguments.junit);
   demand_output(claims, "--report", arguments.report);
   demand_folders(claims, folders_of(arguments));
   if (arguments.trace_also.empty()) return;
@@ -130,15 +130,15 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
-void print(const std::vector<ScenarioResult>& results, bool with_hash) {
+void print(const std::vector<ScenarioResult>& results, bool with_hash, std::FILE* to) {
   for (const ScenarioResult& result : results) {
-    std::printf("%s\n", coloured_verdict(verdict_line(result), wants_colour(STDOUT_FILENO)).c_str());
+    std::fprintf(to, "%s\n", coloured_verdict(verdict_line(result), wants_colour(fileno(to))).c_str());
     if (with_hash && result.verdict != ScenarioResult::Verdict::not_reached) {
-      std::printf("hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
+      std::fprintf(to, "hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
     }
-    for (const std::string& line : failure_lines(result)) std::printf("      %s\n", line.c_str());
+    for (const std::string& line : failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
   }
-  std::fflush(stdout);
+  std::fflush(to);
 }
 
 }  // namespace
@@ -159,6 +159,8 @@ int run_scenarios(const RunArguments& arguments) {
   RunFiles files(folders_of(arguments), std::move(claims), arguments.real_time, arguments.version);
   junit.empty();
   report.empty();
+  // What is for people makes way for results on standard output.
+  std::FILE* const told = arguments.junit == kStandardOutput ? stderr : stdout;
   std::vector<ScenarioResult> all;
   PlayOptions options{.with_hash = arguments.hash};
   if (arguments.lint) {
@@ -177,11 +179,11 @@ int run_scenarios(const RunArguments& arguments) {
     ProgressLine progress(scenarios.size());
     play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
       for (ScenarioResult& result : results) files.settle(result);
-      progress.one_done([&] { print(results, arguments.hash); });
+      progress.one_done([&] { print(results, arguments.hash, told); });
       all.insert(all.end(), results.begin(), results.end());
     });
   }
-  std::printf("%s\n", summary_line(all).c_str());
+  std::fprintf(told, "%s\n", summary_line(all).c_str());
   for (const ScenarioResult& result : all) {
     for (const std::string& finding : result.manners) {
       std::fprintf(stderr, "lint: %s\n", one_line(result.file + ": " + result.name + ": " + finding).c_str());

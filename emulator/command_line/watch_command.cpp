@@ -1,7 +1,11 @@
 // `understudy ctl watch`: a table that is kept up to date.
+#include <poll.h>
 #include <sys/ioctl.h>
+#include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -10,6 +14,7 @@
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
+#include "emulator/control/scrolled_view.h"
 #include "emulator/control/server.h"
 #include "emulator/control/watch_table.h"
 #include "emulator/one_line.h"
@@ -21,6 +26,30 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Keys one by one, without an echo, for as long as this lives; Ctrl-C stays what it is.
+class Keyboard {
+ public:
+  Keyboard() : is_there_(isatty(STDIN_FILENO) != 0 && tcgetattr(STDIN_FILENO, &before_) == 0) {
+    if (!is_there_) return;
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    raw.c_cc[VMIN] = 1;
+    raw.c_cc[VTIME] = 0;
+    is_there_ = tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0;
+  }
+  ~Keyboard() {
+    if (is_there_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  Keyboard(const Keyboard&) = delete;
+  Keyboard& operator=(const Keyboard&) = delete;
+  bool is_there() const { return is_there_; }
+  void forget() { is_there_ = false; }  // it has hung up
+
+ private:
+  termios before_{};
+  bool is_there_ = false;
+};
+
 /// The terminal's other screen, without a cursor, for as long as this lives. What the user had on the
 /// terminal is there again afterwards.
 class Screen {
@@ -31,14 +60,28 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
 
   /// Written over what is there, in one piece: a screen that is cleared first flickers.
-  static void show(const std::vector<std::string>& lines) {
-    winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0) size = {24, 80, 0, 0};
+  void show(const std::vector<std::string>& lines) {
+    const winsize size = size_now();
     std::string text = "\x1b[H";
-    for (const std::string& line : fit_screen(lines, size.ws_row, size.ws_col)) {
+    for (const std::string& line : view_.fit(lines, size.ws_row, size.ws_col)) {
       text += (text.size() == 3 ? "" : "\n") + line + "\x1b[K";
     }
     put(text + "\x1b[J");
+  }
+  static std::size_t columns() { return size_now().ws_col; }
+
+  /// Waits so long, or until a signal or a key comes. False when somebody wants to end it.
+  bool wait(Clock::duration time) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(time).count();
+    pollfd keyboard{keyboard_.is_there() ? STDIN_FILENO : -1, POLLIN, 0};
+    if (poll(&keyboard, 1, static_cast<int>(std::max<std::int64_t>(left, 0))) <= 0) return true;
+    std::array<char, 64> keys{};
+    const ssize_t size = read(STDIN_FILENO, keys.data(), keys.size());
+    if (size <= 0) {
+      keyboard_.forget();
+      return true;
+    }
+    return !view_.press({keys.data(), static_cast<std::size_t>(size)});
   }
 
  private:
@@ -46,6 +89,16 @@ class Screen {
     std::fwrite(text.data(), 1, text.size(), stdout);
     std::fflush(stdout);
   }
+  static winsize size_now() {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0 || size.ws_col == 0) {
+      size = {24, 80, 0, 0};
+    }
+    return size;
+  }
+
+  Keyboard keyboard_;
+  ScrolledView view_;
 };
 
 void print(const std::vector<std::string>& lines) {
@@ -60,10 +113,12 @@ class Shown {
  public:
   explicit Shown(std::vector<std::string> names) : names_(std::move(names)) {}
   std::string message() const { return names_.empty() ? R"({"do":"status"})" : get_message(names_); }
-  std::vector<std::string> lines_of(const std::string& reply, Clock::time_point asked) {
+  std::vector<std::string> lines_of(const std::string& reply, Clock::time_point asked,
+                                    std::optional<std::size_t> columns) {
     if (!names_.empty()) return watch_values(reply);
     const double between_s = std::chrono::duration<double>(asked - asked_before_).count();
-    std::vector<std::string> lines = watch_table(reply, before_, between_s);
+    std::vector<std::string> lines =
+        columns ? watch_table(reply, before_, between_s, *columns) : watch_table(reply, before_, between_s);
     before_ = reply;
     asked_before_ = asked;
     return lines;
@@ -98,10 +153,19 @@ int watch(const WatchArguments& arguments) {
   for (int i = 0; !is_interrupted(); ++i) {
     const Clock::time_point asked = Clock::now();
     if (i > 0) reply = ask_control(path, shown.message());
-    const auto lines = shown.lines_of(reply, asked);
-    screen ? Screen::show(lines) : print(lines);
+    const auto columns = screen ? std::optional(Screen::columns()) : std::nullopt;
+    const auto lines = shown.lines_of(reply, asked, columns);
+    screen ? screen->show(lines) : print(lines);
     if (i + 1 == arguments.times) break;
-    wait_or_be_interrupted(*every);
+    if (!screen) {
+      wait_or_be_interrupted(*every);
+      continue;
+    }
+    const Clock::time_point next = asked + *every;
+    while (!is_interrupted() && Clock::now() < next) {
+      if (!screen->wait(next - Clock::now())) return kExitWell;
+      screen->show(lines);
+    }
   }
   return kExitWell;
 }

@@ -33,19 +33,35 @@ void demand_restorable(const Daemon& daemon) {
   }
 }
 
+/// Why it could not be; empty if it was.
+std::string written(const std::string& path, const WorldState& state, std::uint64_t bench_hash) {
+  try {
+    return replace_text_file(path, to_text(state, bench_hash));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
-Json snapshot_message(Daemon& daemon, const Json& message) {
+void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
   const std::string path = demand_file(message);
   if (const std::string why = daemon.files().objection_to(path); !why.empty()) {
     throw MessageError(path + ": file: " + why);
   }
   daemon.catch_up();
-  const std::string why = replace_text_file(path, to_text(save(daemon.world()), daemon.bench_hash()));
-  if (!why.empty()) {
-    throw MessageError(path + ": file: cannot be written (" + why + "); expected a place for it");
-  }
-  return reply_of(daemon);
+  // Of this moment, whatever the devices do while it is written.
+  const Json taken = reply_of(daemon);
+  const auto state = std::make_shared<const WorldState>(save(daemon.world()));
+  daemon.do_aside([path, reply, taken, state, hash = daemon.bench_hash()]() -> std::function<void()> {
+    const std::string why = written(path, *state, hash);
+    return [path, reply, taken, why] {
+      answer(reply, [&]() -> Json {
+        if (why.empty()) return taken;
+        throw MessageError(path + ": file: cannot be written (" + why + "); expected a place for it");
+      });
+    };
+  });
 }
 
 namespace {

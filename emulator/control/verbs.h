@@ -36,8 +36,9 @@ Json clear_message(Daemon& daemon, const Json& message);
 /// {"do":"list"}
 Json list_message(Daemon& daemon, const Json& message);
 
-/// {"do":"snapshot","file":"/tmp/homed.json"}: an absolute path
-Json snapshot_message(Daemon& daemon, const Json& message);
+/// {"do":"snapshot","file":"/tmp/homed.json"}: an absolute path. The file is written beside the daemon; the
+/// reply comes when it is there.
+void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"restore","file":"/tmp/homed.json"}. The file is read beside the daemon; the reply comes when the
 /// world is what it was.
 void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);

@@ -15,7 +15,6 @@ namespace understudy::emulator {
 
 namespace {
 
-constexpr std::size_t kWidth = 100;
 constexpr const char* kNoUnderstudy =
     "ctl watch: what answers is no understudy; expected the control socket of `understudy serve`";
 
@@ -31,9 +30,10 @@ __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, 
 /// Words side by side, on as many lines as they take.
 class Words {
  public:
-  explicit Words(const std::string& title) : line_(formatted("  %-11s", title.c_str())) {}
+  Words(const std::string& title, std::size_t columns)
+      : columns_(columns), line_(formatted("  %-11s", title.c_str())) {}
   void add(const std::string& word) {
-    if (line_.size() + 2 + word.size() > kWidth && !is_empty_) {
+    if (line_.size() + 2 + word.size() > columns_ && !is_empty_) {
       lines_.push_back(line_);
       line_ = std::string(13, ' ');
       is_empty_ = true;
@@ -47,6 +47,7 @@ class Words {
   }
 
  private:
+  std::size_t columns_;
   std::string line_;
   std::vector<std::string> lines_;
   bool is_empty_ = true;
@@ -73,8 +74,8 @@ std::string line_text(const Json& line, const Json* before, double between_s) {
                           line.at("bytes_out").get<unsigned long long>());
 }
 
-void add_levels(const char* title, const Json& levels, std::vector<std::string>& lines) {
-  Words words(title);
+void add_levels(const char* title, const Json& levels, std::size_t columns, std::vector<std::string>& lines) {
+  Words words(title, columns);
   for (const auto& [name, level] : levels.items()) {
     const auto value = level.get<std::int64_t>();
     if (value != 0) words.add(value == 1 ? name : name + " " + std::to_string(value) + " mV");
@@ -82,7 +83,7 @@ void add_levels(const char* title, const Json& levels, std::vector<std::string>&
   words.finish(lines);
 }
 
-void add_device(const Json& device, std::vector<std::string>& lines) {
+void add_device(const Json& device, std::size_t columns, std::vector<std::string>& lines) {
   lines.push_back(formatted("%-13s%s, firmware %s%s", device.at("name").get<std::string>().c_str(),
                             device.at("model").get<std::string>().c_str(),
                             device.at("firmware").get<std::string>().c_str(),
@@ -98,19 +99,20 @@ void add_device(const Json& device, std::vector<std::string>& lines) {
                     (machine.contains("drive") ? ", drive " + machine.at("drive").get<std::string>() : ""));
   }
   if (device.contains("registers")) {
-    Words words("registers");
+    Words words("registers", columns);
     for (const auto& [name, value] : device.at("registers").items()) {
       words.add(name + " " + value.dump());
     }
     words.finish(lines);
   }
-  add_levels("inputs", device.at("inputs"), lines);
-  add_levels("outputs", device.at("outputs"), lines);
+  add_levels("inputs", device.at("inputs"), columns, lines);
+  add_levels("outputs", device.at("outputs"), columns, lines);
 }
 
 }  // namespace
 
-std::vector<std::string> watch_table(const std::string& status, const std::string& before, double between_s) {
+std::vector<std::string> watch_table(const std::string& status, const std::string& before, double between_s,
+                                     std::size_t columns) {
   try {
     const Json now = Json::parse(status).at("status");
     const Json then = before.empty() ? Json() : Json::parse(before).at("status");
@@ -129,7 +131,7 @@ std::vector<std::string> watch_table(const std::string& status, const std::strin
     }
     for (const Json& device : now.at("devices")) {
       lines.emplace_back();
-      add_device(device, lines);
+      add_device(device, columns, lines);
     }
     return lines;
   } catch (const Json::exception&) {
@@ -163,22 +165,6 @@ std::vector<std::string> watch_values(const std::string& reply) {
     const std::size_t space = value.rfind(' ');
     lines.push_back(value.substr(0, space) + std::string(widest - space, ' ') + "  " +
                     value.substr(space + 1));
-  }
-  return lines;
-}
-
-std::vector<std::string> fit_screen(std::vector<std::string> lines, std::size_t rows, std::size_t columns) {
-  if (lines.size() > rows && rows > 0) {
-    const std::size_t hidden = lines.size() - rows + 1;
-    lines.resize(rows - 1);
-    lines.push_back("... " + std::to_string(hidden) +
-                    " lines more: a larger window shows them, `ctl watch NAME...` what you choose");
-  }
-  for (std::string& line : lines) {
-    if (line.size() <= columns) continue;
-    // Not in the middle of a character.
-    while (columns > 0 && (static_cast<unsigned char>(line[columns]) & 0xC0) == 0x80) --columns;
-    line.resize(columns);
   }
   return lines;
 }

@@ -8,8 +8,10 @@ namespace understudy::emulator {
 
 /// Lines of text: time and lateness, each line of the bench with its frames a second since the reply before,
 /// each device with its axes, registers, inputs and outputs. `before` may be empty: rates are left out then.
-/// `between_s` is the wall time between the two. Throws ControlError for what is no status.
-std::vector<std::string> watch_table(const std::string& status, const std::string& before, double between_s);
+/// `between_s` is the wall time between the two. Words that stand side by side take so many columns at most.
+/// Throws ControlError for what is no status.
+std::vector<std::string> watch_table(const std::string& status, const std::string& before, double between_s,
+                                     std::size_t columns = 100);
 
 /// The message that asks for the values of these names, and for the time.
 std::string get_message(const std::vector<std::string>& names);
@@ -19,8 +21,5 @@ std::vector<std::string> watch_values(const std::string& reply);
 
 /// What a reply says that refuses; empty for one that does not. Throws ControlError for what is no reply.
 std::string why_refused(const std::string& reply);
-
-/// What of a table fits a window: lines are cut at its edge, and the last row tells how many have no room.
-std::vector<std::string> fit_screen(std::vector<std::string> lines, std::size_t rows, std::size_t columns);
 
 }  // namespace understudy::emulator

@@ -82,10 +82,11 @@ Sheet registers(const Model& model, SheetFormat format) {
   return sheet;
 }
 
-Sheet parameters(const Model& model, SheetFormat format) {
-  const bool for_people = format == SheetFormat::table && !model.named_parameters.empty();
+/// Those that are registers have a row in the table of registers, with the rest.
+Sheet parameters(const Model& model) {
+  const bool has_named = !model.named_parameters.empty();
   Sheet sheet{.columns = {"number", "name", "address", "width", "persistent"}, .rows = {}};
-  if (for_people) {
+  if (has_named) {
     for (const char* column : {"min", "max", "unit", "default", "meaning", "not modelled"}) {
       sheet.columns.emplace_back(column);
     }
@@ -93,7 +94,6 @@ Sheet parameters(const Model& model, SheetFormat format) {
   for (const NamedParameterRow& row : model.named_parameters) {
     sheet.rows.push_back({std::string(row.number), std::string(row.name), "", std::to_string(row.width),
                           row.persistent ? "1" : "0"});
-    if (!for_people) continue;
     for (const std::string_view cell : {std::string_view(row.least), std::string_view(row.most), row.unit,
                                         std::string_view(row.factory), row.meaning, row.unmodelled}) {
       sheet.rows.back().emplace_back(cell);
@@ -105,6 +105,7 @@ Sheet parameters(const Model& model, SheetFormat format) {
       for (int i = 0; i < parameter.count; ++i) {
         sheet.rows.push_back({std::to_string(parameter.first + i), RegisterMap::name_of(row, i),
                               hex4(address_of(row, i)), width_of(row), row.persistent ? "1" : "0"});
+        sheet.rows.back().resize(sheet.columns.size());
       }
     }
   }
@@ -167,7 +168,7 @@ std::string scenario_of_choice(const Model& model, const ChoiceRow& row) {
 
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format) {
   if (what == "registers") return registers(model, format);
-  if (what == "parameters") return parameters(model, format);
+  if (what == "parameters") return parameters(model);
   if (what == "instructions") return instructions(model);
   if (what == "commands") return commands(model, format);
   if (what == "choices") return choices(model, format);

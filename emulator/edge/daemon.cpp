@@ -1,5 +1,6 @@
 #include "emulator/edge/daemon.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -59,7 +61,6 @@ Daemon::Daemon(const Bench& bench, const DaemonOptions& options, std::function<v
   watch_posts();
   make_ports(bench);
   if (options.has_control) open_control(options.control_path);
-  claim_own_places();
   memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
   // Last: a run that cannot start leaves the files of the one before alone.
   open_files(bench, options);
@@ -155,18 +156,27 @@ void Daemon::make_ports(const Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     std::string link = bench.lines[i].link;
     if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
-    ports_.push_back(std::make_unique<Port>(
-        loop_, world_, i, link, [this] { catch_up_for_bytes(); }, log_));
+    try {
+      ports_.push_back(std::make_unique<Port>(
+          loop_, world_, i, link, [this] { catch_up_for_bytes(); }, log_));
+    } catch (const pty::PortError& error) {
+      const auto folder = std::filesystem::absolute(link).parent_path();
+      const bool is_there = faccessat(AT_FDCWD, folder.c_str(), F_OK, AT_EACCESS) == 0;
+      if (!is_there || faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) throw;
+      throw pty::PortError(std::string(error.what()) + " (--links FOLDER puts the links elsewhere)");
+    }
   }
 }
 
-void Daemon::claim_own_places() {
+FileClaims Daemon::files() const {
+  FileClaims files = files_;
   for (const auto& port : ports_) {
     const std::string line = "of line " + emulator::quoted(world_.line(port->line_number()).line.name());
-    files_.add_place({port->terminal().link_path(), "the link " + line});
-    files_.add_place({port->terminal().path(), "the port " + line});
+    files.add_place({port->terminal().link_path(), "the link " + line});
+    files.add_place({port->terminal().path(), "the port " + line});
   }
-  files_.add_place({control_path(), "the control socket"});
+  files.add_place({control_path(), "the control socket"});
+  return files;
 }
 
 /// All are open before any is emptied.

@@ -93,7 +93,7 @@ class Daemon {
   /// Of the bench that the world is of, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
   /// What it reads and writes besides them.
-  const FileClaims& files() const { return files_; }
+  FileClaims files() const;
   /// Why the world cannot be put into another state now; empty if it can.
   std::string_view why_no_restore() const;
   /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
@@ -106,7 +106,6 @@ class Daemon {
   void end_posts();
   void open_control(const std::string& asked_path);
   void make_ports(const Bench& bench);
-  void claim_own_places();
   void open_files(const Bench& bench, const DaemonOptions& options);
   void judge_stall();
   void catch_up(WallTime longest);

@@ -5,6 +5,8 @@
 #include <map>
 #include <system_error>
 
+#include "pty/port_link.h"
+
 namespace understudy::emulator {
 
 namespace {
@@ -62,11 +64,26 @@ NvKeeper::NvKeeper(const Bench& bench, const World& world, std::function<void(co
   for (std::size_t i = 0; i < bench.devices.size(); ++i) {
     const DeviceSetup& device = bench.devices[i];
     if (device.nv_path.empty()) continue;
+    claim(device);
     files_.push_back({.device = i, .path = device.nv_path});
     files_.back().written = world.device(i).kept_revision();
     const NvImage image = world.device(i).nv_image();
     const bool is_there = device.settings.nv && std::filesystem::exists(device.nv_path);
     if (!is_there || device.settings.nv->registers != image.registers) write(files_.back());
+  }
+}
+
+/// Where nothing can be written there is nothing to claim.
+void NvKeeper::claim(const DeviceSetup& device) {
+  try {
+    claims_.emplace_back(file_of(device).string());
+  } catch (const std::system_error&) {
+    return;
+  }
+  if (!claims_.back()) {
+    throw pty::PortError(device.nv_path +
+                         ": nv: another understudy, which is running, keeps a memory there; expected a file, "
+                         "or a folder with --nv, for each");
   }
 }
 

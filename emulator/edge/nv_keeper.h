@@ -10,6 +10,7 @@
 #include "emulator/edge/pacer.h"
 #include "emulator/memory/nv_file.h"
 #include "emulator/world/world.h"
+#include "pty/port_claim.h"
 
 namespace understudy::emulator {
 
@@ -20,7 +21,8 @@ void read_memories(Bench& bench, const std::string& folder);
 
 class NvKeeper {
  public:
-  /// The world that was made from the bench. What differs from its file already is written now.
+  /// The world that was made from the bench. What differs from its file already is written now. Throws
+  /// pty::PortError where another process keeps one of these files.
   NvKeeper(const Bench& bench, const World& world, std::function<void(const std::string&)> log);
   ~NvKeeper();  // writes what has changed, and waits for it
   NvKeeper(const NvKeeper&) = delete;
@@ -39,12 +41,14 @@ class NvKeeper {
     std::string path;
     std::optional<std::uint64_t> written{};  // the memory's revision, if the file is of this memory
   };
+  void claim(const DeviceSetup& device);
   bool is_behind(const File& file) const;
   void write(File& file);
 
   const World& world_;
   std::function<void(const std::string&)> log_;
   std::vector<File> files_;
+  std::vector<pty::PortClaim> claims_;  // of the files: two daemons would undo each other's work
   std::optional<WallTime> due_;
   WallTime handed_over_{0};
   WallTime looked_{0};

@@ -83,9 +83,7 @@ void LineManners::on_speech(const pty::Speech& speech) {
 }
 
 void LineManners::run(SimTime now) {
-  while (framer_.due().value_or(kForever) <= now) {
-    const auto frame = framer_.take(now);
-    if (!frame) continue;
+  while (const auto frame = framer_.take_due(now)) {
     const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const Character& character) {
       return character.number == frame->last_character;
     });

@@ -35,9 +35,7 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
     is_early_ = false;
     if (const auto frame = framer_.take_early()) take_frame(*frame, now, out);
   }
-  while (framer_.due().value_or(pty::SimTime::max()) <= now) {
-    if (const auto frame = framer_.take(now)) take_frame(*frame, now, out);
-  }
+  while (const auto frame = framer_.take_due(now)) take_frame(*frame, now, out);
 }
 
 void RtuStation::reset() {

@@ -70,7 +70,7 @@ bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
   const auto [axis_name, what_name] = at_dot(rest);
   const Model& model = world_.device(probe.device).model();
   const int axis = find_axis(model, axis_name);
-  if (axis < 0 || what_name.empty()) return false;
+  if (axis < 0 || rest.find('.') == std::string_view::npos) return false;
   std::vector<std::string> known;
   for (const auto& [word, what] : kOfAxis) {
     if (what == What::pwm && !world_.device(probe.device).duty_percent(axis)) continue;
@@ -79,6 +79,12 @@ bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
     probe.what = what;
     probe.place = axis;
     return true;
+  }
+  if (what_name.empty()) {
+    const std::string whole = world_.known()[probe.device].name + "." + std::string(axis_name);
+    std::string values;
+    for (const std::string& word : known) values += (values.empty() ? "" : ", ") + whole + "." + word;
+    throw NameError(quoted(whole) + " is an axis; expected one of its values: " + values);
   }
   throw NameError("axis " + std::string(axis_name) + " has no " + quoted(what_name) +
                   suggestion(what_name, known));
@@ -139,12 +145,13 @@ Probes::Probe Probes::find(std::string_view name) const {
     if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
     return probe;
   }
+  const Device& there = world_.device(probe.device);
+  if (!there.value_named(rest)) find_of_axis(std::string(rest) + ".", probe);  // tells of an axis alone
   if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
   if (device.model->protocol() != Protocol::text) {
     throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
   }
-  const Device& speaker = world_.device(probe.device);
-  if (!speaker.value_named(rest)) throw NameError(speaker.why_no_value(rest));
+  if (!there.value_named(rest)) throw NameError(there.why_no_value(rest));
   probe.what = What::named;
   probe.value_name = rest;
   return probe;

@@ -26,6 +26,7 @@ Camera::Camera(World& world) : world_(world), probes_(world) {
       add_sight(axis + ".position", Kind::position);
       add_sight(axis + ".pulses", Kind::pulses);
       add_sight(axis + ".speed", Kind::speed);
+      if (world.device(d).duty_percent(static_cast<int>(a))) add_sight(axis + ".pwm", Kind::duty);
       for (const char* word : {".home", ".lower_limit", ".upper_limit", ".alarm"}) {
         add_sight(axis + word, Kind::bit);
       }

@@ -16,6 +16,7 @@ struct SeenSignal {
     position,  // of the machine, in pulses
     pulses,    // that an axis has sent
     speed,     // by plan, in pulses a second
+    duty,      // of an axis that drives by PWM, in percent
     voltage,   // of an analog input, in volts
     level,     // of an analog input without a unit
     bit,       // an input, an output, a switch, power

@@ -78,11 +78,12 @@ bool run_alike(const SeenSignal& a, const SeenSignal& b) {
   return true;
 }
 
-/// Position and pulses of the axes that did anything (or of all), the speeds of those that did, and analog
-/// inputs.
+/// Position and pulses of the axes that did anything (or of all), the speeds of those that did, duties and
+/// analog inputs that varied.
 std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
   Panel positions{.title = "position [pulses]", .height = 190, .curves = {}};
   Panel speeds{.title = "speed [pulses/s]", .height = 120, .marks = 4, .has_zero = true, .curves = {}};
+  Panel duties{.title = "PWM duty [%]", .height = 90, .marks = 3, .has_zero = true, .curves = {}};
   Panel voltages{.title = "analog inputs [V]", .height = 90, .marks = 3, .curves = {}};
   Panel levels{.title = "analog inputs", .height = 90, .marks = 3, .curves = {}};
   std::size_t axis = 0;
@@ -100,13 +101,22 @@ std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
     }
     if (!is_still) speeds.curves.push_back({.signal = &speed, .colour = colour});
   }
+  const auto panel_of = [&](Kind kind) -> Panel* {
+    switch (kind) {
+      case Kind::duty: return &duties;
+      case Kind::voltage: return &voltages;
+      case Kind::level: return &levels;
+      default: return nullptr;
+    }
+  };
   for (const SeenSignal& signal : scene.signals) {
-    if ((signal.kind != Kind::voltage && signal.kind != Kind::level) || !signal.varies()) continue;
-    Panel& panel = signal.kind == Kind::voltage ? voltages : levels;
+    Panel* const found = panel_of(signal.kind);
+    if (found == nullptr || !signal.varies()) continue;
+    Panel& panel = *found;
     panel.curves.push_back({.signal = &signal, .colour = panel.curves.size() % kColours, .is_stepped = true});
   }
   std::vector<Panel> panels;
-  for (Panel& panel : std::vector{positions, speeds, voltages, levels}) {
+  for (Panel& panel : std::vector{positions, speeds, duties, voltages, levels}) {
     if (!panel.curves.empty()) panels.push_back(std::move(panel));
   }
   return panels;

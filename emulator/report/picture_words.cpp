@@ -13,6 +13,7 @@ const char* unit_of(Kind kind) {
     case Kind::position:
     case Kind::pulses: return " pulses";
     case Kind::speed: return " pulses/s";
+    case Kind::duty: return " %";
     case Kind::voltage: return " V";
     case Kind::level:
     case Kind::bit: break;

@@ -74,7 +74,8 @@ std::string case_text(const ScenarioResult& result) {
 
 std::string xml_escaped(std::string_view text) {
   std::string escaped;
-  while (!text.empty()) {
+  // Each pass takes a character at least.
+  for (std::size_t left = text.size(); left > 0 && !text.empty(); --left) {
     const std::size_t size = character_size(text);
     const char c = text.front();
     if (size == 0) {

@@ -30,6 +30,13 @@ std::string registers_text(const Device& device) {
   return text;
 }
 
+/// The device reads its inputs at each tick: until then the register of an input has the level before.
+bool is_read_later(const Device& device, const TerminalRow& row, std::int32_t level) {
+  if (row.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
+  const auto place = device.registers().find(row.name, device.firmware());
+  return place && read_value(device, *place) != level;
+}
+
 std::string terminals_text(const Device& device) {
   std::string text;
   const auto terminals = device.model().terminals;
@@ -41,6 +48,7 @@ std::string terminals_text(const Device& device) {
     text += (text.empty() ? "" : ", ") + std::string(terminals[i].name);
     const Unit unit = terminals[i].kind == TerminalRow::Kind::analog_in ? Unit::millivolts : Unit::none;
     text += is_analog(terminals[i].kind) ? " " + number_text(Number(level), unit) : " on";
+    if (is_read_later(device, terminals[i], level)) text += " (to be read at the next tick)";
   }
   return text;
 }

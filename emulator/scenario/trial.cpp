@@ -134,11 +134,11 @@ std::string Trial::value_to_write(const YamlFields& field, const Target& target,
     field.fail(number_text(number) + " is out of range for " + target.name + "; expected " + range);
   };
   if (!number.is_whole()) field.fail(number_text(number) + " is no whole number; expected one");
-  const Limits limits = limits_of(target);
-  if (number.whole() < limits.low || number.whole() > limits.high) out_of(to_text(limits));
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
                          target.place->place.part == Place::Part::whole && !is_refused;
   if (is_judged && (number.whole() < row->min || number.whole() > row->max)) out_of(range_text(*row));
+  const Limits limits = limits_of(target);
+  if (number.whole() < limits.low || number.whole() > limits.high) out_of(to_text(limits));
   return value.text;
 }
 
@@ -148,7 +148,10 @@ Tolerance Trial::value_to_expect(const YamlFields& field, const Target& target) 
     if (target.is_value) return value;
     const Limits limits = limits_of(target);
     if ((value.low && *value.low > Number(limits.high)) || (value.high && *value.high < Number(limits.low))) {
-      field.fail(target.name + " is never " + value.text + "; expected something in " + to_text(limits));
+      const bool has_range = target.place && target.place->bit < 0 && target.place->place.row->ranged &&
+                             target.place->place.part == Place::Part::whole;
+      field.fail(target.name + " is never " + value.text + "; expected something in " +
+                 (has_range ? range_text(*target.place->place.row) : to_text(limits)));
     }
     return value;
   } catch (const ExpressionError& error) {

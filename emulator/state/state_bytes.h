@@ -21,6 +21,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <span>
@@ -103,6 +104,11 @@ auto as_bits(T value) {
 template <class T>
 using Bits = decltype(as_bits(T{}));
 
+/// Numbers of which any bits are one, saved as a machine of little endian has them in memory.
+template <class T>
+inline constexpr bool kIsAsInMemory =
+    std::endian::native == std::endian::little&& std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
 }  // namespace state_bytes
 
 class StateWriter {
@@ -154,8 +160,12 @@ class StateWriter {
 
   template <class T>
   static void put(std::byte* to, T value) {
-    const auto bits = state_bytes::as_bits(value);
-    for (std::size_t i = 0; i < sizeof bits; ++i) to[i] = static_cast<std::byte>(bits >> (8 * i));
+    if constexpr (state_bytes::kIsAsInMemory<T>) {
+      std::memcpy(to, &value, sizeof value);
+    } else {
+      const auto bits = state_bytes::as_bits(value);
+      for (std::size_t i = 0; i < sizeof bits; ++i) to[i] = static_cast<std::byte>(bits >> (8 * i));
+    }
   }
 
   template <class Fields, class Values>
@@ -164,6 +174,10 @@ class StateWriter {
     if constexpr (state_bytes::Numeric<T>) {
       constexpr std::size_t kSize = sizeof(state_bytes::Bits<T>);
       std::byte* to = room_for(values.size() * kSize);
+      if constexpr (state_bytes::kIsAsInMemory<T>) {
+        if (!values.empty()) std::memcpy(to, values.data(), values.size() * kSize);
+        return;
+      }
       for (std::size_t i = 0; i < values.size(); ++i) put(to + i * kSize, values[i]);
     } else {
       for (const T& value : values) write<Fields>(value);
@@ -238,6 +252,11 @@ class StateReader {
   template <class Fields, class T>
   static T get(const std::byte* from) {
     using namespace state_bytes;
+    if constexpr (kIsAsInMemory<T>) {
+      T value;
+      std::memcpy(&value, from, sizeof value);
+      return value;
+    }
     Bits<T> bits = 0;
     for (std::size_t i = 0; i < sizeof bits; ++i) {
       bits = static_cast<Bits<T>>(bits | static_cast<Bits<T>>(std::to_integer<std::uint8_t>(from[i]))
@@ -259,6 +278,10 @@ class StateReader {
     if constexpr (state_bytes::Numeric<T>) {
       constexpr std::size_t kSize = sizeof(state_bytes::Bits<T>);
       const std::byte* from = take(values.size() * kSize).data();
+      if constexpr (state_bytes::kIsAsInMemory<T>) {
+        if (!values.empty()) std::memcpy(values.data(), from, values.size() * kSize);
+        return;
+      }
       for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<Fields, T>(from + i * kSize);
     } else {
       for (T& value : values) read<Fields>(value);

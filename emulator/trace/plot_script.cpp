@@ -59,6 +59,7 @@ std::vector<Panel> panels_of(const TraceTable& table, std::span<const std::strin
                              const std::string& name) {
   Panel positions{.label = "position [pulses]", .height = kPositionHeight, .columns = {}};
   Panel speeds{.label = "speed [pulses/s]", .height = kPanelHeight, .columns = {}};
+  Panel duties{.label = "PWM duty [%]", .height = kPanelHeight, .are_steps = true, .columns = {}};
   Panel bits{.label = "", .are_bits = true, .columns = {}};
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     if (!varies(table.columns[i])) continue;
@@ -67,13 +68,15 @@ std::vector<Panel> panels_of(const TraceTable& table, std::span<const std::strin
       positions.columns.push_back(i);
     } else if (table.names[i].ends_with(".speed")) {
       speeds.columns.push_back(i);
+    } else if (table.names[i].ends_with(".pwm")) {
+      if (std::find(also.begin(), also.end(), table.names[i]) == also.end()) duties.columns.push_back(i);
     } else if (is_bit(table.columns[i])) {
       bits.columns.push_back(i);
     }
   }
   bits.height = kRowHeight * static_cast<int>(bits.columns.size());
   std::vector<Panel> panels;
-  for (Panel& panel : std::vector{positions, speeds}) {
+  for (Panel& panel : std::vector{positions, speeds, duties}) {
     if (!panel.columns.empty()) panels.push_back(std::move(panel));
   }
   for (const std::string& wanted : also) {
@@ -81,7 +84,7 @@ std::vector<Panel> panels_of(const TraceTable& table, std::span<const std::strin
     if (found == table.names.end()) {
       throw FileError(name + ": no column is called " + quoted(wanted) + suggestion(wanted, table.names));
     }
-    panels.push_back({.label = wanted,
+    panels.push_back({.label = "",
                       .height = kPanelHeight,
                       .are_steps = true,
                       .columns = {static_cast<std::size_t>(found - table.names.begin())}});
@@ -223,8 +226,8 @@ std::string plot_script(const TraceTable& table, std::span<const std::string> al
       script += "unset ylabel\nset yrange [-0.3:" + fixed_number(top, 1) + "]\nset ytics (" +
                 marks_of_bits(table, panel) + ") scale 0\nset grid noy\n";
     } else {
-      script += "set ylabel " + in_quotes(panel.are_steps ? "" : panel.label) + "\nset key at screen " +
-                fixed_number(left, 4) + ", screen " + fixed_number(key_y / height, 4) +
+      script += "set ylabel " + in_quotes(panel.label) + "\nset key at screen " + fixed_number(left, 4) +
+                ", screen " + fixed_number(key_y / height, 4) +
                 " left bottom horizontal Left reverse samplen 2\n" + range_of(table, panel);
     }
     if (is_last) script += "set format x '%g'\nset xlabel 'simulated time [s]'\n";

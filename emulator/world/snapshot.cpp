@@ -89,8 +89,9 @@ void check_fault_value(const World& world, const Fault& fault) {
   const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
   demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
   demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
-  demand_state(fault.over_ticks >= 0, "a turn takes less than no time");
-  demand_reach(fault.over_ticks);
+  for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
+    demand_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts longer than there is time");
+  }
   demand_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
                "a fault contradicts itself");
   check_fault(world, fault);
@@ -200,7 +201,7 @@ WorldState save(const World& world) {
   return state;
 }
 
-void restore(World& world, const WorldState& state) {
+std::function<void()> read_state(World& world, const WorldState& state) {
   Parts parts(state);
   auto [values, machines] = parts.read("world", [&](std::span<const std::byte> bytes) {
     StateReader reader(bytes);
@@ -239,25 +240,30 @@ void restore(World& world, const WorldState& state) {
   });
   parts.demand_end();
 
-  // Nothing from here on throws.
-  WorldFields::of(world, [&from = values](auto&... field) { std::tie(field...) = std::move(from); });
-  EdgeFields::of(world, [&](auto&... field) { std::tie(field...) = ticks; });
-  WorldFields::rearm(world);
-  for (std::size_t d = 0; d < machines.size(); ++d) {
-    for (std::size_t a = 0; a < machines[d].size(); ++a) {
-      WorldFields::plants(world)[d][a].restore(machines[d][a]);
+  return [&world, values = std::move(values), machines = std::move(machines),
+          put_devices = std::move(put_devices), lines = std::move(lines),
+          put_stations = std::move(put_stations), ticks = std::move(ticks)] {
+    WorldFields::of(world, [&](auto&... field) { std::tie(field...) = values; });
+    EdgeFields::of(world, [&](auto&... field) { std::tie(field...) = ticks; });
+    WorldFields::rearm(world);
+    for (std::size_t d = 0; d < machines.size(); ++d) {
+      for (std::size_t a = 0; a < machines[d].size(); ++a) {
+        WorldFields::plants(world)[d][a].restore(machines[d][a]);
+      }
     }
-  }
-  for (std::size_t i = 0; i < put_devices.size(); ++i) {
-    put_devices[i]();
-    world.device(i).set_now(tick_at(world.now()));
-  }
-  for (const auto& put_station : put_stations) put_station();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    world.line(i).line.restore(lines[i]);
-    world.line(i).line.due_changed();
-  }
+    for (std::size_t i = 0; i < put_devices.size(); ++i) {
+      put_devices[i]();
+      world.device(i).set_now(tick_at(world.now()));
+    }
+    for (const auto& put_station : put_stations) put_station();
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      world.line(i).line.restore(lines[i]);
+      world.line(i).line.due_changed();
+    }
+  };
 }
+
+void restore(World& world, const WorldState& state) { read_state(world, state)(); }
 
 std::uint64_t hash(const World& world) {
   std::uint64_t sum = hash_of({});

@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,10 @@ struct WorldState {
   struct Part {
     std::string name;  // "world", "device feeder", "line rs485", "edge"
     std::vector<std::byte> bytes;
-    bool operator==(const Part&) const = default;
+    bool operator==(const Part& other) const {
+      return name == other.name && bytes.size() == other.bytes.size() &&
+             (bytes.empty() || std::memcmp(bytes.data(), other.bytes.data(), bytes.size()) == 0);
+    }
   };
   SimTime time{0};  // simulated
   std::vector<Part> parts;
@@ -30,8 +35,12 @@ struct WorldState {
 
 WorldState save(const World& world);
 
-/// Throws StateError "part: what is wrong" for what is no state of such a world; nothing has changed then.
-/// Watchers, observers and the listener stay as they are.
+/// Reads a state, and gives what puts the world into it, as often as that is called: it throws nothing.
+/// Throws StateError "part: what is wrong" for what is no state of such a world. Watchers, observers and the
+/// listener stay as they are. The world must outlive it.
+std::function<void()> read_state(World& world, const WorldState& state);
+
+/// The same at once; when it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
 /// Of all that the model does things by, and of nothing else: not of bytes that a host has not taken yet, of

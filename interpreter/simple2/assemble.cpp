@@ -228,11 +228,7 @@ class Assembler {
   }
 
   static std::string_view nearest_mnemonic(std::string_view word) {
-    return std::min_element(kInstructions.begin(), kInstructions.end(),
-                            [&](const Instruction& a, const Instruction& b) {
-                              return letters_apart(a.mnemonic, word) < letters_apart(b.mnemonic, word);
-                            })
-        ->mnemonic;
+    return nearest_name(kInstructions, word, [](const Instruction& row) { return row.mnemonic; })->mnemonic;
   }
 
   /// Puts a line in its place with the marks before it, and says which it is.
@@ -337,10 +333,9 @@ class Assembler {
   }
 
   std::string nearest_label(std::string_view word) const {
-    const auto nearest = std::min_element(labels_.begin(), labels_.end(), [&](const auto& a, const auto& b) {
-      return letters_apart(a.first, word) < letters_apart(b.first, word);
-    });
-    std::string_view text = nearest->second.token.text;
+    const auto label =
+        nearest_name(labels_, word, [](const auto& entry) { return std::string_view(entry.first); });
+    std::string_view text = label->second.token.text;
     text.remove_suffix(1);  // the colon
     return std::string(text);
   }

@@ -1,6 +1,8 @@
 #include "interpreter/slim/parse.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,6 +24,33 @@ constexpr std::string_view head_of(const CommandRow& row) {
   if (head.starts_with("Tp")) head.remove_prefix(2);
   return head.substr(0, head.find(' '));
 }
+
+/// What a word of a line is compared with, row by row.
+struct RowKey {
+  enum class Form : std::uint8_t { plain, assignment, query };
+  Form form = Form::plain;
+  bool takes_module = false;
+  std::string_view head;  // of a query all behind the "?"
+
+  constexpr explicit RowKey(const CommandRow& row)
+      : form(row.is_query()        ? Form::query
+             : row.is_assignment() ? Form::assignment
+                                   : Form::plain),
+        takes_module(row.takes_module()),
+        head(row.is_query() ? row.command.substr(1) : head_of(row)) {}
+
+  /// By a word in capitals.
+  constexpr bool is_called(std::string_view word) const {
+    return std::equal(head.begin(), head.end(), word.begin(), word.end(),
+                      [](char a, char b) { return capital(a) == b; });
+  }
+};
+
+template <std::size_t... i>
+constexpr auto keys_of(std::index_sequence<i...>) {
+  return std::array{RowKey(kCommands[i])...};
+}
+constexpr auto kRowKeys = keys_of(std::make_index_sequence<kCommands.size()>());
 
 /// A word with its `Tn` taken off.
 struct Prefixed {
@@ -68,10 +97,11 @@ ParseResult parse_plain(const Prefixed& name, std::string_view rest, const Diale
   ParseResult best = refused(Error::syntax);
   bool is_first = true;
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
-    const CommandRow& row = kCommands[i];
-    if (row.is_query() || row.is_assignment() || row.takes_module() != name.has_prefix) continue;
-    if (head_of(row) != name.word) continue;
+    const RowKey& key = kRowKeys[i];
+    if (key.form != RowKey::Form::plain || key.takes_module != name.has_prefix) continue;
+    if (!key.is_called(name.word)) continue;
     if (is_no_module(name)) return refused(Error::range);
+    const CommandRow& row = kCommands[i];
     Operands operands = match_slots(row, items, nullptr, dialect);
     if (operands.error == Error::none) {
       return understood({.verb = row.verb,
@@ -124,11 +154,13 @@ ParseResult assign_variable(std::string_view target_text, std::string_view data,
 
 ParseResult parse_assignment(const Prefixed& name, std::string_view data, const Dialect& dialect) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
+    const RowKey& key = kRowKeys[i];
+    if (key.form != RowKey::Form::assignment || key.takes_module != name.has_prefix) continue;
+    if (!key.is_called(name.word)) continue;
     const CommandRow& row = kCommands[i];
-    if (!row.is_assignment() || row.takes_module() != name.has_prefix) continue;
     const bool is_element =
         row.slots[0] == Slot::data && row.verb == Verb::set_variable;  // NS without an index
-    if (head_of(row) != name.word || is_element) continue;
+    if (is_element) continue;
     if (is_no_module(name)) return refused(Error::range);
     return assign(name, static_cast<int>(i), data, dialect);
   }
@@ -140,8 +172,7 @@ ParseResult parse_assignment(const Prefixed& name, std::string_view data, const 
 /// The row that the query has without a prefix; -1 for a parameter.
 int find_query(std::string_view word) {
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
-    const CommandRow& row = kCommands[i];
-    if (row.is_query() && in_capitals(row.command.substr(1)) == word) return static_cast<int>(i);
+    if (kRowKeys[i].form == RowKey::Form::query && kRowKeys[i].is_called(word)) return static_cast<int>(i);
   }
   return -1;
 }

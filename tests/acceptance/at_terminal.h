@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,12 +12,19 @@
 
 namespace understudy::acceptance {
 
+/// Of a terminal's window.
+struct WindowSize {
+  unsigned short rows = 24;
+  unsigned short columns = 80;
+};
+
 /// A program at a terminal of its own, at which somebody sits.
 class AtTerminal {
  public:
-  explicit AtTerminal(const Words& command, const Environment& environment = {}) {
+  explicit AtTerminal(const Words& command, const Environment& environment = {}, WindowSize size = {}) {
     int master = -1;
-    pid_ = forkpty(&master, nullptr, nullptr, nullptr);
+    const winsize window{size.rows, size.columns, 0, 0};
+    pid_ = forkpty(&master, nullptr, nullptr, &window);
     if (pid_ == 0) {
       for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
       std::vector<char*> words;
@@ -36,6 +44,10 @@ class AtTerminal {
 
   void type(const std::string& keys) const {
     ASSERT_EQ(write(master_.get(), keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
+  void resize(WindowSize size) const {
+    const winsize window{size.rows, size.columns, 0, 0};
+    ASSERT_EQ(ioctl(master_.get(), TIOCSWINSZ, &window), 0);
   }
   /// Whether this has been, or is within kPatience, on the screen since the last time.
   bool shows(const std::string& text) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
@@ -83,6 +85,47 @@ TEST_F(SeveralDaemons, OfTwoNoneIsGuessedAndEachIsNamed) {
     expect_chosen({"--port", fs::canonical(port(name)).string()}, name);
   }
   expect_chosen({"--control", socket(*turner)}, "turner");
+}
+
+TEST_F(SeveralDaemons, AreListedForScripts) {
+  const auto feeder = serve("feeder");
+  const auto turner = serve("turner");
+  for (const Words& words : {Words{"daemons", "--json"}, Words{"--json", "daemons"}}) {
+    const Finished list = ctl(words);
+    EXPECT_EQ(list.exit_code, 0) << list.errors;
+    const auto daemons = nlohmann::json::parse(list.output).at("daemons");
+    ASSERT_EQ(daemons.size(), 2U);
+    const auto is_feeders = [&](const auto& daemon) { return daemon.at("socket") == socket(*feeder); };
+    const auto found = std::find_if(daemons.begin(), daemons.end(), is_feeders);
+    ASSERT_NE(found, daemons.end()) << list.output;
+    EXPECT_EQ(found->at("bench"), bench("feeder"));
+    EXPECT_EQ(found->at("answers"), true);
+    EXPECT_EQ(found->at("ports").size(), 1U);
+    EXPECT_EQ(found->at("ports")[0].at("link"), port("feeder"));
+    EXPECT_EQ(found->at("ports")[0].at("pty"), fs::canonical(port("feeder")).string());
+  }
+}
+
+TEST_F(SeveralDaemons, OfTwoThatServeOneBenchAPortTells) {
+  const auto first = serve("feeder");
+  const std::string links = folder_ / "links";
+  fs::create_directory(links);
+  Process second(Words{UNDERSTUDY_BINARY, "serve", bench("feeder"), "--links", links}, environment());
+  ASSERT_TRUE(eventually([&] { return second.output().ends_with('\n'); })) << second.errors();
+  const Finished refused = ctl({"--bench", bench("feeder"), "status"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errors.find(
+                "understudy: ctl: 2 daemons fit --bench " + bench("feeder") +
+                "; expected --port LINK as well, or --control SOCKET, of one of: " + folder_.path()),
+            0U)
+      << refused.errors;
+  expect_chosen({"--bench", bench("feeder"), "--port", port("feeder")}, "feeder");
+  const Finished nobody = ctl({"--bench", folder_ / "mill.yaml", "--port", port("feeder"), "status"});
+  EXPECT_EQ(nobody.exit_code, 3);
+  EXPECT_EQ(nobody.errors.find("understudy: ctl: nobody serves " + (folder_ / "mill.yaml") + " on " +
+                               port("feeder") + "; running: "),
+            0U)
+      << nobody.errors;
 }
 
 TEST_F(SeveralDaemons, OneThatIsNotThereIsNotReplacedByAnother) {

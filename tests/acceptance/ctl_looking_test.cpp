@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "tests/acceptance/at_terminal.h"
 #include "tests/acceptance/raw_host.h"
 #include "tests/acceptance/running_understudy.h"
 
@@ -21,6 +22,13 @@ TEST(CtlGet, TakesWhateverConditionsTake) {
       "time 1.5s\ndevice.A.position 0\nAIN_A 2.5V\npower 1\nline.bytes_in 0\n0x0001 49153\n");
   EXPECT_EQ(daemon.ctl({"get", "device"}).errors,
             "understudy: ctl get: 'device' is a device; expected device.NAME\n");
+  for (const char* axis : {"device.A", "A", "device.A."}) {
+    const std::string errors = daemon.ctl({"get", axis}).errors;
+    EXPECT_EQ(errors.find("understudy: ctl get: 'device.A' is an axis; expected one of its values: "
+                          "device.A.pulses, device.A.speed, device.A.pwm, "),
+              0U)
+        << errors;
+  }
 }
 
 TEST(CtlEval, PrintsWhatAnExpressionComesTo) {
@@ -45,6 +53,30 @@ TEST(CtlWatch, ShowsJustWhatIsNamed) {
   EXPECT_EQ(refused.errors,
             "understudy: ctl watch: device: no register is called 'HW_Cod'; the nearest is "
             "'HW_Code'\n");
+}
+
+// At a terminal: what does not fit the window is reached by keys, and a wide window is used.
+TEST(CtlWatch, ScrollsInASmallWindow) {
+  const RunningUnderstudy daemon({"--speed", "manual"});
+  AtTerminal screen({UNDERSTUDY_BINARY, "ctl", "--control", daemon.control(), "watch", "--every", "50ms"},
+                    {{"TERM", "xterm"}}, {.rows = 5, .columns = 60});
+  ASSERT_TRUE(screen.shows("\x1b[Htime ")) << screen.screen();
+  EXPECT_TRUE(screen.shows("lines 1 to 4 of ")) << screen.screen();
+  screen.type("j");
+  EXPECT_TRUE(screen.shows("\x1b[Hlateness ")) << screen.screen();
+  screen.type("\x1b[6~");
+  EXPECT_TRUE(screen.shows("lines 6 to 9 of ")) << screen.screen();
+  screen.type("G");
+  EXPECT_TRUE(screen.shows("  outputs    -")) << screen.screen();
+  screen.type("\x1b[H");
+  EXPECT_TRUE(screen.shows("\x1b[Htime ")) << screen.screen();
+  screen.resize({.rows = 40, .columns = 160});
+  EXPECT_TRUE(
+      screen.shows("  registers  STATUS 0  Aaxis_Mode 0  Baxis_Mode 0  Cord_A 0  Cord_B 0  "
+                   "PROG_MAIN_RunTime_Status 0  PROG_MAIN_NowLine 0  EEPROM_Writing 0"))
+      << screen.screen();
+  screen.type("q");
+  EXPECT_EQ(screen.wait(kPatience), 0);
 }
 
 /// The lines of `ctl frames --once WORDS` without their times.

@@ -211,5 +211,21 @@ TEST(Trace, OfAQuietChainLosesNoTime) {
   EXPECT_EQ(daemon->errors().find("stalled"), std::string::npos) << daemon->errors();
 }
 
+TEST(RunJunit, GoesToStandardOutputAndTheRestMakesWay) {
+  const PrivateFolder folder;
+  folder.write("b.yaml",
+               "understudy: 1\nlines: { a: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n");
+  const std::string scenario = folder.write(
+      "s.yaml",
+      "understudy: 1\nbench: b.yaml\nsteps: [ assert: feeder.Cord_A == 0, assert: feeder.DIN_1 == 1 ]\n");
+  const Finished finished = understudy({"run", scenario, "--junit", "-"});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_TRUE(finished.output.starts_with("<?xml version=\"1.0\"")) << finished.output;
+  EXPECT_TRUE(finished.output.ends_with("</testsuites>\n")) << finished.output;
+  EXPECT_TRUE(finished.errors.starts_with("FAIL  " + scenario)) << finished.errors;
+  EXPECT_TRUE(finished.errors.ends_with("0 passed, 1 failed; 0s simulated\n")) << finished.errors;
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 }  // namespace
 }  // namespace understudy::acceptance

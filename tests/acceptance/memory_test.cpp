@@ -358,11 +358,11 @@ TEST(DipSwitch, AgreesWithTheBaudOrTheBenchIsRefused) {
     if (agree) {
       EXPECT_EQ(finished.exit_code, 0) << finished.errors;
     } else {
-      expect_refused(finished, "bench.yaml:8:9: lines.line.stations[0]: ");
+      expect_refused(finished, "lines.line.stations[0].dip: ");
       const std::string switches = std::string(dip) == "on" ? "115200" : "19200";
-      EXPECT_NE(finished.errors.find("dip: the switches say " + switches + " baud, the line " +
-                                     std::to_string(baud)),
-                std::string::npos)
+      EXPECT_NE(
+          finished.errors.find("the switches say " + switches + " baud, the line " + std::to_string(baud)),
+          std::string::npos)
           << finished.errors;
     }
   }
@@ -384,6 +384,22 @@ TEST(DipSwitch, ChangedWhileItRunsCountsAtTheNextPowerUp) {
   expect_done(*daemon, {"power", "cycle"});
   EXPECT_EQ(ModbusHost(daemon->port(), {.baud = 115200}).read(kHardwareCode), Registers{0xC001});
   EXPECT_NE(daemon->ctl({"status"}).output.find("PLS/DIR"), std::string::npos);
+}
+
+TEST(Memory, OfTwoDaemonsIsNotOneFile) {
+  const PrivateFolder folder;
+  const std::string nv = folder / "nv";
+  {
+    const RunningUnderstudy first({"--nv", nv});
+    const Finished refused = serve({"--model", "simple2-r3", "--nv", nv, "--control", folder / "control"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(refused.errors,
+              "understudy: " + nv +
+                  "/device.json: nv: another understudy, which is running, keeps a memory there; "
+                  "expected a file, or a folder with --nv, for each\n");
+  }
+  const RunningUnderstudy next({"--nv", nv});
+  EXPECT_EQ(value(next, "HW_Code"), "49153\n");
 }
 
 }  // namespace

@@ -69,6 +69,13 @@ TEST_F(Poll, FailsOnAnExceptionWithOneLine) {
   expect_failed({"--model", "simple2-r3", "Aaxis_AccTime=3001"});
 }
 
+TEST_F(Poll, TellsTheTablesRangeOfWhatNoWordHolds) {
+  EXPECT_EQ(poll({"--model", "simple2-r3", "Aaxis_Speed=70000"}).errors,
+            "understudy: poll: 70000 does not fit into Aaxis_Speed; expected 0 to 32768\n");
+  EXPECT_EQ(poll({"0x1002=70000"}).errors,
+            "understudy: poll: 70000 does not fit into 0x1002; expected -32768 to 65535\n");
+}
+
 TEST_F(Poll, FailsOnSilenceWithOneLine) { expect_failed({"--station", "9", "--timeout", "100ms", "2"}); }
 
 TEST_F(Poll, WorksWithoutParity) { expect_printed({"--parity", "none", "2"}, "2 152\n"); }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,13 +78,14 @@ Input read_input(std::span<const std::uint8_t> data) {
 class Listener {
  public:
   Listener(const Input& input, int rotary_switch, bool in_bulk = true)
-      : world_(bench_for(input, rotary_switch), options_for(input), {}), as_made_(save(world_)) {
+      : world_(bench_for(input, rotary_switch), options_for(input), {}),
+        make_anew_(emulator::read_state(world_, save(world_))) {
     world_.set_bulk_ticks(in_bulk);
   }
 
   /// Everything is as it was when it was made.
   void begin_anew() {
-    restore(world_, as_made_);
+    make_anew_();
     line().take_output(line().output().size());
     said_.clear();
   }
@@ -134,7 +136,7 @@ class Listener {
   }
 
   emulator::World world_;
-  emulator::WorldState as_made_;
+  std::function<void()> make_anew_;
   std::vector<std::uint8_t> said_;
 };
 

@@ -1,8 +1,8 @@
 // What the fuzz targets share: how they complain, and how they share out the time of a search.
 //
-// A search lives from many runs: worlds are made once and restored to what they were, and what costs a
-// multiple of a plain run (the same in single ticks, a second station) is done for every eighth input. A
-// corpus that is replayed has all of it done.
+// A search lives from many runs: worlds are made once and put back into the state that they had, and what
+// costs a multiple of a plain run (the same in single ticks, a second station) is done for one input in
+// eight, or more. A corpus that is replayed has all of it done.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +24,15 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Whether this input is one that everything is checked with. Depends on the input alone.
-inline bool is_checked_wholly([[maybe_unused]] std::span<const std::uint8_t> input) {
+/// Whether this input is one, of so many, that everything is checked with. Depends on the input alone.
+inline bool is_checked_wholly([[maybe_unused]] std::span<const std::uint8_t> input,
+                              [[maybe_unused]] std::uint32_t one_in = 8) {
 #ifdef UNDERSTUDY_REPLAYS_CORPUS
   return true;
 #else
   std::uint32_t sum = 0;
   for (const std::uint8_t byte : input) sum = sum * 31 + byte;
-  return (sum >> 3) % 8 == 0;
+  return (sum >> 3) % one_in == 0;
 #endif
 }
 

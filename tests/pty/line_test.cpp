@@ -27,6 +27,24 @@ TEST(LineSettings, AreWrittenAsEngineersWriteThem) {
   EXPECT_EQ(to_string(LineSettings{.baud = 115200, .data_bits = 7, .parity = Parity::odd}), "115200 7O1");
 }
 
+/// It wants to be called at once, whatever is done.
+class AlwaysDue final : public Station {
+ public:
+  LineSettings settings() const override { return {}; }
+  void hear(const TimedByte&) override {}
+  void hear_other_station() override {}
+  std::optional<SimTime> due() const override { return 1s; }
+  void run(SimTime, Transmitter&) override {}
+};
+
+TEST(Line, AStationThatIsDueForEverDoesNotHoldItForEver) {
+  LineRig rig(kQuietWire);
+  AlwaysDue station;
+  rig.line.attach(station);
+  rig.line.run(999ms);
+  EXPECT_THROW(rig.line.run(2s), std::logic_error);
+}
+
 TEST(Line, CharactersTakeTheTimeThatTheWireTakes) {
   struct Case {
     LineSettings settings;

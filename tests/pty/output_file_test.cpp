@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "tests/ordinary_user.h"
 #include "tests/pty/pcapng_reader.h"
 #include "tests/pty/pty_host.h"
 
@@ -75,6 +76,35 @@ TEST_F(OutputFileTest, IsARegularOne) {
   EXPECT_EQ(refusal(folder_ / ""), "it is a directory" + expected);
   EXPECT_EQ(refusal("/dev/null"), "it is a device" + expected);
   EXPECT_EQ(refusal(folder_ / "none/a"), "No such file or directory");
+}
+
+// As Linux forbids it where fs.protected_regular is on; whatever it is here.
+TEST_F(OutputFileTest, IsNoStrangersFileInAnOpenFolder) {
+  if (::geteuid() != 0) GTEST_SKIP() << "only root can make another user's file";
+  const std::string open_folder = folder_ / "tmp";
+  fs::create_directory(open_folder);
+  const std::string file = open_folder + "/file";
+  std::ofstream(file) << "before";
+  ASSERT_EQ(::chmod(file.c_str(), 0666), 0);
+  ASSERT_EQ(::chown(file.c_str(), 12345, 12345), 0);
+  const std::string expected =
+      "it is another user's file in a folder that is open to all; expected a path of ours";
+  {
+    const OrdinaryUser user(folder_ / "");
+    EXPECT_EQ(refusal(file), "") << "the folder is not open to all";
+  }
+  ASSERT_EQ(::chmod(open_folder.c_str(), 01777), 0);
+  EXPECT_EQ(refusal(file), expected);
+  {
+    const OrdinaryUser user(folder_ / "");
+    EXPECT_EQ(refusal(file), expected);
+    const std::string own = open_folder + "/own";
+    std::ofstream(own) << "before";
+    EXPECT_EQ(refusal(own), "");
+  }
+  std::string kept;
+  std::ifstream(file) >> kept;
+  EXPECT_EQ(kept, "before");
 }
 
 TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {

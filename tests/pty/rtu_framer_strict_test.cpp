@@ -33,8 +33,11 @@ struct StrictWire {
   }
   void collect(SimTime until) {
     while (framer.due() && *framer.due() <= until) {
-      if (const auto frame = framer.take(*framer.due())) {
+      const auto due = framer.due();
+      if (const auto frame = framer.take(*due)) {
         frames.emplace_back(frame->bytes.begin(), frame->bytes.begin() + frame->size);
+      } else if (framer.due() == due) {
+        FAIL() << "it is due, and nothing comes of it";
       }
     }
   }

@@ -56,10 +56,29 @@ struct Wire {
         frames.push_back(bytes_of(*frame));
         served_at.push_back(due);
         EXPECT_GE(due, frame->end + kSilence);
+      } else if (framer.due() == due) {
+        FAIL() << "it is due, and nothing comes of it";
       }
     }
   }
 };
+
+TEST(RtuFramer, GivesAllThatIsDueAndThenNothing) {
+  Wire wire;
+  wire.send(hex("FF FF") + hex(kRequestExamples.front()));
+  RtuFramer& framer = wire.framer;
+  EXPECT_FALSE(framer.take_due(wire.now));  // the silence is not over
+  const auto frame = framer.take_due(wire.now + kPatience);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(bytes_of(*frame), hex(kRequestExamples.front()));
+  EXPECT_FALSE(framer.take_due(wire.now + 1s));
+  EXPECT_EQ(framer.due(), std::nullopt);
+  // A character that is under way: nothing is due, however long one waits.
+  wire.send(hex("01"));
+  framer.start_bit(wire.now);
+  EXPECT_FALSE(framer.take_due(wire.now + 1s));
+  EXPECT_EQ(framer.due(), std::nullopt);
+}
 
 TEST(RtuFramer, EndsEveryPrintedRequestAtItsLastByte) {
   for (const auto text : kRequestExamples) {
@@ -353,9 +372,8 @@ TEST(RtuFramerRandom, AFloodStaysInItsBounds) {
         now += random() % 1000 == 0 ? SimTime(20ms) : SimTime(1us);
       }
       now += 1s;
-      while (framer.due()) {
-        if (const auto frame = framer.take(now)) taken += frame->size;
-      }
+      while (const auto frame = framer.take_due(now)) taken += frame->size;
+      EXPECT_EQ(framer.due(), std::nullopt);
       EXPECT_EQ(framer.dropped_bytes() + taken, count) << "seed " << seed;
     }
   }

@@ -118,7 +118,7 @@ std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
       demand_state((bits & ~row.stored_bits) == 0, "a register holds more than it can");
     }
   }
-  return [this, restored] { state_ = std::move(*restored); };
+  return [this, restored] { state_ = *restored; };
 }
 
 }  // namespace understudy::emulator::simple2_r3

@@ -122,7 +122,7 @@ std::function<void()> Slim::read_own_state(StateReader& reader) {
     check_integers(memory->integers);
     check_integers(memory->integer_array);
   }
-  return [this, restored] { state_ = std::move(*restored); };
+  return [this, restored] { state_ = *restored; };
 }
 
 }  // namespace understudy::emulator::slim

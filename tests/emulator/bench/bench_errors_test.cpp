@@ -89,6 +89,10 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "5: lines.a.stations[0].adress: is no key here; expected one of name, model, address, firmware, "
        "modules, set, "
        "choices, dip, program, nv (the nearest is 'address')"},
+      {with("address:2"),
+       "5: lines.a.stations[0].address:2: has no space after its ':'; expected `address: 2`"},
+      {with("set: { Aaxis_Speed:1 }"),
+       "5: lines.a.stations[0].set.Aaxis_Speed:1: has no space after its ':'; expected `key: value`"},
       {with("model: simple2-r3"), "5: lines.a.stations[0].model: is given twice; expected it once"},
       {with("set: { Aaxis_Speed: 1, Aaxis_Speed: 2 }"),
        "5: lines.a.stations[0].set.Aaxis_Speed: is given twice; expected it once"},

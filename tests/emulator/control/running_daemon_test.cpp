@@ -7,6 +7,8 @@
 #include <fstream>
 #include <thread>
 
+#include "emulator/text_file.h"
+#include "emulator/world/snapshot_file.h"
 #include "tests/emulator/control/daemon_rig.h"
 
 namespace understudy::emulator {
@@ -210,6 +212,23 @@ TEST(RunningDaemon, ASnapshotIsReadAsideAndMadeThePresent) {
   EXPECT_EQ(daemon.ask(about("restore")), (Json{{"ok", true}, {"simulated_time_ns", 5'000'000}}));
   EXPECT_EQ(daemon.get("feeder.Aaxis_Speed"), 200);
   EXPECT_EQ(daemon.get("time"), 5'000'000);
+}
+
+// No reply before it is written, and none of it on the daemon's own thread, which has gone on by then.
+TEST(SnapshotMessage, IsOfItsMomentAndWrittenAside) {
+  DaemonRig rig;
+  const std::string file = rig.folder.path + "/state.json";
+  rig.daemon.world().advance_to(std::chrono::milliseconds(5));
+  EXPECT_EQ(rig.reply_to(Json{{"do", "snapshot"}, {"file", file}}.dump()), "");
+  rig.daemon.world().advance_to(std::chrono::milliseconds(500));
+  std::optional<WorldState> state;
+  for (int i = 0; i < 1000 && !state; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (const auto text = read_text_file(file)) state = parse_snapshot(*text, rig.daemon.bench_hash());
+  }
+  ASSERT_TRUE(state);
+  rig.daemon.restore(*state);
+  EXPECT_EQ(rig.daemon.world().now(), std::chrono::milliseconds(5));
 }
 
 TEST(RunningDaemon, WhatIsNoSnapshotIsRefusedAndChangesNothing) {

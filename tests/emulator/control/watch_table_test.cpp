@@ -1,6 +1,7 @@
 // What `ctl watch` shows.
 #include "emulator/control/watch_table.h"
 
+#include "emulator/control/scrolled_view.h"
 #include "tests/emulator/control/daemon_rig.h"
 
 namespace understudy::emulator {
@@ -81,17 +82,74 @@ TEST(WatchValues, ShowsWhatWasNamedAndWhyThereIsNone) {
   EXPECT_THROW(why_refused("hello"), ControlError);
 }
 
-TEST(FitScreen, CutsLinesAndTellsWhatHasNoRoom) {
-  const std::vector<std::string> lines{"one", "two is long", "three", "four"};
-  EXPECT_EQ(fit_screen(lines, 4, 80), lines);
-  EXPECT_EQ(fit_screen(lines, 4, 5), (std::vector<std::string>{"one", "two i", "three", "four"}));
-  EXPECT_EQ(fit_screen(lines, 3, 16), (std::vector<std::string>{"one", "two is long", "... 2 lines more"}));
-  EXPECT_EQ(fit_screen(lines, 1, 16), std::vector<std::string>{"... 4 lines more"});
-  EXPECT_EQ(fit_screen({"a\xE9\x81\x8B"
-                        "b"},
-                       1, 2),
-            std::vector<std::string>{"a"})
+TEST(WatchTable, TakesTheWidthThereIs) {
+  DaemonRig rig;
+  const std::string status = rig.reply_to(R"({"do":"status"})");
+  EXPECT_EQ(watch_table(status, "", 0, 200).at(7),
+            "  registers  STATUS 0  Aaxis_Mode 0  Baxis_Mode 0  Cord_A 0  Cord_B 0  "
+            "PROG_MAIN_RunTime_Status 0  PROG_MAIN_NowLine 0  EEPROM_Writing 0");
+  EXPECT_EQ(watch_table(status, "", 0, 40).at(7), "  registers  STATUS 0  Aaxis_Mode 0");
+  EXPECT_EQ(watch_table(status, "", 0, 40).at(8), "             Baxis_Mode 0  Cord_A 0");
+}
+
+using Lines = std::vector<std::string>;
+
+TEST(ScrolledView, ShowsAllThatFitsAndFoldsWhatIsLong) {
+  ScrolledView view;
+  const Lines lines{"one", "two is long", "three", "four"};
+  EXPECT_EQ(view.fit(lines, 4, 80), lines);
+  EXPECT_EQ(view.fit(lines, 9, 6), (Lines{"one", "two is", "long", "three", "four"}));
+  EXPECT_EQ(view.fit({"  abcdefghij"}, 9, 5), (Lines{"  abc", "defgh", "ij"}));
+  EXPECT_EQ(view.fit({"some words that are longer than this"}, 9, 20),
+            (Lines{"some words that are", "    longer than this"}));
+  EXPECT_EQ(view.fit({"a\xE9\x81\x8B"
+                      "b"},
+                     9, 3),
+            (Lines{"a", "\xE9\x81\x8B", "b"}))
       << "a character stays whole";
+}
+
+TEST(ScrolledView, MovesByTheUsualKeys) {
+  ScrolledView view;
+  Lines lines;
+  for (int i = 1; i <= 20; ++i) lines.push_back(std::to_string(i));
+  const auto shown = [&](const std::string& keys) {
+    EXPECT_FALSE(view.press(keys));
+    const Lines on_screen = view.fit(lines, 5, 80);
+    EXPECT_EQ(on_screen.size(), 5U);
+    EXPECT_EQ(on_screen.back(), "lines " + on_screen[0] + " to " + on_screen[3] +
+                                    " of 20 (arrows, Page Up, Page Down; q ends)");
+    return on_screen[0];
+  };
+  EXPECT_EQ(shown(""), "1");
+  for (const auto& [keys, first] : std::vector<std::pair<std::string, std::string>>{{"j", "2"},
+                                                                                    {"\x1b[B", "3"},
+                                                                                    {"\x1bOB", "4"},
+                                                                                    {"k", "3"},
+                                                                                    {"\x1b[A", "2"},
+                                                                                    {"\x1bOAkkk", "1"},
+                                                                                    {"\x1b[6~", "5"},
+                                                                                    {" ", "9"},
+                                                                                    {"b", "5"},
+                                                                                    {"\x1b[5~", "1"},
+                                                                                    {"G", "17"},
+                                                                                    {"j", "17"},
+                                                                                    {" ", "17"},
+                                                                                    {"g", "1"},
+                                                                                    {"\x1b[F", "17"},
+                                                                                    {"\x1b[H", "1"},
+                                                                                    {"x\x1b[C", "1"},
+                                                                                    {"\x1b[4~k", "16"},
+                                                                                    {"\x1b[1~\r", "2"}}) {
+    EXPECT_EQ(shown(keys), first) << keys;
+  }
+  EXPECT_TRUE(view.press("jq"));
+  // A larger window, or fewer lines: nothing is left out that has room.
+  view.press("G");
+  lines.resize(6);
+  EXPECT_EQ(view.fit(lines, 5, 80).front(), "3");
+  EXPECT_EQ(view.fit(lines, 9, 80), lines);
+  EXPECT_EQ(view.fit(lines, 1, 80).size(), 1U);
 }
 
 }  // namespace

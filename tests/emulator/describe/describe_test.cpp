@@ -183,7 +183,7 @@ TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
       {"PN45", "PN45", "32"}, {"PN46", "PN46", "32"}, {"PN50", "PN50", "16"}, {"PR2", "TVA", "32"},
       {"PR3", "TVM", "32"},   {"PR4", "PR4", "32"},   {"PR7", "CMA", "32"},   {"", "SYN", "16"}};
   const Csv csv("parameters", *find_model("slim"));
-  EXPECT_EQ(csv.header, "number,name,address,width,persistent");
+  EXPECT_EQ(csv.header, "number,name,address,width,persistent,min,max,unit,default,meaning,not modelled");
   ASSERT_EQ(csv.rows.size(), std::size(kNamed));
   for (std::size_t i = 0; i < csv.rows.size(); ++i) {
     const Fact expected{{"number", kNamed[i].number},
@@ -191,7 +191,18 @@ TEST(Describe, ParametersOfATextDeviceAreThoseOfItsList) {
                         {"address", ""},
                         {"width", kNamed[i].width},
                         {"persistent", "1"}};
-    EXPECT_EQ(csv.rows[i], expected) << kNamed[i].name;
+    for (const auto& [column, cell] : expected) EXPECT_EQ(csv.rows[i].at(column), cell) << kNamed[i].name;
+    EXPECT_NE(csv.rows[i].at("meaning"), "") << kNamed[i].name;
+  }
+  const auto json = nlohmann::json::parse(described("parameters", SheetFormat::json, *find_model("slim")));
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const NamedParameterRow& row = find_model("slim")->named_parameters[i];
+    EXPECT_EQ(csv.rows[i].at("min"), row.least) << row.name;
+    EXPECT_EQ(csv.rows[i].at("max"), row.most) << row.name;
+    EXPECT_EQ(csv.rows[i].at("unit"), row.unit) << row.name;
+    EXPECT_EQ(csv.rows[i].at("default"), row.factory) << row.name;
+    EXPECT_EQ(json[i].at("meaning"), row.meaning) << row.name;
+    EXPECT_EQ(json[i].at("unit"), row.unit) << row.name;
   }
   const std::string table = described("parameters", SheetFormat::table, *find_model("slim"));
   EXPECT_NE(table.find("PR7     CMA    "), std::string::npos) << table;

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <thread>
 
+#include "pty/port_link.h"
 #include "tests/emulator/control/daemon_rig.h"
 
 namespace understudy::emulator {
@@ -313,6 +314,33 @@ TEST(NvKeeper, WithoutFilesWantsNothing) {
   NvKeeper keeper(bench, world, [](const std::string&) {});
   keeper.look(1s);
   EXPECT_EQ(keeper.next_look(), std::nullopt);
+}
+
+// --- one keeper ------------------------------------------------------------------------------------------
+TEST(NvKeeper, IsTheOnlyOneOfAFile) {
+  const TestFolder folder;
+  Bench bench = bench_of(folder);
+  read_memories(bench, folder.path + "/nv");
+  const World world(bench, {}, {});
+  std::optional<NvKeeper> first;
+  first.emplace(bench, world, [](const std::string&) {});
+  Bench other = bench_of(folder, ", nv: other.json", ", nv: nv/../nv/turner.json");
+  read_memories(other, "");
+  const World other_world(other, {}, {});
+  const auto keep = [&] { NvKeeper(other, other_world, [](const std::string&) {}); };
+  try {
+    keep();
+    FAIL();
+  } catch (const pty::PortError& error) {
+    EXPECT_EQ(error.what(), folder.path +
+                                "/nv/turner.json: nv: another understudy, which is running, keeps a "
+                                "memory there; expected a file, or a folder with --nv, for each");
+  }
+  first.reset();
+  EXPECT_NO_THROW(keep());
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path)) {
+    EXPECT_FALSE(entry.path().string().ends_with(".lock")) << entry.path() << " is left over";
+  }
 }
 
 }  // namespace

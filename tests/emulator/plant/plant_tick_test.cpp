@@ -127,7 +127,11 @@ TEST(PlantTicks, AreTheSameQuietlyAndInFull) {
       }
       if (random.one_in(500)) {
         PlantAxis::State state = in_full.save();
-        state.position_pulses = random.between(-500, 500);  // whatever the switches say
+        state.position_pulses = random.between(-500, 500);
+        for (bool* on :
+             {&state.at_home, &state.at_lower_limit, &state.at_upper_limit, &state.alarm_latched}) {
+          *on = random.one_in(3);
+        }
         for (PlantAxis* plant : {&in_full, &quietly}) plant->restore(state);
       }
       const std::int64_t pulses =

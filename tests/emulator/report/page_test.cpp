@@ -210,6 +210,17 @@ TEST(ReportPage, DrawsWhatMovedWithItsData) {
   EXPECT_NE(page.find("simulated time [s]"), std::string::npos);
 }
 
+TEST(ReportPage, DrawsTheDutyOfAnAxisThatHasOne) {
+  const std::string page = page_of(kServoOn +
+                                   "  - write: { feeder.Aaxis_DirectPWM: 40 }\n  - advance: 100ms\n"
+                                   "  - write: { feeder.Aaxis_STOP: 1 }\n  - advance: 100ms\n");
+  EXPECT_NE(page.find("PWM duty [%]"), std::string::npos);
+  EXPECT_NE(page.find("data-name=\"feeder.A.pwm\""), std::string::npos);
+  EXPECT_EQ(page.find("data-name=\"feeder.B.pwm\""), std::string::npos) << "it never had one";
+  EXPECT_NE(page.find("feeder.A.pwm goes from 0 to 0 %, between 0 and 40"), std::string::npos);
+  EXPECT_EQ(page_of(kServoOn + kExampleMove + "  - advance: 500ms\n").find("PWM"), std::string::npos);
+}
+
 TEST(ReportPage, DrawsPulsesThatTheMachineDidNotFollow) {
   const std::string page =
       page_of("  - inject: { stall: feeder.A }\n" + kServoOn + kExampleMove + "  - advance: 500ms\n");

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdlib>
 #include <set>
 
@@ -201,6 +204,30 @@ TEST(Snapshot, TheHashDoesNotDependOnHowTicksWereRunOrWhoReads) {
   EXPECT_EQ(take_output(single), take_output(world));
 }
 
+TEST(Snapshot, AStateThatIsReadOncePutsTheWorldIntoItEachTime) {
+  World world = make_world("wire");
+  BusyActs random(seed() + 950);
+  const std::vector<Act> acts = random.make(60);
+  for (std::size_t i = 0; i < 30; ++i) {
+    world.advance_to(acts[i].at);
+    acts[i].carry_out(world);
+  }
+  const WorldState middle = save(world);
+  const auto put = read_state(world, middle);
+  std::set<std::uint64_t> ends;
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t i = 30; i < acts.size(); ++i) {
+      world.advance_to(acts[i].at);
+      acts[i].carry_out(world);
+    }
+    ends.insert(hash(world));
+    put();
+    ASSERT_EQ(save(world), middle) << "round " << round;
+  }
+  EXPECT_EQ(ends.size(), 1u);
+  EXPECT_FALSE(ends.contains(hash(world)));
+}
+
 TEST(Snapshot, OneStateHasSeveralContinuations) {
   World world = make_world("instant");
   set(world, "feeder.Aaxis_SVON", 1);
@@ -295,6 +322,25 @@ TEST(Snapshot, IsRefusedWhereALineHearsItsHostDifferently) {
       "line rs485: was saved where a host of another speed is not heard; expected a world where it is not");
   EXPECT_EQ(refusal_of(tolerant, save(patient)), "") << "a daemon at another speed is more patient";
   EXPECT_EQ(refusal_of(strict, save(strict)), "");
+}
+
+TEST(Snapshot, AFaultLastsNoLongerThanTimeIsCounted) {
+  constexpr Tick kLasts = 123'456'789;
+  World world(parse_bench("understudy: 1\n"
+                          "lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n"
+                          "plant: { feeder.A: { encoder: { per_revolution: 4000, on: wheel } } }\n"
+                          "faults: [ { turn: feeder.A, counts: 500, in: 123456789ms, when: time > 1h } ]\n",
+                          "one.yaml", "."),
+              {}, {});
+  const WorldState good = save(world);
+  WorldState bad = good;
+  const auto bytes_of = [](Tick ticks) { return std::bit_cast<std::array<std::byte, sizeof ticks>>(ticks); };
+  auto& bytes = bad.parts[0].bytes;
+  const auto place = std::ranges::search(bytes, bytes_of(kLasts));
+  ASSERT_EQ(place.size(), sizeof kLasts);
+  std::ranges::copy(bytes_of(tick_at(kForever) + 1), place.begin());
+  EXPECT_EQ(refusal_of(world, bad), "world: a fault lasts longer than there is time");
+  EXPECT_EQ(save(world), good);
 }
 
 /// Whatever a byte becomes, the state is refused, and nothing has changed, or it is one that can be lived on
