@@ -1,10 +1,11 @@
 #include "benchmarks/busy_bench.h"
+#include "emulator/models/models.h"
 
 #include <string>
 #include <vector>
 
 #include "benchmarks/process.h"
-#include "emulator/register_map/access.h"
+#include "emulator/device/register_map/access.h"
 #include "interpreter/simple2/listing.h"
 
 namespace understudy::benchmarks {
@@ -75,13 +76,13 @@ std::string program_of(Activity activity) {
   return {};
 }
 
-DeviceSetup device_setup(std::size_t number) {
-  DeviceSetup device;
-  device.model = find_model("simple2-r3");
+emulator::world::DeviceSetup device_setup(std::size_t number) {
+  emulator::world::DeviceSetup device;
+  device.model = emulator::find_model(emulator::models::all_models(), "simple2-r3");
   device.settings.name = "d" + std::to_string(number);
   device.settings.address = static_cast<int>(number % kStationsALine) + 1;
   // Devices differ a little, so that their moves do not begin and end in the same ticks.
-  const auto own = static_cast<Value>(number);
+  const auto own = static_cast<emulator::Value>(number);
   device.settings.set = {
       {"PROG_VAR1", 80'000 + 37 * own},
       {"PROG_VAR2", 80'000 + 35 * own},
@@ -104,19 +105,19 @@ DeviceSetup device_setup(std::size_t number) {
   return device;
 }
 
-Bench bench_of(std::size_t devices, Activity activity) {
-  Bench bench;
+emulator::world::Bench bench_of(std::size_t devices, Activity activity) {
+  emulator::world::Bench bench;
   for (std::size_t d = 0; d < devices; ++d) {
     bench.devices.push_back(device_setup(d));
     if (d % kStationsALine == 0) {
-      LineSetup line;
+      emulator::world::LineSetup line;
       line.name = "line" + std::to_string(bench.lines.size());
       bench.lines.push_back(line);
     }
     bench.lines.back().stations.push_back(d);
     for (int axis = 0; axis < 2; ++axis) {
-      PlantSetup plant;
-      plant.home = PulseSpan{.first = -500, .last = 0};
+      emulator::world::PlantSetup plant;
+      plant.home = emulator::world::PulseSpan{.first = -500, .last = 0};
       plant.lower_limit = -1'000'000;
       plant.upper_limit = 1'000'000;
       if (activity != Activity::sync) {
@@ -129,14 +130,14 @@ Bench bench_of(std::size_t devices, Activity activity) {
   return bench;
 }
 
-void set(Device& device, std::string_view name, Value value) {
+void set(emulator::Device& device, std::string_view name, emulator::Value value) {
   const auto found = device.registers().find(name, device.firmware());
-  if (!found || write_value(device, *found, value) != emulator::Refusal::none) {
+  if (!found || emulator::write_value(device, *found, value) != emulator::Refusal::none) {
     throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
   }
 }
 
-void load(Device& device, const std::string& text) {
+void load(emulator::Device& device, const std::string& text) {
   const auto assembly = interpreter::simple2::assemble(text);
   if (!assembly.lines) throw CannotRun("program: " + to_string(assembly.errors.front()));
   std::vector<std::uint16_t> cells;
@@ -145,8 +146,9 @@ void load(Device& device, const std::string& text) {
   }
   for (std::size_t first = 0; first < cells.size(); first += kWordsARequest) {
     const std::size_t count = std::min(kWordsARequest, cells.size() - first);
-    if (write_words(device, Table::holding, static_cast<std::uint16_t>(kFirstCell + first),
-                    std::span(cells).subspan(first, count)) != emulator::Refusal::none) {
+    if (emulator::write_words(device, emulator::Table::holding,
+                              static_cast<std::uint16_t>(kFirstCell + first),
+                              std::span(cells).subspan(first, count)) != emulator::Refusal::none) {
       throw CannotRun("the device does not take its program");
     }
   }
@@ -167,9 +169,9 @@ std::string_view name_of(Activity activity) {
   return "";
 }
 
-std::unique_ptr<World> make_busy_world(std::size_t devices, Activity activity) {
-  auto world =
-      std::make_unique<World>(bench_of(devices, activity), WorldOptions{}, [](const std::string&) {});
+std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Activity activity) {
+  auto world = std::make_unique<emulator::world::World>(
+      bench_of(devices, activity), emulator::world::WorldOptions{}, [](const std::string&) {});
   const std::string program = program_of(activity);
   for (std::size_t d = 0; d < devices; ++d) {
     if (!program.empty()) load(world->device(d), program);
@@ -177,7 +179,7 @@ std::unique_ptr<World> make_busy_world(std::size_t devices, Activity activity) {
   return world;
 }
 
-void turn_encoders(World& world, Tick tick) {
+void turn_encoders(emulator::world::World& world, Tick tick) {
   // To and fro, so that the axes stay between their limits.
   constexpr Tick kThere = 10'000;
   const Tick phase = tick % (2 * kThere);

@@ -22,9 +22,9 @@ std::string_view name_of(Activity activity);
 
 /// Fifteen stations a line, at 19200 baud. Every device has machines with limit switches, a home switch and
 /// an encoder on both axes, except where the encoders are turned by hand. Throws CannotRun.
-std::unique_ptr<emulator::World> make_busy_world(std::size_t devices, Activity activity);
+std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Activity activity);
 
 /// Turns the encoders of Activity::sync to where they are at `tick`.
-void turn_encoders(emulator::World& world, emulator::Tick tick);
+void turn_encoders(emulator::world::World& world, Tick tick);
 
 }  // namespace understudy::benchmarks

@@ -11,18 +11,15 @@
 #include "benchmarks/figures.h"
 #include "benchmarks/process.h"
 #include "benchmarks/processor_clock.h"
-#include "emulator/edge/event_loop.h"
+#include "emulator/serve/loop/event_loop.h"
 
 namespace understudy::benchmarks {
 
 namespace {
 
-using emulator::EventLoop;
-using emulator::kTickLength;
-using emulator::Tick;
-using emulator::time_of;
-using emulator::wall_now;
-using emulator::World;
+using emulator::serve::EventLoop;
+using emulator::serve::wall_now;
+using emulator::world::World;
 
 constexpr std::size_t kDevices = 1000;
 constexpr int kDefaultSeconds = 20;
@@ -47,10 +44,10 @@ Slice run_slice(EventLoop& loop, Work work) {
   Slice slice;
   slice.lateness_us.reserve(kTicksASlice);
   slice.work_us.reserve(kTicksASlice);
-  Nanoseconds due = wall_now() + 2 * kTickLength;
+  Nanoseconds due = emulator::serve::wall_now() + 2 * kTickLength;
   for (int i = 0; i < kTicksASlice; ++i, due += kTickLength) {
-    while (wall_now() < due) loop.wait(due);
-    slice.lateness_us.push_back(microseconds(wall_now() - due));
+    while (emulator::serve::wall_now() < due) loop.wait(due);
+    slice.lateness_us.push_back(microseconds(emulator::serve::wall_now() - due));
     const Nanoseconds before = processor_time_here();
     work();
     slice.work_us.push_back(microseconds(processor_time_here() - before));

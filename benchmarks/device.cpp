@@ -15,9 +15,7 @@ namespace understudy::benchmarks {
 
 namespace {
 
-using emulator::Tick;
-using emulator::time_of;
-using emulator::World;
+using emulator::world::World;
 
 constexpr int kRounds = 15;
 constexpr Tick kTicks = 100'000;  // of a round

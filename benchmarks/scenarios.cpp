@@ -10,20 +10,21 @@
 #include "benchmarks/busy_bench.h"
 #include "benchmarks/figures.h"
 #include "benchmarks/processor_clock.h"
-#include "emulator/bench/bench_text.h"
-#include "emulator/recording/recorder.h"
-#include "emulator/scenario/runner.h"
-#include "emulator/scenario/scenario_file.h"
-#include "emulator/scenario/shared_reading.h"
+#include "emulator/models/models.h"
+#include "emulator/play/performing/runner.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/shared_reading.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/recording/recorder.h"
 #include "emulator/world/snapshot.h"
 
 namespace understudy::benchmarks {
 
 namespace {
 
-using emulator::Scenario;
-using emulator::ScenarioResult;
-using emulator::World;
+using emulator::play::Scenario;
+using emulator::play::ScenarioResult;
+using emulator::world::World;
 
 constexpr int kRounds = 21;
 constexpr double kSuiteBar = 1.0 / 2000;  // processor time of simulated time
@@ -47,7 +48,7 @@ std::vector<std::string> files_in(const std::string& folder) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string path = entry.path().string();
     if (path.find("/choices/") != std::string::npos) continue;
-    if (path.ends_with(".yaml") && emulator::kind_of_file(path) == emulator::FileKind::scenario) {
+    if (path.ends_with(".yaml") && emulator::play::kind_of_file(path) == emulator::play::FileKind::scenario) {
       files.push_back(path);
     }
   }
@@ -63,11 +64,12 @@ struct Played {
 template <typename OptionsFor>
 Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
   Played played;
-  emulator::SharedReading shared;
+  emulator::play::SharedReading shared{
+      .models = emulator::models::all_models(), .benches = {}, .included = {}};
   for (const std::string& file : files) {
-    for (const Scenario& scenario : emulator::load_scenarios(file, "", shared)) {
+    for (const Scenario& scenario : emulator::play::load_scenarios(file, "", shared)) {
       ++played.scenarios;
-      for (const ScenarioResult& result : emulator::play(scenario, options_for(scenario))) {
+      for (const ScenarioResult& result : emulator::play::play(scenario, options_for(scenario))) {
         played.simulated_s += seconds_of(result.simulated);
       }
     }
@@ -76,23 +78,26 @@ Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
 }
 
 /// Writes down everything, into a string.
-class RecordingOnlooker final : public emulator::Onlooker {
+class RecordingOnlooker final : public emulator::play::Onlooker {
  public:
-  RecordingOnlooker(World& world, const emulator::RecordingHeader& header)
+  RecordingOnlooker(World& world, const emulator::world::RecordingHeader& header)
       : recorder_(world, header, [this](std::string_view line) { text_ += line; }) {}
   void world_restored(std::size_t) override {}
   void finish(ScenarioResult&) override {}
 
  private:
   std::string text_;
-  emulator::Recorder recorder_;
+  emulator::world::Recorder recorder_;
 };
 
-emulator::PlayOptions recorded(const Scenario& scenario) {
-  emulator::PlayOptions options;
+emulator::play::PlayOptions recorded(const Scenario& scenario) {
+  emulator::play::PlayOptions options;
   options.onlookers.push_back([&](World& world) {
-    const emulator::RecordingHeader header{
-        .version = "", .bench = to_text(scenario.bench), .options = {}, .seed = 0, .snapshot = {}};
+    const emulator::world::RecordingHeader header{.version = "",
+                                                  .bench = emulator::world::to_text(scenario.bench),
+                                                  .options = {},
+                                                  .seed = 0,
+                                                  .snapshot = {}};
     return std::make_unique<RecordingOnlooker>(world, header);
   });
   return options;
@@ -106,7 +111,7 @@ double measure_suite(const std::string& folder) {
   std::vector<double> ratios;
   for (int round = 0; round < kRounds; ++round) {
     plain.push_back(processor_seconds(
-        [&] { played = play_all(files, [](const Scenario&) { return emulator::PlayOptions{}; }); }));
+        [&] { played = play_all(files, [](const Scenario&) { return emulator::play::PlayOptions{}; }); }));
     ratios.push_back(processor_seconds([&] { play_all(files, recorded); }) / plain.back());
   }
   const double each_s = median(plain);
@@ -127,7 +132,9 @@ void measure_start(const std::string& folder, double scenario_ms) {
   std::vector<double> starts_ms;
   for (int round = 0; round < 10 * kRounds; ++round) {
     starts_ms.push_back(1000 * processor_seconds([&] {
-                          emulator::play(emulator::parse_scenarios(text, folder + "/start.yaml").front());
+                          emulator::play::play(emulator::play::parse_scenarios(emulator::models::all_models(),
+                                                                               text, folder + "/start.yaml")
+                                                   .front());
                         }));
   }
   std::printf("reading, checking and starting a scenario: %.3f ms\n", median(starts_ms));
@@ -144,8 +151,8 @@ void measure_snapshots() {
   for (int round = 0; round < 100 * kRounds; ++round) {
     made_us.push_back(1e6 * processor_seconds([] { make_busy_world(1, Activity::positions); }));
     both_us.push_back(1e6 * processor_seconds([&] {
-                        const emulator::WorldState state = save(*world);
-                        restore(*world, state);
+                        const emulator::world::WorldState state = emulator::world::save(*world);
+                        emulator::world::restore(*world, state);
                         if (round == 0) {
                           for (const auto& part : state.parts) bytes += part.bytes.size();
                         }

@@ -1,25 +1,52 @@
-# understudy_room(NAME SOURCES ... KNOWS ... USES ... SHOWS ...)
-# One static library a room. KNOWS lists the rooms it may include, USES the outside libraries, SHOWS those
-# that its headers include as well.
-# What is not listed cannot be linked, and the check below keeps stray includes out as well.
-function(understudy_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;KNOWS;USES;SHOWS" ${ARGN})
-  add_library(understudy_${name} STATIC ${ROOM_SOURCES})
-  target_include_directories(understudy_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+# understudy_room(FOLDER KNOWS ... SEES ... USES ... SHOWS ... SOURCES ...)
+# One static library a room, named after its folder: emulator/world makes understudy_emulator_world.
+#   KNOWS  rooms, by their folders, whose headers it may include
+#   SEES   single headers of other rooms that it may include as well
+#   USES   outside libraries; SHOWS those that its headers include too
+# What is not listed cannot be linked. All rooms share one include root, so a forbidden include would compile:
+# the check below refuses it when the build is configured, and names the file.
+function(understudy_room folder)
+  cmake_parse_arguments(ROOM "" "" "KNOWS;SEES;USES;SHOWS;SOURCES" ${ARGN})
+  string(REPLACE "/" "_" name ${folder})
+  if(ROOM_SOURCES)
+    add_library(understudy_${name} STATIC ${ROOM_SOURCES})
+    set(outward PUBLIC)
+  else()
+    add_library(understudy_${name} INTERFACE)
+    set(outward INTERFACE)
+  endif()
+  target_include_directories(understudy_${name} ${outward} ${PROJECT_SOURCE_DIR})
   foreach(known IN LISTS ROOM_KNOWS)
-    target_link_libraries(understudy_${name} PUBLIC understudy_${known})
+    string(REPLACE "/" "_" known ${known})
+    target_link_libraries(understudy_${name} ${outward} understudy_${known})
   endforeach()
-  target_link_libraries(understudy_${name} PRIVATE ${ROOM_USES} PUBLIC ${ROOM_SHOWS})
+  target_link_libraries(understudy_${name} ${outward} ${ROOM_SHOWS})
+  if(ROOM_USES)
+    target_link_libraries(understudy_${name} PRIVATE ${ROOM_USES})
+  endif()
+  refuse_stray_includes(${folder} "${ROOM_KNOWS}" "${ROOM_SEES}")
+endfunction()
 
-  # All rooms share one include root, so a forbidden include would compile: refuse it here.
-  set(rooms motion interpreter pty emulator)
-  list(REMOVE_ITEM rooms ${name} ${ROOM_KNOWS})
-  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  foreach(file IN LISTS files)
-    foreach(stranger IN LISTS rooms)
-      file(STRINGS ${file} stray REGEX "^#include \"${stranger}/")
-      if(stray)
-        message(FATAL_ERROR "${file}: the room '${name}' may not include '${stranger}/': ${stray}")
+# An include of a file of the house that is in none of the `known` folders, its own, nor one of the `seen` files.
+function(refuse_stray_includes folder known seen)
+  list(JOIN known "|" folders)
+  list(JOIN seen "|" files)
+  string(REGEX REPLACE "([.+])" "\\\\\\1" files "${files}")
+  set(allowed "^#include \"((${folder}|${folders})/|(${files})\")")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  get_property(inner GLOBAL PROPERTY understudy_rooms)  # those inside this one have rules of their own
+  set_property(GLOBAL APPEND PROPERTY understudy_rooms ${folder})
+  list(FILTER inner INCLUDE REGEX "^${folder}/")
+  list(TRANSFORM inner PREPEND "${PROJECT_SOURCE_DIR}/")
+  foreach(room IN LISTS inner)
+    list(FILTER sources EXCLUDE REGEX "^${room}/")
+  endforeach()
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} includes REGEX "^#include \"(base|motion|interpreter|pty|emulator|tests|benchmarks)/")
+    foreach(include IN LISTS includes)
+      if(NOT include MATCHES "${allowed}")
+        message(FATAL_ERROR "${source}: the room '${folder}' may not know this: ${include}\n"
+                            "It may include: ${folder} ${known} ${seen} (${folder}/CMakeLists.txt)")
       endif()
     endforeach()
   endforeach()

@@ -134,7 +134,7 @@ Profile Axis::planned(const SpeedLaw& speed) const {
   return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
 }
 
-/// What runs is no more, and was no end either.
+/// What runs is no more, and was not an end either.
 void Axis::drop() {
   drive.stop();
   task = Task::none;
@@ -212,7 +212,7 @@ Cause Axis::take_part() {
   homing.phase = -1;
   task = Task::coordinated;
   cause = Cause::none;
-  drive.direction = 0;  // until the first pulse: a limit behind the axis is no matter
+  drive.direction = 0;  // until the first pulse: a limit behind the axis does not matter
   events_between |= bit(Event::started);
   return Cause::none;
 }
@@ -233,7 +233,7 @@ Cause Axis::follow(const Follower& by) {
   homing.phase = -1;
   task = Task::following;
   cause = Cause::none;
-  drive.direction = 0;  // until the first pulse: a limit behind the axis is no matter
+  drive.direction = 0;  // until the first pulse: a limit behind the axis does not matter
   follower = Follower{.numerator = by.numerator,
                       .denominator = by.denominator,
                       .period_ticks = by.period_ticks,

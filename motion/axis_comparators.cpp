@@ -66,7 +66,7 @@ void Axis::set_encoder(std::int64_t pulses) {
 /// The encoder's count goes from where it was to where it is: comparators meet all that lies between.
 void Axis::follow_encoder_count(Instant at) {
   const int way = encoder_pulses < encoder_seen ? -1 : +1;
-  // A jump that far is no motion: only its end counts.
+  // A jump that far is not a motion: only its end counts.
   constexpr std::int64_t kFarthestWalk = 100'000;
   while (encoder_seen != encoder_pulses && encoder_pulses - kFarthestWalk <= encoder_seen &&
          encoder_seen <= encoder_pulses + kFarthestWalk) {

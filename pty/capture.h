@@ -1,5 +1,6 @@
 // What a capture holds, whatever its format: one packet for each frame that went over a line, and for what
-// was no frame. Encoders (capture_pcapng.h, capture_text.h) are pure; capture_file.h writes what they make.
+// was not a frame. Encoders (capture_pcapng.h, capture_text.h) are pure; capture_file.h writes what they
+// make.
 #pragma once
 
 #include <cstddef>

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "pty/background_writer.h"
+#include "base/files/background_writer.h"
+#include "base/files/output_file.h"
 #include "pty/capture.h"
-#include "pty/output_file.h"
 
 namespace understudy::pty {
 

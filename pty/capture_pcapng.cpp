@@ -91,8 +91,8 @@ void put_number_tag(std::string& to, std::uint16_t tag, std::uint32_t number) {
   put_big_endian(to, number);
 }
 
-/// Text, what is no frame and what is only a comment is shown as bytes; a whole request with a wrong checksum
-/// is worth a look inside.
+/// Text, what is not a frame and what is only a comment is shown as bytes; a whole request with a wrong
+/// checksum is worth a look inside.
 std::string_view padded_dissector_of(const CapturedPacket& packet) {
   using namespace std::string_view_literals;
   const bool is_frame = !packet.is_text && !packet.bytes.empty() && packet.remark != Remark::incomplete &&

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "pty/descriptor.h"
+#include "base/files/descriptor.h"
 
 namespace understudy::pty {
 

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "pty/output_file.h"
+#include "base/files/output_file.h"
 #include "pty/port_claim.h"
 
 namespace understudy::pty {
@@ -73,7 +73,7 @@ void demand_directory(const std::string& path, const std::filesystem::path& abso
   std::error_code error;
   if (std::filesystem::is_directory(parent, error)) return;
   const bool exists = std::filesystem::exists(parent, error);
-  throw PortError(path + ": " + parent.string() + (exists ? " is no directory" : " does not exist") +
+  throw PortError(path + ": " + parent.string() + (exists ? " is not a directory" : " does not exist") +
                   "; expected an existing directory");
 }
 

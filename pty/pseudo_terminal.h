@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "pty/descriptor.h"
+#include "base/files/descriptor.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
 

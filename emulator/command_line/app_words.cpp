@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "emulator/one_line.h"
-#include "emulator/suggestion.h"
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 CommandWords words_of(const CLI::App& app) {
   CommandWords words{.name = app.get_name(), .help = app.get_description(), .flags = {}, .commands = {}};
@@ -26,7 +26,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv, int firs
     const std::string word = argv[i];
     if (word.starts_with("-")) {
       const CLI::Option* const flag = app.get_option_no_throw(word.substr(0, word.find('=')));
-      if (flag == nullptr) return emulator::quoted(word) + " is no flag here";
+      if (flag == nullptr) return understudy::quoted(word) + " is not a flag here";
       if (flag->get_items_expected_max() > 0 && word.find('=') == std::string::npos) ++i;  // its value
       continue;
     }
@@ -36,9 +36,9 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv, int firs
       if (word != command->get_name()) continue;
       return command->get_subcommands(nullptr).empty() ? "" : unknown_command(*command, argc, argv, i + 1);
     }
-    return emulator::quoted(word) + " is no command" + suggestion(word, names);
+    return understudy::quoted(word) + " is not a command" + suggestion(word, names);
   }
   return "";
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

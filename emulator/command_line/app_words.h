@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// All commands and flags, with their help.
 CommandWords words_of(const CLI::App& app);
@@ -18,4 +18,4 @@ CommandWords words_of(const CLI::App& app);
 /// flag it was, and what is like it; empty if that is not the trouble.
 std::string unknown_command(const CLI::App& app, int argc, char** argv, int first);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

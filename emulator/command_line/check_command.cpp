@@ -1,13 +1,14 @@
 #include <cstdio>
 
-#include "emulator/bench/bench_file.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/yaml_files.h"
-#include "emulator/edge/nv_keeper.h"
-#include "emulator/one_line.h"
-#include "emulator/scenario/scenario_file.h"
+#include "emulator/models/models.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/world/bench_file/bench_file.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -16,33 +17,33 @@ std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-std::size_t count_steps(const Steps& steps) {
+std::size_t count_steps(const play::Steps& steps) {
   std::size_t count = steps.size();
-  for (const Step& step : steps) {
-    const auto* const fork = std::get_if<ForkStep>(&step.what);
+  for (const play::Step& step : steps) {
+    const auto* const fork = std::get_if<play::ForkStep>(&step.what);
     if (fork == nullptr) continue;
-    for (const ForkStep::Branch& branch : fork->branches) count += count_steps(branch.steps);
+    for (const play::ForkStep::Branch& branch : fork->branches) count += count_steps(branch.steps);
   }
   return count;
 }
 
 /// What the file is, if nothing is wrong with it.
 std::string checked(const std::string& file, const std::string& save_below) {
-  switch (kind_of_file(file)) {
-    case FileKind::bench: {
-      Bench bench = load_bench(file);
-      read_memories(bench, "");
+  switch (play::kind_of_file(file)) {
+    case play::FileKind::bench: {
+      world::Bench bench = world::load_bench(models::all_models(), file);
+      serve::read_memories(bench, "");
       return "a bench with " + counted(bench.lines.size(), "line") + " and " +
              counted(bench.devices.size(), "device");
     }
-    case FileKind::scenario: {
-      const auto scenarios = load_scenarios(file, save_below);
+    case play::FileKind::scenario: {
+      const auto scenarios = play::load_scenarios(models::all_models(), file, save_below);
       std::size_t steps = 0;
-      for (const Scenario& scenario : scenarios) steps += count_steps(scenario.steps);
+      for (const play::Scenario& scenario : scenarios) steps += count_steps(scenario.steps);
       return (scenarios.size() == 1 ? "a scenario" : std::to_string(scenarios.size()) + " scenarios") +
              " with " + counted(steps, "step");
     }
-    case FileKind::steps: return "steps to include; they are checked with the scenarios that do";
+    case play::FileKind::steps: return "steps to include; they are checked with the scenarios that do";
   }
   return "";
 }
@@ -65,4 +66,4 @@ int check_files(const std::vector<std::string>& files, const std::string& save_b
   return code;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "emulator/control/server.h"
-#include "emulator/control/sockets.h"
-#include "emulator/one_line.h"
+#include "base/text/one_line.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/control/sockets.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -42,13 +42,14 @@ std::string place_of(const std::string& path) {
 Running identify(const std::string& socket) {
   Running running{.socket = socket, .bench = {}, .ports = {}};
   try {
-    const Json daemon = Json::parse(ask_control(socket, R"({"do":"identify"})", kPatience)).at("daemon");
+    const Json daemon =
+        Json::parse(serve::ask_control(socket, R"({"do":"identify"})", kPatience)).at("daemon");
     running.bench = daemon.at("bench").get<std::string>();
     for (const Json& line : daemon.at("lines")) {
       running.ports.push_back({line.at("pty").get<std::string>(), line.at("link").get<std::string>()});
     }
     running.has_answered = true;
-  } catch (const ControlError&) {
+  } catch (const serve::ControlError&) {
   } catch (const Json::exception&) {
   }
   return running;
@@ -56,7 +57,7 @@ Running identify(const std::string& socket) {
 
 std::vector<Running> identify_all() {
   std::vector<Running> all;
-  for (const std::string& socket : live_control_sockets()) all.push_back(identify(socket));
+  for (const std::string& socket : serve::live_control_sockets()) all.push_back(identify(socket));
   return all;
 }
 
@@ -110,8 +111,9 @@ std::string find_by(const WhichDaemon& which) {
   const std::string what = which.port.empty()    ? which.bench
                            : which.bench.empty() ? which.port
                                                  : which.bench + " on " + which.port;
-  throw ControlError("ctl: nobody serves " + what + "; " +
-                     (all.empty() ? "no `understudy serve` is running here" : "running: " + list_of(all)));
+  throw serve::ControlError(
+      "ctl: nobody serves " + what + "; " +
+      (all.empty() ? "no `understudy serve` is running here" : "running: " + list_of(all)));
 }
 
 }  // namespace
@@ -121,10 +123,10 @@ std::string choose_daemon(const WhichDaemon& which) {
   if (!which.bench.empty() || !which.port.empty()) return find_by(which);
   const char* const from_exec = std::getenv("UNDERSTUDY_CONTROL");
   if (from_exec != nullptr && *from_exec != '\0') return from_exec;  // empty is as if unset
-  const std::vector<std::string> live = live_control_sockets();
+  const std::vector<std::string> live = serve::live_control_sockets();
   if (live.empty()) {
-    throw ControlError("ctl: nobody answers in " + control_folder() +
-                       "; expected a running `understudy serve`, or --control SOCKET");
+    throw serve::ControlError("ctl: nobody answers in " + serve::control_folder() +
+                              "; expected a running `understudy serve`, or --control SOCKET");
   }
   return live.size() == 1
              ? live.front()
@@ -151,4 +153,4 @@ int list_daemons(bool as_json) {
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

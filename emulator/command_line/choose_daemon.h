@@ -5,7 +5,7 @@
 
 #include "emulator/command_line/commands.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// Its control socket: the one that was given, the one of that bench or port, the one in UNDERSTUDY_CONTROL,
 /// or the only one there is. Of several none is guessed: throws UsageError, which names each. ControlError if
@@ -15,4 +15,4 @@ std::string choose_daemon(const WhichDaemon& which);
 /// Prints a line for each of this user's that runs: its socket, bench and ports. As JSON: one object.
 int list_daemons(bool as_json);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 enum ExitCode : int {
   kExitWell = 0,
@@ -170,4 +170,4 @@ int check_files(const std::vector<std::string>& files, const std::string& save_b
 /// The JSON Schema of "bench" or "scenario" files.
 int print_schema(const std::string& what);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

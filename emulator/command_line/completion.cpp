@@ -1,16 +1,17 @@
 #include "emulator/command_line/completion.h"
+#include "emulator/models/models.h"
 
 #include <cstdio>
 #include <functional>
 #include <set>
 #include <string_view>
 
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/faults/kinds.h"
-#include "emulator/model.h"
-#include "emulator/one_line.h"
+#include "emulator/device/model.h"
+#include "emulator/world/faults/kinds.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -23,7 +24,7 @@ void for_each(const CommandWords& command, const std::string& path,
 
 std::string model_names() {
   std::string names;
-  for (const Model* const model : all_models()) {
+  for (const Model* const model : models::all_models()) {
     names += (names.empty() ? "" : " ") + std::string(model->name);
   }
   return names;
@@ -31,13 +32,13 @@ std::string model_names() {
 
 std::string fault_names() {
   std::string names;
-  for (const FaultKindRow& row : fault_kinds()) {
+  for (const world::FaultKindRow& row : world::fault_kinds()) {
     names += (names.empty() ? "" : " ") + std::string(row.name);
   }
   return names;
 }
 
-/// What may stand behind a command, at that place of the words that are no flags.
+/// What may stand behind a command, at that place of the words that are not flags.
 struct OperandWords {
   std::string path;
   int place = 0;  // from 0
@@ -280,11 +281,11 @@ std::optional<std::string> completion_script(const CommandWords& words, const st
 int print_completion(const CommandWords& words, const std::string& shell) {
   const auto script = completion_script(words, shell);
   if (!script) {
-    throw UsageError("completion: " + emulator::quoted(shell) +
+    throw UsageError("completion: " + understudy::quoted(shell) +
                      " is not a shell that is known; expected bash, zsh or fish");
   }
   std::fputs(script->c_str(), stdout);
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

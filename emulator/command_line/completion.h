@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// A command, what may stand behind it, and the commands below it.
 struct CommandWords {
@@ -27,4 +27,4 @@ std::optional<std::string> completion_script(const CommandWords& words, const st
 /// `understudy completion SHELL`.
 int print_completion(const CommandWords& words, const std::string& shell);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -3,17 +3,17 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "base/text/parse_real.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/text_argument.h"
-#include "emulator/control/server.h"
-#include "emulator/control/value_text.h"
-#include "emulator/one_line.h"
-#include "emulator/parse_integer.h"
-#include "emulator/parse_real.h"
-#include "emulator/simulated_time.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/control/value_text.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -29,10 +29,10 @@ Json assignments(const ControlArguments& arguments) {
     const auto whole = parse_integer(text);
     const auto real = parse_real(text);
     if ((!whole && !real) || name.empty())
-      throw UsageError("ctl " + arguments.verb + ": " + emulator::quoted(operand) +
+      throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(operand) +
                        " is not understood; expected NAME=VALUE");
     if (values.contains(name))
-      throw UsageError("ctl " + arguments.verb + ": " + emulator::quoted(name) +
+      throw UsageError("ctl " + arguments.verb + ": " + understudy::quoted(name) +
                        " is given twice; expected it once");
     values[name] = whole ? Json(*whole) : Json(*real);
   }
@@ -47,9 +47,10 @@ Json levels(const ControlArguments& arguments) {
     const std::size_t equals = operand.find('=');
     const std::string name = operand.substr(0, equals);
     if (equals == std::string::npos || name.empty() || equals + 1 == operand.size())
-      throw UsageError("ctl input: " + emulator::quoted(operand) + " is not understood; expected NAME=LEVEL");
+      throw UsageError("ctl input: " + understudy::quoted(operand) +
+                       " is not understood; expected NAME=LEVEL");
     if (values.contains(name))
-      throw UsageError("ctl input: " + emulator::quoted(name) + " is given twice; expected it once");
+      throw UsageError("ctl input: " + understudy::quoted(name) + " is given twice; expected it once");
     const std::string level = operand.substr(equals + 1);
     if (const auto number = parse_integer(level)) {
       values[name] = *number;
@@ -68,10 +69,10 @@ Json fault_of(const std::vector<std::string>& operands) {
     const std::size_t equals = operands[i].find('=');
     const std::string name = operands[i].substr(0, equals);
     if (equals == std::string::npos || name.empty())
-      throw UsageError("ctl inject: " + emulator::quoted(operands[i]) +
+      throw UsageError("ctl inject: " + understudy::quoted(operands[i]) +
                        " is not understood; expected NAME=VALUE");
     if (fault.contains(name))
-      throw UsageError("ctl inject: " + emulator::quoted(name) + " is given twice; expected it once");
+      throw UsageError("ctl inject: " + understudy::quoted(name) + " is given twice; expected it once");
     fault[name] = operands[i].substr(equals + 1);
   }
   return fault;
@@ -101,7 +102,7 @@ std::string listing_of(const std::string& path) {
 std::int64_t demand_number(const ControlArguments& arguments) {
   const auto number = parse_integer(arguments.operands[0]);
   if (!number) {
-    throw UsageError("ctl clear: " + emulator::quoted(arguments.operands[0]) +
+    throw UsageError("ctl clear: " + understudy::quoted(arguments.operands[0]) +
                      " is not understood; expected the number of a fault, or all");
   }
   return *number;
@@ -156,7 +157,7 @@ Json message_for(const ControlArguments& arguments) {
     message["condition"] = arguments.operands[0];
     message["within"] = arguments.within;
   } else if (!arguments.operands.empty()) {
-    throw UsageError("ctl " + verb + ": " + emulator::quoted(arguments.operands[0]) +
+    throw UsageError("ctl " + verb + ": " + understudy::quoted(arguments.operands[0]) +
                      " is one word too many; expected nothing after it");
   }
   return message;
@@ -225,7 +226,8 @@ void print_status(const Json& status) {
 int control(const ControlArguments& arguments) {
   const Json message = message_for(arguments);
   const std::string path = choose_daemon(arguments.which);
-  const std::string line = ask_control(path, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+  const std::string line =
+      serve::ask_control(path, message.dump(-1, ' ', false, Json::error_handler_t::replace));
   try {
     const Json reply = Json::parse(line);
     const bool accepted = reply.at("ok").get<bool>();
@@ -237,9 +239,9 @@ int control(const ControlArguments& arguments) {
     } else if (reply.contains("status")) {
       print_status(reply.at("status"));
     } else if (reply.contains("values")) {
-      for (const std::string& text : value_lines(line)) std::printf("%s\n", text.c_str());
+      for (const std::string& text : serve::value_lines(line)) std::printf("%s\n", text.c_str());
     } else if (reply.contains("value")) {
-      std::printf("%s\n", value_text(line).c_str());
+      std::printf("%s\n", serve::value_text(line).c_str());
     } else if (reply.contains("text")) {
       std::printf("%s", reply.at("text").get<std::string>().c_str());
     } else if (reply.contains("number")) {
@@ -262,9 +264,9 @@ int control(const ControlArguments& arguments) {
     }
     return accepted ? kExitWell : kExitBadInput;
   } catch (const Json::exception&) {
-    throw ControlError(path +
-                       ": what answers is no understudy; expected the control socket of `understudy serve`");
+    throw serve::ControlError(
+        path + ": what answers is not an understudy; expected the control socket of `understudy serve`");
   }
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -1,24 +1,25 @@
 #include <cstdio>
 
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
-#include "emulator/describe/describe.h"
-#include "emulator/describe/fidelity_page.h"
-#include "emulator/one_line.h"
-#include "emulator/suggestion.h"
+#include "emulator/device/describe/describe.h"
+#include "emulator/device/describe/fidelity_page.h"
+#include "emulator/models/models.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 const Model& demand_model(const std::string& name) {
-  if (const Model* model = find_model(name)) return *model;
+  if (const Model* model = find_model(models::all_models(), name)) return *model;
   std::vector<std::string> names;
-  for (const Model* model : all_models()) names.emplace_back(model->name);
-  throw UsageError(quoted(name) + " is no model" + suggestion(name, names) +
+  for (const Model* model : models::all_models()) names.emplace_back(model->name);
+  throw UsageError(quoted(name) + " is not a model" + suggestion(name, names) +
                    " (`understudy models` lists them)");
 }
 
 int list_models() {
-  for (const Model* model : all_models()) {
+  for (const Model* model : models::all_models()) {
     std::printf("%s  %s (firmware %s to %s)\n", std::string(model->name).c_str(),
                 std::string(model->title).c_str(), version_text(model->firmwares.front()).c_str(),
                 version_text(model->firmwares.back()).c_str());
@@ -48,4 +49,4 @@ int describe_model(const DescribeArguments& arguments) {
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

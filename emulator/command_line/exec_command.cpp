@@ -11,22 +11,24 @@
 #include <optional>
 #include <system_error>
 
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/command_line/terminal.h"
-#include "emulator/edge/child.h"
-#include "emulator/edge/parent_signals.h"
-#include "emulator/edge/port_group.h"
-#include "emulator/edge/private_folder.h"
-#include "emulator/edge/tty_shim.h"
-#include "emulator/lint/lint.h"
-#include "emulator/one_line.h"
-#include "emulator/scenario/companion.h"
-#include "emulator/scenario/result_text.h"
+#include "emulator/models/models.h"
+#include "emulator/play/lint/lint.h"
+#include "emulator/play/performing/companion.h"
+#include "emulator/play/results/result_text.h"
+#include "emulator/serve/control/control_door.h"
+#include "emulator/serve/loop/child.h"
+#include "emulator/serve/loop/parent_signals.h"
+#include "emulator/serve/ports/port_group.h"
+#include "emulator/serve/ports/private_folder.h"
+#include "emulator/serve/ports/tty_shim.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -37,14 +39,14 @@ constexpr int kExitNotStarted = 127;
 /// Calls once, so long after it was made.
 class Alarm {
  public:
-  Alarm(EventLoop& loop, WallTime after, std::function<void()> call)
+  Alarm(serve::EventLoop& loop, serve::WallTime after, std::function<void()> call)
       : loop_(loop), timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {
     if (timer_ < 0) throw std::system_error(errno, std::generic_category(), "timerfd_create");
     itimerspec setting{};
     setting.it_value.tv_sec = after.count() / 1'000'000'000;
     setting.it_value.tv_nsec = after.count() % 1'000'000'000;
     timerfd_settime(timer_, 0, &setting, nullptr);
-    loop_.watch(timer_, EventLoop::readable, [this, call = std::move(call)](std::uint32_t) {
+    loop_.watch(timer_, serve::EventLoop::readable, [this, call = std::move(call)](std::uint32_t) {
       std::uint64_t ignored = 0;
       if (read(timer_, &ignored, sizeof ignored) > 0) call();
     });
@@ -57,7 +59,7 @@ class Alarm {
   Alarm& operator=(const Alarm&) = delete;
 
  private:
-  EventLoop& loop_;
+  serve::EventLoop& loop_;
   int timer_;
 };
 
@@ -70,28 +72,28 @@ std::string variable_of(const std::string& line) {
   return name;
 }
 
-void demand_variables(const Bench& bench) {
+void demand_variables(const world::Bench& bench) {
   for (std::size_t i = 0; i < bench.lines.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (variable_of(bench.lines[i].name) != variable_of(bench.lines[j].name)) continue;
-      throw UsageError("exec: the lines " + emulator::quoted(bench.lines[j].name) + " and " +
-                       emulator::quoted(bench.lines[i].name) + " would both be " +
+      throw UsageError("exec: the lines " + understudy::quoted(bench.lines[j].name) + " and " +
+                       understudy::quoted(bench.lines[i].name) + " would both be " +
                        variable_of(bench.lines[i].name) + "; expected names that differ more");
     }
   }
 }
 
 /// What nobody gave a place is in a folder that nobody else has.
-void use_private_places(Serving& serving, const ExecArguments& arguments, PrivateFolder& folder) {
+void use_private_places(Serving& serving, const ExecArguments& arguments, serve::PrivateFolder& folder) {
   if (arguments.serve.links.empty() && arguments.serve.link.empty()) {
-    for (LineSetup& line : serving.bench.lines) line.link = folder.path() + "/" + line.name + ".port";
+    for (world::LineSetup& line : serving.bench.lines) line.link = folder.path() + "/" + line.name + ".port";
   }
-  if (serving.options.control_path.empty()) serving.options.control_path = folder.path() + "/control";
+  if (arguments.serve.control.empty()) serving.options.door = serve::control_door(folder.path() + "/control");
   if (serving.options.record_path.empty()) serving.options.record_path = folder.path() + "/recording";
 }
 
-ChildCommand command_for(const ExecArguments& arguments, const Daemon& daemon) {
-  ChildCommand command{.words = arguments.command, .environment = {}};
+serve::ChildCommand command_for(const ExecArguments& arguments, const serve::Daemon& daemon) {
+  serve::ChildCommand command{.words = arguments.command, .environment = {}};
   auto& environment = command.environment;
   for (const auto& port : daemon.ports()) {
     const std::string& path = port->terminal().link_path();
@@ -99,48 +101,50 @@ ChildCommand command_for(const ExecArguments& arguments, const Daemon& daemon) {
     environment.emplace_back(variable_of(daemon.world().line(port->line_number()).line.name()), path);
   }
   environment.emplace_back("UNDERSTUDY_CONTROL", daemon.control_path());
-  if (arguments.tty_shim) environment.emplace_back("LD_PRELOAD", preload_with_tty_shim());
+  if (arguments.tty_shim) environment.emplace_back("LD_PRELOAD", serve::preload_with_tty_shim());
   return command;
 }
 
-std::optional<WallTime> timeout_of(const ExecArguments& arguments) {
+std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
   if (arguments.timeout.empty()) return std::nullopt;
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout <= SimTime{0}) {
-    throw UsageError("--timeout: " + emulator::quoted(arguments.timeout) +
-                     " is no time to wait; expected one such as 30s");
+    throw UsageError("--timeout: " + understudy::quoted(arguments.timeout) +
+                     " is not a time to wait; expected one such as 30s");
   }
   return *timeout;
 }
 
 /// The exit code that the scenario asks for.
-int tell_of(const Companion& companion, const Scenario& scenario) {
+int tell_of(const play::Companion& companion, const play::Scenario& scenario) {
   if (companion.was_given_up()) {
     std::fprintf(stderr, "understudy: exec: %s: was not played to its end\n",
                  one_line(scenario.file).c_str());
     return kExitFailed;
   }
   int code = kExitWell;
-  for (const ScenarioResult& result : companion.results()) {
-    std::fprintf(stderr, "%s\n", coloured_verdict(verdict_line(result), wants_colour(STDERR_FILENO)).c_str());
-    for (const std::string& line : failure_lines(result)) std::fprintf(stderr, "      %s\n", line.c_str());
-    if (result.verdict == ScenarioResult::Verdict::failed) code = kExitFailed;
+  for (const play::ScenarioResult& result : companion.results()) {
+    std::fprintf(stderr, "%s\n",
+                 coloured_verdict(play::verdict_line(result), wants_colour(STDERR_FILENO)).c_str());
+    for (const std::string& line : play::failure_lines(result))
+      std::fprintf(stderr, "      %s\n", line.c_str());
+    if (result.verdict == play::ScenarioResult::Verdict::failed) code = kExitFailed;
   }
   return code;
 }
 
 /// While both the command and the scenario beside it are on.
-int play(const ExecArguments& arguments, const Serving& serving, const std::optional<Scenario>& scenario,
-         ParentSignals& signals) {
+int play(const ExecArguments& arguments, const Serving& serving,
+         const std::optional<play::Scenario>& scenario, serve::ParentSignals& signals) {
   const auto timeout = timeout_of(arguments);
-  Daemon daemon(serving.bench, serving.options, log_line);
+  serve::Daemon daemon(serving.bench, serving.options, log_line);
   for (const auto& port : daemon.ports()) {
-    if (serving.group) share_port(port->terminal().path(), *serving.group);
+    if (serving.group) serve::share_port(port->terminal().path(), *serving.group);
   }
-  std::optional<Lint> lint;
+  std::optional<play::Lint> lint;
   if (arguments.serve.lint) lint.emplace(daemon.world());
-  std::optional<Child> child;
-  std::optional<Companion> companion;
+  std::optional<serve::Child> child;
+  std::optional<play::Companion> companion;
   bool child_is_over = false;
   bool companion_is_over = !scenario;
   bool timed_out = false;
@@ -188,7 +192,7 @@ int play(const ExecArguments& arguments, const Serving& serving, const std::opti
 }
 
 /// The scenario reads and writes files of its own while the bench's are written.
-void demand_apart(const Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
+void demand_apart(const play::Scenario& scenario, const ServeArguments& serve, FileClaims& files) {
   FileClaims of_scenario;
   of_scenario.add(scenario.files);
   const auto demand = [&](const char* flag, const std::string& path) {
@@ -211,20 +215,21 @@ int execute(const ExecArguments& arguments) {
   timeout_of(arguments);
   Serving serving = make_serving(arguments.serve, "exec");
   demand_variables(serving.bench);
-  std::optional<Scenario> scenario;
+  std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
-    scenario = load_companion(arguments.with, serving.bench, arguments.save_below);
+    scenario =
+        play::load_companion(models::all_models(), arguments.with, serving.bench, arguments.save_below);
     demand_apart(*scenario, arguments.serve, serving.options.files);
   }
-  remove_left_overs();
-  PrivateFolder folder;
+  serve::remove_left_overs();
+  serve::PrivateFolder folder;
   use_private_places(serving, arguments, folder);
   serving.options.watch_signals = false;
-  ParentSignals signals;
+  serve::ParentSignals signals;
   int code = kExitNotStarted;
   try {
     code = play(arguments, serving, scenario, signals);
-  } catch (const ChildError& error) {
+  } catch (const serve::ChildError& error) {
     std::fprintf(stderr, "understudy: exec: %s\n", one_line(error.what()).c_str());
   }
   const bool has_failed = code != kExitWell && code != kExitNotStarted;
@@ -239,8 +244,8 @@ int execute(const ExecArguments& arguments) {
 }
 
 int print_tty_shim() {
-  std::printf("%s\n", tty_shim_path().c_str());
+  std::printf("%s\n", serve::tty_shim_path().c_str());
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

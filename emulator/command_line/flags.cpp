@@ -7,13 +7,13 @@
 #include <memory>
 #include <string_view>
 
+#include "base/text/one_line.h"
 #include "emulator/command_line/app_words.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/completion.h"
-#include "emulator/one_line.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -136,7 +136,8 @@ struct CommandLine {
   void add_serve() {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     add_serving_flags(*command, serve);
-    command->callback([this] { chosen = [this] { return understudy::emulator::serve(serve); }; });
+    command->callback(
+        [this] { chosen = [this] { return understudy::emulator::command_line::serve(serve); }; });
   }
 
   static void add_save_below(CLI::App& command, std::string& folder) {
@@ -288,7 +289,7 @@ struct CommandLine {
       sub->fallthrough();
       sub->callback([this, verb] {
         control.verb = verb;
-        chosen = [this] { return understudy::emulator::control(control); };
+        chosen = [this] { return understudy::emulator::command_line::control(control); };
       });
       return sub;
     };
@@ -406,4 +407,4 @@ std::function<int()> parse_command_line(int argc, char** argv) {
   return [code] { return code; };
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

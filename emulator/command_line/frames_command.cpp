@@ -3,13 +3,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/text/one_line.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
-#include "emulator/control/server.h"
-#include "emulator/one_line.h"
+#include "emulator/serve/control/server.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -46,7 +46,7 @@ std::uint64_t print_new(const Json& reply, std::uint64_t since, bool json) {
 int follow_frames(const FramesArguments& arguments) {
   const auto every = parse_duration(arguments.every);
   if (!every || *every < std::chrono::milliseconds(10)) {
-    throw UsageError("ctl frames: --every: " + emulator::quoted(arguments.every) +
+    throw UsageError("ctl frames: --every: " + understudy::quoted(arguments.every) +
                      " is not a time; expected 10ms or more");
   }
   if (arguments.last < 0 || arguments.last > kMostAtOnce) {
@@ -58,7 +58,7 @@ int follow_frames(const FramesArguments& arguments) {
   Json message{{"do", "frames"}, {"last", arguments.last}};
   std::uint64_t since = 0;
   try {
-    Json reply = Json::parse(ask_control(path, message.dump()));
+    Json reply = Json::parse(serve::ask_control(path, message.dump()));
     watch_for_interruption();
     for (int look = 1;; ++look) {
       since = print_new(reply, since, arguments.json);
@@ -67,13 +67,13 @@ int follow_frames(const FramesArguments& arguments) {
       const bool may_be_more = reply.at("frames").size() == kMostAtOnce;
       if (!may_be_more) wait_or_be_interrupted(*every);
       if (is_interrupted()) break;
-      reply = Json::parse(ask_control(path, Json{{"do", "frames"}, {"since", since}}.dump()));
+      reply = Json::parse(serve::ask_control(path, Json{{"do", "frames"}, {"since", since}}.dump()));
     }
   } catch (const Json::exception&) {
-    throw ControlError(path +
-                       ": what answers is no understudy; expected the control socket of `understudy serve`");
+    throw serve::ControlError(
+        path + ": what answers is not an understudy; expected the control socket of `understudy serve`");
   }
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

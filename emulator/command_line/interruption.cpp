@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -27,4 +27,4 @@ void wait_or_be_interrupted(SimTime time) {
   nanosleep(&wait, nullptr);  // a signal ends it early
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

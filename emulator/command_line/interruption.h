@@ -1,9 +1,9 @@
 // Commands that go on until Ctrl-C, and then end well.
 #pragma once
 
-#include "emulator/simulated_time.h"
+#include "base/simulated_time.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// From now on SIGINT and SIGTERM end no longer the program, but what waits.
 void watch_for_interruption();
@@ -11,4 +11,4 @@ bool is_interrupted();
 /// Waits so long by the clock on the wall, or until it is interrupted.
 void wait_or_be_interrupted(SimTime time);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -7,9 +7,9 @@
 
 #include <climits>
 
-#include "emulator/one_line.h"
+#include "base/text/one_line.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -43,4 +43,4 @@ void log_line(const std::string& text) {
   logger.info(one_line(text));
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// One line of the daemon's log, on standard error.
 void log_line(const std::string& text);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -5,21 +5,21 @@
 #include <cstdio>
 #include <system_error>
 
-#include "emulator/bench/bench_file.h"
+#include "base/files/growing_file.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/flags.h"
-#include "emulator/control/server.h"
-#include "emulator/edge/tty_shim.h"
-#include "emulator/growing_file.h"
-#include "emulator/model.h"
-#include "emulator/one_line.h"
-#include "emulator/recording/recording.h"
+#include "emulator/device/model.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/ports/tty_shim.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/recording/recording.h"
 #include "pty/capture_file.h"
 #include "pty/pseudo_terminal.h"
 
-namespace {
+namespace understudy::emulator::command_line {
 
-using namespace understudy::emulator;
+namespace {
 
 int complain(const std::exception& error, int code) {
   std::fprintf(stderr, "understudy: %s\n", one_line(error.what()).c_str());
@@ -34,15 +34,13 @@ void open_standard_descriptors() {
   if (descriptor > STDERR_FILENO) close(descriptor);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   open_standard_descriptors();
   try {
     const int code = parse_command_line(argc, argv)();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     return complain(std::runtime_error("standard output cannot be written"), kExitNoResource);
-  } catch (const BenchError& error) {
+  } catch (const world::BenchError& error) {
     // It begins with the file's name and line, where editors look for it.
     std::fprintf(stderr, "%s\n", error.what());
     return kExitBadInput;
@@ -53,13 +51,13 @@ int main(int argc, char** argv) {
   } catch (const NvError& error) {
     std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());  // it begins with the file's name
     return kExitBadInput;
-  } catch (const NoTtyShim& error) {
+  } catch (const serve::NoTtyShim& error) {
     return complain(error, kExitNoResource);
   } catch (const understudy::pty::PortError& error) {
     return complain(error, kExitNoResource);
-  } catch (const ControlError& error) {
+  } catch (const serve::ControlError& error) {
     return complain(error, kExitNoResource);
-  } catch (const RecordingError& error) {
+  } catch (const world::RecordingError& error) {
     std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());
     return kExitBadInput;
   } catch (const GrowingFileError& error) {
@@ -72,3 +70,9 @@ int main(int argc, char** argv) {
     return complain(error, kExitInternal);
   }
 }
+
+}  // namespace
+
+}  // namespace understudy::emulator::command_line
+
+int main(int argc, char** argv) { return understudy::emulator::command_line::run(argc, argv); }

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "emulator/model.h"
+#include "emulator/device/model.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// The model of that name. Throws UsageError with the nearest name.
 const Model& demand_model(const std::string& name);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "base/files/file_claims.h"
+#include "base/files/output_file.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/file_claims.h"
-#include "emulator/recording/recording_spool.h"
-#include "emulator/trace/trace_file.h"
-#include "pty/output_file.h"
+#include "emulator/world/recording/recording_spool.h"
+#include "emulator/world/trace/trace_file.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// A path that a flag gives for a file to write, which is claimed from now on. Empty paths are none. Throws
 /// UsageError.
@@ -34,8 +34,8 @@ inline const std::string& demand_capture(FileClaims& claims, const std::string& 
 inline const std::string& demand_trace(FileClaims& claims, const std::string& path,
                                        const std::vector<std::string>& also) {
   if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE beside it");
-  if (!path.empty() && !is_trace_name(path)) {
-    throw UsageError("--trace: " + path + ": is no kind of trace; expected FILE.csv or FILE.vcd");
+  if (!path.empty() && !world::is_trace_name(path)) {
+    throw UsageError("--trace: " + path + ": is not a kind of trace; expected FILE.csv or FILE.vcd");
   }
   return demand_output(claims, "--trace", path);
 }
@@ -45,10 +45,10 @@ inline const std::string& demand_trace(FileClaims& claims, const std::string& pa
 inline std::string older_part_of(const std::string& recording) {
   if (recording.empty()) return "";
   try {
-    return pty::output_target(recording) + kOlderPart;
-  } catch (const pty::OutputError&) {
-    return recording + kOlderPart;  // whoever opens it is told
+    return output_target(recording) + world::kOlderPart;
+  } catch (const OutputError&) {
+    return recording + world::kOlderPart;  // whoever opens it is told
   }
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -9,14 +9,14 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/edge/private_folder.h"
-#include "emulator/one_line.h"
-#include "emulator/text_file.h"
-#include "emulator/trace/plot_script.h"
+#include "emulator/play/plot/plot_script.h"
+#include "emulator/serve/ports/private_folder.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -33,7 +33,7 @@ class WorkFolder {
   std::string complaints() { return folder_.path() + "/complaints"; }
 
  private:
-  PrivateFolder folder_;
+  serve::PrivateFolder folder_;
 };
 
 [[noreturn]] void throw_error(int error, const std::string& what) {
@@ -86,15 +86,16 @@ int plot_trace(const PlotArguments& arguments) {
   const bool is_svg = output.extension() == ".svg";
   if (!is_svg && output.extension() != ".png") {
     throw UsageError("--output: " + output.string() +
-                     ": is no kind of picture; expected FILE.png or FILE.svg");
+                     ": is not a kind of picture; expected FILE.png or FILE.svg");
   }
   FileClaims claims;
   claims.add({arguments.trace, "the trace itself"});
   demand_output(claims, "--output", output.string());
-  const TraceTable table = read_trace(arguments.trace);
+  const play::TraceTable table = play::read_trace(arguments.trace);
   WorkFolder folder;
-  const std::string script = plot_script(table, arguments.also, is_svg ? PlotFormat::svg : PlotFormat::png,
-                                         folder.picture(), arguments.trace);
+  const std::string script =
+      play::plot_script(table, arguments.also, is_svg ? play::PlotFormat::svg : play::PlotFormat::png,
+                        folder.picture(), arguments.trace);
   demand_written("plot: " + folder.script(), replace_text_file(folder.script(), script));
   const int code = run_gnuplot(folder);
   const auto picture = read_text_file(folder.picture());
@@ -109,4 +110,4 @@ int plot_trace(const PlotArguments& arguments) {
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

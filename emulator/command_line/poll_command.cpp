@@ -10,15 +10,15 @@
 #include <memory>
 #include <thread>
 
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
-#include "emulator/device.h"
-#include "emulator/one_line.h"
-#include "emulator/parse_integer.h"
-#include "emulator/scenario/free_stage.h"
-#include "emulator/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/play/stages/free_stage.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -123,11 +123,12 @@ Context connect(const PollArguments& arguments) {
     throw UsageError("--parity: " + quoted(arguments.parity) + " is unknown; expected even, odd or none");
   const auto timeout = parse_duration(arguments.timeout);
   if (!timeout || *timeout < std::chrono::microseconds(1) || *timeout > std::chrono::hours(1))
-    throw UsageError("--timeout: " + quoted(arguments.timeout) + " is no duration; expected one like 500ms");
+    throw UsageError("--timeout: " + quoted(arguments.timeout) +
+                     " is not a duration; expected one like 500ms");
   // Checked here, because libmodbus prints complaints of its own.
   if (std::find(kBauds.begin(), kBauds.end(), arguments.baud) == kBauds.end()) {
     throw UsageError("--baud: " + std::to_string(arguments.baud) +
-                     " is no speed of a serial port; expected one like 9600, 19200 or 115200");
+                     " is not a speed of a serial port; expected one like 9600, 19200 or 115200");
   }
   if (arguments.stop_bits != 1 && arguments.stop_bits != 2) throw UsageError("--stop-bits: expected 1 or 2");
   if (arguments.station < 0 || arguments.station > 247) throw UsageError("--station: expected 0 to 247");
@@ -216,7 +217,7 @@ int poll_port(const PollArguments& arguments) {
   if (!arguments.every.empty()) {
     const auto parsed = parse_duration(arguments.every);
     if (!parsed)
-      throw UsageError("--every: " + quoted(arguments.every) + " is no duration; expected one like 500ms");
+      throw UsageError("--every: " + quoted(arguments.every) + " is not a duration; expected one like 500ms");
     every = *parsed;
   }
   const Context context = connect(arguments);
@@ -229,7 +230,7 @@ int poll_port(const PollArguments& arguments) {
     if (round > 0) std::this_thread::sleep_for(every);
     for (const Item& item : items) {
       // Whatever was said before, a device needs that silence to know that a frame has ended.
-      std::this_thread::sleep_for(silence_between_frames({.baud = arguments.baud}));
+      std::this_thread::sleep_for(play::silence_between_frames({.baud = arguments.baud}));
       const bool good =
           item.write ? write_item(context.get(), item) : read_item(context.get(), item, arguments.function);
       const bool is_broadcast = arguments.station == 0 && errno == ETIMEDOUT;  // nobody answers that
@@ -242,4 +243,4 @@ int poll_port(const PollArguments& arguments) {
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

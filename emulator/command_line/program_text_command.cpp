@@ -3,14 +3,14 @@
 #include <sstream>
 #include <string_view>
 
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/text_argument.h"
-#include "emulator/one_line.h"
 #include "interpreter/simple2/listing.h"
 
 // The Simple2-R3 program as text and back. Its cells are a line of four numbers for each line of the program,
 // as a master writes them from 0x4000 on; what follows the last line that is not all zeros is left out.
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -66,7 +66,7 @@ int disassemble_program(const std::string& file) {
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), cells[found]);
       if (error != std::errc{} || end != word.data() + word.size() || cells[found] < 0 ||
           cells[found] > 255) {
-        return refuse(file, number, quoted(word) + " is no cell; expected 0 to 255");
+        return refuse(file, number, quoted(word) + " is not a cell; expected 0 to 255");
       }
     }
     if (found == 0) continue;
@@ -79,4 +79,4 @@ int disassemble_program(const std::string& file) {
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -6,37 +6,40 @@
 #include <fstream>
 #include <optional>
 
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/replay_looks.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/serving.h"
-#include "emulator/edge/daemon.h"
-#include "emulator/one_line.h"
-#include "emulator/recording/replay.h"
-#include "emulator/report/page.h"
-#include "emulator/text_file.h"
+#include "emulator/models/models.h"
+#include "emulator/play/report/page.h"
+#include "emulator/serve/control/control_door.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/recording/replay.h"
 #include "emulator/world/snapshot.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
 /// The recorded world as it was then, with a clock that stands, until a signal ends it.
-int serve_from(const Replayed& replayed, const WorldState& state, const std::string& recording,
+int serve_from(const world::Replayed& replayed, const world::WorldState& state, const std::string& recording,
                const std::string& control) {
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
-  Bench bench = replayed.bench;
-  for (LineSetup& line : bench.lines) line.link.clear();  // where it was recorded, somebody else may be at it
-  DaemonOptions options;
-  options.speed.kind = Speed::Kind::manual;
+  world::Bench bench = replayed.bench;
+  for (world::LineSetup& line : bench.lines)
+    line.link.clear();  // where it was recorded, somebody else may be at it
+  serve::DaemonOptions options;
+  options.speed.kind = serve::Speed::Kind::manual;
   options.strict_framing = replayed.header.options.strict_framing;
   options.patience = replayed.header.options.patience;
   options.enforce_settings = replayed.header.options.enforce_settings;
-  options.control_path = control;
+  options.door = serve::control_door(control);
   options.bench_path = std::filesystem::weakly_canonical(recording).string();
   options.files.add({recording, "the recording itself"});
-  Daemon daemon(bench, options, log_line);
+  serve::Daemon daemon(bench, options, log_line);
   daemon.restore(state);
   say_ready(daemon);
   std::printf("the clock stands at %s: understudy ctl --control %s status\n",
@@ -53,34 +56,37 @@ int replay_recording(const ReplayArguments& arguments) {
   if (!arguments.until.empty()) {
     until = parse_duration(arguments.until);
     if (!until)
-      throw UsageError("--until: " + emulator::quoted(arguments.until) +
-                       " is no duration; expected one such as 2.5s");
+      throw UsageError("--until: " + understudy::quoted(arguments.until) +
+                       " is not a duration; expected one such as 2.5s");
   }
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
-    throw RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
+    throw world::RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   demand_looks(arguments, claims);
   std::ifstream file(arguments.recording, std::ios::binary);
   ResultFile report("--report", arguments.report);
-  ScenarioResult seen;
-  std::optional<WorldState> state;
+  play::ScenarioResult seen;
+  std::optional<world::WorldState> state;
   const auto begin = std::chrono::steady_clock::now();
-  const auto watch = [&](World& world) { return std::make_unique<ReplayLooks>(world, arguments, seen); };
-  const Replayed replayed = replay(file, arguments.recording, until, watch, [&](const World& world) {
-    if (until) state = save(world);
-  });
+  const auto watch = [&](world::World& world) {
+    return std::make_unique<ReplayLooks>(world, arguments, seen);
+  };
+  const world::Replayed replayed = world::replay(models::all_models(), file, arguments.recording, until,
+                                                 watch, [&](const world::World& world) {
+                                                   if (until) state = world::save(world);
+                                                 });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (report.is_wanted()) {
-    const ScenarioResult shown = result_of(replayed, arguments.recording, std::move(seen));
-    report.write(report_page({&shown, 1}, arguments.version));
+    const play::ScenarioResult shown = result_of(replayed, arguments.recording, std::move(seen));
+    report.write(play::report_page({&shown, 1}, arguments.version));
   }
   if (replayed.header.version != arguments.version) {
     log_line("the recording is from version " + replayed.header.version + ", this is " + arguments.version);
   }
-  const ReplayResult& result = replayed.result;
-  if (result.verdict == ReplayResult::Verdict::different) {
+  const world::ReplayResult& result = replayed.result;
+  if (result.verdict == world::ReplayResult::Verdict::different) {
     std::fprintf(stderr, "understudy: %s: differs: %s\n", arguments.recording.c_str(),
                  result.difference.c_str());
     return kExitFailed;
@@ -89,8 +95,8 @@ int replay_recording(const ReplayArguments& arguments) {
               arguments.recording.c_str(), static_cast<unsigned long long>(result.events),
               static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
               seconds, result.has_end || until ? "" : "; it breaks off before its end");
-  if (result.verdict != ReplayResult::Verdict::stopped) return kExitWell;
+  if (result.verdict != world::ReplayResult::Verdict::stopped) return kExitWell;
   return serve_from(replayed, *state, arguments.recording, arguments.control);
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

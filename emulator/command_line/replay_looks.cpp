@@ -5,9 +5,9 @@
 
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/recording/event_text.h"
+#include "emulator/world/recording/event_text.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 void demand_looks(const ReplayArguments& arguments, FileClaims& claims) {
   demand_capture(claims, arguments.capture);
@@ -15,15 +15,15 @@ void demand_looks(const ReplayArguments& arguments, FileClaims& claims) {
   demand_output(claims, "--report", arguments.report);
 }
 
-ReplayLooks::ReplayLooks(World& world, const ReplayArguments& arguments, ScenarioResult& seen)
+ReplayLooks::ReplayLooks(world::World& world, const ReplayArguments& arguments, play::ScenarioResult& seen)
     : world_(world), seen_(seen) {
   if (!arguments.capture.empty()) {
-    capture_ = std::make_unique<WorldCapture>(world, arguments.capture, log_line);
+    capture_ = std::make_unique<world::WorldCapture>(world, arguments.capture, log_line);
   }
   if (!arguments.trace.empty()) {
     try {
-      trace_ = std::make_unique<TraceFile>(world, arguments.trace, arguments.trace_also, log_line);
-    } catch (const NameError& error) {
+      trace_ = std::make_unique<world::TraceFile>(world, arguments.trace, arguments.trace_also, log_line);
+    } catch (const world::NameError& error) {
       throw UsageError(std::string("--trace-also: ") + error.what());
     }
   }
@@ -31,7 +31,7 @@ ReplayLooks::ReplayLooks(World& world, const ReplayArguments& arguments, Scenari
   if (capture_) capture_->begin();
   if (trace_) trace_->begin();
   if (arguments.report.empty()) return;
-  camera_ = std::make_unique<Camera>(world);
+  camera_ = std::make_unique<play::Camera>(world);
   seen_.file = arguments.recording;
   begin_step("the recording begins", 1);
 }
@@ -48,9 +48,10 @@ void ReplayLooks::begin_step(std::string text, std::size_t line_number) {
                          .end = now});
 }
 
-void ReplayLooks::happened(const RecordedEvent& event, std::size_t line_number) {
+void ReplayLooks::happened(const world::RecordedEvent& event, std::size_t line_number) {
   if (!camera_) return;
-  if (std::string text = text_of(event, world_); !text.empty()) begin_step(std::move(text), line_number);
+  if (std::string text = world::text_of(event, world_); !text.empty())
+    begin_step(std::move(text), line_number);
 }
 
 void ReplayLooks::ended() {
@@ -60,15 +61,17 @@ void ReplayLooks::ended() {
   camera_->finish(seen_);
 }
 
-ScenarioResult result_of(const Replayed& replayed, const std::string& recording, ScenarioResult seen) {
+play::ScenarioResult result_of(const world::Replayed& replayed, const std::string& recording,
+                               play::ScenarioResult seen) {
   seen.name = std::filesystem::path(recording).filename().string();
   seen.file = recording;
-  if (replayed.result.verdict == ReplayResult::Verdict::different) {
-    seen.verdict = ScenarioResult::Verdict::failed;
-    seen.failure = Failure{.at = replayed.result.reached, .what = "differs: " + replayed.result.difference};
+  if (replayed.result.verdict == world::ReplayResult::Verdict::different) {
+    seen.verdict = play::ScenarioResult::Verdict::failed;
+    seen.failure =
+        play::Failure{.at = replayed.result.reached, .what = "differs: " + replayed.result.difference};
     seen.steps.back().has_failed = true;
   }
   return seen;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -11,11 +11,11 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/growing_file.h"
-#include "pty/descriptor.h"
-#include "pty/output_file.h"
+#include "base/files/descriptor.h"
+#include "base/files/growing_file.h"
+#include "base/files/output_file.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// The path that means standard output.
 inline constexpr std::string_view kStandardOutput = "-";
@@ -28,7 +28,7 @@ class ResultFile {
   ResultFile(const char* flag, const std::string& path) : flag_(flag), path_(path) {
     if (path_.empty()) return;
     if (path_ == kStandardOutput) {
-      stream_ = pty::Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
+      stream_ = Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
       if (!stream_) refuse(std::strerror(errno));
       return;
     }
@@ -37,8 +37,8 @@ class ResultFile {
         file_.emplace(path_);
         return;
       }
-      stream_ = pty::Descriptor(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-    } catch (const pty::OutputError& error) {
+      stream_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+    } catch (const OutputError& error) {
       refuse(error.what());
     }
     if (!stream_) refuse(errno == ENXIO ? "nobody reads the pipe" : std::strerror(errno));
@@ -66,7 +66,7 @@ class ResultFile {
   void begin(const std::string& text) {
     try {
       file_->begin(text);
-    } catch (const pty::OutputError& error) {
+    } catch (const OutputError& error) {
       refuse(error.what());
     }
   }
@@ -76,8 +76,8 @@ class ResultFile {
   }
   std::string flag_;
   std::string path_;
-  std::optional<pty::OutputFile> file_;
-  pty::Descriptor stream_;
+  std::optional<OutputFile> file_;
+  Descriptor stream_;
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -7,25 +7,26 @@
 #include <system_error>
 #include <thread>
 
+#include "base/files/file_error.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/command_line/yaml_files.h"
-#include "emulator/file_error.h"
-#include "emulator/lint/lint.h"
-#include "emulator/one_line.h"
-#include "emulator/report/camera.h"
-#include "emulator/report/page.h"
-#include "emulator/scenario/junit.h"
-#include "emulator/scenario/real_stage.h"
-#include "emulator/scenario/result_text.h"
-#include "emulator/scenario/scenario_file.h"
-#include "emulator/scenario/shared_reading.h"
-#include "emulator/scenario/suite.h"
+#include "emulator/models/models.h"
+#include "emulator/play/lint/lint.h"
+#include "emulator/play/performing/suite.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/reading/shared_reading.h"
+#include "emulator/play/report/camera.h"
+#include "emulator/play/report/page.h"
+#include "emulator/play/results/junit.h"
+#include "emulator/play/results/result_text.h"
+#include "emulator/play/stages/real_stage.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -33,16 +34,17 @@ namespace {
 std::vector<std::string> files_of(const std::string& path) {
   if (!std::filesystem::is_directory(path)) return {path};
   std::vector<std::string> files = yaml_files_below(path);
-  std::erase_if(files, [](const std::string& file) { return kind_of_file(file) != FileKind::scenario; });
+  std::erase_if(files,
+                [](const std::string& file) { return play::kind_of_file(file) != play::FileKind::scenario; });
   if (files.empty()) throw FileError(path + ": folder: has no scenario; expected at least one");
   return files;
 }
 
 /// All scenarios of all files; what is wrong with each is told. Nothing if anything is.
-std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
-  std::vector<Scenario> scenarios;
+std::optional<std::vector<play::Scenario>> load_all(const RunArguments& arguments) {
+  std::vector<play::Scenario> scenarios;
   std::vector<std::string> files;
-  SharedReading shared;
+  play::SharedReading shared{.models = models::all_models(), .benches = {}, .included = {}};
   bool is_well = true;
   for (const std::string& path : arguments.scenarios) {
     try {
@@ -55,7 +57,7 @@ std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   }
   for (const std::string& file : files) {
     try {
-      for (Scenario& scenario : load_scenarios(file, arguments.save_below, shared)) {
+      for (play::Scenario& scenario : play::load_scenarios(file, arguments.save_below, shared)) {
         if (arguments.seed) scenario.seed = scenario.bench.seed = *arguments.seed;
         scenarios.push_back(std::move(scenario));
       }
@@ -68,21 +70,22 @@ std::optional<std::vector<Scenario>> load_all(const RunArguments& arguments) {
   return scenarios;
 }
 
-std::vector<Scenario> choose_some(std::vector<Scenario> scenarios, const RunArguments& arguments) {
-  Shard shard;
+std::vector<play::Scenario> choose_some(std::vector<play::Scenario> scenarios,
+                                        const RunArguments& arguments) {
+  play::Shard shard;
   if (!arguments.shard.empty()) {
-    const auto parsed = parse_shard(arguments.shard);
+    const auto parsed = play::parse_shard(arguments.shard);
     if (!parsed) {
-      throw UsageError("--shard: " + emulator::quoted(arguments.shard) +
-                       " is no part; expected I/N such as 1/4, I up to N");
+      throw UsageError("--shard: " + understudy::quoted(arguments.shard) +
+                       " is not a part; expected I/N such as 1/4, I up to N");
     }
     shard = *parsed;
   }
-  if (!arguments.filter.empty() && choose(scenarios, arguments.filter, {}).empty()) {
-    throw UsageError("--filter: " + emulator::quoted(arguments.filter) +
+  if (!arguments.filter.empty() && play::choose(scenarios, arguments.filter, {}).empty()) {
+    throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
                      " fits no scenario's name; expected a pattern such as '*move*'");
   }
-  return choose(std::move(scenarios), arguments.filter, shard);
+  return play::choose(std::move(scenarios), arguments.filter, shard);
 }
 
 RunFolders folders_of(const RunArguments& arguments) {
@@ -93,9 +96,9 @@ RunFolders folders_of(const RunArguments& arguments) {
 }
 
 /// What is written is nothing that is read, whichever scenario comes first, and nothing else that is written.
-void demand_own_files(FileClaims& claims, const std::vector<Scenario>& scenarios,
+void demand_own_files(FileClaims& claims, const std::vector<play::Scenario>& scenarios,
                       const RunArguments& arguments) {
-  for (const Scenario& scenario : scenarios) {
+  for (const play::Scenario& scenario : scenarios) {
     for (const std::string& path : scenario.saved) {
       if (const std::string why = claims.objection_to(path); !why.empty()) {
         throw UsageError(scenario.file + ": save: " + path + " " + why);
@@ -107,10 +110,10 @@ void demand_own_files(FileClaims& claims, const std::vector<Scenario>& scenarios
   demand_output(claims, "--report", arguments.report);
   demand_folders(claims, folders_of(arguments));
   if (arguments.trace_also.empty()) return;
-  for (const Scenario& scenario : scenarios) {
+  for (const play::Scenario& scenario : scenarios) {
     try {
-      trace_signals(World(scenario.bench, {}, {}), arguments.trace_also);
-    } catch (const NameError& error) {
+      world::trace_signals(world::World(scenario.bench, {}, {}), arguments.trace_also);
+    } catch (const world::NameError& error) {
       throw UsageError("--trace-also: " + scenario.file + ": " + error.what());
     }
   }
@@ -130,13 +133,13 @@ int jobs_of(const RunArguments& arguments) {
   return *arguments.jobs;
 }
 
-void print(const std::vector<ScenarioResult>& results, bool with_hash, std::FILE* to) {
-  for (const ScenarioResult& result : results) {
-    std::fprintf(to, "%s\n", coloured_verdict(verdict_line(result), wants_colour(fileno(to))).c_str());
-    if (with_hash && result.verdict != ScenarioResult::Verdict::not_reached) {
+void print(const std::vector<play::ScenarioResult>& results, bool with_hash, std::FILE* to) {
+  for (const play::ScenarioResult& result : results) {
+    std::fprintf(to, "%s\n", coloured_verdict(play::verdict_line(result), wants_colour(fileno(to))).c_str());
+    if (with_hash && result.verdict != play::ScenarioResult::Verdict::not_reached) {
       std::fprintf(to, "hash %s %016" PRIx64 "\n", one_line(result.name).c_str(), result.outcome_hash);
     }
-    for (const std::string& line : failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
+    for (const std::string& line : play::failure_lines(result)) std::fprintf(to, "      %s\n", line.c_str());
   }
   std::fflush(to);
 }
@@ -151,8 +154,8 @@ int run_scenarios(const RunArguments& arguments) {
   auto loaded = load_all(arguments);
   if (!loaded) return kExitBadInput;
   FileClaims claims;  // also by those that are not chosen
-  for (const Scenario& scenario : *loaded) claims.add(scenario.files);
-  const std::vector<Scenario> scenarios = choose_some(std::move(*loaded), arguments);
+  for (const play::Scenario& scenario : *loaded) claims.add(scenario.files);
+  const std::vector<play::Scenario> scenarios = choose_some(std::move(*loaded), arguments);
   demand_own_files(claims, scenarios, arguments);
   ResultFile junit("--junit", arguments.junit);
   ResultFile report("--report", arguments.report);
@@ -161,40 +164,40 @@ int run_scenarios(const RunArguments& arguments) {
   report.empty();
   // What is for people makes way for results on standard output.
   std::FILE* const told = arguments.junit == kStandardOutput ? stderr : stdout;
-  std::vector<ScenarioResult> all;
-  PlayOptions options{.with_hash = arguments.hash};
+  std::vector<play::ScenarioResult> all;
+  play::PlayOptions options{.with_hash = arguments.hash};
   if (arguments.lint) {
-    options.onlookers.push_back([](World& world) { return std::make_unique<Lint>(world); });
+    options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
   }
-  if (arguments.real_time) options.make_stage = make_real_stage;
+  if (arguments.real_time) options.make_stage = play::make_real_stage;
   if (report.is_wanted()) {
-    options.onlookers.push_back([](World& world) { return std::make_unique<Camera>(world); });
+    options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Camera>(world); });
   }
-  const auto options_for = [&](const Scenario& scenario) {
-    PlayOptions of_one = options;
-    for (OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
+  const auto options_for = [&](const play::Scenario& scenario) {
+    play::PlayOptions of_one = options;
+    for (play::OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
     return of_one;
   };
   {
     ProgressLine progress(scenarios.size());
-    play_all(scenarios, options_for, jobs, [&](std::vector<ScenarioResult> results) {
-      for (ScenarioResult& result : results) files.settle(result);
+    play::play_all(scenarios, options_for, jobs, [&](std::vector<play::ScenarioResult> results) {
+      for (play::ScenarioResult& result : results) files.settle(result);
       progress.one_done([&] { print(results, arguments.hash, told); });
       all.insert(all.end(), results.begin(), results.end());
     });
   }
-  std::fprintf(told, "%s\n", summary_line(all).c_str());
-  for (const ScenarioResult& result : all) {
+  std::fprintf(told, "%s\n", play::summary_line(all).c_str());
+  for (const play::ScenarioResult& result : all) {
     for (const std::string& finding : result.manners) {
       std::fprintf(stderr, "lint: %s\n", one_line(result.file + ": " + result.name + ": " + finding).c_str());
     }
   }
-  if (junit.is_wanted()) junit.write(junit_text(all));
-  if (report.is_wanted()) report.write(report_page(all, arguments.version));
-  const bool has_failed = std::any_of(all.begin(), all.end(), [](const ScenarioResult& result) {
-    return result.verdict == ScenarioResult::Verdict::failed;
+  if (junit.is_wanted()) junit.write(play::junit_text(all));
+  if (report.is_wanted()) report.write(play::report_page(all, arguments.version));
+  const bool has_failed = std::any_of(all.begin(), all.end(), [](const play::ScenarioResult& result) {
+    return result.verdict == play::ScenarioResult::Verdict::failed;
   });
   return has_failed ? kExitFailed : kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -11,16 +11,16 @@
 #include <system_error>
 #include <utility>
 
-#include "emulator/bench/bench_text.h"
+#include "base/files/output_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
-#include "emulator/recording/recording_spool.h"
-#include "emulator/scenario/play_recorder.h"
-#include "emulator/trace/trace_file.h"
-#include "emulator/trace/world_capture.h"
-#include "pty/output_file.h"
+#include "emulator/play/performing/play_recorder.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/recording/recording_spool.h"
+#include "emulator/world/trace/trace_file.h"
+#include "emulator/world/trace/world_capture.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -32,24 +32,28 @@ constexpr std::size_t kLongestName = 100;  // bytes
 struct FileKind {
   const char* flag;
   std::string RunFolders::*folder;
-  std::string ScenarioResult::*place;
+  std::string play::ScenarioResult::*place;
   const char* ending;
   std::array<const char*, 3> of_files;  // no folder is called so
 };
 constexpr FileKind kRecording{
-    "--record", &RunFolders::recordings, &ScenarioResult::recording, ".jsonl", {".jsonl"}};
-constexpr FileKind kTrace{"--trace", &RunFolders::traces, &ScenarioResult::trace, ".csv", {".csv", ".vcd"}};
-constexpr FileKind kCapture{
-    "--capture", &RunFolders::captures, &ScenarioResult::capture, ".pcapng", {".pcapng", ".pcap", ".txt"}};
+    "--record", &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl", {".jsonl"}};
+constexpr FileKind kTrace{
+    "--trace", &RunFolders::traces, &play::ScenarioResult::trace, ".csv", {".csv", ".vcd"}};
+constexpr FileKind kCapture{"--capture",
+                            &RunFolders::captures,
+                            &play::ScenarioResult::capture,
+                            ".pcapng",
+                            {".pcapng", ".pcap", ".txt"}};
 constexpr std::array<FileKind, 3> kKinds{kRecording, kTrace, kCapture};
 
 /// A file about a play. Such a file has one course: where the play goes back to an earlier state, or is a
 /// branch that begins in one, it begins anew.
-class PlayFile final : public Onlooker {
+class PlayFile final : public play::Onlooker {
  public:
-  using Begin = std::function<std::shared_ptr<void>(World&, const std::string& path)>;
+  using Begin = std::function<std::shared_ptr<void>(world::World&, const std::string& path)>;
 
-  PlayFile(World& world, std::string path, std::string ScenarioResult::*place, Begin begin)
+  PlayFile(world::World& world, std::string path, std::string play::ScenarioResult::*place, Begin begin)
       : world_(world), path_(std::move(path)), place_(place), begin_(std::move(begin)) {
     world_restored(0);
   }
@@ -57,15 +61,15 @@ class PlayFile final : public Onlooker {
     file_.reset();  // the one before is over, and its file is free
     file_ = begin_(world_, path_);
   }
-  void finish(ScenarioResult& result) override {
+  void finish(play::ScenarioResult& result) override {
     file_.reset();
     result.*place_ = path_;
   }
 
  private:
-  World& world_;
+  world::World& world_;
   std::string path_;
-  std::string ScenarioResult::*place_;
+  std::string play::ScenarioResult::*place_;
   Begin begin_;
   std::shared_ptr<void> file_;
 };
@@ -90,19 +94,19 @@ std::string file_name_of(const std::string& name) {
 constexpr const char* kSpool = "spool";
 
 /// A lock that lasts as long as the process; nothing if somebody else has it.
-pty::Descriptor locked(const std::string& folder) {
-  pty::Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-  return lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : pty::Descriptor();
+Descriptor locked(const std::string& folder) {
+  Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  return lock && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0 ? std::move(lock) : Descriptor();
 }
 
 /// What a `run` that was killed has left behind. The recordings that it kept stay.
 void remove_abandoned_spools() {
-  const fs::path folders(kPrivateFolders);
+  const fs::path folders(serve::kPrivateFolders);
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folders.parent_path(), error)) {
     const std::string path = entry.path().string();
     struct stat status = {};
-    const bool is_own = path.starts_with(kPrivateFolders) && ::lstat(path.c_str(), &status) == 0 &&
+    const bool is_own = path.starts_with(serve::kPrivateFolders) && ::lstat(path.c_str(), &status) == 0 &&
                         S_ISDIR(status.st_mode) && status.st_uid == ::geteuid();
     if (!is_own || !locked(path + "/" + kSpool)) continue;
     fs::remove_all(path + "/" + kSpool, error);
@@ -119,8 +123,8 @@ void move_file(const char* flag, const std::string& from, const std::string& pat
   std::error_code error;
   std::string to;
   try {
-    to = pty::output_target(path);
-  } catch (const pty::OutputError& refused) {
+    to = output_target(path);
+  } catch (const OutputError& refused) {
     throw GrowingFileError(std::string(flag) + ": " + path + " cannot be written: " + refused.what());
   }
   fs::rename(from, to, error);
@@ -131,7 +135,7 @@ void move_file(const char* flag, const std::string& from, const std::string& pat
 }
 
 // A recording that had grown too large has its older part in a file of its own.
-constexpr std::array<const char*, 2> kParts = {"", kOlderPart};
+constexpr std::array<const char*, 2> kParts = {"", world::kOlderPart};
 
 }  // namespace
 
@@ -167,7 +171,7 @@ RunFiles::RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::s
     if (error) refuse(kind.flag, folder, error);
   }
   remove_abandoned_spools();
-  remove_left_overs();
+  serve::remove_left_overs();
   // It gets its name when it is locked: before, others would take it for abandoned.
   const std::string unlocked = private_folder_.path() + "/unlocked";
   spool_ = private_folder_.path() + "/" + kSpool;
@@ -187,30 +191,30 @@ std::string RunFiles::next_spool(const std::string& ending) {
   return spool_ + "/" + std::to_string(++count_) + ending;
 }
 
-std::vector<OnlookerMaker> RunFiles::onlookers(const Scenario& scenario) {
-  std::vector<OnlookerMaker> makers;
-  makers.push_back([this, &scenario](World& world) {
-    RecordingHeader header{.version = version_,
-                           .bench = to_text(scenario.bench),
-                           .options = {},
-                           .seed = scenario.bench.seed,
-                           .snapshot = {}};
+std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scenario) {
+  std::vector<play::OnlookerMaker> makers;
+  makers.push_back([this, &scenario](world::World& world) {
+    world::RecordingHeader header{.version = version_,
+                                  .bench = world::to_text(scenario.bench),
+                                  .options = {},
+                                  .seed = scenario.bench.seed,
+                                  .snapshot = {}};
     header.options.strict_framing = !real_time_;
-    return std::make_unique<PlayRecorder>(world, std::move(header), next_spool(kRecording.ending));
+    return std::make_unique<play::PlayRecorder>(world, std::move(header), next_spool(kRecording.ending));
   });
   const auto add = [&](const FileKind& kind, const PlayFile::Begin& begin) {
     if ((folders_.*kind.folder).empty()) return;
-    makers.push_back([this, &kind, begin](World& world) {
+    makers.push_back([this, &kind, begin](world::World& world) {
       return std::make_unique<PlayFile>(world, next_spool(kind.ending), kind.place, begin);
     });
   };
-  add(kTrace, [this](World& world, const std::string& path) {
-    auto trace = std::make_shared<TraceFile>(world, path, folders_.trace_also, log_line);
+  add(kTrace, [this](world::World& world, const std::string& path) {
+    auto trace = std::make_shared<world::TraceFile>(world, path, folders_.trace_also, log_line);
     trace->begin();
     return trace;
   });
-  add(kCapture, [](World& world, const std::string& path) {
-    auto capture = std::make_shared<WorldCapture>(world, path, log_line);
+  add(kCapture, [](world::World& world, const std::string& path) {
+    auto capture = std::make_shared<world::WorldCapture>(world, path, log_line);
     capture->begin();
     return capture;
   });
@@ -224,7 +228,7 @@ std::string RunFiles::free_name(const std::string& name) {
   return free;
 }
 
-void RunFiles::settle(ScenarioResult& result) {
+void RunFiles::settle(play::ScenarioResult& result) {
   std::string name;
   for (const FileKind& kind : kKinds) {
     std::string& place = result.*kind.place;
@@ -251,4 +255,4 @@ void RunFiles::settle(ScenarioResult& result) {
   }
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "emulator/edge/private_folder.h"
-#include "emulator/file_claims.h"
-#include "emulator/scenario/onlooker.h"
-#include "emulator/scenario/scenario.h"
-#include "pty/descriptor.h"
+#include "base/files/descriptor.h"
+#include "base/files/file_claims.h"
+#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/script/scenario.h"
+#include "emulator/serve/ports/private_folder.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// What is wanted of each play. Folders are made; an empty one: nothing.
 struct RunFolders {
@@ -25,7 +25,7 @@ struct RunFolders {
   std::vector<std::string> trace_also;
 };
 
-/// Folders whose files would be others that a command reads or writes, or that are no names of folders:
+/// Folders whose files would be others that a command reads or writes, or that are not names of folders:
 /// UsageError.
 void demand_folders(const FileClaims& claims, const RunFolders& folders);
 
@@ -39,10 +39,10 @@ class RunFiles {
   RunFiles& operator=(const RunFiles&) = delete;
 
   /// Who makes them of a scenario's play, or of one of its branches. From any thread.
-  std::vector<OnlookerMaker> onlookers(const Scenario& scenario);
+  std::vector<play::OnlookerMaker> onlookers(const play::Scenario& scenario);
   /// Keeps the files, under the result's name, or removes them; the result says where they are. To be called
   /// in the order of the results, which decides between equal names.
-  void settle(ScenarioResult& result);
+  void settle(play::ScenarioResult& result);
 
  private:
   std::string next_spool(const std::string& ending);
@@ -52,11 +52,11 @@ class RunFiles {
   FileClaims claims_;
   bool real_time_;
   std::string version_;
-  PrivateFolder private_folder_;
-  pty::Descriptor lock_;  // on the spool: it has an owner who lives
-  std::string spool_;     // a folder in that one
+  serve::PrivateFolder private_folder_;
+  Descriptor lock_;    // on the spool: it has an owner who lives
+  std::string spool_;  // a folder in that one
   std::atomic<int> count_ = 0;
   std::set<std::string> names_;  // that are taken
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -1,32 +1,34 @@
 #include "emulator/command_line/serving.h"
+#include "emulator/models/models.h"
 
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 
-#include "emulator/bench/bench_file.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/device.h"
-#include "emulator/edge/nv_keeper.h"
-#include "emulator/edge/port_group.h"
-#include "emulator/one_line.h"
-#include "emulator/trace/trace.h"
+#include "emulator/device/device.h"
+#include "emulator/serve/control/control_door.h"
+#include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/serve/ports/port_group.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/trace/trace.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
 pty::Timing demand_timing(const std::string& timing) {
   if (timing == "wire") return pty::Timing::wire;
   if (timing == "instant") return pty::Timing::instant;
-  throw UsageError("--timing: " + emulator::quoted(timing) + " is unknown; expected wire or instant");
+  throw UsageError("--timing: " + understudy::quoted(timing) + " is unknown; expected wire or instant");
 }
 
 /// What the model says of a setting is said of its flag.
-void demand_possible(const DeviceSetup& device) {
+void demand_possible(const world::DeviceSetup& device) {
   try {
     make_device(*device.model, device.settings);
   } catch (const SettingError& error) {
@@ -36,9 +38,9 @@ void demand_possible(const DeviceSetup& device) {
 }
 
 /// One line with one device, from flags.
-Bench bench_of_one(const ServeArguments& arguments) {
-  Bench bench;
-  DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
+world::Bench bench_of_one(const ServeArguments& arguments) {
+  world::Bench bench;
+  world::DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station.value_or(1);
   if (arguments.station && device.model->protocol() == Protocol::text) {
@@ -48,13 +50,13 @@ Bench bench_of_one(const ServeArguments& arguments) {
   device.settings.modules = arguments.modules.value_or(0);
   if (arguments.modules == 0) throw UsageError("--modules: 0 are none; expected 1 or more");
   if (arguments.baud == 0)
-    throw UsageError("--baud: 0 is no speed; expected one of the model's, such as 19200 or 115200");
+    throw UsageError("--baud: 0 is not a speed; expected one of the model's, such as 19200 or 115200");
   device.settings.baud = arguments.baud.value_or(0);
   if (!arguments.firmware.empty()) {
     device.settings.firmware = parse_firmware(arguments.firmware);
     if (device.settings.firmware == 0) {
-      throw UsageError("--firmware: " + emulator::quoted(arguments.firmware) +
-                       " is no version; expected one like 1.52");
+      throw UsageError("--firmware: " + understudy::quoted(arguments.firmware) +
+                       " is not a version; expected one like 1.52");
     }
   }
   bench.devices.push_back(device);
@@ -68,7 +70,7 @@ Bench bench_of_one(const ServeArguments& arguments) {
   return bench;
 }
 
-Bench make_bench(const ServeArguments& arguments, const std::string& command) {
+world::Bench make_bench(const ServeArguments& arguments, const std::string& command) {
   if (arguments.bench.empty() == arguments.model.empty()) {
     throw UsageError(command + ": expected either a bench file or --model MODEL");
   }
@@ -79,46 +81,47 @@ Bench make_bench(const ServeArguments& arguments, const std::string& command) {
                      ": --station, --modules, --firmware, --baud and --link belong to --model; a bench file "
                      "says them itself");
   }
-  Bench bench =
-      arguments.bench.empty() ? bench_of_one(arguments) : load_bench(arguments.bench, arguments.links);
-  for (LineSetup& line : bench.lines) {
+  world::Bench bench = arguments.bench.empty()
+                           ? bench_of_one(arguments)
+                           : world::load_bench(models::all_models(), arguments.bench, arguments.links);
+  for (world::LineSetup& line : bench.lines) {
     if (!arguments.links.empty() && line.link.empty())
       line.link = arguments.links + "/" + line.name + ".port";
   }
   if (!arguments.timing.empty()) {
-    for (LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
+    for (world::LineSetup& line : bench.lines) line.timing = demand_timing(arguments.timing);
   }
   if (!arguments.baud_tolerance.empty()) {
-    const auto ppm = parse_baud_tolerance(arguments.baud_tolerance);
+    const auto ppm = world::parse_baud_tolerance(arguments.baud_tolerance);
     if (!ppm) {
-      throw UsageError("--baud-tolerance: " + emulator::quoted(arguments.baud_tolerance) +
-                       " is not a share of the speed; " + std::string(kBaudToleranceExpected));
+      throw UsageError("--baud-tolerance: " + understudy::quoted(arguments.baud_tolerance) +
+                       " is not a share of the speed; " + std::string(world::kBaudToleranceExpected));
     }
-    for (LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
+    for (world::LineSetup& line : bench.lines) line.baud_tolerance_ppm = *ppm;
   }
   return bench;
 }
 
 /// What the bench is made of, the memories, which are written as well, and what hosts and `ctl` open.
-FileClaims claims_of(const Bench& bench, const std::string& control) {
+FileClaims claims_of(const world::Bench& bench, const std::string& control) {
   FileClaims claims;
   claims.add(bench.files);
-  for (const DeviceSetup& device : bench.devices) {
-    claims.add({device.nv_path, "the memory of " + emulator::quoted(device.settings.name)});
+  for (const world::DeviceSetup& device : bench.devices) {
+    claims.add({device.nv_path, "the memory of " + understudy::quoted(device.settings.name)});
   }
-  for (const LineSetup& line : bench.lines) {
-    claims.add_place({line.link, "the link of line " + emulator::quoted(line.name)});
+  for (const world::LineSetup& line : bench.lines) {
+    claims.add_place({line.link, "the link of line " + understudy::quoted(line.name)});
   }
   claims.add_place({control, "the control socket"});
   return claims;
 }
 
 /// What else is to be traced can be seen of this bench.
-void demand_names(const Bench& bench, const std::vector<std::string>& also) {
+void demand_names(const world::Bench& bench, const std::vector<std::string>& also) {
   if (also.empty()) return;
   try {
-    trace_signals(World(bench, {}, {}), also);
-  } catch (const NameError& error) {
+    world::trace_signals(world::World(bench, {}, {}), also);
+  } catch (const world::NameError& error) {
     throw UsageError(std::string("--trace-also: ") + error.what());
   }
 }
@@ -131,9 +134,10 @@ const std::string& demand_recording(const std::string& path, FileClaims& claims)
 
 std::optional<gid_t> demand_group(const std::string& name) {
   if (name.empty()) return std::nullopt;
-  const auto group = find_group(name);
+  const auto group = serve::find_group(name);
   if (!group)
-    throw UsageError("--group: " + emulator::quoted(name) + " is unknown; expected a group such as dialout");
+    throw UsageError("--group: " + understudy::quoted(name) +
+                     " is unknown; expected a group such as dialout");
   return group;
 }
 
@@ -142,11 +146,11 @@ std::optional<gid_t> demand_group(const std::string& name) {
 Serving make_serving(const ServeArguments& arguments, const std::string& command) {
   Serving serving;
   serving.bench = make_bench(arguments, command);
-  read_memories(serving.bench, arguments.nv);
-  DaemonOptions& options = serving.options;
+  serve::read_memories(serving.bench, arguments.nv);
+  serve::DaemonOptions& options = serving.options;
   options.strict_framing = arguments.strict_framing;
   options.enforce_settings = !arguments.ignore_baud;
-  options.control_path = arguments.control;
+  options.door = serve::control_door(arguments.control);
   if (!arguments.bench.empty())
     options.bench_path = std::filesystem::weakly_canonical(arguments.bench).string();
   options.files = claims_of(serving.bench, arguments.control);
@@ -156,9 +160,9 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
   demand_names(serving.bench, arguments.trace_also);
   options.trace_also = arguments.trace_also;
   options.version = arguments.version;
-  const auto speed = parse_speed(arguments.speed);
+  const auto speed = serve::parse_speed(arguments.speed);
   if (!speed) {
-    throw UsageError("--speed: " + emulator::quoted(arguments.speed) +
+    throw UsageError("--speed: " + understudy::quoted(arguments.speed) +
                      " is unknown; expected real, free, manual or a factor such as 10x");
   }
   options.speed = *speed;
@@ -169,7 +173,7 @@ Serving make_serving(const ServeArguments& arguments, const std::string& command
 namespace {
 
 /// For a person only: in a script's log it would look like something gone wrong.
-void say_how_to_have_parity(const Daemon& daemon) {
+void say_how_to_have_parity(const serve::Daemon& daemon) {
   if (isatty(STDERR_FILENO) == 0) return;
   for (const auto& port : daemon.ports()) {
     const pty::Line& line = daemon.world().line(port->line_number()).line;
@@ -184,7 +188,7 @@ void say_how_to_have_parity(const Daemon& daemon) {
 
 }  // namespace
 
-void say_ready(const Daemon& daemon) {
+void say_ready(const serve::Daemon& daemon) {
   say_how_to_have_parity(daemon);
   for (const auto& port : daemon.ports()) {
     std::printf("ready %s %s %s\n", daemon.world().line(port->line_number()).line.name().c_str(),
@@ -199,4 +203,4 @@ void print_findings(const std::vector<std::string>& findings) {
   for (const std::string& finding : findings) std::fprintf(stderr, "lint: %s\n", one_line(finding).c_str());
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "emulator/bench/bench.h"
 #include "emulator/command_line/commands.h"
-#include "emulator/edge/daemon.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench/bench.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 struct Serving {
-  Bench bench;
-  DaemonOptions options;
+  world::Bench bench;
+  serve::DaemonOptions options;
   std::optional<gid_t> group;  // that may open the ports as well
 };
 
@@ -24,9 +24,9 @@ struct Serving {
 Serving make_serving(const ServeArguments& arguments, const std::string& command);
 
 /// One line for each port on standard output: its pty and its link. Throws PortError if nobody can read it.
-void say_ready(const Daemon& daemon);
+void say_ready(const serve::Daemon& daemon);
 
 /// What `--lint` has found, on standard error.
 void print_findings(const std::vector<std::string>& findings);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -69,4 +69,4 @@ void ProgressLine::run() {
   }
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

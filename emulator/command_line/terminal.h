@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// A terminal, where colours are not unwanted (NO_COLOR, TERM=dumb).
 bool wants_colour(int descriptor);
@@ -16,7 +16,7 @@ bool wants_colour(int descriptor);
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
 /// A last line on standard output that says how many are done, rewritten now and then once it has taken a
-/// while. Where that is no terminal there is none.
+/// while. Where that is not a terminal there is none.
 class ProgressLine {
  public:
   explicit ProgressLine(std::size_t total);
@@ -46,4 +46,4 @@ class ProgressLine {
   std::thread thread_;  // last: it uses all the others
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

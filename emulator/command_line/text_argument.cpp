@@ -2,10 +2,10 @@
 
 #include <unistd.h>
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 FileText read_text_argument(const std::string& path) {
   return path == "-" || path == "/dev/stdin" ? read_text_of(STDIN_FILENO) : read_text_file(path);
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

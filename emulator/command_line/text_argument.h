@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "emulator/text_file.h"
+#include "base/files/text_file.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 /// A text file that the command line names; "-" and "/dev/stdin" are standard input, read to its end.
 FileText read_text_argument(const std::string& path);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -11,16 +11,16 @@
 #include <optional>
 #include <utility>
 
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/interruption.h"
-#include "emulator/control/scrolled_view.h"
-#include "emulator/control/server.h"
-#include "emulator/control/watch_table.h"
-#include "emulator/one_line.h"
-#include "emulator/simulated_time.h"
+#include "emulator/serve/control/scrolled_view.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/control/watch_table.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace {
 
@@ -98,7 +98,7 @@ class Screen {
   }
 
   Keyboard keyboard_;
-  ScrolledView view_;
+  serve::ScrolledView view_;
 };
 
 void print(const std::vector<std::string>& lines) {
@@ -112,13 +112,13 @@ void print(const std::vector<std::string>& lines) {
 class Shown {
  public:
   explicit Shown(std::vector<std::string> names) : names_(std::move(names)) {}
-  std::string message() const { return names_.empty() ? R"({"do":"status"})" : get_message(names_); }
+  std::string message() const { return names_.empty() ? R"({"do":"status"})" : serve::get_message(names_); }
   std::vector<std::string> lines_of(const std::string& reply, Clock::time_point asked,
                                     std::optional<std::size_t> columns) {
-    if (!names_.empty()) return watch_values(reply);
+    if (!names_.empty()) return serve::watch_values(reply);
     const double between_s = std::chrono::duration<double>(asked - asked_before_).count();
-    std::vector<std::string> lines =
-        columns ? watch_table(reply, before_, between_s, *columns) : watch_table(reply, before_, between_s);
+    std::vector<std::string> lines = columns ? serve::watch_table(reply, before_, between_s, *columns)
+                                             : serve::watch_table(reply, before_, between_s);
     before_ = reply;
     asked_before_ = asked;
     return lines;
@@ -135,15 +135,15 @@ class Shown {
 int watch(const WatchArguments& arguments) {
   const auto every = parse_duration(arguments.every);
   if (!every || *every < std::chrono::milliseconds(10)) {
-    throw UsageError("ctl watch: --every: " + emulator::quoted(arguments.every) +
+    throw UsageError("ctl watch: --every: " + understudy::quoted(arguments.every) +
                      " is not a time; expected 10ms or more");
   }
   if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (without end) or more");
   const std::string path = choose_daemon(arguments.which);
   Shown shown(arguments.names);
   // Nobody answers, or there is nothing of that name? That is told before the terminal is touched.
-  std::string reply = ask_control(path, shown.message());
-  if (const std::string why = why_refused(reply); !why.empty()) {
+  std::string reply = serve::ask_control(path, shown.message());
+  if (const std::string why = serve::why_refused(reply); !why.empty()) {
     std::fprintf(stderr, "understudy: ctl watch: %s\n", one_line(why).c_str());
     return kExitBadInput;
   }
@@ -152,7 +152,7 @@ int watch(const WatchArguments& arguments) {
   if (isatty(STDOUT_FILENO) != 0) screen.emplace();
   for (int i = 0; !is_interrupted(); ++i) {
     const Clock::time_point asked = Clock::now();
-    if (i > 0) reply = ask_control(path, shown.message());
+    if (i > 0) reply = serve::ask_control(path, shown.message());
     const auto columns = screen ? std::optional(Screen::columns()) : std::nullopt;
     const auto lines = shown.lines_of(reply, asked, columns);
     screen ? screen->show(lines) : print(lines);
@@ -170,4 +170,4 @@ int watch(const WatchArguments& arguments) {
   return kExitWell;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "emulator/file_error.h"
+#include "base/files/file_error.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::command_line {
 
 namespace fs = std::filesystem;
 
@@ -40,4 +40,4 @@ std::vector<std::string> with_folders_opened(const std::vector<std::string>& pat
   return files;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::command_line

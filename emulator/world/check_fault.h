@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "emulator/faults/fault.h"
+#include "emulator/world/faults/fault.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 class World;
 
@@ -15,4 +15,4 @@ void check_fault(const World& world, const Fault& fault);
 /// The condition alone: NameError for one that it does not understand.
 void check_condition(const World& world, const std::string& when);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

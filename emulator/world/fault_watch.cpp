@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "emulator/expression/parser.h"
-#include "emulator/faults/kinds.h"
-#include "emulator/one_line.h"
+#include "base/text/one_line.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/expression/parser.h"
+#include "emulator/world/faults/kinds.h"
 #include "emulator/world/world.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 namespace {
 
@@ -202,7 +202,7 @@ SimTime FaultWatch::next_moment() const {
   SimTime next = kForever;
   for (const auto& [number, armed] : faults_) {
     if (is_of_frames(armed.fault.kind) || !waits(armed.fault)) continue;
-    next = std::min(next, emulator::next_moment(armed.fault.trigger, armed.course));
+    next = std::min(next, world::next_moment(armed.fault.trigger, armed.course));
   }
   return next;
 }
@@ -226,7 +226,7 @@ void FaultWatch::look(SimTime now, bool is_tick) {
     auto& [fault, course] = armed;
     if (is_of_frames(fault.kind) || !waits(fault)) continue;
     if (is_tick == is_of_time_alone(fault.trigger)) continue;
-    if (!is_tick && emulator::next_moment(fault.trigger, course) > now) continue;
+    if (!is_tick && world::next_moment(fault.trigger, course) > now) continue;
     const bool was_in_force = course.in_force;
     bool strikes = false;
     if (is_about_frames(fault.trigger)) {
@@ -340,4 +340,4 @@ std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
   return stages;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

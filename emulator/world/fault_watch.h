@@ -6,13 +6,13 @@
 #include <span>
 #include <string>
 
-#include "emulator/expression/expression.h"
-#include "emulator/faults/fault.h"
-#include "emulator/faults/frame_faults.h"
-#include "emulator/probe/probes.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/stations/frame_faults.h"
 #include "pty/line_observer.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 class World;
 
@@ -58,4 +58,4 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
 /// What is wrong with a machine's encoder at the end of `tick`, in counts.
 std::int64_t encoder_noise_counts(const Fault& fault, Tick tick);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

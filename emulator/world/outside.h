@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "emulator/faults/fault.h"
-#include "emulator/register_map/access.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/world/faults/fault.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 class OutsideListener {
  public:
@@ -26,4 +26,4 @@ class OutsideListener {
   virtual void on_program(std::size_t device, std::string_view text) = 0;
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

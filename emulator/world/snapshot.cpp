@@ -7,7 +7,7 @@
 #include "emulator/world/check_fault.h"
 #include "emulator/world/state_fields.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 namespace {
 
@@ -33,16 +33,16 @@ WorldState::Part world_part(const World& world) {
   return {"world", writer.take()};
 }
 
-/// How it hears a host is no state, but a world goes on as another one did only if it is the same.
+/// How it hears a host is not a state, but a world goes on as another one did only if it is the same.
 struct Hearing {
   bool is_strict = false;         // about silence
   bool enforces_settings = true;  // deaf to a host of another speed
 };
-Hearing hearing_of(const World::OneLine& line) {
+Hearing hearing_of(const WorldLine& line) {
   return {.is_strict = line.framing.strict, .enforces_settings = line.line.options().enforce_settings};
 }
 
-WorldState::Part line_part(const World::OneLine& line) {
+WorldState::Part line_part(const WorldLine& line) {
   StateWriter writer(1024);
   writer.write<WorldFields>(hearing_of(line).is_strict);
   writer.write<WorldFields>(hearing_of(line).enforces_settings);
@@ -103,7 +103,7 @@ void check_faults(const World& world, const WorldValues& values) {
     check_fault_value(world, armed.fault);
     const FaultCourse& course = armed.course;
     for (const std::int64_t count : {course.seen, course.matched, course.hits}) {
-      demand_state(count >= 0, "a fault has been seen less than never");
+      demand_state(count >= 0, "a fault counter is negative");
       demand_reach(count);
     }
   }
@@ -134,7 +134,7 @@ Machines read_machines(const World& world, StateReader& reader) {
   return machines;
 }
 
-void read_hearing(const World::OneLine& line, StateReader& reader) {
+void read_hearing(const WorldLine& line, StateReader& reader) {
   Hearing its;
   reader.read<WorldFields>(its.is_strict);
   reader.read<WorldFields>(its.enforces_settings);
@@ -219,7 +219,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
   LineStates lines(world.line_count());
   std::vector<std::function<void()>> put_stations;
   for (std::size_t i = 0; i < world.line_count(); ++i) {
-    const World::OneLine& line = world.line(i);
+    const WorldLine& line = world.line(i);
     parts.read("line " + line.line.name(), [&](std::span<const std::byte> bytes) {
       StateReader reader(bytes);
       read_hearing(line, reader);
@@ -273,4 +273,4 @@ std::uint64_t hash(const World& world) {
   return sum;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "emulator/simulated_time.h"
-#include "emulator/state/state_error.h"
+#include "base/simulated_time.h"
+#include "base/state/state_error.h"
 #include "emulator/world/world.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 struct WorldState {
   struct Part {
@@ -36,8 +36,8 @@ struct WorldState {
 WorldState save(const World& world);
 
 /// Reads a state, and gives what puts the world into it, as often as that is called: it throws nothing.
-/// Throws StateError "part: what is wrong" for what is no state of such a world. Watchers, observers and the
-/// listener stay as they are. The world must outlive it.
+/// Throws StateError "part: what is wrong" for what is not a state of such a world. Watchers, observers and
+/// the listener stay as they are. The world must outlive it.
 std::function<void()> read_state(World& world, const WorldState& state);
 
 /// The same at once; when it throws, nothing has changed.
@@ -47,4 +47,4 @@ void restore(World& world, const WorldState& state);
 /// whether quiet ticks were crossed in bulk, or of what is counted of that.
 std::uint64_t hash(const World& world);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

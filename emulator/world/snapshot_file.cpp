@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "emulator/bench/bench_text.h"
-#include "emulator/one_line.h"
-#include "emulator/state/base64.h"
-#include "emulator/state/state_bytes.h"
-#include "emulator/strict_json.h"
-#include "emulator/version.h"
+#include "base/state/base64.h"
+#include "base/state/state_bytes.h"
+#include "base/text/one_line.h"
+#include "base/version.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/strict_json.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 namespace {
 
@@ -48,7 +48,7 @@ const Json& demand(const Json& object, const char* key) {
 
 std::string text_of(const Json& object, const char* key) {
   const Json& text = demand(object, key);
-  if (!text.is_string()) throw SnapshotError(std::string(key) + ": is no text; expected a snapshot");
+  if (!text.is_string()) throw SnapshotError(std::string(key) + ": is not text; expected a snapshot");
   return text.get<std::string>();
 }
 
@@ -60,7 +60,7 @@ Json parse_json(const std::string& text) {
     parsed = parse_strict_json<Json>(
         text,
         [](const std::string& key) {
-          return SnapshotError(emulator::quoted(key) + ": is there twice; expected it once");
+          return SnapshotError(understudy::quoted(key) + ": is there twice; expected it once");
         },
         kDeepest);
   } catch (const TooDeepJson& error) {
@@ -71,7 +71,7 @@ Json parse_json(const std::string& text) {
   if (!parsed.is_object()) return parsed;
   for (const auto& [key, value] : parsed.items()) {
     if (!kKnown.contains(key)) {
-      throw SnapshotError(emulator::quoted(key) + ": is no key of a snapshot; expected none");
+      throw SnapshotError(understudy::quoted(key) + ": is not a key of a snapshot; expected none");
     }
   }
   return parsed;
@@ -107,10 +107,10 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
     throw SnapshotError("understudy: is of another format; expected " + std::to_string(kFormat));
   }
   if (text_of(file, "kind") != kKind) {
-    throw SnapshotError("kind: is " + emulator::quoted(text_of(file, "kind")) + "; expected " + kKind);
+    throw SnapshotError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " + kKind);
   }
   if (text_of(file, "version") != program_version()) {
-    throw SnapshotError("version: was written by " + emulator::quoted(text_of(file, "version")) +
+    throw SnapshotError("version: was written by " + understudy::quoted(text_of(file, "version")) +
                         "; expected " + std::string(program_version()));
   }
   if (text_of(file, "bench") != hex(bench)) {
@@ -120,14 +120,15 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
   const Json& time = demand(file, "simulated_time_ns");
   if (!time.is_number_unsigned() ||
       time.get<std::uint64_t>() > static_cast<std::uint64_t>(kHorizon.count())) {
-    throw SnapshotError("simulated_time_ns: is no time; expected a whole number");
+    throw SnapshotError("simulated_time_ns: is not a time; expected a whole number");
   }
   state.time = SimTime{time.get<std::int64_t>()};
   const Json& parts = demand(file, "state");
-  if (!parts.is_object()) throw SnapshotError("state: is no object; expected the parts of a world");
+  if (!parts.is_object()) throw SnapshotError("state: is not an object; expected the parts of a world");
   for (const auto& [name, bytes] : parts.items()) {
     const auto decoded = bytes.is_string() ? from_base64(bytes.get_ref<const std::string&>()) : std::nullopt;
-    if (!decoded) throw SnapshotError("state: " + emulator::quoted(name) + ": is no base64; expected bytes");
+    if (!decoded)
+      throw SnapshotError("state: " + understudy::quoted(name) + ": is not base64; expected bytes");
     state.parts.push_back({name, *decoded});
   }
   if (text_of(file, "checksum") != hex(checksum(state))) {
@@ -136,4 +137,4 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
   return state;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

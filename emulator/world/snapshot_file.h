@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "emulator/bench/bench.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/snapshot.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 /// A snapshot that cannot be used: one line, "field: what is wrong; what was expected".
 struct SnapshotError : std::runtime_error {
@@ -24,4 +24,4 @@ std::string to_text(const WorldState& state, std::uint64_t bench);
 /// Throws SnapshotError for text that is torn, changed, no snapshot, or one of another version or bench.
 WorldState parse_snapshot(const std::string& text, std::uint64_t bench);
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -2,15 +2,15 @@
 // not listed here is a compile error, because a structured binding names every field.
 #pragma once
 
-#include "emulator/state/state_bytes.h"
+#include "base/state/state_bytes.h"
 #include "emulator/world/world.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 /// A world, its machines and lines; devices and stations have lists of their own.
 struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
-    // What it is made of, and who looks at it, is no state. Devices, machines and lines are parts of their
+    // What it is made of, and who looks at it, is not a state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
     auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
            watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
@@ -80,4 +80,4 @@ struct EdgeFields {
   static void check(const auto&) {}
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <functional>
 
-#include "emulator/large_pages.h"
-#include "emulator/modbus/rtu_station.h"
-#include "emulator/prefetch.h"
-#include "emulator/text/text_station.h"
+#include "base/large_pages.h"
+#include "base/prefetch.h"
 #include "emulator/world/fault_watch.h"
+#include "emulator/world/stations/rtu_station.h"
+#include "emulator/world/stations/text_station.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 namespace {
 
@@ -50,8 +50,9 @@ World::World(const Bench& bench, const WorldOptions& options,
                                   .timing = setup.timing,
                                   .enforce_settings = options.enforce_settings,
                                   .baud_tolerance_ppm = setup.baud_tolerance_ppm};
-    lines_.push_back(std::make_unique<OneLine>(OneLine{pty::Line(setup.name, line_options, log), {}, {}}));
-    OneLine& line = *lines_.back();
+    lines_.push_back(
+        std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), {}, {}}));
+    WorldLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {
       known_[number].line = setup.name;
       if (devices_[number]->model().protocol() == Protocol::text) {
@@ -194,7 +195,7 @@ void World::run_lines(SimTime time) {
 
 /// A tick, or an act from outside, may have given a device something to say; its line sends it from now on.
 void World::look_for_speech(SimTime now) {
-  for (OneLine* line : text_lines_) {
+  for (WorldLine* line : text_lines_) {
     for (const auto& station : line->stations) {
       if (station->look_for_speech(now)) line->line.due_changed();
     }
@@ -367,4 +368,4 @@ void World::settle_power(std::size_t device) {
   look_for_speech(now_);
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -14,18 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "emulator/bench/bench.h"
-#include "emulator/bench/names.h"
-#include "emulator/device.h"
-#include "emulator/faults/fault.h"
-#include "emulator/line_station.h"
-#include "emulator/plant/plant.h"
-#include "emulator/simulated_time.h"
+#include "base/simulated_time.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/outside.h"
-#include "pty/line.h"
-#include "pty/rtu_framer.h"
+#include "emulator/world/view/world_view.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 /// How long an incomplete frame is waited for, by the host's clock.
 inline constexpr std::chrono::nanoseconds kFramePatience = std::chrono::milliseconds(10);
@@ -37,16 +32,9 @@ struct WorldOptions {
   bool enforce_settings = true;  // devices are deaf to a host with another speed
 };
 
-/// Sees every tick, quiet or not, when all of it is over. May act on the world as the outside does.
-class TickWatcher {
- public:
-  virtual ~TickWatcher() = default;
-  virtual void on_tick(Tick tick) = 0;
-};
-
 class FaultWatch;
 
-class World {
+class World final : public WorldView {
  public:
   /// Throws SettingError for what the models refuse, NameError for what its faults wait for.
   World(const Bench& bench, const WorldOptions& options, const std::function<void(const std::string&)>& log);
@@ -54,7 +42,7 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  SimTime now() const { return now_; }
+  SimTime now() const override { return now_; }
   /// Does all that is due up to `time`, included. Times in the past are no error and do nothing.
   void advance_to(SimTime time);
   /// When something will happen by itself next; nothing if only the outside can change anything.
@@ -73,25 +61,17 @@ class World {
   void set_listener(OutsideListener* listener) { listener_ = listener; }
 
   // --- lines ---------------------------------------------------------------------------------
-  struct OneLine {
-    pty::Line line;
-    std::vector<std::unique_ptr<LineStation>> stations;
-    pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
-    Protocol protocol = Protocol::modbus_rtu;
-  };
-  std::size_t line_count() const { return lines_.size(); }
-  OneLine& line(std::size_t number) { return *lines_[number]; }
-  const OneLine& line(std::size_t number) const { return *lines_[number]; }
+  std::size_t line_count() const override { return lines_.size(); }
+  WorldLine& line(std::size_t number) { return *lines_[number]; }
+  const WorldLine& line(std::size_t number) const override { return *lines_[number]; }
 
   // --- devices and the plant ---------------------------------------------------------------------
-  std::size_t device_count() const { return devices_.size(); }
+  std::size_t device_count() const override { return devices_.size(); }
   Device& device(std::size_t number) { return *devices_[number]; }
-  const Device& device(std::size_t number) const { return *devices_[number]; }
-  /// For finding things by name.
-  const KnownDevices& known() const { return known_; }
-  const PlantAxis& plant(std::size_t device, int axis) const;
-  /// All pulses since the world began, in the motor's sense.
-  std::int64_t sent_pulses(std::size_t device, int axis) const {
+  const Device& device(std::size_t number) const override { return *devices_[number]; }
+  const KnownDevices& known() const override { return known_; }
+  const PlantAxis& plant(std::size_t device, int axis) const override;
+  std::int64_t sent_pulses(std::size_t device, int axis) const override {
     return sent_pulses_[device][static_cast<std::size_t>(axis)];
   }
   /// Holds a digital input on, or lets it go; switches and wires on the same input act as well. Or sets an
@@ -168,8 +148,8 @@ class World {
 
   KnownDevices known_;
   std::vector<std::unique_ptr<Device>> devices_;
-  std::vector<std::unique_ptr<OneLine>> lines_;
-  std::vector<OneLine*> text_lines_;                // those of them whose devices may speak unasked
+  std::vector<std::unique_ptr<WorldLine>> lines_;
+  std::vector<WorldLine*> text_lines_;              // those of them whose devices may speak unasked
   std::vector<std::vector<PlantAxis>> plants_;      // [device][axis]
   std::vector<std::vector<ContactWire>> contacts_;  // by device; as the bench has them
   std::vector<std::vector<std::int64_t>> sent_pulses_;
@@ -190,4 +170,4 @@ class World {
   bool bulk_ticks_ = true;
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

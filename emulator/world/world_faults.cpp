@@ -5,7 +5,7 @@
 #include "emulator/world/fault_watch.h"
 #include "emulator/world/world.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 std::size_t World::inject(const Fault& fault) {
   check_fault(*this, fault);
@@ -135,4 +135,4 @@ void World::apply_faults(std::size_t device) {
   for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

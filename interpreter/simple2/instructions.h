@@ -35,7 +35,7 @@ struct Instruction {
   std::string_view meaning;  // for people
 };
 
-/// In the order of opcodes. What is not in the table is no instruction.
+/// In the order of opcodes. What is not in the table is not an instruction.
 inline constexpr std::array<Instruction, 115> kInstructions{{
     {0x00, "NOP", Operand::none, Operand::none, "Does nothing"},
     {0x01, "Wait_IO", Operand::input, Operand::logic, "Waits here until the input is ON, or OFF"},

@@ -41,7 +41,7 @@ std::string expected_amount(bool is_signed);
 
 /// Nothing if the cell holds what this kind cannot be.
 std::optional<std::string> operand_text(Operand kind, std::uint8_t cell);
-/// "JMP7", or "@200" for what is no flag.
+/// "JMP7", or "@200" for what is not a flag.
 std::string flag_text(std::uint8_t cell);
 
 }  // namespace understudy::interpreter::simple2

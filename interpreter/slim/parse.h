@@ -41,7 +41,7 @@ struct ParseResult {
 /// Whatever any dialect has: for what a dialect has let in already.
 inline constexpr Dialect kWidestDialect{.longest_line = kLongestLine, .quantities = true};
 
-/// Everything that needs no state is checked. An empty line is no error.
+/// Everything that needs no state is checked. An empty line is not an error.
 ParseResult parse_line(std::string_view text, const Dialect& dialect = {});
 
 /// A decimal number as a host writes it: sign, digits, point, exponent; nothing for anything else.

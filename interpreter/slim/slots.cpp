@@ -145,7 +145,7 @@ Error check_slot(Slot slot, const CommandRow& row, Operand& operand, const Diale
   }
 }
 
-/// Syntax weighs more than range: what is no command at all has no value that could be wrong.
+/// Syntax weighs more than range: what is not a command at all has no value that could be wrong.
 void add_error(Error& sum, Error error) {
   if (sum == Error::none || error == Error::syntax) sum = error;
 }

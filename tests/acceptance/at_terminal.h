@@ -33,7 +33,7 @@ class AtTerminal {
       execvp(words[0], words.data());
       _exit(127);
     }
-    master_ = pty::Descriptor(master);
+    master_ = Descriptor(master);
   }
   ~AtTerminal() {
     master_.close();  // the terminal hangs up
@@ -82,7 +82,7 @@ class AtTerminal {
 
  private:
   pid_t pid_ = -1;
-  pty::Descriptor master_;
+  Descriptor master_;
   std::string screen_;
   std::optional<int> code_;
 };

@@ -15,12 +15,12 @@ using pty::contents_of;
 using pty::PcapngFile;
 using pty::read_pcapng;
 
-const Bytes kWrongChecksum = hex("01 06 10 02 00 C8 2D 5D");
-const Bytes kNoise = hex("FF 00 01 03 42");
-const Bytes kRefused = hex("01 05 00 00 FF 00 8C 3A");
-const Bytes kRefusal = hex("01 85 01 83 50");
-const Bytes kSetFive = hex("01 10 10 00 00 05 0A 7D 00 00 00 00 C8 00 05 00 05 B3 F7");
-const Bytes kSetFiveReply = hex("01 10 10 00 00 05 04 CA");
+const Bytes kWrongChecksum = pty::hex("01 06 10 02 00 C8 2D 5D");
+const Bytes kNoise = pty::hex("FF 00 01 03 42");
+const Bytes kRefused = pty::hex("01 05 00 00 FF 00 8C 3A");
+const Bytes kRefusal = pty::hex("01 85 01 83 50");
+const Bytes kSetFive = pty::hex("01 10 10 00 00 05 0A 7D 00 00 00 00 C8 00 05 00 05 B3 F7");
+const Bytes kSetFiveReply = pty::hex("01 10 10 00 00 05 04 CA");
 
 constexpr std::uint32_t kInbound = 1;
 constexpr std::uint32_t kOutbound = 2;
@@ -42,7 +42,7 @@ class Capturing {
   /// What is in the file after SIGTERM.
   std::string stop() {
     EXPECT_EQ(daemon_.stop(SIGTERM), 0) << daemon_.errors();
-    return contents_of(path_);
+    return pty::contents_of(path_);
   }
   const std::string& path() const { return path_; }
   RunningUnderstudy& daemon() { return daemon_; }
@@ -65,7 +65,7 @@ TEST(Capture, HoldsEachFrameWithItsDirectionAndItsSimulatedTime) {
   capturing.exchange(kReadHardwareCode, kHardwareCodeReply);
   capturing.exchange(kSetSpeed200, kSetSpeed200);
   const std::string file = capturing.stop();
-  const PcapngFile capture = read_pcapng(file);
+  const PcapngFile capture = pty::read_pcapng(file);
   ASSERT_EQ(capture.interfaces.size(), 1U);
   EXPECT_EQ(capture.interfaces[0].name, "line");
   EXPECT_EQ(capture.interfaces[0].speed, 19200U);
@@ -88,9 +88,9 @@ TEST(Capture, HoldsWhatWasDroppedAndWhatWasNotHeard) {
   Capturing capturing("a.pcapng");
   capturing.send_in_vain(kWrongChecksum);
   capturing.send_in_vain(kNoise);
-  capturing.send_in_vain(hex("01 03 00"));
+  capturing.send_in_vain(pty::hex("01 03 00"));
   const std::string file = capturing.stop();
-  const PcapngFile capture = read_pcapng(file);
+  const PcapngFile capture = pty::read_pcapng(file);
   ASSERT_EQ(capture.packets.size(), 3U);
   EXPECT_EQ(capture.packets[0].bytes, kWrongChecksum);
   EXPECT_EQ(capture.packets[0].comment, "dropped: bad CRC");
@@ -122,7 +122,7 @@ TEST(Capture, OfTheSameExchangeInManualTimeIsTheSameFile) {
     capturing.exchange(kSetSpeed200, kSetSpeed200);
     files.push_back(capturing.stop());
   }
-  EXPECT_EQ(read_pcapng(files[0]).packets.size(), 5U);
+  EXPECT_EQ(pty::read_pcapng(files[0]).packets.size(), 5U);
   EXPECT_EQ(files[0], files[1]);
 }
 
@@ -140,8 +140,8 @@ TEST(Capture, TellsLinesApart) {
   EXPECT_EQ(exchange(south, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
   EXPECT_EQ(exchange(north, kSetSpeed200, kSetSpeed200.size()), kSetSpeed200);
   EXPECT_EQ(daemon->stop(SIGTERM), 0);
-  const std::string file = contents_of(folder / "a.pcapng");
-  const PcapngFile capture = read_pcapng(file);
+  const std::string file = pty::contents_of(folder / "a.pcapng");
+  const PcapngFile capture = pty::read_pcapng(file);
   ASSERT_EQ(capture.interfaces.size(), 2U);
   EXPECT_EQ(capture.interfaces[0].name, "north");
   EXPECT_EQ(capture.interfaces[1].name, "south");
@@ -154,10 +154,10 @@ TEST(Capture, TellsLinesApart) {
 TEST(Capture, ConsistsOfWholeBlocksWhenTheDaemonIsKilled) {
   Capturing capturing("a.pcapng", {"--timing", "instant"});
   for (int i = 0; i < 200; ++i) capturing.exchange(kReadHardwareCode, kHardwareCodeReply);
-  EXPECT_TRUE(eventually([&] { return contents_of(capturing.path()).size() > 1000; }));
+  EXPECT_TRUE(eventually([&] { return pty::contents_of(capturing.path()).size() > 1000; }));
   EXPECT_EQ(capturing.daemon().stop(SIGKILL), 128 + SIGKILL);
-  const std::string file = contents_of(capturing.path());
-  EXPECT_GT(read_pcapng(file).packets.size(), 0U);
+  const std::string file = pty::contents_of(capturing.path());
+  EXPECT_GT(pty::read_pcapng(file).packets.size(), 0U);
 }
 
 TEST(Capture, EndsWhenTheDiskIsFullAndTheDevicesGoOn) {
@@ -173,7 +173,7 @@ TEST(Capture, EndsWhenTheDiskIsFullAndTheDevicesGoOn) {
             std::string::npos)
       << capturing.daemon().errors();
   const std::string file = capturing.stop();
-  EXPECT_GT(read_pcapng(file).packets.size(), 20U);
+  EXPECT_GT(pty::read_pcapng(file).packets.size(), 20U);
   EXPECT_EQ(lines_of(capturing.daemon().errors()).size(), 2U) << "that it ends, and how much is missing";
 }
 
@@ -197,7 +197,7 @@ TEST(CaptureRefusals, AreOneLineAndLeaveWhatIsThereAlone) {
     EXPECT_EQ(lines_of(finished.errors).size(), 1U) << finished.errors;
     EXPECT_NE(finished.errors.find(expected.says), std::string::npos) << finished.errors;
   }
-  EXPECT_EQ(contents_of(bench), kTwoLines);
+  EXPECT_EQ(pty::contents_of(bench), kTwoLines);
 }
 
 TEST(CaptureRefusals, ARunThatCannotStartLeavesTheCaptureOfTheOneBefore) {
@@ -207,7 +207,7 @@ TEST(CaptureRefusals, ARunThatCannotStartLeavesTheCaptureOfTheOneBefore) {
   const Finished second =
       understudy({"serve", "--model", "simple2-r3", "--link", first.port(), "--capture", capture});
   EXPECT_EQ(second.exit_code, 3) << second.errors;
-  EXPECT_EQ(contents_of(capture), "precious\n");
+  EXPECT_EQ(pty::contents_of(capture), "precious\n");
 }
 
 TEST(CaptureRefusals, TwoRunsNeverWriteOneFile) {
@@ -262,7 +262,7 @@ TEST(Capture, TellsWhatFaultsDid) {
       EXPECT_EQ(capturing.daemon().ctl(fault).exit_code, 0);
     }
     capturing.send_in_vain(kReadHardwareCode);
-    capturing.exchange(kReadHardwareCode, hex("01 03 02 C0 01 29 7B"));
+    capturing.exchange(kReadHardwareCode, pty::hex("01 03 02 C0 01 29 7B"));
     capturing.send_in_vain(kSetSpeed200);
     const std::string status = capturing.daemon().ctl({"status"}).output;
     EXPECT_NE(status.find("\nfault 1 drop device nth=1: seen 2, matched 2, hit 1\n"), std::string::npos)
@@ -273,7 +273,7 @@ TEST(Capture, TellsWhatFaultsDid) {
       EXPECT_NE(file.find(comment), std::string::npos) << name << ": " << comment;
     }
     if (name == "a.txt") continue;
-    const PcapngFile capture = read_pcapng(file);
+    const PcapngFile capture = pty::read_pcapng(file);
     ASSERT_EQ(capture.packets.size(), 6U);
     EXPECT_EQ(capture.packets[1].bytes, Bytes{});
     EXPECT_EQ(capture.packets[1].flags, kOutbound);

@@ -42,7 +42,7 @@ class Client {
   }
 
  private:
-  pty::Descriptor socket_;
+  Descriptor socket_;
   bool is_connected_ = false;
 };
 

@@ -163,7 +163,7 @@ TEST(ManualSpeed, MovesNothingUntilTimeIsAdvanced) {
   EXPECT_EQ(simulated_ns(daemon), 0);
 }
 
-TEST(ManualSpeed, CompletesTheManualsExampleInExactly3050MillisecondsAndTheTickItBeginsWith) {
+TEST(ManualSpeed, TheManualsExampleTakesExactly3050Milliseconds) {
   const RunningUnderstudy daemon({"--speed", "manual"});
   expect_done(daemon, kManualsExample);
   const auto position_after = [&](const char* duration) {
@@ -214,8 +214,8 @@ TEST(ManualSpeed, ServesWhatOnlySilenceEnds) {
   const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
   Host host(daemon.port());
   ASSERT_TRUE(host.set_even_parity(B19200));
-  const Bytes refusal = hex("01 C1 01 B0 50");
-  EXPECT_EQ(exchange(host, hex("01 41 01 02 03 1D 5D"), refusal.size()), refusal);
+  const Bytes refusal = pty::hex("01 C1 01 B0 50");
+  EXPECT_EQ(exchange(host, pty::hex("01 41 01 02 03 1D 5D"), refusal.size()), refusal);
 }
 
 TEST(ControlAdvance, IsRefusedWhereTimeRunsByItself) {
@@ -329,7 +329,7 @@ TEST(ControlWatch, PrintsTablesOneAfterAnother) {
   const auto lines = lines_of(finished.output);
   EXPECT_EQ(std::count(lines.begin(), lines.end(), "time         0s, speed manual"), 3);
   EXPECT_EQ(std::count(lines.begin(), lines.end(), ""), 2 * 3) << finished.output;
-  EXPECT_EQ(finished.output.find('\x1b'), std::string::npos) << "this is no terminal";
+  EXPECT_EQ(finished.output.find('\x1b'), std::string::npos) << "this is not a terminal";
   expect_refused(daemon, {"watch", "--every", "often"}, "expected 10ms or more");
 }
 

@@ -98,7 +98,7 @@ TEST(CtlFrames, TellsWhatHasJustGoneOverTheLine) {
   ASSERT_EQ(understudy({"poll", daemon.port(), "--model", "simple2-r3", "Aaxis_SVON=1", "Cord_A"}).exit_code,
             0);
   Host host(daemon.port());
-  host.write(hex("01 03 00 00 00 01 BA D0"));
+  host.write(pty::hex("01 03 00 00 00 01 BA D0"));
   const Words all{"line -> write 0x1014 device.Aaxis_SVON = 1", "line <- done",
                   "line -> read 0x0E04 device.Cord_A", "line <- device.Cord_A = 0",
                   "line -> 01 03 00 00 00 01 BA D0  (dropped: bad CRC)"};

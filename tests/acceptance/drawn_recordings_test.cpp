@@ -187,7 +187,7 @@ TEST(DrawnRecording, RefusesWhatItCannotDo) {
        "--capture: " + recording + ": is the recording itself; expected a path of its own"},
       {{"replay", recording, "--trace", recording},
        2,
-       "--trace: " + recording + ": is no kind of trace; expected FILE.csv or FILE.vcd"},
+       "--trace: " + recording + ": is not a kind of trace; expected FILE.csv or FILE.vcd"},
       {{"replay", recording, "--trace", csv, "--capture", csv},
        2,
        "--trace: " + csv + ": is what --capture writes; expected a path of its own"},

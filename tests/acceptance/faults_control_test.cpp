@@ -74,7 +74,8 @@ TEST(ControlFaults, AreInjectedListedAndCleared) {
 
 TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   const RunningUnderstudy daemon({"--speed", "manual"});
-  expect_refused(daemon, {"inject", "jam", "A"}, "inject: 'jam' is no fault; expected one such as 'stall'");
+  expect_refused(daemon, {"inject", "jam", "A"},
+                 "inject: 'jam' is not a fault; expected one such as 'stall'");
   expect_refused(daemon, {"inject", "stall", "C"},
                  "inject: no axis of device is called 'C'; expected one of A, B");
   expect_refused(daemon, {"inject", "lost_steps", "A"},
@@ -93,7 +94,7 @@ TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
   expect_refused(daemon, {"clear", "1", "2"}, "clear: expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "one"},
                  "clear: 'one' is not understood; expected the number of a fault, or all");
-  expect_refused(daemon, {"clear", "1"}, "clear: number: 1 is no fault in force; expected one of `list`");
+  expect_refused(daemon, {"clear", "1"}, "clear: number: 1 is not a fault in force; expected one of `list`");
   EXPECT_EQ(daemon.ctl({"list", "all"}).errors,
             "understudy: The following argument was not expected: all (--help tells what is expected)\n");
   EXPECT_EQ(obeyed(daemon, {"list"}), "");
@@ -210,10 +211,10 @@ TEST(ControlInput, TakesVoltagesWordsAndSwitches) {
   EXPECT_TRUE(eventually([&] { return obeyed(daemon, {"get", "ADC_A", "DIN_3"}) == "ADC_A 0\nDIN_3 0\n"; }));
 
   expect_refused(daemon, {"input", "AIN_A=13V"},
-                 "input: AIN_A: 13000 is no level; expected 0 to 12000 millivolts");
+                 "input: AIN_A: 13000 is not a level; expected 0 to 12000 millivolts");
   expect_refused(daemon, {"input", "AIN_A=2.5"},
-                 "input: AIN_A: '2.5' is no level; expected a voltage such as 2.5V");
-  expect_refused(daemon, {"input", "DIN_3=high"}, "input: DIN_3: 'high' is no level; expected on or off");
+                 "input: AIN_A: '2.5' is not a level; expected a voltage such as 2.5V");
+  expect_refused(daemon, {"input", "DIN_3=high"}, "input: DIN_3: 'high' is not a level; expected on or off");
   expect_refused(daemon, {"input", "DIN_3=on", "DIN_3=off"},
                  "input: 'DIN_3' is given twice; expected it once");
   expect_refused(daemon, {"input", "DIN_3="}, "input: 'DIN_3=' is not understood; expected NAME=LEVEL");

@@ -49,12 +49,12 @@ TEST(TolerantFraming, GivesUpAnIncompleteRequestAlsoWhereTheClockStands) {
   const RunningUnderstudy daemon({"--speed", "manual", "--timing", "instant"});
   Host host(daemon.port());
   ASSERT_TRUE(host.set_even_parity(B19200));
-  host.write(hex("01 10 10 00 00 7B F6 00 00"));  // the beginning of a request of 255 bytes
+  host.write(pty::hex("01 10 10 00 00 7B F6 00 00"));  // the beginning of a request of 255 bytes
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
 }
 
-const Bytes kNoise = hex("FF 00 01 03 42");
+const Bytes kNoise = pty::hex("FF 00 01 03 42");
 
 Bytes after_noise(const Bytes& request) {
   Bytes bytes = kNoise;
@@ -87,7 +87,7 @@ TEST(WrongChecksum, GetsNoReplyAndTheNextRequestWorks) {
   wrong.back() ^= 1;
   host.write(wrong);
   EXPECT_TRUE(is_silent(host));
-  EXPECT_EQ(exchange(host, hex("01 03 10 02 00 01 21 0A"), 7), hex("01 03 02 00 00 B8 44"))
+  EXPECT_EQ(exchange(host, pty::hex("01 03 10 02 00 01 21 0A"), 7), pty::hex("01 03 02 00 00 B8 44"))
       << "Aaxis_Speed is still 0";
 }
 

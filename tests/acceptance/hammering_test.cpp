@@ -35,7 +35,7 @@ std::uint8_t low(int value) { return static_cast<std::uint8_t>(value); }
 std::uint8_t high(int value) { return static_cast<std::uint8_t>(value >> 8); }
 
 Bytes set_speed(int speed) { return frame({1, 0x06, 0x10, 0x02, high(speed), low(speed)}); }  // echoed
-const Bytes kReadSpeed = hex("01 03 10 02 00 01 21 0A");
+const Bytes kReadSpeed = pty::hex("01 03 10 02 00 01 21 0A");
 Bytes speed_reply(int speed) { return frame({1, 0x03, 2, high(speed), low(speed)}); }
 
 /// All that comes until the line has been silent for a while.
@@ -213,7 +213,7 @@ TEST_P(Hammering, MemoryStaysWhatItIs) {
   Bytes lump;
   for (int i = 0; i < 100; ++i) {
     append(lump, kReadHardwareCode);
-    append(lump, hex("FF 00 01 03 42"));
+    append(lump, pty::hex("FF 00 01 03 42"));
   }
   Host host(daemon_.port());
   ASSERT_TRUE(host.set_even_parity(B115200));

@@ -139,7 +139,7 @@ TEST(ServiceManager, HearsThatTheDaemonIsReadyAndThatItStops) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::strncpy(address.sun_path, path.c_str(), sizeof(address.sun_path) - 1);
-  const pty::Descriptor socket_of_manager(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const Descriptor socket_of_manager(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   ASSERT_EQ(bind(socket_of_manager.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
   const auto heard = [&] {
     std::array<char, 256> text{};

@@ -128,7 +128,7 @@ TEST(TraceFlag, RefusesWhatItCannotDo) {
   const std::tuple<Words, int, std::string> kCases[] = {
       {{"--trace", "t.txt"},
        2,
-       "understudy: --trace: t.txt: is no kind of trace; expected FILE.csv or FILE.vcd\n"},
+       "understudy: --trace: t.txt: is not a kind of trace; expected FILE.csv or FILE.vcd\n"},
       {{"--trace-also", "Cord_A"}, 2, "understudy: --trace-also: expected --trace FILE beside it\n"},
       {{"--trace", folder / "t.csv", "--trace-also", "Cord_AA"},
        2,
@@ -166,14 +166,14 @@ TEST(Plot, TellsInALineWhatIsWrong) {
   const std::string bad = folder.write("bad.csv", "time_ms,a\n0,x\n");
   const std::string text = folder.write("t.txt", "");
   const std::tuple<Words, int, std::string> kCases[] = {
-      {{"plot", bad}, 2, bad + ":2: a: 'x' is no number; expected one\n"},
-      {{"plot", text}, 2, text + ": is no trace; expected FILE.csv or FILE.vcd\n"},
+      {{"plot", bad}, 2, bad + ":2: a: 'x' is not a number; expected one\n"},
+      {{"plot", text}, 2, text + ": is not a trace; expected FILE.csv or FILE.vcd\n"},
       {{"plot", folder / "none.csv"},
        2,
        (folder / "none.csv") + ": cannot be read (No such file or directory); expected a trace\n"},
       {{"plot", csv, "-o", "p.pdf"},
        2,
-       "understudy: --output: p.pdf: is no kind of picture; expected FILE.png or FILE.svg\n"},
+       "understudy: --output: p.pdf: is not a kind of picture; expected FILE.png or FILE.svg\n"},
       {{"plot", csv, "-o", folder / "no/p.png"},
        3,
        "understudy: --output: " + (folder / "no/p.png") + " cannot be written: No such file or directory\n"},
@@ -202,7 +202,7 @@ TEST(Trace, OfAQuietChainLosesNoTime) {
   const auto daemon =
       RunningUnderstudy::of_model("slim", {"--modules", "2", "--trace", folder / "quiet.csv"});
   Host host(daemon->port());
-  const Bytes request = hex("3F 50 45 0D");  // ?PE
+  const Bytes request = pty::hex("3F 50 45 0D");  // ?PE
   const Bytes reply = exchange(host, request, 3);
   EXPECT_EQ(reply.size(), 3u);
   std::this_thread::sleep_for(Wait(5'000));

@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "emulator/memory/nv_file.h"
+#include "emulator/device/memory/nv_file.h"
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
@@ -81,7 +81,7 @@ class KilledDaemon {
     EXPECT_EQ(process_->wait(kPatience), 128 + SIGKILL) << process_->errors();
     EXPECT_EQ(process_->errors().find("counter.json"), std::string::npos) << process_->errors();
     process_.reset();
-    const std::optional<NvImage> image = read_nv_file(folder_ / "counter.json");
+    const std::optional<NvImage> image = emulator::read_nv_file(folder_ / "counter.json");
     EXPECT_TRUE(image);
     if (!image) return last_;
     const std::vector<std::int64_t> found = counts(*image);

@@ -221,7 +221,7 @@ TEST(Power, CycledKeepsWhatIsKeptAndForgetsTheRest) {
   EXPECT_EQ(host.read(kStatus), Registers{0});
 }
 
-TEST(Power, OffIsSilenceOnTheLineAndAClearWordOnTheControlSocket) {
+TEST(Power, OffSilencesTheLineAndTheSocketSaysSoClearly) {
   const RunningUnderstudy daemon({"--timing", "instant"});
   ModbusHost host(daemon.port(), {.patience = Wait(200)});
   expect_done(daemon, {"power", "off"});
@@ -371,7 +371,7 @@ TEST(DipSwitch, AgreesWithTheBaudOrTheBenchIsRefused) {
 TEST(DipSwitch, ThatTheModelDoesNotHaveIsRefused) {
   const PrivateFolder folder;
   expect_refused(serve({folder.write("bench.yaml", bench_of(", dip: { DIP3: on }"))}),
-                 "'DIP3' is no switch of simple2-r3; the nearest is 'DIP");
+                 "'DIP3' is not a switch of simple2-r3; the nearest is 'DIP");
   expect_refused(serve({folder.write("level.yaml", bench_of(", dip: { DIP1: upwards }"))}),
                  "level.yaml:7:57: ");
 }

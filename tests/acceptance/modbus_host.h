@@ -73,7 +73,7 @@ class ModbusHost {
     return note(modbus_write_bit(context_.get(), address, on ? 1 : 0)) == 1;
   }
   /// A request of any shape (station, function, data; the checksum is added). Returns whether the reply
-  /// was no exception; error() tells which it was.
+  /// was not an exception; error() tells which it was.
   bool request(std::vector<std::uint8_t> bytes) {
     if (note(modbus_send_raw_request(context_.get(), bytes.data(), static_cast<int>(bytes.size()))) < 0)
       return false;

@@ -161,7 +161,7 @@ lines:
   bus: { stations: [ { name: a, model: simple2-r3 } ] }
 )");
   const std::string manager = folder() / "notify";
-  const pty::Descriptor listener(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const Descriptor listener(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   manager.copy(address.sun_path, sizeof(address.sun_path) - 1);

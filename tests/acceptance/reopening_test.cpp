@@ -27,7 +27,7 @@ TEST(HostThatClosesAtOnce, HasItsWriteApplied) {
     {
       Host hasty(daemon.port());
       ASSERT_TRUE(hasty.set_even_parity(B19200));
-      hasty.write(speed == 200 ? kSetSpeed200 : hex("01 06 10 02 00 00 2C CA"));
+      hasty.write(speed == 200 ? kSetSpeed200 : pty::hex("01 06 10 02 00 00 2C CA"));
     }
     EXPECT_TRUE(eventually([&] {
       return daemon.ctl({"get", "Aaxis_Speed"}).output == "Aaxis_Speed " + std::to_string(speed) + "\n";
@@ -57,7 +57,7 @@ TEST(HostThatReadsHalfAReply, LeavesNotTheOtherHalfToTheNext) {
   {
     Host first(daemon.port());
     ASSERT_TRUE(first.set_even_parity(B19200));
-    EXPECT_EQ(exchange(first, kReadHardwareCode, 3), hex("01 03 02"));
+    EXPECT_EQ(exchange(first, kReadHardwareCode, 3), pty::hex("01 03 02"));
     std::this_thread::sleep_for(Wait(10));  // the rest waits in the pty
   }
   EXPECT_TRUE(eventually([&] { return is_free(daemon); }));

@@ -23,13 +23,13 @@ namespace {
 constexpr Wait kGrace{2'000};  // between asking to end and making it end
 
 /// A file without a name: a process may print what it likes and never waits for a reader.
-pty::Descriptor nameless_file() {
-  pty::Descriptor file(memfd_create("printed", MFD_CLOEXEC));
+Descriptor nameless_file() {
+  Descriptor file(memfd_create("printed", MFD_CLOEXEC));
   if (!file) throw std::runtime_error("memfd_create failed");
   return file;
 }
 
-std::string text_of(const pty::Descriptor& file) {
+std::string text_of(const Descriptor& file) {
   struct stat status {};
   fstat(file.get(), &status);
   std::string text(static_cast<std::size_t>(status.st_size), '\0');

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "pty/descriptor.h"
+#include "base/files/descriptor.h"
 
 namespace understudy::acceptance {
 
@@ -61,8 +61,8 @@ class Process {
  private:
   pid_t pid_ = -1;
   std::optional<int> exit_code_;
-  pty::Descriptor output_;
-  pty::Descriptor errors_;
+  Descriptor output_;
+  Descriptor errors_;
 };
 
 struct Finished {

@@ -3,8 +3,8 @@
 
 #include <future>
 
-#include "emulator/edge/daemon_thread.h"
-#include "tests/emulator/text/echo_box.h"
+#include "emulator/serve/daemon/daemon_thread.h"
+#include "tests/emulator/world/stations/echo_box.h"
 #include "tests/pty/pty_host.h"
 
 namespace understudy::acceptance {
@@ -28,17 +28,16 @@ void set_8n1(const pty::Host& host) {
 
 struct Served {
   explicit Served(pty::Timing timing)
-      : thread(emulator::echo_bench(timing), options(), [](const std::string&) {}) {
+      : thread(emulator::world::echo_bench(timing), options(), [](const std::string&) {}) {
     thread.start();
   }
-  static emulator::DaemonOptions options() {
-    emulator::DaemonOptions made;
+  static emulator::serve::DaemonOptions options() {
+    emulator::serve::DaemonOptions made;
     made.watch_signals = false;
-    made.has_control = false;
     return made;
   }
   std::string path() { return thread.daemon().ports()[0]->terminal().path(); }
-  emulator::DaemonThread thread;
+  emulator::serve::DaemonThread thread;
 };
 
 TEST(TextLine, AHostSaysALineAndReadsTheAnswer) {
@@ -60,10 +59,10 @@ TEST(TextLine, WhatIsSaidUnaskedArrives) {
   set_8n1(host);
   host.write(bytes("SAY a\r"));
   ASSERT_EQ(host.read(3), bytes("a\r\n"));
-  emulator::Tick now = 0;
+  Tick now = 0;
   std::promise<void> looked;
   served.thread.daemon().post([&] {
-    now = emulator::tick_at(served.thread.daemon().world().now());
+    now = tick_at(served.thread.daemon().world().now());
     looked.set_value();
   });
   looked.get_future().get();

@@ -32,8 +32,8 @@ class TtyShim : public testing::Test {
     int master = -1;
     int slave = -1;
     ASSERT_EQ(openpty(&master, &slave, nullptr, nullptr, nullptr), 0);
-    master_ = pty::Descriptor(master);
-    slave_ = pty::Descriptor(slave);
+    master_ = Descriptor(master);
+    slave_ = Descriptor(slave);
     ASSERT_EQ(tcgetattr(slave, &plain_), 0);
     cfmakeraw(&plain_);
     cfsetspeed(&plain_, B19200);
@@ -70,8 +70,8 @@ class TtyShim : public testing::Test {
   void* library_ = nullptr;
   SetAttributes through_shim_ = nullptr;
   Ioctl ioctl_ = nullptr;
-  pty::Descriptor master_;
-  pty::Descriptor slave_;
+  Descriptor master_;
+  Descriptor slave_;
   termios plain_{};
 };
 
@@ -102,7 +102,8 @@ TEST_F(TtyShim, LeavesOtherErrorsAlone) {
   EXPECT_EQ(shim(ends[0], with(PARENB)), ENOTTY);
   close(ends[0]);
   close(ends[1]);
-  EXPECT_EQ(shim(master(), with(PARENB)), libc(master(), with(PARENB))) << "the other end is no serial port";
+  EXPECT_EQ(shim(master(), with(PARENB)), libc(master(), with(PARENB)))
+      << "the other end is not a serial port";
 }
 
 TEST_F(TtyShim, AnswersForModemLinesAsIfWiredThrough) {

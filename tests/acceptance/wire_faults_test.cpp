@@ -93,11 +93,11 @@ TEST(WireFaults, OfABenchReachTheBytesOnThePty) {
       "  - { duplicate: line, after: 50ms, nth: 3 }\n"
       "  - { collision: line, with: 00 FF, nth: 4 }\n");
   Host host(daemon->port());
-  EXPECT_EQ(exchange(host, kReadHardwareCode, 3), hex("01 03 02"));
+  EXPECT_EQ(exchange(host, kReadHardwareCode, 3), pty::hex("01 03 02"));
   EXPECT_TRUE(is_silent(host));
-  EXPECT_EQ(exchange(host, kReadHardwareCode, 10), hex("FF 00 01 03 02 C0 01 29 84 55"));
-  EXPECT_EQ(exchange(host, kReadHardwareCode, 14), hex("01 03 02 C0 01 29 84 01 03 02 C0 01 29 84"));
-  EXPECT_EQ(exchange(host, kReadHardwareCode, 7), hex("00 03 02 C0 01 29 84"));
+  EXPECT_EQ(exchange(host, kReadHardwareCode, 10), pty::hex("FF 00 01 03 02 C0 01 29 84 55"));
+  EXPECT_EQ(exchange(host, kReadHardwareCode, 14), pty::hex("01 03 02 C0 01 29 84 01 03 02 C0 01 29 84"));
+  EXPECT_EQ(exchange(host, kReadHardwareCode, 7), pty::hex("00 03 02 C0 01 29 84"));
   EXPECT_EQ(exchange(host, kReadHardwareCode, 7), kHardwareCodeReply);
   const Json faults = Json::parse(obeyed(*daemon, {"--json", "list"}))["faults"];
   for (const Json& fault : faults) {
@@ -128,7 +128,7 @@ TEST(WireFaults, ThatAreWrongAreRefusedWithOneLine) {
     return finished.errors;
   };
   EXPECT_EQ(refused({"inject", "dorp", "device"}),
-            "understudy: ctl inject: 'dorp' is no fault; the nearest is 'drop'\n");
+            "understudy: ctl inject: 'dorp' is not a fault; the nearest is 'drop'\n");
   EXPECT_EQ(refused({"inject", "drop", "device", "nht=3"}),
             "understudy: ctl inject: drop: nht: is nothing it has; the nearest is 'nth'\n");
   EXPECT_EQ(refused({"inject", "drop", "device", "when=device.A.puls > 3"}),

@@ -5,11 +5,12 @@
 #include <sstream>
 #include <string>
 
-#include "emulator/bench/bench_file.h"
-#include "emulator/describe/fidelity_page.h"
-#include "emulator/devices/slim/numbers.h"
-#include "emulator/devices/slim/parameters.h"
-#include "emulator/model.h"
+#include "emulator/device/describe/fidelity_page.h"
+#include "emulator/device/model.h"
+#include "emulator/models/models.h"
+#include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/parameters.h"
+#include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator {
 namespace {
@@ -21,8 +22,8 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
-TEST(Documentation, fidelity_pages_are_made_from_the_tables_of_today) {
-  for (const Model* model : all_models()) {
+TEST(Documentation, FidelityPagesMatchTheCurrentTables) {
+  for (const Model* model : models::all_models()) {
     const std::string path =
         std::string(PROJECT_FOLDER) + "/docs/fidelity/" + std::string(model->name) + ".md";
     EXPECT_EQ(contents(path), fidelity_page(*model))
@@ -30,32 +31,35 @@ TEST(Documentation, fidelity_pages_are_made_from_the_tables_of_today) {
   }
 }
 
-TEST(Documentation, the_bench_in_the_bench_page_is_valid) {
+TEST(Documentation, TheExampleInTheBenchPageIsValid) {
   const std::string page = contents(std::string(PROJECT_FOLDER) + "/docs/bench.md");
   const std::size_t begin = page.find("```yaml\n");
   ASSERT_NE(begin, std::string::npos);
   const std::size_t first = begin + 8;
-  const Bench bench = parse_bench(page.substr(first, page.find("```\n", first) - first), "bench.md", "/tmp");
+  const world::Bench bench = world::parse_bench(
+      models::all_models(), page.substr(first, page.find("```\n", first) - first), "bench.md", "/tmp");
   EXPECT_EQ(bench.devices.size(), 2U);
   EXPECT_EQ(bench.wires.size(), 1U);
 }
 
-TEST(Documentation, the_slim_page_has_the_parameters_of_the_table) {
+TEST(Documentation, TheSlimPageHasTheParametersOfTheTable) {
   const std::string page = contents(std::string(PROJECT_FOLDER) + "/docs/slim.md");
-  for (const slim::ParameterDefinition& row : slim::kParameters) {
+  for (const models::slim::ParameterDefinition& row : models::slim::kParameters) {
     const std::string name = "\n| " + std::string(row.name) + " | " + std::string(row.alias);
     const std::size_t at = page.find(name);
     ASSERT_NE(at, std::string::npos) << row.name;
     const std::string line = page.substr(at + 1, page.find('\n', at + 1) - at - 1);
     // PN50 is by the number of modules.
-    const std::string factory = row.name == "PN50" ? "by `modules`" : slim::text_of_real(row.factory);
+    const std::string factory = row.name == "PN50" ? "by `modules`" : models::slim::text_of_real(row.factory);
     EXPECT_NE(line.find(" | " + factory + " |"), std::string::npos) << line;
   }
 }
 
-TEST(Documentation, the_shipped_benches_are_valid) {
+TEST(Documentation, TheShippedBenchesAreValid) {
   for (const char* name : {"quickstart.yaml", "two_stations.yaml", "slim_quickstart.yaml"}) {
-    EXPECT_NO_THROW(load_bench(std::string(PROJECT_FOLDER) + "/scenarios/" + name)) << name;
+    EXPECT_NO_THROW(
+        world::load_bench(models::all_models(), std::string(PROJECT_FOLDER) + "/scenarios/" + name))
+        << name;
   }
 }
 

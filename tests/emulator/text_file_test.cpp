@@ -1,5 +1,6 @@
-// Files that are read and replaced as a whole: what is no regular file is not waited for.
-#include "emulator/text_file.h"
+// Files that are read and replaced as a whole: what is not a regular file is not waited for.
+#include "base/files/text_file.h"
+#include "emulator/models/models.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,10 +11,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "emulator/bench/bench_file.h"
-#include "emulator/memory/nv_file.h"
-#include "emulator/scenario/scenario_file.h"
-#include "emulator/trace/trace_table.h"
+#include "emulator/device/memory/nv_file.h"
+#include "emulator/play/plot/trace_table.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator {
 namespace {
@@ -61,7 +62,7 @@ TEST_F(TextFile, WhatIsNoRegularFileIsRefusedAtOnce) {
     EXPECT_FALSE(read) << file;
     // A terminal may not be ours to open.
     if (file != "/dev/tty0") {
-      EXPECT_EQ(read.why, "is no regular file") << file;
+      EXPECT_EQ(read.why, "is not a regular file") << file;
     }
     EXPECT_EQ(why_not_readable(file), read.why) << file;
   }
@@ -94,31 +95,32 @@ TEST_F(TextFile, WhoeverReadsOneSaysWhatIsWrongWithIt) {
   const std::string pipe = path("pipe");
   const std::string csv = path("pipe.csv");
   ASSERT_EQ(mkfifo(csv.c_str(), 0600), 0);
-  EXPECT_EQ(complaint([&] { load_bench(pipe); }),
-            pipe + ": bench: is no regular file; expected a bench file");
-  EXPECT_EQ(complaint([&] { load_scenarios(pipe); }),
-            pipe + ": scenario: is no regular file; expected a scenario file");
-  EXPECT_EQ(complaint([&] { kind_of_file(pipe); }),
-            pipe + ": file: is no regular file; expected a bench or a scenario");
+  EXPECT_EQ(complaint([&] { world::load_bench(models::all_models(), pipe); }),
+            pipe + ": bench: is not a regular file; expected a bench file");
+  EXPECT_EQ(complaint([&] { play::load_scenarios(models::all_models(), pipe); }),
+            pipe + ": scenario: is not a regular file; expected a scenario file");
+  EXPECT_EQ(complaint([&] { play::kind_of_file(pipe); }),
+            pipe + ": file: is not a regular file; expected a bench or a scenario");
   EXPECT_EQ(complaint([&] { read_nv_file(pipe); }),
-            pipe + ": file: is no regular file; expected an NV image");
-  EXPECT_EQ(complaint([&] { read_trace(csv); }), csv + ": is no regular file; expected a trace");
+            pipe + ": file: is not a regular file; expected an NV image");
+  EXPECT_EQ(complaint([&] { play::read_trace(csv); }), csv + ": is not a regular file; expected a trace");
   // A bench's listing, a scenario's and what it includes.
   const std::string bench =
       "understudy: 1\nlines:\n  rs485:\n    stations:\n      - { name: feeder, model: simple2-r3 }\n";
   EXPECT_EQ(complaint([&] {
-              load_bench(put("b.yaml", bench.substr(0, bench.rfind(" }")) + ", program: pipe }\n"));
+              world::load_bench(models::all_models(),
+                                put("b.yaml", bench.substr(0, bench.rfind(" }")) + ", program: pipe }\n"));
             }),
             path("b.yaml") + ":5:53: lines.rs485.stations[0].program: " + pipe +
-                " is no regular file; expected a listing");
+                " is not a regular file; expected a listing");
   put("feeder.yaml", bench);
   for (const auto& [step, why] : std::vector<std::pair<std::string, std::string>>{
            {"program: { feeder: pipe }",
-            "24: steps[0].program.feeder: " + pipe + " is no regular file; expected a listing"},
+            "24: steps[0].program.feeder: " + pipe + " is not a regular file; expected a listing"},
            {"include: pipe",
-            "14: steps[0].include: " + pipe + " is no regular file; expected a file of steps"}}) {
+            "14: steps[0].include: " + pipe + " is not a regular file; expected a file of steps"}}) {
     const std::string file = put("s.yaml", "understudy: 1\nbench: feeder.yaml\nsteps:\n  - " + step + "\n");
-    EXPECT_EQ(complaint([&] { load_scenarios(file); }), file + ":4:" + why);
+    EXPECT_EQ(complaint([&] { play::load_scenarios(models::all_models(), file); }), file + ":4:" + why);
   }
 }
 

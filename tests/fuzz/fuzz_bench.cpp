@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "emulator/bench/bench_file.h"
-#include "emulator/bench/bench_text.h"
+#include "emulator/models/models.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/bench_file/bench_file.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace {
@@ -21,13 +22,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > kLongest) return 0;
   std::string written;
   try {
-    written = emulator::to_text(
-        emulator::parse_bench(std::string(fuzzing::text_of(data, size)), "bench.yaml", kFolder));
-  } catch (const emulator::FileError& error) {
+    written = emulator::world::to_text(emulator::world::parse_bench(
+        emulator::models::all_models(), std::string(fuzzing::text_of(data, size)), "bench.yaml", kFolder));
+  } catch (const FileError& error) {
     demand(error.what()[0] != '\0', "an error says something");
     return 0;
   }
-  const emulator::Bench again = emulator::parse_bench(written, "again.yaml", kFolder);
-  demand(emulator::to_text(again) == written, "a bench as text is the same bench");
+  const emulator::world::Bench again =
+      emulator::world::parse_bench(emulator::models::all_models(), written, "again.yaml", kFolder);
+  demand(emulator::world::to_text(again) == written, "a bench as text is the same bench");
   return 0;
 }

@@ -7,9 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "emulator/bench/bench_file.h"
-#include "emulator/control/messages.h"
-#include "emulator/edge/daemon.h"
+#include "emulator/models/models.h"
+#include "emulator/serve/control/messages.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/snapshot.h"
 #include "tests/fuzz/fuzzing.h"
 
@@ -20,10 +21,9 @@ using fuzzing::demand;
 
 constexpr std::size_t kLongest = 4096;
 
-emulator::DaemonOptions options() {
-  emulator::DaemonOptions made;
-  made.speed = {.kind = emulator::Speed::Kind::manual};
-  made.has_control = false;
+emulator::serve::DaemonOptions options() {
+  emulator::serve::DaemonOptions made;
+  made.speed = {.kind = emulator::serve::Speed::Kind::manual};
   made.watch_signals = false;
   return made;
 }
@@ -31,7 +31,8 @@ emulator::DaemonOptions options() {
 /// One daemon for all inputs, restored to what it was.
 struct Rig {
   Rig()
-      : daemon(emulator::parse_bench(
+      : daemon(emulator::world::parse_bench(
+                   emulator::models::all_models(),
                    "understudy: 1\n"
                    "lines:\n"
                    "  rs485: { stations: [ { name: a, model: simple2-r3 } ] }\n"
@@ -40,8 +41,8 @@ struct Rig {
                    "bench.yaml", "/nonexistent"),
                options(), [](const std::string&) {}),
         as_made(save(daemon.world())) {}
-  emulator::Daemon daemon;
-  emulator::WorldState as_made;
+  emulator::serve::Daemon daemon;
+  emulator::world::WorldState as_made;
   bool is_as_made = true;
 };
 
@@ -58,14 +59,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rig.daemon.pause();
   if (!rig.is_as_made || is_checked_wholly) rig.daemon.restore(rig.as_made);
   rig.is_as_made = true;
-  emulator::WorldState before;
+  emulator::world::WorldState before;
   if (is_checked_wholly) before = save(rig.daemon.world());
   std::istringstream text{std::string(fuzzing::text_of(data, size))};
   for (std::string line; std::getline(text, line);) {
     if (names_a_file(line)) continue;
     int replies = 0;
     bool is_refused = false;
-    emulator::handle_message(rig.daemon, line, [&](const std::string& reply) {
+    emulator::serve::handle_message(rig.daemon, line, [&](const std::string& reply) {
       ++replies;
       demand(reply.find('\n') == std::string::npos, "a reply is one line");
       const auto json = nlohmann::json::parse(reply, nullptr, false);
@@ -76,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     rig.is_as_made = rig.is_as_made && is_refused;
     rig.daemon.pause();  // an advance that is under way ends
     if (!is_checked_wholly) continue;
-    emulator::WorldState after = save(rig.daemon.world());
+    emulator::world::WorldState after = save(rig.daemon.world());
     if (is_refused) demand(after == before, "a message that is refused changes nothing");
     before = std::move(after);
   }

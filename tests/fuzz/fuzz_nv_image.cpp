@@ -5,8 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "emulator/device.h"
-#include "emulator/memory/nv_image.h"
+#include "emulator/device/device.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/models/models.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace {
@@ -20,7 +21,7 @@ constexpr std::size_t kLongest = 8192;
 emulator::Device* device_of(const std::string& name) {
   static std::map<std::string, std::unique_ptr<emulator::Device>> devices = [] {
     std::map<std::string, std::unique_ptr<emulator::Device>> made;
-    for (const emulator::Model* model : emulator::all_models()) {
+    for (const emulator::Model* model : emulator::models::all_models()) {
       emulator::DeviceSettings settings;
       settings.name = "device";
       auto device = emulator::make_device(*model, settings);

@@ -6,10 +6,11 @@
 #include <sstream>
 #include <string>
 
-#include "emulator/bench/bench_file.h"
-#include "emulator/bench/bench_text.h"
-#include "emulator/recording/recording.h"
-#include "emulator/recording/replay.h"
+#include "emulator/models/models.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/recording/replay.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace {
@@ -19,28 +20,31 @@ using fuzzing::demand;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLongest = 4096;
-constexpr emulator::SimTime kUntil = 500ms;
+constexpr SimTime kUntil = 500ms;
 
 const std::string& our_header() {
   static const std::string line = [] {
-    emulator::RecordingHeader header;
+    emulator::world::RecordingHeader header;
     header.version = "0.1.0";
-    header.bench = emulator::to_text(emulator::parse_bench(
+    header.bench = emulator::world::to_text(emulator::world::parse_bench(
+        emulator::models::all_models(),
         "understudy: 1\n"
         "lines:\n"
         "  rs485: { baud: 115200, timing: instant, stations: [ { name: a, model: simple2-r3 } ] }\n"
         "  serial: { stations: [ { name: b, model: slim } ] }\n"
         "plant: { a.A: { travel: [-900, 900], limits: { lower: -800, upper: 800 } } }\n",
         "bench.yaml", "/nonexistent"));
-    return emulator::to_line(header);
+    return emulator::world::to_line(header);
   }();
   return line;
 }
 
-const emulator::World& our_world() {
-  static const emulator::World world(
-      emulator::parse_bench(emulator::parse_header(our_header()).bench, "bench.yaml", "/nonexistent"),
-      emulator::WorldOptions{}, {});
+const emulator::world::World& our_world() {
+  static const emulator::world::World world(
+      emulator::world::parse_bench(emulator::models::all_models(),
+                                   emulator::world::parse_header(our_header()).bench, "bench.yaml",
+                                   "/nonexistent"),
+      emulator::world::WorldOptions{}, {});
   return world;
 }
 
@@ -48,17 +52,18 @@ const emulator::World& our_world() {
 /// lines of an input that is not checked wholly are looked at.
 void check_events(std::istringstream text, bool is_checked_wholly) {
   constexpr int kFew = 4;
-  const emulator::World& world = our_world();
+  const emulator::world::World& world = our_world();
   int looked_at = 0;
   for (std::string line; std::getline(text, line);) {
     if (!is_checked_wholly && looked_at++ == kFew) return;
     try {
-      const auto event = emulator::parse_event(line, world.known(), world.line_count());
-      const std::string written = emulator::to_line(event, world.known());
-      demand(emulator::to_line(emulator::parse_event(written, world.known(), world.line_count()),
-                               world.known()) == written,
-             "an event reads as it was written");
-    } catch (const emulator::RecordingError&) {
+      const auto event = emulator::world::parse_event(line, world.known(), world.line_count());
+      const std::string written = emulator::world::to_line(event, world.known());
+      demand(
+          emulator::world::to_line(emulator::world::parse_event(written, world.known(), world.line_count()),
+                                   world.known()) == written,
+          "an event reads as it was written");
+    } catch (const emulator::world::RecordingError&) {
     }
   }
 }
@@ -74,8 +79,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!is_checked_wholly) return 0;
   std::istringstream recording(is_whole ? text : our_header() + "\n" + text);
   try {
-    emulator::replay(recording, "recording", kUntil);
-  } catch (const emulator::RecordingError& error) {
+    emulator::world::replay(emulator::models::all_models(), recording, "recording", kUntil);
+  } catch (const emulator::world::RecordingError& error) {
     demand(error.what()[0] != '\0', "an error says something");
   }
   return 0;

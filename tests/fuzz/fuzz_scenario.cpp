@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "emulator/scenario/scenario_file.h"
+#include "emulator/models/models.h"
+#include "emulator/play/reading/scenario_file.h"
 #include "tests/fuzz/fuzzing.h"
 
 namespace {
@@ -18,13 +19,14 @@ constexpr std::size_t kLongest = 4096;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size > kLongest) return 0;
   try {
-    const auto scenarios =
-        emulator::parse_scenarios(std::string(fuzzing::text_of(data, size)), "/nonexistent/scenario.yaml");
+    const auto scenarios = emulator::play::parse_scenarios(emulator::models::all_models(),
+                                                           std::string(fuzzing::text_of(data, size)),
+                                                           "/nonexistent/scenario.yaml");
     demand(!scenarios.empty(), "a file that is accepted has a scenario");
-    for (const emulator::Scenario& scenario : scenarios) {
+    for (const emulator::play::Scenario& scenario : scenarios) {
       demand(!scenario.name.empty(), "a scenario has a name");
     }
-  } catch (const emulator::FileError& error) {
+  } catch (const FileError& error) {
     demand(error.what()[0] != '\0', "an error says something");
   }
   return 0;

@@ -3,7 +3,7 @@
 // leaves what is going on (ESC, an empty line, EXIT) is answered again.
 //
 // An input is a byte of options, a byte that mixes all other choices (0: ours), then what is typed. Two
-// values stand for what is no typing:
+// values stand for what is not a typing:
 //   FE n   time passes (n's upper bits: in which steps)
 //   FD n   a terminal of T0 gets a level (lower bits: which one; upper bits: how much)
 #include <algorithm>
@@ -18,10 +18,10 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/bench/bench.h"
-#include "emulator/devices/slim/device.h"
-#include "emulator/devices/slim/model.h"
-#include "emulator/parse_real.h"
+#include "base/text/parse_real.h"
+#include "emulator/models/slim/device.h"
+#include "emulator/models/slim/model.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "tests/fuzz/fuzzing.h"
@@ -29,8 +29,6 @@
 namespace {
 
 using namespace understudy;
-using emulator::SimTime;
-using emulator::Tick;
 using fuzzing::demand;
 using namespace std::chrono_literals;
 
@@ -78,7 +76,7 @@ Options options_of(std::uint8_t bits, std::uint8_t mix) {
 void mix_choices(std::uint8_t mix, std::map<std::string, std::string>& choices) {
   if (mix == 0) return;
   std::uint32_t number = mix;
-  for (const emulator::ChoiceRow& row : emulator::slim::model().choices) {
+  for (const emulator::ChoiceRow& row : emulator::models::slim::model().choices) {
     number = number * 1'664'525 + 1'013'904'223;
     if (std::ranges::find(kNotMixed, row.id) != std::end(kNotMixed)) continue;
     const auto options = emulator::options_of(row);
@@ -87,9 +85,9 @@ void mix_choices(std::uint8_t mix, std::map<std::string, std::string>& choices) 
   }
 }
 
-emulator::Bench bench_for(const Options& options) {
-  emulator::Bench bench;
-  emulator::DeviceSetup device{.model = &emulator::slim::model(), .settings = {}};
+emulator::world::Bench bench_for(const Options& options) {
+  emulator::world::Bench bench;
+  emulator::world::DeviceSetup device{.model = &emulator::models::slim::model(), .settings = {}};
   device.settings.name = "device";
   device.settings.baud = 115200;  // a long listing takes its time
   device.settings.modules = options.modules;
@@ -112,12 +110,12 @@ emulator::Bench bench_for(const Options& options) {
 class Listener {
  public:
   explicit Listener(const Options& options, bool in_bulk = true)
-      : world_(bench_for(options), emulator::WorldOptions{}, {}),
-        make_anew_(emulator::read_state(world_, save(world_))) {
+      : world_(bench_for(options), emulator::world::WorldOptions{}, {}),
+        make_anew_(emulator::world::read_state(world_, save(world_))) {
     world_.set_bulk_ticks(in_bulk);
   }
 
-  emulator::World& world() { return world_; }
+  emulator::world::World& world() { return world_; }
 
   /// Everything is as it was when it was made.
   void begin_anew() {
@@ -139,8 +137,8 @@ class Listener {
     line().take_output(output.size());
   }
   void set_terminal(std::size_t number, int level) {
-    const auto terminals = emulator::slim::model().terminals;
-    number %= emulator::slim::kFirstOutput;
+    const auto terminals = emulator::models::slim::model().terminals;
+    number %= emulator::models::slim::kFirstOutput;
     world_.set_external_input(0, static_cast<int>(number),
                               std::clamp(level, terminals[number].lowest, terminals[number].highest));
     advance(0ns);
@@ -161,7 +159,7 @@ class Listener {
   const std::string& said() const { return said_; }
 
  private:
-  emulator::World world_;
+  emulator::world::World world_;
   std::function<void()> make_anew_;
   std::string said_;
 };
@@ -186,7 +184,7 @@ void play(Listener& listener, std::string_view input, Tick left) {
     if (what == kTime) {
       const Tick ticks = std::min(left, ticks_of(code));
       left -= ticks;
-      listener.advance(emulator::time_of(ticks));
+      listener.advance(time_of(ticks));
     } else if (what == kLevel) {
       listener.set_terminal(code & 0x1F, (code >> 5) * 150);  // AIN has a thousand levels, the others two
     }
@@ -220,7 +218,7 @@ void check_answers_again(Listener& listener, const Options& options) {
   const std::size_t end = answer.find("\r\n");
   demand(end != std::string::npos, "?PE is answered with a line");
   demand(answer.substr(end + 2) == (options.prompt ? ">" : ""), "and with nothing more");
-  demand(emulator::parse_real(answer.substr(0, end)).has_value(), "and the line is a number");
+  demand(parse_real(answer.substr(0, end)).has_value(), "and the line is a number");
 }
 
 /// What the two first bytes of an input ask for.
@@ -232,9 +230,9 @@ struct Settings {
 
 /// A search has few chains, which the processor's cache can hold: other bytes mean one of these. (To replay
 /// what it found with such bytes, put the pair that they mean in their place.)
-constexpr Settings kSearched[] = {{0x00, 0}, {0x40, 0}, {0x80, 0}, {0xC0, 0}, {0x03, 0}, {0x0C, 0},
-                                  {0x10, 0}, {0x20, 0}, {0x60, 0}, {0x4F, 0}, {0x00, 1}, {0x40, 1},
-                                  {0x80, 2}, {0xC0, 2}, {0x20, 3}, {0x60, 3}};
+[[maybe_unused]] constexpr Settings kSearched[] = {
+    {0x00, 0}, {0x40, 0}, {0x80, 0}, {0xC0, 0}, {0x03, 0}, {0x0C, 0}, {0x10, 0}, {0x20, 0},
+    {0x60, 0}, {0x4F, 0}, {0x00, 1}, {0x40, 1}, {0x80, 2}, {0xC0, 2}, {0x20, 3}, {0x60, 3}};
 
 Settings settings_of(std::uint8_t bits, std::uint8_t mix) {
   const Settings asked{bits, mix};
@@ -283,7 +281,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   demand(stepped.device().same_state(listener.device()), "ticks left out leave the same state");
 
   stepped.begin_anew();
-  emulator::restore(stepped.world(), emulator::save(listener.world()));
+  emulator::world::restore(stepped.world(), emulator::world::save(listener.world()));
   demand(stepped.device().same_state(listener.device()), "what is saved is taken back");
 
   check_answers_again(listener, options);

@@ -4,7 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "emulator/bench/bench_file.h"
+#include "emulator/models/models.h"
+#include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/snapshot.h"
 #include "tests/fuzz/fuzzing.h"
 
@@ -15,18 +16,20 @@ using fuzzing::demand;
 using namespace std::chrono_literals;
 
 constexpr std::size_t kLongest = 4096;
-constexpr emulator::SimTime kRun = 100ms;
+constexpr SimTime kRun = 100ms;
 
 struct Chain {
   Chain()
-      : world(emulator::parse_bench("understudy: 1\n"
-                                    "lines: { serial: { timing: instant, stations: [ { name: t, model: slim, "
-                                    "modules: 3 } ] } }\n",
-                                    "bench.yaml", "/nonexistent"),
-              emulator::WorldOptions{}, {}),
+      : world(emulator::world::parse_bench(
+                  emulator::models::all_models(),
+                  "understudy: 1\n"
+                  "lines: { serial: { timing: instant, stations: [ { name: t, model: slim, "
+                  "modules: 3 } ] } }\n",
+                  "bench.yaml", "/nonexistent"),
+              emulator::world::WorldOptions{}, {}),
         as_made(save(world)) {}
-  emulator::World world;
-  emulator::WorldState as_made;
+  emulator::world::World world;
+  emulator::world::WorldState as_made;
   bool is_as_made = true;
 };
 

@@ -9,7 +9,8 @@
 #include <span>
 #include <string>
 
-#include "emulator/bench/bench_file.h"
+#include "emulator/models/models.h"
+#include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
 #include "tests/fuzz/fuzzing.h"
@@ -24,13 +25,14 @@ constexpr std::size_t kLongest = 4096;
 
 /// Both models in motion, with a program each, on a machine with an end.
 struct Busy {
-  Busy() : bench(make_bench()), world(bench, emulator::WorldOptions{}, {}) {
+  Busy() : bench(make_bench()), world(bench, emulator::world::WorldOptions{}, {}) {
     world.advance_to(180ms);
     state = save(world);
-    hash = emulator::bench_hash(bench);
+    hash = emulator::world::bench_hash(bench);
   }
-  static emulator::Bench make_bench() {
-    return emulator::parse_bench(
+  static emulator::world::Bench make_bench() {
+    return emulator::world::parse_bench(
+        emulator::models::all_models(),
         "understudy: 1\n"
         "lines:\n"
         "  rs485:\n"
@@ -48,9 +50,9 @@ struct Busy {
         "faults: [ { lost_steps: a.A, one_in: 50 } ]\n",
         "bench.yaml", "/nonexistent");
   }
-  emulator::Bench bench;
-  emulator::World world;
-  emulator::WorldState state;
+  emulator::world::Bench bench;
+  emulator::world::World world;
+  emulator::world::WorldState state;
   std::uint64_t hash = 0;
   bool is_as_made = true;  // its world has this state
 };
@@ -60,19 +62,19 @@ Busy& busy() {
   return one;
 }
 
-void check_state(const emulator::WorldState& state, bool is_checked_wholly) {
-  emulator::World& world = busy().world;
+void check_state(const emulator::world::WorldState& state, bool is_checked_wholly) {
+  emulator::world::World& world = busy().world;
   if (!busy().is_as_made || is_checked_wholly) restore(world, busy().state);
   busy().is_as_made = true;
   try {
     restore(world, state);
-  } catch (const emulator::StateError&) {
+  } catch (const StateError&) {
     if (is_checked_wholly) demand(save(world) == busy().state, "a state that is refused changes nothing");
     return;
   }
   busy().is_as_made = false;
   if (is_checked_wholly) {
-    const emulator::WorldState taken = save(world);
+    const emulator::world::WorldState taken = save(world);
     restore(world, taken);
     demand(save(world) == taken, "a state that was saved is taken back");
   }
@@ -90,14 +92,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_checked_wholly = fuzzing::is_checked_wholly({data, size});
   if (data[0] == '{') {
     try {
-      check_state(emulator::parse_snapshot(std::string(fuzzing::text_of(data, size)), busy().hash),
+      check_state(emulator::world::parse_snapshot(std::string(fuzzing::text_of(data, size)), busy().hash),
                   is_checked_wholly);
-    } catch (const emulator::SnapshotError& error) {
+    } catch (const emulator::world::SnapshotError& error) {
       demand(error.what()[0] != '\0', "an error says something");
     }
     return 0;
   }
-  emulator::WorldState state = busy().state;
+  emulator::world::WorldState state = busy().state;
   for (std::span<const std::uint8_t> rest(data, size); rest.size() >= 4; rest = rest.subspan(4)) {
     auto& bytes = state.parts[rest[0] % state.parts.size()].bytes;
     if (bytes.empty()) continue;

@@ -13,7 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "emulator/bench/bench.h"
+#include "emulator/models/models.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
@@ -22,7 +23,6 @@
 namespace {
 
 using namespace understudy;
-using emulator::SimTime;
 using fuzzing::demand;
 using namespace std::chrono_literals;
 
@@ -79,7 +79,7 @@ class Listener {
  public:
   Listener(const Input& input, int rotary_switch, bool in_bulk = true)
       : world_(bench_for(input, rotary_switch), options_for(input), {}),
-        make_anew_(emulator::read_state(world_, save(world_))) {
+        make_anew_(emulator::world::read_state(world_, save(world_))) {
     world_.set_bulk_ticks(in_bulk);
   }
 
@@ -112,14 +112,15 @@ class Listener {
 
   pty::Line& line() { return world_.line(0).line; }
   const emulator::Device& device() { return world_.device(0); }
-  const emulator::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
+  const emulator::world::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
   SimTime now() const { return world_.now(); }
   const std::vector<std::uint8_t>& said() const { return said_; }
 
  private:
-  static emulator::Bench bench_for(const Input& input, int rotary_switch) {
-    emulator::Bench bench;
-    emulator::DeviceSetup device{.model = emulator::find_model("simple2-r3"), .settings = {}};
+  static emulator::world::Bench bench_for(const Input& input, int rotary_switch) {
+    emulator::world::Bench bench;
+    emulator::world::DeviceSetup device{
+        .model = emulator::find_model(emulator::models::all_models(), "simple2-r3"), .settings = {}};
     device.settings.name = "device";
     device.settings.address = rotary_switch;
     device.settings.baud = 115200;
@@ -131,11 +132,11 @@ class Listener {
         {.name = "line", .link = {}, .baud = 115200, .timing = input.timing, .stations = {0}});
     return bench;
   }
-  static emulator::WorldOptions options_for(const Input& input) {
+  static emulator::world::WorldOptions options_for(const Input& input) {
     return {.strict_framing = input.strict_framing, .enforce_settings = false};
   }
 
-  emulator::World world_;
+  emulator::world::World world_;
   std::function<void()> make_anew_;
   std::vector<std::uint8_t> said_;
 };

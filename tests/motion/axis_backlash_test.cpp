@@ -74,7 +74,7 @@ TEST(AxisBacklash, TheMotionBeginsToTheMomentWhenItIsOut) {
   }
 }
 
-TEST(AxisBacklash, ThatEndsOnATickIsFollowedByAMotionThatIsAtItsBeginningThere) {
+TEST(AxisBacklash, IfItEndsOnATickTheMotionBeginsOnThatTick) {
   AxisCourse course = moved_up({.backlash_pulses = 20, .backlash_speed_pps = 4'000});  // 5 ms
   course.axis.move(-100, constant(10'000), course.now);
   course.steps(5);
@@ -140,7 +140,7 @@ TEST(AxisBacklash, ALimitAheadStopsItToo) {
   }
 }
 
-TEST(AxisBacklash, AChangeWhileItIsTakenUpHoldsForTheMotionThatFollows) {
+TEST(AxisBacklash, AChangeWhileItIsTakenUpAppliesToTheNextMotion) {
   AxisCourse course = moved_up();
   course.axis.move(-100, constant(10'000), course.now);
   course.steps(4);

@@ -127,7 +127,7 @@ TEST(AxisChange, SeveralChangesInTheSameTickGoOnFromThere) {
   EXPECT_EQ(stopped.travel(), 5'000);
 }
 
-TEST(AxisChange, ASlowerRampGivenTooLateEndsTheMoveOnItsTargetAbruptly) {
+TEST(AxisChange, ASlowerRampGivenTooLateEndsAbruptlyOnTheTarget) {
   AxisCourse course;
   course.axis.move(10'000, trapezoid(10'000, 100'000), 0);
   course.steps(1001);  // it is about to slow down
@@ -269,7 +269,7 @@ TEST(AxisChange, AReturnThatIsForbiddenEndsWhereItTurns) {
   EXPECT_EQ(course.endings, 1);
 }
 
-TEST(AxisChange, AReturnThatCannotBePlannedIsRefusedBeforeItIsNeeded) {
+TEST(AxisChange, AReturnThatCannotBePlannedIsRefusedInAdvance) {
   // Slowing down begins 400 pulses before the target. A short move is so slow by then that it would have to
   // creep the rest, at a start speed of 0.
   SpeedLaw law = trapezoid(10'000, 100'000);
@@ -285,7 +285,7 @@ TEST(AxisChange, AReturnThatCannotBePlannedIsRefusedBeforeItIsNeeded) {
 }
 
 /// Everything that may be changed on the way, at random; what is asked for last is what must come out.
-TEST(AxisChange, NoPulseIsLostOrRepeatedOrSentBackwardsWhateverIsChangedAndWhen) {
+TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
   RandomLaws laws(seed());
   int refused = 0;
   for (int i = 0; i < random_cases(3'000); ++i) {

@@ -32,7 +32,7 @@ struct RelationCase {
   Tick fires;  // at 1 pulse a tick, from 0 in tick 1; 0: never
 };
 
-TEST(AxisEvent, AComparatorFiresInTheTickInWhichItsRelationBecomesTrue) {
+TEST(AxisEvent, AComparatorFiresInTheTickItsRelationBecomesTrue) {
   constexpr std::array<RelationCase, 12> kCases{{
       {Relation::at_least, +1, 5, 6},
       {Relation::at_least, +1, 1, 2},
@@ -59,7 +59,7 @@ TEST(AxisEvent, AComparatorFiresInTheTickInWhichItsRelationBecomesTrue) {
   }
 }
 
-TEST(AxisEvent, AComparatorFiresEachTimeTheRelationBecomesTrueAgain) {
+TEST(AxisEvent, AComparatorFiresEachTimeItsRelationTurnsTrue) {
   AxisCourse course;
   course.axis.set_comparator(0, {.relation = Relation::equal, .value = 10});
   course.axis.move(20, constant(1'000), 0);

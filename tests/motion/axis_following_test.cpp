@@ -99,7 +99,7 @@ TEST(AxisFollowing, StopsAtALimitOnItsEdge) {
   }
 }
 
-TEST(AxisFollowing, StopsOnePulseBeyondASoftLimitHoweverThePulsesFallIntoTicks) {
+TEST(AxisFollowing, StopsOnePulseBeyondASoftLimitWhateverTheTicks) {
   for (const std::int64_t each : {1, 2, 3, 25, 33, 50, 51, 1'000}) {
     for (const int way : {+1, -1}) {
       AxisCourse course;
@@ -192,7 +192,7 @@ TEST(AxisCarried, EndsAtALimitOnItsEdge) {
   }
 }
 
-TEST(AxisCarried, EndsOnePulseBeyondASoftLimitHoweverThePulsesFallIntoTicks) {
+TEST(AxisCarried, EndsOnePulseBeyondASoftLimitWhateverTheTicks) {
   for (const std::int64_t each : {1, 2, 3, 25, 33, 50, 51, 1'000}) {
     AxisCourse course;
     course.axis.set({.soft_limit_plus = 50});

@@ -215,7 +215,7 @@ constexpr std::array<TroubleCase, 2> kTroubles{{
     {Signal::emergency, Cause::emergency},
 }};
 
-TEST(AxisLimit, AlarmAndEmergencyStopEitherWayAndRefuseUntilTheyAreGone) {
+TEST(AxisLimit, AlarmAndEmergencyStopBothWaysAndRefuseWhileOn) {
   for (const TroubleCase& trouble : kTroubles) {
     for (const int way : {+1, -1}) {
       AxisCourse course;
@@ -281,7 +281,7 @@ TEST(AxisLimit, AHangingMoveIsEndedByWhatItWouldBeStoppedBy) {
   }
 }
 
-TEST(AxisLimit, AnAxisBetweenTwoSwitchesStopsOnEitherWhateverItsSpeed) {
+TEST(AxisLimit, AnAxisBetweenTwoSwitchesStopsOnEitherAtAnySpeed) {
   RandomMoves random(seed());
   for (int i = 0; i < random_cases(300); ++i) {
     const std::int64_t low = -random.of_any_size(1, 100'000);
@@ -304,7 +304,7 @@ TEST(AxisLimit, AnAxisBetweenTwoSwitchesStopsOnEitherWhateverItsSpeed) {
   }
 }
 
-TEST(AxisLimit, SlowingDownFromAnEdgeAnywhereInATickFollowsFromTheSpeedThere) {
+TEST(AxisLimit, SlowingDownWithinATickStartsFromTheSpeedAtTheEdge) {
   RandomMoves random(seed());
   for (int i = 0; i < random_cases(2'000); ++i) {
     const std::int64_t edge = random.of_any_size(1, 200'000);
@@ -331,7 +331,7 @@ TEST(AxisLimit, SlowingDownFromAnEdgeAnywhereInATickFollowsFromTheSpeedThere) {
   }
 }
 
-TEST(AxisLimit, HoursAfterTheBeginningRoundingsOfTimeTakeNoPulseBack) {
+TEST(AxisLimit, TimeRoundingTakesNoPulseBackEvenAfterHours) {
   RandomMoves random(seed());
   for (int i = 0; i < random_cases(4'000); ++i) {
     // Whole pulses up to the top speed, and whole ones in each tick: edges fall exactly on ticks.

@@ -171,7 +171,7 @@ TEST(AxisMotion, SlowingDownAtTheStartSpeedOrBeforeItBeganIsAStop) {
   EXPECT_EQ(course.travel(), 50);
 }
 
-TEST(AxisMotion, SlowingDownWhereItSlowsDownAnyhowReachesTheTargetAndDoesNotPassIt) {
+TEST(AxisMotion, SlowingDownLateReachesTheTargetWithoutPassingIt) {
   for (Tick when = 1; when < 1100; when += 7) {
     AxisCourse course;
     course.axis.move(10'000, trapezoid(10'000, 100'000), 0);

@@ -281,7 +281,7 @@ Fault wrong_way_to(double target, const OnTheWay& moment, const SpeedLaw& law) {
   Fault fault = off_target(profile, target);
   if (!fault) fault = begins_elsewhere(profile, moment.now, law);
   if (fault || profile.segment_count == 0) return fault;
-  const Long scale_u = farthest(profile) + 20;  // less than 1e-9 is no distance
+  const Long scale_u = farthest(profile) + 20;  // less than 1e-9 is not a distance
   fault = gap_in(profile, scale_u);
   if (!fault) fault = differs_from_integral(profile, target, scale_u);
   if (!fault) {

@@ -60,7 +60,7 @@ TEST(ChangeSpeed, TakesARampToTheNewSpeedAndKeepsIt) {
   }
 }
 
-TEST(ChangeSpeed, AJerkLawPassesALoweredSpeedByAsMuchAsItsAccelerationNeedsToFade) {
+TEST(ChangeSpeed, AJerkLawOvershootsUntilItsAccelerationFades) {
   for (const double acceleration : {1.0, 20.0, 60.0, 100.0}) {
     const Profile profile = change_speed(moving(50, acceleration), 30, law(0, kSoft, kSoft));
     const double bound = 50 + acceleration * acceleration / 200;
@@ -71,7 +71,7 @@ TEST(ChangeSpeed, AJerkLawPassesALoweredSpeedByAsMuchAsItsAccelerationNeedsToFad
   }
 }
 
-TEST(ChangeSpeed, AnAccelerationThatASofterLawCouldNotHaveDropsToWhatItCould) {
+TEST(ChangeSpeed, AnAccelerationTooHighForASofterLawDropsToItsLimit) {
   // From standstill jerk 100 has 100 u/s^2 at 50 u/s, and no more; so it goes on to twice the speed at most.
   const Profile profile = change_speed(moving(50, 1e6), 30, law(0, kSoft, kSoft));
   EXPECT_NEAR(static_cast<double>(greatest_speed(profile)), 100, 1e-6);
@@ -85,7 +85,7 @@ TEST(ChangeSpeed, ASectionLawPassesNoTopSpeed) {
   EXPECT_NEAR(static_cast<double>(greatest_speed(profile)), 100, 1e-9);
 }
 
-TEST(SlowToStop, TakesTheDistanceOfItsRampToTheStartSpeedAndEndsThere) {
+TEST(SlowToStop, CoversTheDistanceOfItsRampAndEndsAtTheStartSpeed) {
   for (const Row& row : std::vector<Row>{
            {"from rest", law(0, kUp, kDown), moving(0), 0, 0, 0},
            {"by slope", law(0, kUp, kDown), moving(100), 0, 0.5, 25},

@@ -139,7 +139,7 @@ TEST(ChangeTarget, ARampReckonedTooShortIsCutOffOnTheTarget) {
   EXPECT_NEAR(change_target(cruising, 59.5, law).end_speed_u_s, std::sqrt(5050.0), 1e-6);
 }
 
-TEST(ChangeTarget, ATargetBehindIsComeBackToEvenWhereTheMoveWouldBeCutOff) {
+TEST(ChangeTarget, ATargetBehindIsReachedEvenIfTheMoveWouldBeCutOff) {
   SpeedLaw law = from_start_speed();
   law.slow_down_offset_u = -8;
   const Sample slow{.position_u = 3, .speed_u_s = 5};

@@ -55,7 +55,7 @@ std::string code(const Travels& way) {
   return text + "}";
 }
 
-TEST(CoordinatedOracle, AtOnePulseATickTheLongestAxisLineIsBresenhamsPulseForPulse) {
+TEST(CoordinatedOracle, AtOnePulseATickALongestAxisLineMatchesBresenham) {
   RandomMoves random(seed());
   SpeedLaw one_a_tick = by_slope(1000, 1000);
   one_a_tick.start_speed_u_s = 1000;

@@ -9,7 +9,7 @@ namespace understudy::motion {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kHalf = 0.5 + 1e-6;  // a rounding of the ideal place is no fault
+constexpr double kHalf = 0.5 + 1e-6;  // a rounding of the ideal place is not a fault
 
 /// The whole run of one shape, held against the shape and the trapezoid at every tick.
 void expect_on_shape(Bench bench, const Shape& shape, double top, double slope) {
@@ -52,7 +52,7 @@ void expect_on_shape(Bench bench, const Shape& shape, double top, double slope) 
   }
 }
 
-TEST(CoordinatedPath, EveryAxisIsWithinHalfAPulseAtEveryTickAndEndsOnTheEnd) {
+TEST(CoordinatedPath, EveryAxisIsWithinHalfAPulseAndEndsExactly) {
   const Shape kShapes[]{
       Shape::line_to(place_of(0, 0), place_of(1000, 0)),
       Shape::line_to(place_of(0, 0), place_of(-3, -7001)),
@@ -92,7 +92,7 @@ TEST(CoordinatedPath, AxesGoByCoordinatesInWhateverOrder) {
       {0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}, {1, kNone, 0, kNone}, {kNone, kNone, kNone, 2}};
   for (const auto& order : kOrders) {
     Bench bench;
-    bench.axes[0].travel_pulses = 77;  // where axes happen to be is no matter
+    bench.axes[0].travel_pulses = 77;  // where axes happen to be does not matter
     bench.axes[2].travel_pulses = -1'000'000'007;
     bench.group.axis_of = order;
     expect_on_shape(bench, line, 10'000, 100'000);
@@ -173,7 +173,7 @@ TEST(CoordinatedPath, ALawThatWasNeverGivenChangesNothing) {
   for (const Axis& axis : bench.axes) EXPECT_FALSE(axis.moving());
 }
 
-TEST(CoordinatedPath, BacklashComesOutAtOnceAtEachReversalOfAnArcAndIsNoTravel) {
+TEST(CoordinatedPath, BacklashComesOutAtEachReversalAndIsNotTravel) {
   Bench bench(by_slope(50'000, 500'000));
   for (std::size_t i = 0; i < 2; ++i) {
     AxisSettings settings;
@@ -233,7 +233,7 @@ TEST(CoordinatedPath, TheSpeedOfAnAxisIsHowFastItsPlaceChanges) {
   EXPECT_EQ(bench.group.speed_pps(0, bench.tick), 0);
 }
 
-TEST(CoordinatedPath, TheAxisThatMovesMostHasTheSpeedIfLengthIsMeasuredByIt) {
+TEST(CoordinatedPath, TheLongestAxisHasTheSpeedIfItMeasuresTheLength) {
   Bench bench;
   bench.group.run.set_speed(by_slope(5000, 1e6), 0);
   bench.add(line(place_of(0, 0), place_of(600, -800), Measure::longest_axis));

@@ -100,7 +100,7 @@ TEST(CoordinatedSlow, WhatIsForbiddenIsRefusedBeforeAnythingBegins) {
   EXPECT_FALSE(nowhere.group.run.running());
 }
 
-TEST(PathRunRefusal, APathThatBeginsElsewhereAndALawThatWouldCreepFromNothingAreRefused) {
+TEST(PathRunRefusal, PathsThatBeginElsewhereAndCreepingLawsAreRefused) {
   PathRun run;
   run.append(line(Point::Zero(), Point(1, 0, 0, 0)), {}, 0);
   EXPECT_THROW(run.append(line(Point(5, 0, 0, 0), Point(6, 0, 0, 0)), {}, 0), BadMotion);

@@ -155,7 +155,7 @@ TEST(CoordinatedStop, StoppedByItsOwnerNoPulseFollows) {
   EXPECT_EQ(bench.group.cause, Cause::emergency);
 }
 
-TEST(CoordinatedStop, AnAxisWhoseServoIsOffRefusesForAllAndNothingChanges) {
+TEST(CoordinatedStop, OneServoOffRefusesForAllAndChangesNothing) {
   Bench bench = two_to_one();
   bench.axes[2].switch_servo(false);
   const Coordinated group = bench.group;

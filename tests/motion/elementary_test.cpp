@@ -26,7 +26,7 @@ constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 class Elementary : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "long double is no more than double";
+    if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP() << "long double is not more than double";
   }
 };
 
@@ -72,7 +72,7 @@ TEST_F(Elementary, SineAndCosineAreWithinTheirBoundsOverAFewTurns) {
   worst.expect_within_the_bounds();
 }
 
-TEST_F(Elementary, SineAndCosineAreWithinTheirBoundsUpToTheFarthestAngle) {
+TEST_F(Elementary, SineAndCosineKeepTheirBoundsUpToTheLargestAngle) {
   SineCosineWorst worst;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> any(-kFarthestAngle_rad, kFarthestAngle_rad);
@@ -81,7 +81,7 @@ TEST_F(Elementary, SineAndCosineAreWithinTheirBoundsUpToTheFarthestAngle) {
   worst.expect_within_the_bounds();
 }
 
-TEST_F(Elementary, SineAndCosineKeepTheirBitsAtMultiplesOfAnEighthTurn) {
+TEST_F(Elementary, SineAndCosineKeepTheirBitsAtEveryEighthOfATurn) {
   SineCosineWorst worst;
   constexpr int kEighths = static_cast<int>(kFarthestAngle_rad / (kPi / 4));
   for (int i = -kEighths; i <= kEighths; i += std::abs(i) < 2000 ? 1 : 7) {

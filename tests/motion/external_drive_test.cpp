@@ -66,7 +66,7 @@ TEST(ExternalDrive, SendsAFixedNumberForAFallingEdge) {
                                                       });
 }
 
-TEST(ExternalDrive, AFixedNumberIsNotAskedForWhileOneIsBeingSentNorAfterwards) {
+TEST(ExternalDrive, AFixedNumberIsNotRequestedWhileBusyNorAfterwards) {
   expect_orders({.mode = Mode::fixed, .pulses = 100}, {
                                                           {false, true, false, moves(100)},
                                                           {true, true, true, kNothing},

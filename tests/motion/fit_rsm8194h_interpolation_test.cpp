@@ -155,7 +155,7 @@ TEST(FitRsm8194hInterpolation, AnEndOffTheCircleIsAcceptedAsTheChipDrawsIt) {
 }
 
 /// LINE_2D_CONTINUE: relative segments, of which the last is marked.
-TEST(FitRsm8194hInterpolation, ContinuousSegmentsKeepTheVectorSpeedAndTheLastSlowsDownAndEnds) {
+TEST(FitRsm8194hInterpolation, SegmentsKeepTheVectorSpeedUntilTheLastSlowsDown) {
   const VectorSpeed t{.vsv = 1000, .vv = 20'000, .va = 50'000, .vd = 50'000};
   PathRun run;
   run.set_speed(t.law(), 0);
@@ -216,7 +216,7 @@ TEST(FitRsm8194hInterpolation, AStreamIsTakenAsRoomComesAndNeverStopsOnTheWay) {
   EXPECT_EQ(bench.travels(), (Travels{kSegments * 40, 0, 0, 0}));
 }
 
-TEST(FitRsm8194hInterpolation, ARectangleWithCornerArcsIsRunThroughAtConstantVectorSpeed) {
+TEST(FitRsm8194hInterpolation, ARoundedRectangleRunsAtConstantVectorSpeed) {
   constexpr double kLong = 20'000;
   constexpr double kWide = 10'000;
   constexpr double kCorner = 1000;

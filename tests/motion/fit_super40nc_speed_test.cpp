@@ -90,7 +90,7 @@ TEST(FitSuper40ncSpeed, FiveHundredRpmAreReachedInFiftyMilliseconds) {
   EXPECT_NEAR(profile.sample(0.051).speed_u_s, top, 1e-6 * top);
 }
 
-TEST(FitSuper40ncSpeed, SectionsLengthenARampByTwoOfThemUntilItIsAllParabola) {
+TEST(FitSuper40ncSpeed, TwoSectionsLengthenARampUntilItIsAllParabola) {
   const double top = 400'000;  // at a multiplier of 300 / 49
   for (const double steps : {1.0, 100.0, 5000.0, 20'000.0, 32'600.0, 32'700.0, 65'535.0}) {
     Settings settings;
@@ -107,7 +107,7 @@ TEST(FitSuper40ncSpeed, SectionsLengthenARampByTwoOfThemUntilItIsAllParabola) {
   }
 }
 
-TEST(FitSuper40ncSpeed, ADecelerationOfMoreThanTwiceTheAccelerationIsCutOff) {
+TEST(FitSuper40ncSpeed, ADecelerationOverTwiceTheAccelerationIsCutOff) {
   Settings settings;
   settings.section_steps = 0;
   const double top = settings.pps(1000);

@@ -143,7 +143,7 @@ TEST(HomingFailure, ASoftLimitEndsItOnePulseBeyondInEveryRow) {
   }
 }
 
-TEST(HomingFailure, ADogThatIsPassedWhileBrakingFailsWhereItIsLookedForAgain) {
+TEST(HomingFailure, ADogPassedWhileBrakingFailsIfItMustBeFoundAgain) {
   struct Row {
     int mode;
     Trace trace;

@@ -75,7 +75,7 @@ TEST(HomingMovingEdges, APlateThatFallsOnTheAxisIsMetWhereTheAxisIs) {
   EXPECT_EQ(bench.axis.homing.reference_pulses, here);
 }
 
-TEST(HomingMovingEdges, APlateThatVanishesUnderACreepingAxisStopsItAtTheTicksBeginning) {
+TEST(HomingMovingEdges, AVanishingPlateStopsACreepingAxisAtTheTicksStart) {
   HomingBench bench(super40nc_machine(), 0);
   ASSERT_EQ(bench.home(super40nc_homing(super40nc_factory(1))), Cause::none);
   ASSERT_TRUE(bench.run_until_row(2));

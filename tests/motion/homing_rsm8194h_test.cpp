@@ -145,7 +145,7 @@ TEST(HomingRsm8194h, ALimitThatSlowsDownIsTurnedRoundBehind) {
   EXPECT_EQ(bench.trace, (Trace{{0, +1, 80'010}, {2, -1, kRunsOn}, {1, -1, 49'999}, {0, +1, 50'000}}));
 }
 
-TEST(HomingRsm8194h, ALimitWithinTheBrakingDistanceOfNearHomeEndsStep1AllTheSame) {
+TEST(HomingRsm8194h, ALimitInBrakingDistanceOfNearHomeStillEndsStep1) {
   Surroundings here;
   here.add(Signal::near_home, 30'000, 40'000);
   here.add(Signal::home, 10'000, 11'000);

@@ -115,7 +115,7 @@ TEST(HomingSuper40nc, EveryModeFromEveryPlaceInBothDirections) {
   }
 }
 
-TEST(HomingSuper40nc, TheManualsFirstExampleEnds200000BehindTheThirdIndex) {
+TEST(HomingSuper40nc, TheFirstExampleEnds200000BehindTheThirdIndex) {
   Super40ncHoming how = super40nc_factory(4);
   how.index_count = 2 + 1;  // X31 = 2
   how.offset_pulses = -200'000;
@@ -197,7 +197,7 @@ TEST(HomingSuper40nc, TheLimitCanStopAtOnceAsTheChipWould) {
   }
 }
 
-TEST(HomingSuper40nc, ALimitThatStopsByItselfDoesNotDisturbTheModesThatSeekIt) {
+TEST(HomingSuper40nc, ALimitThatStopsDoesNotDisturbModesThatSeekIt) {
   for (const Reaction reaction : {Reaction::stop_at_once, Reaction::slow_down, Reaction::ignore}) {
     HomingBench bench(super40nc_machine(), 0);
     bench.axis.set({.at_limit_plus = reaction});

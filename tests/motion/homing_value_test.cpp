@@ -135,7 +135,7 @@ TEST(HomingValue, BeginsOnceAndEndsOnceHoweverManyRowsItPasses) {
   EXPECT_EQ(last, bit(Event::ended) | bit(Event::homed));
 }
 
-TEST(HomingValue, AWayBackThatCannotBePlannedFailsInsteadOfThrowingFromATick) {
+TEST(HomingValue, AReturnThatCannotBePlannedFailsWithoutThrowing) {
   // Slowing down 2000 pulses before the end, the last of which nothing is left to creep at.
   Super40ncHoming how = super40nc_factory(9);
   how.fast.slow_down_at_u = 2000;

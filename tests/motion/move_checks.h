@@ -80,7 +80,7 @@ inline int sense_of(const Segment& segment) {
 }
 
 /// Times are doubles counted from the profile's beginning, so every boundary between segments is known to
-/// a rounding of the whole duration only. What that can make of speeds and accelerations is no fault; in
+/// a rounding of the whole duration only. What that can make of speeds and accelerations is not a fault; in
 /// moves of hours with ramps of milliseconds it is more than roundings of the speeds themselves.
 struct Blur {
   Long time_s = 0, speed = 0, acceleration = 0;

@@ -103,7 +103,7 @@ TEST(MoveChipRules, AFixedPlaceToSlowDownIsNotReckoned) {
   });
 }
 
-TEST(MoveChipRules, ARampReckonedTooShortIsCutOffAndOneReckonedTooLongIsCreptAfter) {
+TEST(MoveChipRules, ATooShortRampIsCutOffAndATooLongOneEndsCreeping) {
   expect_rows({
       {"right", reckoned(100, 100), 250, 0.9 + 1.51 + 0.9, 100, 10},
       // 100 t - 25 t^2 = 49.5 at t = 2 - sqrt(2.02)

@@ -73,7 +73,7 @@ void every_move_is_the_integral_of_its_jerk(const Next& next, std::uint64_t salt
   }
 }
 
-/// Speeds and laws of the sizes that controllers use: what is crept at 1e-12 u/s is no move.
+/// Speeds and laws of the sizes that controllers use: what is crept at 1e-12 u/s is not a move.
 SpeedLaw usual_speeds(RandomLaws& random) {
   SpeedLaw law{.top_speed_u_s = random.usual_number()};
   law.start_speed_u_s = random.start_speed(law.top_speed_u_s);

@@ -127,7 +127,7 @@ TEST(MoveProperty, AMillionSCurvesBySections) {
       13);
 }
 
-TEST(MoveProperty, AMillionMovesThatSpeedUpByOneLawAndSlowDownByAnother) {
+TEST(MoveProperty, AMillionMovesWithDifferentRampLaws) {
   every_move_keeps_its_law(
       [](RandomLaws& random) {
         SpeedLaw law = with_speeds(random);

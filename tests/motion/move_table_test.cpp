@@ -53,7 +53,7 @@ void expect_rows(const std::vector<Row>& rows, bool whole_ramps = true) {
   }
 }
 
-TEST(MoveTable, TrapezoidsBySlopesCoverTheDifferenceOfSquaresOverTwiceTheSlope) {
+TEST(MoveTable, TrapezoidsBySlopesCoverTheExpectedDistance) {
   expect_rows({
       {"from rest", law(0, 100, kSlope100, kSlope200), 275, 100, 50, 200, 25, 3.5},
       {"from a start speed", law(100, 500, kSlope400, RampLaw::by_slope(800)), 1450, 500, 300, 1000, 150,

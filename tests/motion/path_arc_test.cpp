@@ -100,7 +100,7 @@ TEST(PathArc, ByCentreTakesTheSideOfItsTurnAndAddsWholeTurns) {
   expect_near(turns.at(turns.length_u / 2), begin, 1e-10);
 }
 
-TEST(PathArc, ThatEndsWhereItBeganIsAFullCircleAndRoundingDoesNotChangeThat) {
+TEST(PathArc, ThatEndsWhereItBeganIsAFullCircleDespiteRounding) {
   const Point begin(100.1, 0.3, 0, 0);
   const Point centre(0.1, 0.3, 0, 0);
   EXPECT_EQ(arc_by_centre(begin, centre, begin, kLeft).sweep_rad, 2 * kPi);
@@ -142,7 +142,7 @@ TEST(PathArc, OffItsCircleIsRefusedBlendedOrEndsInTheQuadrant) {
   expect_near(chip.at(chip.length_u * (1 - 1e-15)), chip.end, 1e-9);
 }
 
-TEST(PathArc, InTheQuadrantEndsWhereTheShorterCoordinateIsReached) {
+TEST(PathArc, InTheQuadrantEndsAtTheShorterCoordinate) {
   struct Case {
     Point end, met;  // relative to the centre; the radius is 5
   };
@@ -168,7 +168,7 @@ TEST(PathArc, FromTheChipsManualIsAHalfCircle) {
   expect_near(path.at(path.length_u / 2), {0, -10'000, 0, 0}, 1e-11);
 }
 
-TEST(PathArc, ByRadiusTakesTheShorterWayForAPositiveAndTheLongerForANegativeRadius) {
+TEST(PathArc, ByRadiusIsShortIfPositiveAndLongIfNegative) {
   const Point end(10, 10, 0, 0);
   struct Case {
     double radius;

@@ -153,7 +153,7 @@ void expect_midpoint_circle(std::int64_t radius, std::int64_t centre_x, std::int
   }
 }
 
-TEST(PathOracle, CirclesPassThroughThePulsesOfTheMidpointCircleInAllEightOctants) {
+TEST(PathOracle, CirclesPassThroughEveryPulseOfTheMidpointCircle) {
   for (std::int64_t radius = 1; radius <= 150; ++radius) {
     expect_midpoint_circle(radius, 0, 0, Turn::counter_clockwise);
     expect_midpoint_circle(radius, -17, 1000, Turn::clockwise);

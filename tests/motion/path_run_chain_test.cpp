@@ -120,7 +120,7 @@ TEST(PathRunChain, AtAnArcItsTangentCounts) {
               1000 * (trapezoid_s(20 + 5 * kPi, 100, 1000) + trapezoid_s(20, 100, 1000)), 2);
 }
 
-TEST(PathRunChain, PassesEachCornerWithoutStandingStillAndCountsWhatItCompletes) {
+TEST(PathRunChain, PassesCornersWithoutStoppingAndCountsPathsDone) {
   PathRun run = run_of(polygon(8, 10), kJoin);
   run.start(0);
   int completed = 0;

@@ -132,7 +132,7 @@ TEST(PathRunChange, AccelerationIsChangedAtRestOnly) {
   EXPECT_NEAR(static_cast<double>(course.to_the_end(200) - 201), 1000 * trapezoid_s(left, 100, 4000), 1);
 }
 
-TEST(PathRunChange, PausedAtAnyTickItStopsOnThePathAndGoesOnExactlyThere) {
+TEST(PathRunChange, PausedAtAnyTickItStopsAndResumesOnThePath) {
   // Through the arc and across the corner; slopes and places are held against the shapes at every tick.
   for (const Joint joint : {kJoin, join_below(89)}) {
     for (Tick at = 0; at < 1500; at += 7) {
@@ -270,7 +270,7 @@ TEST(PathRunChange, AtTheVeryEndOfAnSCurveCommandsAreTakenToo) {
   }
 }
 
-TEST(PathRunChange, ALoweredSpeedThatCannotBeReachedInTimeStillEndsOnTheEnd) {
+TEST(PathRunChange, ALoweredSpeedOutOfReachStillEndsAtTheEndPoint) {
   // A stop that the new law would take longer for than is left: slower is refused in motion, so this is the
   // law that begins slowing down too late (a chip's) and is cut off.
   SpeedLaw law = by_slope(100, 1000);

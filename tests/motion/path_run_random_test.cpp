@@ -194,7 +194,7 @@ std::string run_at_random(RandomRun& it) {
   return {};
 }
 
-TEST(PathRunRandom, WhateverIsDoneToItItStaysOnThePathWithinItsLimitsAndEndsOnTheEnd) {
+TEST(PathRunRandom, StaysOnThePathWithinLimitsToTheEndWhateverIsDone) {
   for (int i = 0; i < random_cases(4000); ++i) {
     const std::uint64_t case_seed = seed() + static_cast<std::uint64_t>(i);
     RandomRun it(case_seed);

@@ -7,7 +7,7 @@
 namespace understudy::motion {
 namespace {
 
-TEST(PathRunStream, ThousandsOfShortPathsAreRunAtConstantSpeedWhileTheQueueIsRefilled) {
+TEST(PathRunStream, ThousandsOfShortPathsKeepSpeedDuringRefills) {
   // A circle in chords of 0.02, refilled every fourth tick; at 1 a second and tick 5 chords pass in 0.1.
   constexpr int kPaths = 20'001;
   constexpr double kChord = 0.02;
@@ -126,13 +126,13 @@ TEST(PathRunStream, ALateJointSpeedsUpAgainOrBeginsFromRest) {
   }
 }
 
-TEST(PathRunStream, WhatStopsAtTheJointTakesTwoWholeMovesWheneverItIsAppended) {
+TEST(PathRunStream, AStopAtTheJointAlwaysTakesTwoWholeMoves) {
   for (const Tick at : {1, 500, 1050, 1100}) {
     EXPECT_EQ(two_lines({at, PathRun::LateJoint::speed_up_again, kStop}).first, 2200) << at;
   }
 }
 
-TEST(PathRunStream, WhatIsAppendedAfterTheEndBeginsByItselfInTheNextTick) {
+TEST(PathRunStream, WhatIsAppendedAfterTheEndBeginsInTheNextTick) {
   const auto [ms, least] = two_lines({1500, PathRun::LateJoint::speed_up_again, kJoin});
   EXPECT_EQ(ms, 1500 + 1100);
   PathRun run;

@@ -181,7 +181,7 @@ TEST(Profile, TheMomentOfAPositionIsFoundOnAWayDownToo) {
   EXPECT_EQ(time_of(back, 100, 0, 10), 0);
 }
 
-TEST(Profile, DurationsThatAreWholeTicksButForRoundingEndOnThatTick) {
+TEST(Profile, DurationsWithinRoundingOfATickEndOnThatTick) {
   struct Case {
     double duration_s;
     Tick end;
@@ -205,7 +205,7 @@ TEST(Profile, DurationsThatAreWholeTicksButForRoundingEndOnThatTick) {
   }
 }
 
-TEST(Profile, BisectionFindsNeighbouringDoublesInSixtyFourStepsHoweverFarTheyAreApart) {
+TEST(Profile, BisectionFindsNeighbouringDoublesIn64Steps) {
   for (const double place : {5e-324, 1e-300, 1e-9, 1.0, 0.1, 3e12, 1e300}) {
     int steps = 0;
     const Turnover found = turnover(0, 1.7e308, [&](double x) {

@@ -39,7 +39,7 @@ TEST(PulseDrive, AtRestSendsNothingAndAsksForNothing) {
   EXPECT_EQ(drive.next_active_tick(1), kNoTick);
 }
 
-TEST(PulseDrive, IsAtTheProfilesBeginningInItsFirstTickAndAtItsEndInTheLast) {
+TEST(PulseDrive, StartsInItsFirstTickAndReachesTheEndInTheLast) {
   PulseDrive drive;
   drive.start(kManualExample.plan(), +1, 100);
   EXPECT_TRUE(drive.moving());
@@ -107,7 +107,7 @@ TEST(PulseDrive, TicksThatItDoesNotAskForSendNothing) {
   }
 }
 
-TEST(PulseDrive, AHangingMoveCountsAsMovingSendsNothingAndEndsByStop) {
+TEST(PulseDrive, AHangingMoveSendsNothingAndLastsUntilItIsStopped) {
   PulseDrive drive;
   drive.hang(-1);
   EXPECT_TRUE(drive.moving());
@@ -227,7 +227,7 @@ TEST(PulseDrive, BeginningWithinATickItIsThatMuchLater) {
   EXPECT_EQ(drive.beginning(), (Instant{.tick = 10, .after_s = 0.000'250}));
 }
 
-TEST(PulseDrive, GoingOnByAnotherProfileNeitherLosesNorRepeatsAPulse) {
+TEST(PulseDrive, AnotherProfileNeitherLosesNorRepeatsAPulse) {
   RandomLaws laws(seed());
   for (int i = 0; i < random_cases(300); ++i) {
     const double speed = laws.of_any_size(1, 4e6);
@@ -300,7 +300,7 @@ TEST(PulseDrive, SamplesAreOfTheMomentAndAtRestOfThePlace) {
   EXPECT_EQ(drive.sample({.tick = 100}).speed_u_s, 0);
 }
 
-TEST(PulseDrive, FasterThanAnybodyCanCountItStaysAtTheGreatestNumber) {
+TEST(PulseDrive, AnUncountableSpeedStaysAtTheGreatestNumber) {
   PulseDrive drive;
   drive.start(cruise(0, 1e300), +1, 0);
   EXPECT_EQ(drive.pulses_at(1), 9'000'000'000'000'000'000);

@@ -122,7 +122,7 @@ TEST(Surroundings, TheIndexComesOnceARevolutionOnEitherSideOfZero) {
   }
 }
 
-TEST(Surroundings, AnIndexAsWideAsItsPeriodNeverChangesAndOneOfNoWidthNeverIs) {
+TEST(Surroundings, AnIndexOfFullWidthStaysOnAndOneOfNoWidthStaysOff) {
   Surroundings here;
   here.index_period = 10;
   here.index_width = 10;

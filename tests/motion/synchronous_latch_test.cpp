@@ -71,7 +71,7 @@ TEST(SyncLatch, AtAComparatorsEdgeItIsThePulseOfBothAxes) {
   }
 }
 
-TEST(SyncLatch, WhileTheTriggerSpeedsUpTheOtherIsLatchedByTheRampsTime) {
+TEST(SyncLatch, DuringARampTheOtherAxisIsLatchedByTheRampsTime) {
   RandomMoves random(seed() + 1);
   for (int i = 0; i < random_cases(5000); ++i) {
     LatchBench bench;
@@ -111,7 +111,7 @@ TEST(SyncLatch, AtAMarksPlaceItIsThePulseOfTheMark) {
   }
 }
 
-TEST(SyncLatch, AnotherEdgeInTheSameTickDoesNotCountAndOfTwoThatDoTheLastStays) {
+TEST(SyncLatch, ExtraEdgesInATickDoNotCountAndTheLastLatchStays) {
   // 100 pulses a tick; C+ at 10, and C- at 90 in the same tick.
   for (const std::uint8_t factor : {std::uint8_t{1}, std::uint8_t{8}, std::uint8_t{9}}) {
     LatchBench bench;
@@ -126,7 +126,7 @@ TEST(SyncLatch, AnotherEdgeInTheSameTickDoesNotCountAndOfTwoThatDoTheLastStays) 
   }
 }
 
-TEST(SyncLatch, AnAxisThatTheSameTickStopsIsLatchedWhereItWasAtTheEvent) {
+TEST(SyncLatch, AnAxisStoppedInTheSameTickIsLatchedAtTheEvent) {
   // X's edge stops Z at once; Y's edge, in the same tick, latches Z.
   LatchBench bench;
   bench.axes[0].set_comparator(0, {.relation = Comparator::Relation::at_least, .value = 30});

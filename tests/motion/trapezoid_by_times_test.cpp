@@ -56,7 +56,7 @@ TEST(TrapezoidByTimes, FollowsTheThirtySecondCaseTickByTick) {
   EXPECT_EQ(end_tick(kThirtySeconds.plan()), 30'000);
 }
 
-TEST(TrapezoidByTimes, ReadsAppendixAConsistentlyWhereThePrintedFormulaMissesTheTarget) {
+TEST(TrapezoidByTimes, ReadsAppendixAConsistentlyUnlikeThePrintedFormula) {
   struct Case {
     RegisterMove move;
     double top_rpm;
@@ -78,7 +78,7 @@ TEST(TrapezoidByTimes, ReadsAppendixAConsistentlyWhereThePrintedFormulaMissesThe
   }
 }
 
-TEST(TrapezoidByTimes, TheTopSpeedIsReachedWhenDistanceOverSpeedIsHalfTheRamps) {
+TEST(TrapezoidByTimes, TopSpeedIsReachedIfTheDistanceFillsTheRamps) {
   // V = 10 pulses/ms, ramps 100 ms: 500 pulses fill them exactly.
   const auto top_at = [](std::int64_t distance) {
     return RegisterMove{distance, 200, 3000, 3, 7}.plan().sample(0.03).speed_u_s;

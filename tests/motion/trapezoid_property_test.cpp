@@ -49,7 +49,7 @@ testing::AssertionResult is_where_it_must_be(const RegisterMove& move, const Pro
   return testing::AssertionSuccess();
 }
 
-TEST(TrapezoidProperty, EveryMoveIsWhereExactArithmeticHasItAndEndsOnItsTick) {
+TEST(TrapezoidProperty, EveryMoveMatchesExactArithmeticAndEndsOnItsTick) {
   RecordProperty("seed", std::to_string(seed()));
   std::cout << "seed " << seed() << "\n";
   const int moves = random_cases(250'000);
@@ -74,7 +74,7 @@ TEST(TrapezoidProperty, EveryMoveIsWhereExactArithmeticHasItAndEndsOnItsTick) {
   EXPECT_LT(triangles, moves * 9 / 10);
 }
 
-TEST(TrapezoidProperty, ShortMovesNeverGoBackAndNeverSendMoreThanTheLimitInATick) {
+TEST(TrapezoidProperty, ShortMovesNeverReverseNorExceedTheLimitPerTick) {
   RandomMoves random(seed() + 1);
   for (int i = 0; i < 400; ++i) {
     const RegisterMove move = random.next(20'000);

@@ -56,7 +56,7 @@ using Lines = std::vector<std::string>;
 const std::string kRequestLine = "in  L 01 03 00 01 00 01 D5 CA";
 const std::string kReplyLine = "out L 01 03 02 C0 01 29 84";
 
-TEST(CaptureFrames, ARequestAndItsReplyHaveTheTimesOfTheirFirstCharacters) {
+TEST(CaptureFrames, RequestAndReplyCarryTheirFirstCharactersTimes) {
   CaptureRig rig;
   rig.send(kRequest, 1s);
   rig.run(2s);
@@ -105,7 +105,7 @@ TEST(CaptureFrames, NoiseIsAPacketOfItsOwnBeforeTheRequestThatFollows) {
                               kRequestLine, kReplyLine}));
 }
 
-TEST(CaptureFrames, StrictFramingCapturesTwoFramesWithoutAPauseAsOneThatWasDropped) {
+TEST(CaptureFrames, StrictFramingDropsTwoFramesWithoutAPauseAsOne) {
   CaptureRig rig({}, kStrict);
   rig.send(together({kRequest, kRequest}), 0s);
   rig.run(1s);
@@ -113,7 +113,7 @@ TEST(CaptureFrames, StrictFramingCapturesTwoFramesWithoutAPauseAsOneThatWasDropp
             (Lines{"in  L 01 03 00 01 00 01 D5 CA 01 03 00 01 00 01 D5 CA  # dropped: not a frame"}));
 }
 
-TEST(CaptureFrames, StrictFramingCapturesAFrameWithAPauseAsTwoThatWereDropped) {
+TEST(CaptureFrames, StrictFramingDropsAFrameWithAPauseAsTwo) {
   CaptureRig rig({}, kStrict);
   rig.send(hex("01 03 00 01"), 0s);
   rig.run(5ms);
@@ -153,7 +153,7 @@ TEST(CaptureFrames, AReplyThatNobodyWaitsForSaysSo) {
   EXPECT_EQ(rig.lines, (Lines{kRequestLine, kReplyLine + "  # to nobody: no host has the line open"}));
 }
 
-TEST(CaptureFrames, WhereTheClockStandsAnIncompleteFrameIsGivenUpWithTheStations) {
+TEST(CaptureFrames, AStoppedClockDropsAPartialFrameWhenStationsDo) {
   const RtuFraming no_silence{.patience = 10ms};
   CaptureRig rig({.settings = {}, .timing = Timing::instant}, no_silence);
   rig.send(hex("01 03 00 01"), 1s);

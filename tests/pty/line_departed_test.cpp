@@ -32,7 +32,7 @@ class LineDeparted : public testing::TestWithParam<Timing> {
 
 INSTANTIATE_TEST_SUITE_P(Timings, LineDeparted, testing::Values(Timing::wire, Timing::instant));
 
-TEST_P(LineDeparted, WhatItWroteIsServedAndTheNextHostGetsNoneOfTheReply) {
+TEST_P(LineDeparted, ItsRequestIsServedButTheNextHostGetsNoReply) {
   open(0s);
   rig_.send(kRequest, 0s);
   rig_.line.host_closed();
@@ -109,7 +109,7 @@ TEST_P(LineDeparted, ARequestItDidNotFinishIsNoiseBeforeTheNextHosts) {
   EXPECT_EQ(rig_.out.size(), kReply.size());
 }
 
-TEST_P(LineDeparted, WhatItLeftInThePortCountsAsItsOwnThoughTheNextHostIsThere) {
+TEST_P(LineDeparted, WhatItLeftInThePortIsItsOwnEvenWithANewHost) {
   open(0s);
   rig_.line.host_closed();
   open(0s);

@@ -264,7 +264,7 @@ TEST(Line, BothDirectionsAreIndependent) {
   EXPECT_EQ(talker.heard, hex("AA BB"));
 }
 
-TEST(Line, AtEqualTimesCharactersComeFirstAndStationsInTheirOrder) {
+TEST(Line, AtEqualTimesCharactersPrecedeStationsInOrder) {
   LineRig rig(kQuietWire);
   std::vector<int> order;
   struct Watcher : FakeTalker {
@@ -303,7 +303,7 @@ TEST(LineInstant, ServesARequestInOneCall) {
   EXPECT_EQ(rig.line.due(), std::nullopt);
 }
 
-TEST(LineInstant, ServesPipelinedRequestsToSeveralStationsInTheirOrder) {
+TEST(LineInstant, ServesPipelinedRequestsToSeveralStationsInOrder) {
   LineRig rig(kInstant);
   const RtuFraming framing{.silence = 0ns, .patience = 10ms};
   FakeSlave one(1, hex("11"), framing);

@@ -96,7 +96,7 @@ TEST(PortLink, NamesTheDirectoryThatIsMissing) {
                                                  " does not exist; expected an existing directory");
   std::ofstream(directory / "file") << "x";
   EXPECT_EQ(error_of(directory / "file/port"), directory / "file/port" + ": " + directory / "file" +
-                                                   " is no directory; expected an existing directory");
+                                                   " is not a directory; expected an existing directory");
 }
 
 TEST(PortLink, IsNotRemovedWhenItHasBecomeAnothers) {

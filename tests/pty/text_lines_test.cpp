@@ -67,7 +67,7 @@ TEST(TextLines, WhereALineEnds) {
     EXPECT_EQ(hear(wanted.characters).events, wanted.events) << wanted.characters;
 }
 
-TEST(TextLines, ALineMayBeAsLongAsTheRulesSayAndIsToldAtItsEndWhereItIsLonger) {
+TEST(TextLines, ALineMayReachTheLimitAndATooLongOneIsReportedAtEnd) {
   const TextLineRules five{.longest = 5};
   EXPECT_EQ(hear("12345\rA\r", five).events, "[12345][A]");
   EXPECT_EQ(hear("123456", five).events, "");

@@ -85,7 +85,7 @@ def palletising(path):
     robot.ask("two", "ERR 1")  # no number: it is asked for again
     robot.type("2")
     robot.expect_line("PITCH")
-    robot.ask("?PE", "ERR 1")  # a line is no command while a number is waited for
+    robot.ask("?PE", "ERR 1")  # a line is not a command while a number is waited for
     started = time.monotonic()
     robot.type("12.5")
     robot.expect_line("BOX")

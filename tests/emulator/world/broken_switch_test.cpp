@@ -5,9 +5,9 @@
 //
 // One pulse a millisecond, ramps of 10 ms: n pulses take n + 5 ms from the first tick, and a switch that is
 // reached is looked at in the tick after.
-#include "tests/emulator/devices/simple2_r3/one_simple2.h"
+#include "tests/emulator/models/simple2_r3/one_simple2.h"
 
-namespace understudy::emulator::simple2_r3 {
+namespace understudy::emulator::models::simple2_r3 {
 namespace {
 
 constexpr int kUpperLimit = 2;
@@ -26,7 +26,7 @@ class Machine : public ReadySimple2 {
   }
   std::size_t stick(int input, int level) {
     const std::size_t number =
-        world().inject({.kind = Fault::Kind::stuck, .device = 0, .place = input, .amount = level});
+        world().inject({.kind = world::Fault::Kind::stuck, .device = 0, .place = input, .amount = level});
     run_to(30);
     return number;
   }
@@ -41,17 +41,17 @@ class Machine : public ReadySimple2 {
   }
 
  private:
-  static PlantSetup plant() {
-    PlantSetup plant;
-    plant.travel = PulseSpan{-300, 300};
-    plant.home = PulseSpan{100, 119};
+  static world::PlantSetup plant() {
+    world::PlantSetup plant;
+    plant.travel = world::PulseSpan{-300, 300};
+    plant.home = world::PulseSpan{100, 119};
     plant.lower_limit = -200;
     plant.upper_limit = 200;
     return plant;
   }
 };
 
-TEST(BrokenSwitch, AHomeSwitchThatNeverComesOnMakesHomingGiveUpAtTheSecondLimit) {
+TEST(BrokenSwitch, HomingGivesUpAtTheSecondLimitIfHomeNeverComesOn) {
   Machine machine;
   const std::size_t stuck = machine.stick(kHome, 0);
   EXPECT_EQ(machine.go_home(), 205 + 405 + 1);
@@ -66,7 +66,7 @@ TEST(BrokenSwitch, AHomeSwitchThatNeverComesOnMakesHomingGiveUpAtTheSecondLimit)
   EXPECT_EQ(machine.coordinate('A'), 0);
 }
 
-TEST(BrokenSwitch, AHomeSwitchThatIsAlwaysOnCannotBeLeftAndHomingGivesUpAtTheLimit) {
+TEST(BrokenSwitch, HomingGivesUpAtTheLimitIfHomeIsAlwaysOn) {
   Machine machine;
   machine.stick(kHome, 1);
   EXPECT_EQ(machine.go_home(), 205 + 1);
@@ -101,8 +101,8 @@ TEST(BrokenSwitch, ALimitThatBreaksInTheMiddleOfAMoveStopsIt) {
   machine.set("Aaxis_Move_INC", 1);
   machine.run_to(20 + 51);
   EXPECT_EQ(machine.coordinate('A'), 45);  // t = 50 ms
-  const std::size_t broken =
-      machine.world().inject({.kind = Fault::Kind::stuck, .device = 0, .place = kUpperLimit, .amount = 1});
+  const std::size_t broken = machine.world().inject(
+      {.kind = world::Fault::Kind::stuck, .device = 0, .place = kUpperLimit, .amount = 1});
   machine.run(1);  // an input is looked at when the tick begins
   EXPECT_FALSE(machine.moving('A'));
   EXPECT_EQ(machine.coordinate('A'), 45);
@@ -128,4 +128,4 @@ TEST(BrokenSwitch, ALimitThatNeverComesOnLetsAMoveRunIntoTheStop) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator::simple2_r3
+}  // namespace understudy::emulator::models::simple2_r3

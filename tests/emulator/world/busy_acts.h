@@ -9,7 +9,7 @@
 #include "interpreter/simple2/instructions.h"
 #include "tests/emulator/world/random_events.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 struct Act {
   SimTime at{0};
@@ -127,4 +127,4 @@ class BusyActs {
   std::mt19937_64 random_;
 };
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -8,9 +8,10 @@
 #include <random>
 #include <utility>
 
+#include "emulator/models/models.h"
 #include "tests/emulator/world/stepping.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 namespace {
 
 using namespace std::chrono_literals;
@@ -42,7 +43,7 @@ World make_disturbed_world(const std::string& timing) {
       "wires: [ feeder.DOUT_1 -> turner.DIN_0, turner.DOUT_2 -> feeder.DIN_7, feeder.DOUT_0 -> turner.DIN_9 "
       "]\n"
       "faults: [ { lost_steps: feeder.A, one_in: 17 } ]\n";
-  return World(parse_bench(drives, "disturbed.yaml", "."), {}, {});
+  return World(parse_bench(models::all_models(), drives, "disturbed.yaml", "."), {}, {});
 }
 
 enum class Kind : std::uint8_t { frame, input, power, inject, clear };
@@ -255,4 +256,4 @@ TEST(DisturbedEquivalence, WakingOnlyWhenSomethingIsDueMissesNothing) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -6,7 +6,7 @@
 
 #include "tests/emulator/world/two_devices.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 /// Something from outside: bytes on the line, or an input's level.
 struct Event {
@@ -107,4 +107,4 @@ inline void apply(World& world, const Event& event) {
   }
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

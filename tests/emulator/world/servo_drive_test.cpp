@@ -5,9 +5,9 @@
 //   drive enabled ────────────┘
 //   drive ready   ──────────────────────────────┘
 //   STATUS        ────────────────────────────────────────┘        inputs are looked at when a tick begins
-#include "tests/emulator/devices/simple2_r3/one_simple2.h"
+#include "tests/emulator/models/simple2_r3/one_simple2.h"
 
-namespace understudy::emulator::simple2_r3 {
+namespace understudy::emulator::models::simple2_r3 {
 namespace {
 
 struct Wiring {
@@ -27,8 +27,8 @@ class Servos : public OneSimple2 {
   bool alarm(char axis) const { return status(0, axis); }
   bool ready(char axis) const { return status(2, axis); }
   bool moves(char axis) const { return status(4, axis); }
-  const PlantAxis& machine(char axis) { return world().plant(0, axis == 'A' ? 0 : 1); }
-  std::size_t inject(Fault::Kind kind, char axis, std::int64_t amount = 0) {
+  const world::PlantAxis& machine(char axis) { return world().plant(0, axis == 'A' ? 0 : 1); }
+  std::size_t inject(world::Fault::Kind kind, char axis, std::int64_t amount = 0) {
     return world().inject({.kind = kind, .device = 0, .place = axis == 'A' ? 0 : 1, .amount = amount});
   }
   /// Moves on at one pulse a tick: after tick n of a move written after tick m, n - m - 6 pulses, from the
@@ -44,10 +44,10 @@ class Servos : public OneSimple2 {
   static Given with_drives(const Wiring& wiring) {
     Given given = wiring.given;
     for (const int axis : {0, 1}) {
-      PlantSetup plant;
-      plant.drive = DriveSetup{.ready_after = wiring.ready_after,
-                               .enabled_by = wiring.enabled_by,
-                               .alarm_opens = wiring.alarm_opens};
+      world::PlantSetup plant;
+      plant.drive = world::DriveSetup{.ready_after = wiring.ready_after,
+                                      .enabled_by = wiring.enabled_by,
+                                      .alarm_opens = wiring.alarm_opens};
       plant.lower_limit = -5000;
       plant.upper_limit = 5000;
       plant.encoder_counts_per_revolution = plant.pulses_per_revolution = 1;
@@ -142,7 +142,7 @@ struct Contact {
 };
 constexpr Contact kRightContacts[] = {{false, 0}, {true, 1}};
 
-TEST(ServoDrive, AnAlarmStopsTheMotionAndIsClearedAfterItsCauseIsGone) {
+TEST(ServoDrive, AnAlarmStopsMotionAndIsClearedOnceItsCauseIsGone) {
   for (const char axis : {'A', 'B'}) {
     for (const Contact& contact : kRightContacts) {
       SCOPED_TRACE(std::string(1, axis) + (contact.opens ? " opens" : " closes"));
@@ -155,7 +155,7 @@ TEST(ServoDrive, AnAlarmStopsTheMotionAndIsClearedAfterItsCauseIsGone) {
       servos.run_to(200);  // t = 99 ms
       EXPECT_EQ(servos.coordinate(axis), 94);
 
-      const std::size_t cause = servos.inject(Fault::Kind::alarm, axis);
+      const std::size_t cause = servos.inject(world::Fault::Kind::alarm, axis);
       servos.run_to(201);  // the motor is dead, the contact moves
       EXPECT_EQ(servos.coordinate(axis), 95);
       EXPECT_TRUE(servos.moves(axis));
@@ -199,12 +199,12 @@ TEST(ServoDrive, AnAlarmStopsTheMotionAndIsClearedAfterItsCauseIsGone) {
   }
 }
 
-TEST(ServoDrive, ACauseThatGoesWhileAclrIsOnIsClearedAndLaterItIsNot) {
+TEST(ServoDrive, OnlyACauseThatGoesWhileAclrIsOnIsCleared) {
   for (const auto& [gone_after, cleared] :
        std::vector<std::pair<Tick, bool>>{{5, true}, {199, true}, {202, false}}) {
     Servos servos;
     servos.set("Aaxis_SVON", 1);
-    const std::size_t cause = servos.inject(Fault::Kind::alarm, 'A');
+    const std::size_t cause = servos.inject(world::Fault::Kind::alarm, 'A');
     servos.run_to(100);
     servos.set("Aaxis_ACLR", 1);  // on in ticks 101 to 300
     servos.run_to(100 + gone_after);
@@ -226,7 +226,7 @@ TEST(ServoDrive, WithTheWrongAlarmPolarityIsInAlarmUntilItReallyIs) {
     EXPECT_TRUE(servos.alarm('A'));
     servos.start('A', 100);
     EXPECT_FALSE(servos.moves('A'));
-    servos.inject(Fault::Kind::alarm, 'A');
+    servos.inject(world::Fault::Kind::alarm, 'A');
     servos.run_to(102);
     EXPECT_FALSE(servos.alarm('A'));
   }
@@ -252,7 +252,7 @@ TEST(ServoDrive, WithoutThePowerOfItsControllerSeesItsOutputsOpen) {
 TEST(ServoDrive, AnAlarmOutlivesThePowerOfTheController) {
   Servos servos;
   servos.set("Aaxis_SVON", 1);
-  const std::size_t cause = servos.inject(Fault::Kind::alarm, 'A');
+  const std::size_t cause = servos.inject(world::Fault::Kind::alarm, 'A');
   servos.run_to(100);
   servos.world().switch_power(0, false);
   servos.world().clear_fault(cause);
@@ -274,7 +274,7 @@ TEST(Stall, ShowsAsAnEncoderThatStandsWhileTheCoordinateGoesOn) {
   servos.run_to(301);  // t = 200 ms
   EXPECT_EQ(servos.get("ENCA"), 195);
   EXPECT_EQ(servos.get("ENCA_RPM"), 60);  // 1000 counts a second of 1000 a revolution
-  const std::size_t stall = servos.inject(Fault::Kind::stall, 'A');
+  const std::size_t stall = servos.inject(world::Fault::Kind::stall, 'A');
   servos.run_to(401);
   EXPECT_EQ(servos.coordinate('A'), 295);
   EXPECT_EQ(servos.get("ENCA"), 195);
@@ -288,11 +288,11 @@ TEST(Stall, ShowsAsAnEncoderThatStandsWhileTheCoordinateGoesOn) {
   EXPECT_EQ(servos.machine('A').lost_pulses(), 100);
 }
 
-TEST(LostSteps, OpenAGapBetweenCoordinateAndEncoderThatGrowsByTheRule) {
+TEST(LostSteps, OpenARegularGapBetweenCoordinateAndEncoder) {
   Servos servos({.ready_after = 0});
   servos.set("Baxis_SVON", 1);
   servos.run_to(100);
-  servos.inject(Fault::Kind::lost_steps, 'B', 20);
+  servos.inject(world::Fault::Kind::lost_steps, 'B', 20);
   servos.start('B', 1000);
   for (Tick tick = 111; tick <= 1000; tick += 7) {
     servos.run_to(tick);
@@ -309,4 +309,4 @@ TEST(LostSteps, OpenAGapBetweenCoordinateAndEncoderThatGrowsByTheRule) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator::simple2_r3
+}  // namespace understudy::emulator::models::simple2_r3

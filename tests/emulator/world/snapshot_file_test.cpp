@@ -1,11 +1,12 @@
 // Which files are taken for snapshots.
 #include "emulator/world/snapshot_file.h"
+#include "emulator/models/models.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/two_devices.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 namespace {
 
 std::string complaint(const std::string& text, std::uint64_t bench = 0) {
@@ -28,7 +29,7 @@ TEST(SnapshotFile, OfAnotherFormatIsRefused) {
 }
 
 TEST(SnapshotFile, IsOfItsBenchAndAsItWasWritten) {
-  const World world(parse_bench(two_devices("wire", 19200), "two.yaml", "."), {}, {});
+  const World world(parse_bench(models::all_models(), two_devices("wire", 19200), "two.yaml", "."), {}, {});
   const std::string text = to_text(save(world), 7);
   EXPECT_EQ(complaint(text, 7), "");
   EXPECT_EQ(complaint(text, 8), "bench: is of another bench; expected the one that it was taken from");
@@ -44,4 +45,4 @@ TEST(SnapshotFile, IsOfItsBenchAndAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

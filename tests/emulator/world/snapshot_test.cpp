@@ -1,6 +1,7 @@
 // A world that is saved, run on and restored runs on as it did: the same states at the same times, and the
 // same bytes on its line. Random, seeded; UNDERSTUDY_SEED overrides.
 #include "emulator/world/snapshot.h"
+#include "emulator/models/models.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +11,11 @@
 #include <cstdlib>
 #include <set>
 
-#include "emulator/modbus/rtu_station.h"
-#include "emulator/state/state_bytes.h"
+#include "base/state/state_bytes.h"
+#include "emulator/world/stations/rtu_station.h"
 #include "tests/emulator/world/busy_acts.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 namespace {
 
 using namespace std::chrono_literals;
@@ -50,7 +51,7 @@ struct Moments {
 };
 
 void count(const World& world, Moments& moments) {
-  const World::OneLine& line = world.line(0);
+  const WorldLine& line = world.line(0);
   const pty::Line::State state = line.line.save();
   moments.in_request += state.input.empty() ? 0 : 1;
   moments.in_reply += state.leaving.empty() ? 0 : 1;
@@ -294,7 +295,8 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
             [&](WorldState& s) { s.parts[i].bytes.push_back(std::byte{0}); });
   }
   World alone(
-      parse_bench("understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n",
+      parse_bench(models::all_models(),
+                  "understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n",
                   "one.yaml", "."),
       {}, {});
   const WorldState of_alone = save(alone);
@@ -304,7 +306,8 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
 
 TEST(Snapshot, IsRefusedWhereALineHearsItsHostDifferently) {
   const Bench bench =
-      parse_bench("understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n",
+      parse_bench(models::all_models(),
+                  "understudy: 1\nlines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n",
                   "one.yaml", ".");
   World tolerant(bench, {}, {});
   World strict(bench, {.strict_framing = true}, {});
@@ -326,7 +329,8 @@ TEST(Snapshot, IsRefusedWhereALineHearsItsHostDifferently) {
 
 TEST(Snapshot, AFaultLastsNoLongerThanTimeIsCounted) {
   constexpr Tick kLasts = 123'456'789;
-  World world(parse_bench("understudy: 1\n"
+  World world(parse_bench(models::all_models(),
+                          "understudy: 1\n"
                           "lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }\n"
                           "plant: { feeder.A: { encoder: { per_revolution: 4000, on: wheel } } }\n"
                           "faults: [ { turn: feeder.A, counts: 500, in: 123456789ms, when: time > 1h } ]\n",
@@ -344,7 +348,7 @@ TEST(Snapshot, AFaultLastsNoLongerThanTimeIsCounted) {
 }
 
 /// Whatever a byte becomes, the state is refused, and nothing has changed, or it is one that can be lived on
-/// (sanitizers look at that). UNDERSTUDY_FLIPS: every so manieth byte of the devices.
+/// (sanitizers look at that). UNDERSTUDY_FLIPS: one in so many byte of the devices.
 void flip_bytes(std::uint64_t seed_value, const std::string& timing, std::size_t stride, int& refused,
                 int& taken) {
   World world = make_world(timing);
@@ -388,4 +392,4 @@ TEST(Snapshot, AFlippedByteIsRefusedOrCanBeLivedOn) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -12,7 +12,7 @@
 
 #include "tests/emulator/world/two_devices.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 /// UNDERSTUDY_SEED, or else what is given.
 inline std::uint64_t seed_or(std::uint64_t usual) {
@@ -97,4 +97,4 @@ void play_both(World& plain, World& twin, const std::vector<Event>& events, cons
   look();
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

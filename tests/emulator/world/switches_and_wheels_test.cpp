@@ -1,11 +1,12 @@
 // Switches that open, that are wired elsewhere; where a machine begins; hand wheels.
 #include <gtest/gtest.h>
 
+#include "emulator/models/models.h"
 #include "emulator/world/snapshot.h"
-#include "tests/emulator/bench/bench_texts.h"
-#include "tests/emulator/scenario/played.h"
+#include "tests/emulator/play/performing/played.h"
+#include "tests/emulator/world/bench_file/bench_texts.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 namespace {
 
 /// Two Simple2-R3s, x and y; the machine on x.A; steps.
@@ -20,13 +21,14 @@ std::string text_of(const std::string& machine, const std::string& wires, const 
 }
 
 void expect_passes(const std::string& text) {
-  const ScenarioResult result = play(parse_scenarios(text, "test.yaml").front(), {}).front();
-  EXPECT_TRUE(has_passed(result)) << text << why(result);
+  const play::ScenarioResult result =
+      play::play(play::parse_scenarios(models::all_models(), text, "test.yaml").front(), {}).front();
+  EXPECT_TRUE(play::has_passed(result)) << text << play::why(result);
 }
 
 std::string complaint_of(const std::string& machine, const std::string& wires = "") {
   try {
-    parse_scenarios(text_of(machine, wires, "  - advance: 1ms\n"), "test.yaml");
+    play::parse_scenarios(models::all_models(), text_of(machine, wires, "  - advance: 1ms\n"), "test.yaml");
     return "";
   } catch (const FileError& error) {
     const std::string what = without_columns(error.what());
@@ -93,7 +95,7 @@ TEST(Switches, ThatCannotBeWiredSoAreRefused) {
       "bench.plant.x.A: x.A.upper_limit and x.A.home are both wired to DIN_2; expected one contact on an "
       "input, and `wires` for more");
   EXPECT_EQ(complaint_of("home: { at: 0, width: 5, input: DIN_99 }"),
-            "bench.plant.x.A.home.input: 'DIN_99' is no input of simple2-r3; the nearest is 'DIN_9'");
+            "bench.plant.x.A.home.input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'");
   EXPECT_EQ(complaint_of("home: { at: 0, width: 5, contact: closed }"),
             "bench.plant.x.A.home.contact: 'closed' is unknown; expected opens or closes");
   EXPECT_EQ(complaint_of("limits: { upper: 3, lower_input: DIN_9 }"),
@@ -101,9 +103,9 @@ TEST(Switches, ThatCannotBeWiredSoAreRefused) {
   EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.home -> y.DIN_1"),
             "bench.wires[0]: the machine on x.A has no home; expected it in `plant`");
   EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.hom -> y.DIN_1"),
-            "bench.wires[0]: 'hom' is no switch of a machine; the nearest is 'home'");
+            "bench.wires[0]: 'hom' is not a switch of a machine; the nearest is 'home'");
   EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.DOUT_4 -> y.A.home"),
-            "bench.wires[0]: 'A.home' is no input of simple2-r3; expected one such as 'DIN_0'");
+            "bench.wires[0]: 'A.home' is not an input of simple2-r3; expected one such as 'DIN_0'");
 }
 
 TEST(Machines, BeginWhereTheyAreSaidToStand) {
@@ -177,7 +179,7 @@ TEST(HandWheels, ThatAreNotThereAreNotTurned) {
   const std::string text =
       text_of("encoder: { per_revolution: 400 }", "", "  - inject: { turn: x.A, counts: 7 }\n");
   try {
-    parse_scenarios(text, "test.yaml");
+    play::parse_scenarios(models::all_models(), text, "test.yaml");
     FAIL();
   } catch (const FileError& error) {
     EXPECT_NE(
@@ -188,4 +190,4 @@ TEST(HandWheels, ThatAreNotThereAreNotTurned) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

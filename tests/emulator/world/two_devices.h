@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "emulator/bench/bench_file.h"
-#include "emulator/bench/names.h"
-#include "emulator/register_map/access.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/models/models.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/names/names.h"
 #include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -40,7 +41,7 @@ inline std::string two_devices(const std::string& timing, int baud) {
 
 inline World make_world(const std::string& timing = "instant", int baud = 19200,
                         const WorldOptions& options = {}) {
-  return World(parse_bench(two_devices(timing, baud), "two.yaml", "."), options, {});
+  return World(parse_bench(models::all_models(), two_devices(timing, baud), "two.yaml", "."), options, {});
 }
 
 inline Bytes framed(Bytes bytes) {
@@ -82,4 +83,4 @@ inline Bytes take_output(World& world) {
   return bytes;
 }
 
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

@@ -9,7 +9,7 @@
 #include "tests/emulator/world/random_events.h"
 #include "tests/emulator/world/stepping.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 namespace {
 
 using namespace std::chrono_literals;
@@ -85,4 +85,4 @@ TEST(WorldEquivalence, FramesGivenInAdvanceAreServedAtTheirTimes) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

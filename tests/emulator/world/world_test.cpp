@@ -4,7 +4,7 @@
 
 #include "tests/emulator/world/two_devices.h"
 
-namespace understudy::emulator {
+namespace understudy::emulator::world {
 namespace {
 
 using namespace std::chrono_literals;
@@ -21,7 +21,7 @@ TEST(World, HasNothingDueWhileIdle) {
   EXPECT_EQ(world.ticks_run() + world.ticks_crossed(), 86'400'000u);
 }
 
-TEST(World, IsDueAtTheNextTickForWhatCameFromOutsideAndThenAtWhatHappensByItself) {
+TEST(World, IsDueNextTickAfterOutsideInputAndThenAtItsOwnEvent) {
   World world = make_world();
   world.advance_to(10'300us);
   set(world, "feeder.Aaxis_SVON", 1);
@@ -169,9 +169,10 @@ TEST(Wires, StopAnAxisTwoTicksAfterTheWrite) {
   EXPECT_EQ(get(world, "feeder.Cord_B"), 101);  // tick 107 still moves, tick 108 sees the input
 }
 
-TEST(World, AMachineThatStandsOnASwitchAtPowerUpShowsItInTheFirstTick) {
+TEST(World, AMachineOnASwitchAtPowerUpShowsItAtOnce) {
   World world = make_world();
-  EXPECT_EQ(get(world, "feeder.DIN_4"), 0);
+  EXPECT_EQ(get(world, "feeder.DIN_4"), 1);
+  EXPECT_EQ(get(world, "turner.DIN_9"), 0);
   world.advance_to(1ms);
   EXPECT_EQ(get(world, "feeder.DIN_4"), 1);
   EXPECT_EQ(get(world, "turner.DIN_9"), 0);
@@ -223,4 +224,4 @@ TEST(World, DevicesOfOtherSettingsAreOfAnotherState) {
 }
 
 }  // namespace
-}  // namespace understudy::emulator
+}  // namespace understudy::emulator::world

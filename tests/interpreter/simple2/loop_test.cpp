@@ -108,7 +108,7 @@ TEST(Simple2Loop, InsideALoopThatDoesNotRepeatDoesNoHarm) {
   EXPECT_EQ(run.machine.parameters[1], 2);
 }
 
-TEST(Simple2Loop, InsideAnotherMayAlsoEndTheProgramWhenTheOuterOneIsFirstMet) {
+TEST(Simple2Loop, InsideAnotherMayAlsoEndTheProgramAtTheOuterOne) {
   for (const std::uint8_t outer : {0, 1, 3}) {
     ProgramRun run(nested(outer));
     run.dialect.loop_nesting = Dialect::LoopNesting::when_outer_starts;

@@ -83,7 +83,7 @@ TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
         EXPECT_EQ(run.machine.parameters[0], ends ? 0 : 1) << int{opcode};
         EXPECT_EQ(run.execution.ending, ends ? Ending::wait_cut_short : Ending::end_instruction);
       }
-      // What was cut before is no matter: the line has waited for nothing. Nor is the other axis.
+      // What was cut before does not matter: the line has waited for nothing. Nor is the other axis.
       ProgramRun before = waiting(opcode, reading);
       before.machine.cut_short_a = true;
       before.until(40);

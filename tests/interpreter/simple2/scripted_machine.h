@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/simple2/execution.h"
+#include "interpreter/simple2/execution/execution.h"
 
 namespace understudy::interpreter::simple2 {
 

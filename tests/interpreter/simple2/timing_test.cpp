@@ -46,7 +46,7 @@ TEST(Simple2Timing, ABlinkingOutputFollowsTheTraceWorkedOutByHand) {
       "outputs 0000001; outputs 0000000; outputs 0000001; outputs 0000000; outputs 0000001; outputs 0000000");
 }
 
-TEST(Simple2Timing, TheLineAfterADelayComesInTheFirstSlotThatIsNotTooEarly) {
+TEST(Simple2Timing, AfterADelayTheNextLineTakesTheFirstSlotDue) {
   const std::vector<std::pair<int, std::int64_t>> wanted = {
       {0, 2},     {1, 2},     {2, 2},     {3, 4},       {4, 4},        {5, 6},
       {255, 256}, {256, 256}, {257, 258}, {1500, 1500}, {65535, 65536}};
@@ -83,7 +83,7 @@ TEST(Simple2Timing, AWaitEndsInItsOwnSlotAndTheNextLineComesOneLater) {
   EXPECT_EQ(run.machine.take_calls(), "outputs 0000001");
 }
 
-TEST(Simple2Timing, AMoveOf100msIsFoundOverAt102AndTheNextLineComesAt104) {
+TEST(Simple2Timing, AMoveOf100msIsSeenAt102AndTheNextLineComesAt104) {
   ProgramRun run(program_of({{0x25, 5, 0, 0}, {0x05, 0, 1, 0}}));
   run.slot();  // 0 ms: the move starts
   run.machine.moving_a = true;

@@ -156,7 +156,7 @@ TEST(SlimEvents, KnowAllConditions) {
   }
 }
 
-TEST(SlimEvents, FireAtOnceOrWaitForAChangeWhenTheConditionIsThereAlready) {
+TEST(SlimEvents, FireAtOnceOrAwaitAChangeIfTheConditionAlreadyHolds) {
   for (const bool waits : {false, true}) {
     using AtArming = EventOptions::AtArming;
     ProgramRun run(interrupted("WT 1000"),

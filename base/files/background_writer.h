@@ -1,0 +1,62 @@
+// Writes to a place that may be slow, a file, without ever letting its owner wait: a helper thread does it,
+// and what waits for it is bounded.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace understudy {
+
+class BackgroundWriter {
+ public:
+  /// Writes one piece, all of it; returns 0, or the error after which nothing more is written. Called on the
+  /// helper thread.
+  using Write = std::function<int(std::string_view piece)>;
+
+  /// At most `capacity` bytes wait to be written, and as many are being written.
+  BackgroundWriter(std::size_t capacity, Write write);
+  ~BackgroundWriter();  // finishes
+  BackgroundWriter(const BackgroundWriter&) = delete;
+  BackgroundWriter& operator=(const BackgroundWriter&) = delete;
+
+  enum class Outcome { taken, full, failed };
+  /// Takes a piece whole, or not at all. Never waits for the disk.
+  Outcome append(std::string_view piece);
+
+  /// Waits until what was taken is written, and ends the thread. Nothing may be appended afterwards.
+  void finish();
+
+  struct Failure {
+    int error = 0;           // of the write that failed; 0 if none has
+    std::uint64_t lost = 0;  // pieces that were taken and not written for it
+  };
+  Failure failure() const;
+
+ private:
+  struct Pieces {
+    std::string bytes;
+    std::vector<std::size_t> sizes;
+  };
+
+  void run();
+  /// Until one fails; how many were written.
+  std::size_t write(const Pieces& pieces, int& error) const;
+
+  const std::size_t capacity_;
+  const Write write_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Pieces waiting_;
+  Failure failure_;
+  bool is_finishing_ = false;
+  std::thread thread_;  // last: it uses all the others
+};
+
+}  // namespace understudy

@@ -1,0 +1,66 @@
+#include "base/files/growing_file.h"
+
+#include <cstring>
+#include <utility>
+
+namespace understudy {
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 16 << 20;  // bytes
+
+[[noreturn]] void refuse(const std::string& path, const std::string& what, const OutputError& error) {
+  throw GrowingFileError(path + ": " + what + " cannot be written: " + error.what());
+}
+
+OutputFile open_file(const std::string& path, const std::string& what) {
+  try {
+    return OutputFile(path);
+  } catch (const OutputError& error) {
+    refuse(path, what, error);
+  }
+}
+
+}  // namespace
+
+GrowingFile::GrowingFile(const std::string& path, std::string what,
+                         std::function<void(const std::string&)> log)
+    : path_(path), what_(std::move(what)), log_(std::move(log)), file_(open_file(path, what_)) {}
+
+GrowingFile::~GrowingFile() { finish(); }
+
+void GrowingFile::take(std::string_view line) {
+  if (has_given_up_) return;
+  if (!has_begun_) return begin(line);
+  if (!writer_) return;
+  switch (writer_->append(line)) {
+    case BackgroundWriter::Outcome::taken: return;
+    case BackgroundWriter::Outcome::full: return give_up("the disk is too slow");
+    case BackgroundWriter::Outcome::failed: return give_up(std::strerror(writer_->failure().error));
+  }
+}
+
+void GrowingFile::begin(std::string_view line) {
+  try {
+    file_.begin(line);
+  } catch (const OutputError& error) {
+    refuse(path_, what_, error);
+  }
+  has_begun_ = true;
+  writer_ = std::make_unique<BackgroundWriter>(kMostWaiting,
+                                               [this](std::string_view piece) { return file_.write(piece); });
+}
+
+void GrowingFile::give_up(const std::string& why) {
+  if (std::exchange(has_given_up_, true) || !log_) return;
+  log_(path_ + ": " + what_ + " has ended early: " + why);
+}
+
+void GrowingFile::finish() {
+  if (!writer_) return;
+  writer_->finish();
+  if (const int error = writer_->failure().error; error != 0) give_up(std::strerror(error));
+  writer_.reset();
+}
+
+}  // namespace understudy

@@ -1,0 +1,50 @@
+// A file that grows while a world runs, written by a helper thread: a recording, a trace. Which files may be
+// written, and when what was there is gone, is for base/files/output_file.h.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "base/files/background_writer.h"
+#include "base/files/output_file.h"
+
+namespace understudy {
+
+/// The file cannot be had. One line: what is wrong, what was expected.
+struct GrowingFileError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class GrowingFile {
+ public:
+  /// `what` it is, for messages: "the recording". Opened and locked; what is there stays until the first line
+  /// comes. Throws GrowingFileError.
+  GrowingFile(const std::string& path, std::string what, std::function<void(const std::string&)> log);
+  ~GrowingFile();  // finishes
+
+  /// Whole lines. The first is written at once, in place of what was there: throws GrowingFileError if that
+  /// fails. Once one could not be taken (the disk is full, or too slow) the recording ends there, with a word
+  /// to the log: one with a gap would be worth nothing.
+  void take(std::string_view line);
+  /// Waits until all is written.
+  void finish();
+  /// Where it really is.
+  const std::string& target() const { return file_.target(); }
+
+ private:
+  void begin(std::string_view line);
+  void give_up(const std::string& why);
+
+  std::string path_;
+  std::string what_;
+  std::function<void(const std::string&)> log_;
+  OutputFile file_;
+  bool has_begun_ = false;
+  bool has_given_up_ = false;
+  std::unique_ptr<BackgroundWriter> writer_;  // last: its thread uses the others
+};
+
+}  // namespace understudy

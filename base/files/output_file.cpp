@@ -1,0 +1,117 @@
+#include "base/files/output_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace understudy {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostLinks = 40;  // that lead to one another, as Linux has it
+
+std::string error_text(int error) { return std::generic_category().message(error); }
+
+/// As Linux judges it where fs.protected_symlinks and fs.protected_regular are on.
+bool is_left_by_a_stranger(const fs::path& place, const struct stat& status) {
+  struct stat folder = {};
+  if (::stat(place.parent_path().c_str(), &folder) != 0) return true;
+  const bool anybody_may_write = (folder.st_mode & S_ISVTX) != 0 && (folder.st_mode & S_IWOTH) != 0;
+  return anybody_may_write && status.st_uid != ::geteuid() && status.st_uid != folder.st_uid;
+}
+
+/// Throws where a folder on the way to a file is a link that a stranger has left.
+void demand_own_way(const fs::path& absolute) {
+  fs::path way;
+  for (const fs::path& step : absolute.parent_path()) {
+    way /= step;
+    struct stat status = {};
+    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it is told
+    if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
+      throw OutputError(way.string() +
+                        " is another user's link in a folder that is open to all; expected a path of ours");
+    }
+  }
+}
+
+}  // namespace
+
+std::string kind_of_file(mode_t mode) {
+  if (S_ISREG(mode)) return "a regular file";
+  if (S_ISDIR(mode)) return "a directory";
+  if (S_ISSOCK(mode)) return "a socket";
+  if (S_ISFIFO(mode)) return "a pipe";
+  return "a device";
+}
+
+std::string output_target(const std::string& path) {
+  std::error_code error;
+  fs::path target = fs::absolute(path, error);
+  for (int links = 0; links <= kMostLinks; ++links) {
+    demand_own_way(target);
+    struct stat status = {};
+    if (::lstat(target.c_str(), &status) != 0) {
+      if (errno == ENOENT) return target.string();  // free, or whoever makes it is told what is missing
+      throw OutputError(error_text(errno));
+    }
+    if (S_ISREG(status.st_mode) && is_left_by_a_stranger(target, status)) {
+      throw OutputError("it is another user's file in a folder that is open to all; expected a path of ours");
+    }
+    if (S_ISREG(status.st_mode)) return target.string();
+    if (!S_ISLNK(status.st_mode)) {
+      throw OutputError("it is " + kind_of_file(status.st_mode) +
+                        "; expected a regular file, or a free path");
+    }
+    if (is_left_by_a_stranger(target, status)) {
+      throw OutputError("it is another user's link in a folder that is open to all; expected a path of ours");
+    }
+    target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
+    if (error) throw OutputError(error.message());
+  }
+  throw OutputError(error_text(ELOOP));
+}
+
+OutputFile::OutputFile(const std::string& path)
+    : target_(output_target(path)),
+      file_(::open(target_.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC,
+                   0666)) {
+  if (!file_) throw OutputError(error_text(errno));
+  struct stat status = {};
+  if (::fstat(file_.get(), &status) != 0) throw OutputError(error_text(errno));
+  if (!S_ISREG(status.st_mode)) throw OutputError("it is not a regular file; expected one, or a free path");
+  if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    throw OutputError("another program is writing it; expected a path of its own");
+  }
+}
+
+void OutputFile::begin(std::string_view head) {
+  written_ = 0;
+  if (::ftruncate(file_.get(), 0) != 0 || ::lseek(file_.get(), 0, SEEK_SET) != 0) {
+    throw OutputError(error_text(errno));
+  }
+  if (const int error = write(head); error != 0) throw OutputError(error_text(error));
+}
+
+int OutputFile::write(std::string_view piece) {
+  const std::uint64_t end = written_ + piece.size();
+  while (!piece.empty()) {
+    const ssize_t size = ::write(file_.get(), piece.data(), piece.size());
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0) {
+      const int error = errno;
+      [[maybe_unused]] const int ignored = ::ftruncate(file_.get(), static_cast<off_t>(written_));
+      return error;
+    }
+    piece.remove_prefix(static_cast<std::size_t>(size));
+  }
+  written_ = end;
+  return 0;
+}
+
+}  // namespace understudy

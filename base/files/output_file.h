@@ -1,0 +1,53 @@
+// The rule for every file that the program writes, whether it grows (a recording, a trace, a capture) or is
+// replaced as a whole (a memory, a snapshot, a picture):
+// - Only a regular file is written, or a free path. A pipe, a device, a socket, a folder is left alone.
+// - A symbolic link is followed, and stays: the file that it leads to is written. In a folder where anybody
+//   may leave one (/tmp), another user's link is refused, and another user's file as well.
+// - What is there is kept until the first bytes are written. So everything can be opened before anything is
+//   emptied.
+// - A file that grows is locked: two programs never write one.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "base/files/descriptor.h"
+
+namespace understudy {
+
+/// A file cannot be written: why, and what was expected. The path is the caller's to say.
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// "a regular file", "a pipe"
+std::string kind_of_file(mode_t mode);
+
+/// The absolute path of the file that writing to `path` would write, or make. Throws OutputError where there
+/// is something that may not be written.
+std::string output_target(const std::string& path);
+
+class OutputFile {
+ public:
+  /// Opens the file, or makes it, and locks it. Throws OutputError.
+  explicit OutputFile(const std::string& path);
+
+  /// Where it really is.
+  const std::string& target() const { return target_; }
+  /// What was there before is gone, and these are its first bytes. Throws OutputError: a file to which
+  /// nothing can be written should not begin.
+  void begin(std::string_view head);
+  /// All of it: 0. Or else the error, and none of it: half a packet would spoil those before it.
+  int write(std::string_view piece);
+
+ private:
+  std::string target_;
+  Descriptor file_;
+  std::uint64_t written_ = 0;  // bytes
+};
+
+}  // namespace understudy

@@ -1,0 +1,294 @@
+// State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding.
+// What a value consists of is written down once, in a list of fields (a type `Fields`), from which it is
+// saved, restored and hashed:
+//
+//   struct Fields {
+//     static void of(Like<Timer> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
+//     static constexpr Mode last(Mode) { return Mode::sync; }  // enumerations: their last value
+//     static void check(const Timer& timer);                   // throws StateError for what no timer can be
+//     static void check(const auto&) {}
+//   };
+//
+// The structured binding names every field, so one that is added and not listed does not compile. A class
+// with private fields has a list of its own, `static void fields(auto& self, auto visit)`. What another room
+// saves by itself has a pair of functions in Fields: `write(const T&, StateWriter&)` and `read(T&,
+// StateReader&)`.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/state/state_error.h"
+
+namespace understudy {
+
+class StateWriter;
+class StateReader;
+
+template <class T, class Wanted>
+concept Like = std::same_as<std::remove_const_t<T>, Wanted>;  // the type, const or not
+
+/// FNV-1a.
+std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t onto = 0xcbf29ce484222325);
+
+namespace state_bytes {
+
+template <class T>
+inline constexpr bool kIsOptional = false;
+template <class T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool kIsArray = false;
+template <class T, std::size_t n>
+inline constexpr bool kIsArray<std::array<T, n>> = true;
+template <class T>
+inline constexpr bool kIsVector = false;
+template <class T>
+inline constexpr bool kIsVector<std::vector<T>> = true;
+template <>
+inline constexpr bool kIsVector<std::string> = true;  // of bytes
+template <class T>
+inline constexpr bool kIsMap = false;
+template <class Key, class T>
+inline constexpr bool kIsMap<std::map<Key, T>> = true;
+template <class T>
+inline constexpr bool kIsTime = false;
+template <class Count, class Period>
+inline constexpr bool kIsTime<std::chrono::duration<Count, Period>> = true;
+
+struct AnyVisit {
+  void operator()(const auto&...) const {}
+};
+/// Has a list of its own.
+template <class T>
+concept Listed = requires(T& value) {
+  T::fields(value, AnyVisit{});
+};
+
+/// Is saved by functions of its own.
+template <class T, class Fields>
+concept Foreign = requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
+  Fields::write(value, writer);
+  Fields::read(restored, reader);
+};
+
+template <class T>
+concept Numeric = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// A number as an unsigned one of the same size.
+template <class T>
+auto as_bits(T value) {
+  if constexpr (std::is_same_v<T, double>) {
+    return std::bit_cast<std::uint64_t>(value);
+  } else if constexpr (std::is_same_v<T, float>) {
+    return std::bit_cast<std::uint32_t>(value);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return static_cast<std::uint8_t>(value);
+  } else if constexpr (std::is_enum_v<T>) {
+    return static_cast<std::make_unsigned_t<std::underlying_type_t<T>>>(value);
+  } else {
+    return static_cast<std::make_unsigned_t<T>>(value);
+  }
+}
+template <class T>
+using Bits = decltype(as_bits(T{}));
+
+/// Numbers of which any bits are one, saved as a machine of little endian has them in memory.
+template <class T>
+inline constexpr bool kIsAsInMemory =
+    std::endian::native == std::endian::little&& std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+}  // namespace state_bytes
+
+class StateWriter {
+ public:
+  explicit StateWriter(std::size_t expected_bytes = 0) { bytes_.reserve(expected_bytes); }
+
+  template <class Fields, class T>
+  void write(const T& value) {
+    using namespace state_bytes;
+    if constexpr (Numeric<T>) {
+      put(room_for(sizeof(Bits<T>)), value);
+    } else if constexpr (kIsTime<T>) {
+      write<Fields>(std::int64_t{value.count()});
+    } else if constexpr (kIsOptional<T>) {
+      write<Fields>(value.has_value());
+      if (value) write<Fields>(*value);
+    } else if constexpr (kIsVector<T>) {
+      write<Fields>(static_cast<std::uint32_t>(value.size()));
+      write_all<Fields>(value);
+    } else if constexpr (kIsMap<T>) {
+      write<Fields>(static_cast<std::uint32_t>(value.size()));
+      for (const auto& [key, entry] : value) {
+        write<Fields>(key);
+        write<Fields>(entry);
+      }
+    } else if constexpr (kIsArray<T>) {
+      write_all<Fields>(value);
+    } else if constexpr (Foreign<T, Fields>) {
+      Fields::write(value, *this);
+    } else if constexpr (Listed<T>) {
+      T::fields(value, [&](const auto&... field) { (write<Fields>(field), ...); });
+    } else {
+      Fields::of(value, [&](const auto&... field) { (write<Fields>(field), ...); });
+    }
+  }
+  /// What has been saved already.
+  void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::byte* room_for(std::size_t count) {
+    const std::size_t at = bytes_.size();
+    bytes_.resize(at + count);
+    return bytes_.data() + at;
+  }
+
+  static_assert(sizeof(std::size_t) == 8, "a size is saved as 64 bits");
+
+  template <class T>
+  static void put(std::byte* to, T value) {
+    if constexpr (state_bytes::kIsAsInMemory<T>) {
+      std::memcpy(to, &value, sizeof value);
+    } else {
+      const auto bits = state_bytes::as_bits(value);
+      for (std::size_t i = 0; i < sizeof bits; ++i) to[i] = static_cast<std::byte>(bits >> (8 * i));
+    }
+  }
+
+  template <class Fields, class Values>
+  void write_all(const Values& values) {
+    using T = typename Values::value_type;
+    if constexpr (state_bytes::Numeric<T>) {
+      constexpr std::size_t kSize = sizeof(state_bytes::Bits<T>);
+      std::byte* to = room_for(values.size() * kSize);
+      if constexpr (state_bytes::kIsAsInMemory<T>) {
+        if (!values.empty()) std::memcpy(to, values.data(), values.size() * kSize);
+        return;
+      }
+      for (std::size_t i = 0; i < values.size(); ++i) put(to + i * kSize, values[i]);
+    } else {
+      for (const T& value : values) write<Fields>(value);
+    }
+  }
+
+  std::vector<std::byte> bytes_;
+};
+
+/// All of it throws StateError for bytes that end too early or hold what the type cannot (a bool of 7, an
+/// enumeration's value that does not exist).
+class StateReader {
+ public:
+  explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+  template <class Fields, class T>
+  void read(T& value) {
+    using namespace state_bytes;
+    if constexpr (Numeric<T>) {
+      value = get<Fields, T>(take(sizeof(Bits<T>)).data());
+    } else if constexpr (kIsTime<T>) {
+      std::int64_t count = 0;
+      read<Fields>(count);
+      value = T{count};
+    } else if constexpr (kIsOptional<T>) {
+      bool has = false;
+      read<Fields>(has);
+      value.reset();
+      if (has) read<Fields>(value.emplace());
+    } else if constexpr (kIsVector<T>) {
+      std::uint32_t count = 0;
+      read<Fields>(count);
+      // Each takes a byte at least: what is not there needs no room.
+      demand_state(count <= rest_.size(), "the bytes end too early");
+      value.assign(count, {});
+      read_all<Fields>(value);
+    } else if constexpr (kIsMap<T>) {
+      std::uint32_t count = 0;
+      read<Fields>(count);
+      value.clear();
+      for (; count > 0; --count) {
+        typename T::key_type key{};
+        read<Fields>(key);
+        demand_state(value.empty() || value.rbegin()->first < key, "its entries are in disorder");
+        read<Fields>(value[key]);
+      }
+    } else if constexpr (kIsArray<T>) {
+      read_all<Fields>(value);
+    } else if constexpr (Foreign<T, Fields>) {
+      Fields::read(value, *this);
+    } else {
+      const auto read_each = [&](auto&... field) { (read<Fields>(field), ...); };
+      if constexpr (Listed<T>) {
+        T::fields(value, read_each);
+      } else {
+        Fields::of(value, read_each);
+      }
+      Fields::check(value);
+    }
+  }
+
+  std::span<const std::byte> rest() const { return rest_; }
+  std::span<const std::byte> take(std::size_t count) {
+    demand_state(count <= rest_.size(), "the bytes end too early");
+    const auto taken = rest_.first(count);
+    rest_ = rest_.subspan(count);
+    return taken;
+  }
+  void demand_end() const { demand_state(rest_.empty(), "there are more bytes than it takes"); }
+
+ private:
+  template <class Fields, class T>
+  static T get(const std::byte* from) {
+    using namespace state_bytes;
+    if constexpr (kIsAsInMemory<T>) {
+      T value;
+      std::memcpy(&value, from, sizeof value);
+      return value;
+    }
+    Bits<T> bits = 0;
+    for (std::size_t i = 0; i < sizeof bits; ++i) {
+      bits = static_cast<Bits<T>>(bits | static_cast<Bits<T>>(std::to_integer<std::uint8_t>(from[i]))
+                                             << (8 * i));
+    }
+    if constexpr (std::is_floating_point_v<T>) {
+      return std::bit_cast<T>(bits);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      demand_state(bits <= 1, "a yes or no must be 0 or 1");
+    } else if constexpr (std::is_enum_v<T>) {
+      demand_state(bits <= as_bits(Fields::last(T{})), "an enumeration has no such value");
+    }
+    return static_cast<T>(bits);
+  }
+
+  template <class Fields, class Values>
+  void read_all(Values& values) {
+    using T = typename Values::value_type;
+    if constexpr (state_bytes::Numeric<T>) {
+      constexpr std::size_t kSize = sizeof(state_bytes::Bits<T>);
+      const std::byte* from = take(values.size() * kSize).data();
+      if constexpr (state_bytes::kIsAsInMemory<T>) {
+        if (!values.empty()) std::memcpy(values.data(), from, values.size() * kSize);
+        return;
+      }
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<Fields, T>(from + i * kSize);
+    } else {
+      for (T& value : values) read<Fields>(value);
+    }
+  }
+
+  std::span<const std::byte> rest_;
+};
+
+}  // namespace understudy

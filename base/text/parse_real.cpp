@@ -1,0 +1,16 @@
+#include "base/text/parse_real.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace understudy {
+
+std::optional<double> parse_real(std::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, value);
+  if (text.empty() || error != std::errc{} || parsed != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace understudy

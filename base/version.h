@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace understudy {
+
+/// Of the program: "0.1.0".
+std::string_view program_version();
+
+}  // namespace understudy

@@ -1,0 +1,45 @@
+#include "emulator/device/describe/fidelity_page.h"
+
+#include "emulator/device/describe/describe.h"
+
+namespace understudy::emulator {
+
+std::string fidelity_page(const Model& model) {
+  const std::string name(model.name);
+  std::string page = "# How faithful `" + name + "` is\n\n" + std::string(model.title) +
+                     ". This page is made from the model's own tables:\n"
+                     "`understudy describe " +
+                     name + " choices --format markdown > docs/fidelity/" + name + ".md`\n\n";
+  page +=
+      "## Choices\n\n"
+      "What the maker's manual leaves open, and what we chose. Where there are alternatives, a bench can "
+      "ask\n"
+      "for one: `choices: { ID: ALTERNATIVE }`. How sure we are: *follows* from what the manual says "
+      "elsewhere,\n"
+      "*likely* (the cited standard, or devices of this kind, do so), *proposal* (the manual is silent). "
+      "The\n"
+      "scenario shows what the options differ in: `understudy run` plays it with each of them.\n\n";
+  page += format_sheet(*describe(model, "choices", SheetFormat::markdown), SheetFormat::markdown);
+
+  Sheet missing{.columns = {"address", "register", "what is not modelled"}, .rows = {}};
+  const Sheet registers = *describe(model, "registers", SheetFormat::table);
+  for (const auto& row : registers.rows) {
+    if (!row.back().empty()) missing.rows.push_back({row[1], row[2], row.back()});
+  }
+  page += "\n## Not modelled yet\n\n";
+  for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
+  if (model.protocol() == Protocol::text) return page;
+  if (!model.gaps.empty()) page += "\n";
+  if (missing.rows.empty()) {
+    page += model.gaps.empty() ? "Nothing: every register does what the manual says.\n"
+                               : "Every register does what the manual says.\n";
+    return page;
+  }
+  page +=
+      "These registers exist, with the manual's access and range, and the daemon says so once when one is "
+      "used.\n\n" +
+      format_sheet(missing, SheetFormat::markdown);
+  return page;
+}
+
+}  // namespace understudy::emulator

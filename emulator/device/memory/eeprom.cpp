@@ -1,0 +1,106 @@
+#include "emulator/device/memory/eeprom.h"
+
+#include <algorithm>
+
+#include "base/state/state_error.h"
+
+namespace understudy::emulator {
+
+Eeprom::Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept)
+    : kept_(factory.begin(), factory.end()) {
+  for (const bool kept : is_kept) slots_.push_back(kept ? Slot::rests : Slot::not_kept);
+}
+
+void Eeprom::begin(Tick at) { done_at_ = jobs_.empty() ? kNever : at + jobs_.front().takes; }
+
+void Eeprom::keep(std::size_t slot, std::uint32_t bits) {
+  if (kept_[slot] == bits) return;
+  kept_[slot] = bits;
+  ++revision_;
+}
+
+void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same) {
+  const std::vector<std::uint32_t>& before = rewriting_.empty() ? kept_ : rewriting_;
+  if (slots_[slot] != Slot::rests || (before[slot] == bits && !even_if_same)) return;
+  slots_[slot] = Slot::waits;
+  jobs_.push_back({static_cast<std::uint32_t>(slot), takes});
+  // The first of them begins with the next tick.
+  if (jobs_.size() == 1) begin(now + 1);
+}
+
+void Eeprom::rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now) {
+  forget_jobs();
+  rewriting_.assign(image.begin(), image.end());
+  jobs_.push_back({kEverything, takes});
+  begin(now + 1);
+}
+
+void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
+  while (done_at_ <= tick) {
+    const Job done = jobs_.front();
+    jobs_.erase(jobs_.begin());
+    if (done.slot == kEverything) {
+      // Not what has been written since: that waits, and may yet be lost.
+      keep_all(rewriting_);
+      rewriting_.clear();
+    } else {
+      slots_[done.slot] = Slot::rests;
+      keep(done.slot, image[done.slot]);
+    }
+    begin(done_at_);
+  }
+}
+
+void Eeprom::keep_all(std::span<const std::uint32_t> image) {
+  for (std::size_t slot = 0; slot < kept_.size(); ++slot) {
+    if (slots_[slot] != Slot::not_kept) keep(slot, image[slot]);
+  }
+}
+
+void Eeprom::settle(std::span<const std::uint32_t> image) {
+  forget_jobs();
+  keep_all(image);
+}
+
+void Eeprom::forget_jobs() {
+  for (const Job& job : jobs_) {
+    if (job.slot != kEverything) slots_[job.slot] = Slot::rests;
+  }
+  jobs_.clear();
+  rewriting_.clear();
+  done_at_ = kNever;
+}
+
+void Eeprom::lose_power() { forget_jobs(); }
+
+void Eeprom::check_restored(const Eeprom& earlier) const {
+  constexpr Tick kLongestJob = 1'000'000;
+  demand_state(kept_.size() == earlier.kept_.size() && slots_.size() == earlier.slots_.size(),
+               "it is the memory of other registers");
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    demand_state((slots_[slot] == Slot::not_kept) == (earlier.slots_[slot] == Slot::not_kept),
+                 "it is the memory of other registers");
+  }
+  // A waiting register has one job, whose place it keeps; to write everything comes before all others.
+  std::vector<Slot> left = slots_;
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    const Job& job = jobs_[i];
+    demand_within(job.takes, 0, kLongestJob);
+    if (job.slot == kEverything) {
+      demand_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot write everything");
+    } else {
+      demand_state(job.slot < left.size() && left[job.slot] == Slot::waits, "the memory writes in disorder");
+      left[job.slot] = Slot::rests;
+    }
+  }
+  demand_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),
+               "the memory writes in disorder");
+  const bool rewrites = !jobs_.empty() && jobs_.front().slot == kEverything;
+  demand_state(rewrites || rewriting_.empty(), "the memory cannot write everything");
+  demand_state(jobs_.empty() == (done_at_ == kNever), "the memory writes without end");
+  if (done_at_ != kNever) demand_reach(done_at_);
+}
+
+void Eeprom::put(std::size_t slot, std::uint32_t bits) { keep(slot, bits); }
+
+}  // namespace understudy::emulator

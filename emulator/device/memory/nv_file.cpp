@@ -1,0 +1,98 @@
+#include "emulator/device/memory/nv_file.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "base/files/output_file.h"
+#include "base/files/text_file.h"
+
+namespace understudy::emulator {
+
+std::optional<NvImage> read_nv_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return std::nullopt;
+  const auto text = read_text_file(path);
+  if (!text) throw NvError(path + ": file: " + text.why + "; expected an NV image");
+  try {
+    return parse_nv_image(*text);
+  } catch (const NvError& wrong) {
+    throw NvError(path + ": " + wrong.what());
+  }
+}
+
+std::string why_not_replaceable_by_image(const std::string& path) {
+  try {
+    if (std::error_code ignored; !std::filesystem::exists(output_target(path), ignored)) return "";
+    read_nv_file(path);
+    return "";
+  } catch (const OutputError& error) {
+    return error.what();
+  } catch (const NvError&) {
+    return "it is not an NV image; expected one to replace, or a free path";
+  }
+}
+
+NvWriter::NvWriter() : thread_([this] { run(); }) {}
+
+NvWriter::~NvWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_finishing_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void NvWriter::write(const std::string& path, std::string contents) {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_[path] = std::move(contents);
+  }
+  changed_.notify_all();
+}
+
+void NvWriter::flush() {
+  std::unique_lock lock(mutex_);
+  is_hurried_ = true;
+  changed_.notify_all();
+  changed_.wait(lock, [this] { return waiting_.empty() && !is_busy_; });
+  is_hurried_ = false;
+}
+
+bool NvWriter::is_idle() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_.empty() && !is_busy_ && news_.empty();
+}
+
+std::vector<std::string> NvWriter::take_news() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(news_, {});
+}
+
+void NvWriter::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return !waiting_.empty() || is_finishing_; });
+    if (waiting_.empty()) return;
+    changed_.wait_for(lock, kCoalesce, [this] { return is_finishing_ || is_hurried_; });
+    const auto work = std::exchange(waiting_, {});
+    is_busy_ = true;
+    lock.unlock();
+    for (const auto& [path, contents] : work) replace(path, contents);
+    lock.lock();
+    is_busy_ = false;
+    changed_.notify_all();
+  }
+}
+
+void NvWriter::replace(const std::string& path, const std::string& contents) {
+  const std::string why = replace_text_file(path, contents);
+  bool& has_failed = has_failed_[path];
+  if (!why.empty() == has_failed) return;
+  has_failed = !why.empty();
+  const std::lock_guard lock(mutex_);
+  news_.push_back(path + (why.empty() ? ": is written again"
+                                      : ": cannot be written (" + why + "); what it held before stays"));
+}
+
+}  // namespace understudy::emulator

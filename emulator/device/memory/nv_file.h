@@ -1,0 +1,59 @@
+// NV images on disk. A file is replaced as a whole by one that has been written beside it, so that whoever
+// reads it, and whenever the writer dies, finds the old image or the new one.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "emulator/device/memory/nv_image.h"
+
+namespace understudy::emulator {
+
+/// Nothing if there is no file. Throws NvError "path: field: what is wrong"; the file is left as it is.
+std::optional<NvImage> read_nv_file(const std::string& path);
+
+/// Why no image may be put there: there is something else. Empty if the path is free or has an image.
+std::string why_not_replaceable_by_image(const std::string& path);
+
+/// Writes images for an owner that may not wait: a helper thread does it.
+class NvWriter {
+ public:
+  /// Images of one file that follow each other sooner than this are written once, the last of them.
+  static constexpr std::chrono::milliseconds kCoalesce{100};
+
+  NvWriter();
+  ~NvWriter();  // writes what waits
+  NvWriter(const NvWriter&) = delete;
+  NvWriter& operator=(const NvWriter&) = delete;
+
+  /// Takes the file's new contents.
+  void write(const std::string& path, std::string contents);
+  /// Waits until everything taken is on the disk, or was refused by it.
+  void flush();
+  /// Nothing waits, nothing is being written, and there is no news.
+  bool is_idle() const;
+  /// What there is to tell since the last call: a line when a file cannot be written, and when it can again.
+  std::vector<std::string> take_news();
+
+ private:
+  void run();
+  void replace(const std::string& path, const std::string& contents);
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, std::string> waiting_;  // by path
+  std::vector<std::string> news_;
+  bool is_busy_ = false;
+  bool is_hurried_ = false;  // somebody waits: do not wait for more
+  bool is_finishing_ = false;
+  std::map<std::string, bool> has_failed_;  // of the helper thread
+  std::thread thread_;                      // last: it uses all the others
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,34 @@
+// NV images: a device's non-volatile memory as a value, and as a file: JSON that people read and compare. It
+// names what differs from the factory's values, in the order of the model's table. Real numbers and a stored
+// program are there for models whose memory has such.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace understudy::emulator {
+
+struct NvImage {
+  std::string model;
+  std::string firmware;                                           // of the device that wrote it; for people
+  std::vector<std::pair<std::string, std::int64_t>> registers{};  // by the manual's names
+  std::vector<std::pair<std::string, double>> reals{};            // finite
+  std::vector<std::string> program{};                             // its lines
+
+  bool operator==(const NvImage&) const = default;
+};
+
+/// An image that cannot be used: one line, "field: what is wrong; what was expected".
+struct NvError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::string to_json(const NvImage& image);
+/// Throws NvError for text that is torn, not JSON, or no NV image. Whether the names and values suit the
+/// device is for Device::load_nv().
+NvImage parse_nv_image(const std::string& text);
+
+}  // namespace understudy::emulator

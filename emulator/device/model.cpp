@@ -1,0 +1,153 @@
+#include "emulator/device/model.h"
+
+#include <algorithm>
+
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/device.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/setting_entry.h"
+
+namespace understudy::emulator {
+
+const Model* find_model(ModelList models, std::string_view name) {
+  const auto has_name = [&](const Model* model) { return model->name == name; };
+  const auto found = std::find_if(models.begin(), models.end(), has_name);
+  return found == models.end() ? nullptr : *found;
+}
+
+int find_terminal(const Model& model, std::string_view name) {
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    if (model.terminals[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int find_axis(const Model& model, std::string_view name) {
+  for (std::size_t i = 0; i < model.axes.size(); ++i) {
+    if (model.axes[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+Firmware parse_firmware(std::string_view text) {
+  if (text.size() != 4 || text[1] != '.') return 0;
+  int hundredths = 0;
+  for (const std::size_t i : {0, 2, 3}) {
+    if (text[i] < '0' || text[i] > '9') return 0;
+    hundredths = hundredths * 10 + (text[i] - '0');
+  }
+  return static_cast<Firmware>(hundredths);
+}
+
+namespace {
+
+template <typename Items, typename Format>
+std::string list_of(const Items& items, Format format) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ", ") + format(item);
+  return text;
+}
+
+void check(const Model& model, const DeviceSettings& settings) {
+  const auto& firmwares = model.firmwares;
+  if (settings.firmware != 0 &&
+      std::find(firmwares.begin(), firmwares.end(), settings.firmware) == firmwares.end()) {
+    throw SettingError("firmware", "'" + version_text(settings.firmware) + "' is unknown for " +
+                                       std::string(model.name) + "; expected one of " +
+                                       list_of(firmwares, version_text));
+  }
+  if (settings.modules != 0 && (settings.modules < 1 || settings.modules > model.most_modules)) {
+    throw SettingError(
+        "modules",
+        std::to_string(settings.modules) + " is not possible: " + std::string(model.name) +
+            (model.most_modules == 0 ? " has no modules; expected none"
+                                     : " has 1 to " + std::to_string(model.most_modules) + " of them"));
+  }
+  const bool has_address = model.protocol() == Protocol::modbus_rtu;
+  if (has_address &&
+      (settings.address < model.rtu.lowest_address || settings.address > model.rtu.highest_address)) {
+    throw SettingError("address", std::to_string(settings.address) + " is not a station number of " +
+                                      std::string(model.name) + "; expected " +
+                                      std::to_string(model.rtu.lowest_address) + " to " +
+                                      std::to_string(model.rtu.highest_address));
+  }
+  const auto bauds = model.bauds();
+  if (settings.baud != 0 && std::find(bauds.begin(), bauds.end(), settings.baud) == bauds.end()) {
+    throw SettingError("baud", std::to_string(settings.baud) + " is not a speed of " +
+                                   std::string(model.name) + "; expected one of " +
+                                   list_of(bauds, [](int baud) { return std::to_string(baud); }));
+  }
+}
+
+int demand_switch(const Model& model, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    if (model.terminals[i].kind != TerminalRow::Kind::dip_switch) continue;
+    if (model.terminals[i].name == name) return static_cast<int>(i);
+    names.emplace_back(model.terminals[i].name);
+  }
+  throw SettingEntryError("dip", name,
+                          quoted(name) + " is not a switch of " + std::string(model.name) +
+                              suggestion(name, names, "it has none"));
+}
+
+void demand_choices(const Model& model, const DeviceSettings& settings) {
+  for (const auto& [id, option] : settings.choices) {
+    try {
+      resolve_choices(model.choices, {{id, option}});
+    } catch (const ChoiceError& error) {
+      throw SettingEntryError("choices", id, error.what());
+    }
+  }
+}
+
+void set_registers(Device& device, const DeviceSettings& settings) {
+  const RegisterMap& registers = device.registers();
+  for (const auto& [name, value] : settings.set) {
+    const auto place = registers.find(name, settings.firmware);
+    if (!place) throw SettingEntryError("set", name, registers.why_not(name, settings.firmware));
+    switch (write_value(device, *place, value)) {
+      case Refusal::none: break;
+      case Refusal::no_register:
+        throw SettingEntryError("set", name, "cannot be written; it is read-only",
+                                name + " cannot be written; it is read-only");
+      case Refusal::bad_value: {
+        const std::string expected = "; expected " + range_text(*place->place.row);
+        throw SettingEntryError("set", name, std::to_string(value) + " is out of range" + expected,
+                                std::to_string(value) + " is out of range for " + name + expected);
+      }
+    }
+  }
+  for (const auto& [name, value] : settings.assignments) {
+    if (const auto complaint = device.assign(name, value))
+      throw SettingEntryError("set", name, *complaint, name + ": " + *complaint);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
+                                    std::function<void(const std::string&)> log) {
+  check(model, given);
+  DeviceSettings settings = given;
+  if (settings.firmware == 0) settings.firmware = model.firmwares.back();
+  if (settings.baud == 0) settings.baud = model.bauds().front();
+
+  demand_choices(model, settings);
+  std::unique_ptr<Device> device = model.make(settings);
+  device->set_log(std::move(log));
+  for (const auto& [name, on] : settings.dip) device->set_input(demand_switch(model, name), on ? 1 : 0);
+  if (settings.nv) device->load_nv(*settings.nv);
+  device->switch_power(true);
+  if (const int baud = device->line_settings().baud; given.baud != 0 && baud != given.baud) {
+    throw SettingError("dip", "the switches say " + std::to_string(baud) + " baud, the line " +
+                                  std::to_string(given.baud) + "; expected the same");
+  }
+  if (!settings.program.empty()) device->load_program(settings.program);
+  set_registers(*device, settings);
+  device->settle_memory();
+  return device;
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,196 @@
+// A model: a kind of controller, as its maker's manual defines it. All of it is data; what cannot be
+// said as data is in the device that `make` makes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/choices.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/register_map/register_map.h"
+#include "pty/line_settings.h"
+
+namespace understudy::emulator {
+
+class Device;
+
+/// A row of a model's parameter numbers: `count` numbers from `first` on name the registers called
+/// `register_name`, counted from its first one.
+struct ParameterRow {
+  int first = 0;
+  int count = 1;
+  std::string_view register_name;  // as in the register table, "{}" for the number
+};
+
+/// A row of a table of parameters that are values of their own, of a model without registers.
+struct NamedParameterRow {
+  std::string_view number;  // "PN10", if the maker counts them
+  std::string_view name;    // "VM"
+  int width = 32;           // bits
+  bool persistent = true;
+  std::string least{};
+  std::string most{};
+  std::string_view unit{};
+  std::string factory{};
+  std::string_view meaning{};
+  std::string_view unmodelled{};  // what is missing, if it is only stored
+};
+
+/// A row of a model's instruction table.
+struct InstructionRow {
+  int opcode = 0;
+  std::string_view mnemonic;
+  std::string_view data1;
+  std::string_view data2;
+  std::string_view meaning{};
+};
+
+/// A section of a manual that is written in another language than English: the rows of a model name it as the
+/// manual does.
+struct SectionRow {
+  std::string_view name;
+  std::string_view in_english;
+};
+
+/// A row of a model's table of text commands.
+struct CommandRow {
+  std::string_view command;  // the word that it is known by: "MA"
+  std::string_view syntax;   // "MA x"
+  std::string_view meaning;
+  std::string_view where{};  // it may be given
+};
+
+/// A point where the device meets the outside, as its manual names it.
+struct TerminalRow {
+  enum class Kind : std::uint8_t {
+    digital_in,     // 1: conducting
+    digital_out,    // 1: conducting
+    analog_in,      // millivolts
+    analog_number,  // an analog input that the maker counts in no unit
+    dip_switch,     // on the housing: 1 is ON
+  } kind;
+  std::string_view name;
+  std::int32_t lowest = 0;  // levels that it can be given
+  std::int32_t highest = 1;
+};
+
+constexpr bool is_input(TerminalRow::Kind kind) { return kind != TerminalRow::Kind::digital_out; }
+constexpr bool is_analog(TerminalRow::Kind kind) {
+  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number;
+}
+
+/// A motor axis, and where the switches of the machine that it drives are wired to.
+struct AxisRow {
+  std::string_view name;       // "A": a bench calls its machine DEVICE.A
+  int upper_limit_input = -1;  // numbers of terminals
+  int lower_limit_input = -1;
+  int home_input = -1;
+  int alarm_input = -1;  // and of its drive
+  int ready_input = -1;
+  int servo_output = -1;
+  int alarm_clear_output = -1;
+  int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
+};
+
+/// How the model listens on a Modbus RTU line.
+struct RtuRules {
+  std::span<const int> bauds;               // the speeds it can be set to, the factory's first
+  pty::LineSettings settings;               // the rest; `baud` is replaced by the chosen one
+  pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
+  std::span<const std::uint8_t> functions;  // function codes it knows
+  int lowest_address = 1;
+  int highest_address = 247;
+};
+
+/// What a line carries between hosts and a model.
+enum class Protocol : std::uint8_t { modbus_rtu, text };
+
+inline constexpr int kTextBauds[] = {9600};
+
+/// How the model listens on a line of text. Such a device is alone on its line.
+struct TextPort {
+  std::span<const int> bauds = kTextBauds;  // the speeds it can be set to, the factory's first
+  pty::LineSettings settings{.baud = 9600, .data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1};
+};
+
+/// What makes one device of a model.
+struct DeviceSettings {
+  std::string name;
+  Firmware firmware = 0;                           // 0: the model's default
+  int address = 1;                                 // its station number
+  int baud = 0;                                    // 0: the factory's
+  int modules = 0;                                 // of a chain; 0: as many as the model has without it
+  std::map<std::string, std::string> choices;      // overrides
+  std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
+  std::optional<NvImage> nv;                       // what its memory holds; the factory's without one
+  std::string program;                             // text, loaded when it is made
+  std::string program_name;                        // the file it is from, for messages
+  std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
+  std::vector<std::pair<std::string, double>> assignments{};  // the same for a model without registers
+};
+
+struct Model {
+  std::string_view name;  // "simple2-r3"
+  std::string_view title;
+  std::span<const Firmware> firmwares;  // oldest first; the last is the default
+  const RegisterMap& registers;
+  std::span<const ParameterRow> parameters;
+  std::span<const NamedParameterRow> named_parameters{};
+  std::span<const InstructionRow> instructions;
+  std::span<const CommandRow> commands{};
+  std::span<const ChoiceRow> choices;
+  std::span<const SectionRow> sections{};
+  std::span<const TerminalRow> terminals;
+  std::span<const AxisRow> axes;
+  std::span<const std::string_view> state_registers;  // those that tell best what it is doing
+  std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
+  RtuRules rtu{};
+  std::optional<TextPort> text{};  // it speaks text, and no Modbus
+  int most_modules = 0;            // that one device can consist of; 0: it is not a chain
+  /// Settings are checked by make_device() before it is called.
+  std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
+
+  Protocol protocol() const { return text ? Protocol::text : Protocol::modbus_rtu; }
+  std::span<const int> bauds() const { return text ? text->bauds : rtu.bauds; }
+};
+
+/// Those that benches may name: handed down by whoever knows them.
+using ModelList = std::span<const Model* const>;
+/// Null if there is none of that name.
+const Model* find_model(ModelList models, std::string_view name);
+
+/// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
+int find_terminal(const Model& model, std::string_view name);
+int find_axis(const Model& model, std::string_view name);
+
+/// What is wrong with a device's settings: which of them, and what was expected.
+struct SettingError : std::runtime_error {
+  SettingError(std::string setting_name, const std::string& what_is_wrong)
+      : std::runtime_error(setting_name + ": " + what_is_wrong), setting(std::move(setting_name)) {}
+  std::string setting;
+};
+
+/// A program that a device cannot take: one line, with the line of the text where it went wrong.
+struct ProgramError : std::runtime_error {
+  ProgramError(int line_of_text, const std::string& what_is_wrong)
+      : std::runtime_error(what_is_wrong), line(line_of_text) {}
+  int line = 0;  // from 1; 0: the whole
+};
+
+/// Checks the settings against the model, makes the device, gives it its memory, its power, its program and
+/// the registers of `set` their values; what of that is persistent is kept at once. Throws SettingError,
+/// NvError, ProgramError. `log` gets what the device has to tell, from its settings on.
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& settings,
+                                    std::function<void(const std::string&)> log = {});
+
+/// "1.52" as 152; 0 if it is not a version.
+Firmware parse_firmware(std::string_view text);
+
+}  // namespace understudy::emulator

@@ -1,0 +1,24 @@
+// What is wrong with one entry of a setting that has many.
+#pragma once
+
+#include <string>
+
+#include "emulator/device/model.h"
+
+namespace understudy::emulator {
+
+/// Of `set`, `choices` or `dip`.
+struct SettingEntryError : SettingError {
+  /// `told`: what is wrong where the entry is not named beside it.
+  SettingEntryError(std::string setting_name, std::string entry_name, std::string what_is_wrong,
+                    const std::string& told)
+      : SettingError(std::move(setting_name), told),
+        entry(std::move(entry_name)),
+        complaint(std::move(what_is_wrong)) {}
+  SettingEntryError(std::string setting_name, std::string entry_name, const std::string& what_is_wrong)
+      : SettingEntryError(std::move(setting_name), std::move(entry_name), what_is_wrong, what_is_wrong) {}
+  std::string entry;
+  std::string complaint;
+};
+
+}  // namespace understudy::emulator

@@ -1,0 +1,15 @@
+#include "emulator/models/models.h"
+
+#include <array>
+
+#include "emulator/models/simple2_r3/model.h"
+#include "emulator/models/slim/model.h"
+
+namespace understudy::emulator::models {
+
+ModelList all_models() {
+  static const std::array<const Model*, 2> models{&simple2_r3::model(), &slim::model()};
+  return models;
+}
+
+}  // namespace understudy::emulator::models

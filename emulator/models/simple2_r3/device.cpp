@@ -1,0 +1,314 @@
+#include "emulator/models/simple2_r3/device.h"
+
+#include <algorithm>
+
+#include "base/prefetch.h"
+#include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/model.h"
+#include "emulator/models/simple2_r3/program_machine.h"
+#include "motion/homing_tables.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+namespace {
+
+std::int32_t in_32_bits(std::int64_t value, bool saturates) {
+  if (saturates) return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, INT32_MIN, INT32_MAX));
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
+}
+
+}  // namespace
+
+std::uint32_t resolution_of(const State& state, int axis) {
+  return std::clamp<std::uint32_t>(state.image[kAxisSlots[static_cast<std::size_t>(axis)].resolution], 1,
+                                   0x8000'0000U);
+}
+
+Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), given) {
+  dialect_ = dialect_of(*this);
+  map_policy_ = chosen_map_policy();
+  timer_unit_ = chose(kTimer10ms) ? 10 : chose(kTimer100ms) ? 100 : 1;
+  assigned_at_power_up_ = chose(kAssignedAtPowerUp);
+  adc_10_bits_ = chose(kAdc10Bits);
+  motion_first_ = chose(kMotionFirst);
+  limits_physical_ = chose(kLimitsPhysical);
+  alarm_latches_ = chose(kAlarmLatched);
+  alarm_takes_servo_ = chose(kAlarmTakesServo);
+  coordinate_saturates_ = chose(kCoordinateSaturates);
+  velocity_unit_urpm_ = chose(kVelocity2RpmPerSecond) ? 1000 : 1;
+  velocity_pulses_first_ = chose(kVelocityPulsesFirst);
+  velocity_settings_latched_ = chose(kVelocitySettingsLatched);
+  stops_with_encoder_ = chose(kStopsWithEncoder);
+  sync_follows_other_ = chose(kSyncFollowsOther);
+  counts_physical_sense_ = firmware() <= 140;
+  boot_ticks_ = chose(kBoot100ms) ? 100 : chose(kBoot1s) ? 1000 : 0;
+  state_.eeprom = factory_memory();
+  set_input(kFirstSwitch, settings().baud == simple2_r3::model().rtu.bauds.back() ? 1 : 0);  // DIP1
+}
+
+Addressing Simple2R3::addressing(std::uint8_t address) const {
+  if (now() + 1 < state_.first_tick) return Addressing::ignore;  // not up yet
+  const int rotary_switch = settings().address;
+  if (rotary_switch == 0) {
+    return address == 0 && chose(kSwitch0Silent) ? Addressing::obey_silently : Addressing::obey_and_reply;
+  }
+  if (address == rotary_switch) return Addressing::obey_and_reply;
+  if (address == 0 && !chose(kStation0Ignored)) return Addressing::obey_silently;
+  return Addressing::ignore;
+}
+
+MapPolicy Simple2R3::chosen_map_policy() const {
+  MapPolicy policy = registers().policy();
+  if (chose(kUnmappedReadsZero)) policy.unmapped = MapPolicy::Unmapped::reads_zero;
+  if (chose(kWriteToReadOnlyIgnored)) policy.read_only = MapPolicy::ReadOnly::ignores_writes;
+  if (chose(kReadOfWriteOnlyRefused)) policy.write_only = MapPolicy::WriteOnly::refused;
+  if (chose(kHalvesJudged)) policy.halves = MapPolicy::Halves::judged_with_the_other;
+  if (chose(kWriteClamped)) policy.out_of_range = MapPolicy::OutOfRange::clamped;
+  if (chose(kStoredUpToBadWord)) policy.partly = MapPolicy::Partly::up_to_the_refused;
+  if (chose(kEffectsInTurn)) policy.effects = MapPolicy::Effects::one_by_one;
+  return policy;
+}
+
+pty::LineSettings Simple2R3::line_settings() const {
+  pty::LineSettings line = Device::model().rtu.settings;
+  line.baud = Device::model().rtu.bauds[dip_switch(0) ? 1 : 0];
+  return line;
+}
+
+bool Simple2R3::assigned(std::size_t assignment_slot) const {
+  if (!assigned_at_power_up_) return state_.image[assignment_slot] != 0;
+  return ((state_.assignments >> (assignment_slot - kFirstAssignment)) & 1) != 0;
+}
+
+bool Simple2R3::assigned_input(std::size_t assignment_slot, int number) const {
+  return assigned(assignment_slot) && ((inputs() >> number) & 1) != 0;
+}
+
+bool Simple2R3::alarm(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  if (!assigned(slots.alarm_assigned)) return false;
+  const bool on = ((inputs() >> slots.alarm_input) & 1) != 0;
+  return on != (state_.image[slots.alarm_polarity] == 1) ||
+         state_.axes[static_cast<std::size_t>(axis)].alarm_latched;
+}
+
+bool Simple2R3::ready(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return assigned_input(slots.ready_assigned, slots.ready_input);
+}
+
+bool Simple2R3::upper_limit(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return assigned_input(slots.upper_assigned, slots.upper_input);
+}
+
+bool Simple2R3::lower_limit(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return assigned_input(slots.lower_assigned, slots.lower_input);
+}
+
+bool Simple2R3::alarm_clear(int axis) const {
+  return now() < state_.axes[static_cast<std::size_t>(axis)].alarm_clear_until;
+}
+
+bool Simple2R3::output_level(int number) const {
+  for (int axis = 0; axis < 2; ++axis) {
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+    if (number == slots.servo_output && assigned(slots.servo_output_assigned)) {
+      return state_.axes[static_cast<std::size_t>(axis)].motor.servo_on ==
+             (state_.image[slots.servo_polarity] == 1);
+    }
+    if (number == slots.alarm_clear_output && assigned(slots.alarm_clear_output_assigned)) {
+      return alarm_clear(axis);
+    }
+  }
+  return ((state_.written_outputs >> number) & 1) != 0;
+}
+
+void Simple2R3::write_outputs(std::uint8_t which, std::uint8_t levels) {
+  // DOUT 0 to 3 are the first of the registers that assign functions.
+  for (unsigned n = 0; n < 4 && chose(kWriteUnderFunctionIgnored); ++n) {
+    if (assigned(kFirstAssignment + n)) which = static_cast<std::uint8_t>(which & ~(1U << n));
+  }
+  std::uint8_t& outputs = state_.written_outputs;
+  outputs = static_cast<std::uint8_t>((outputs & ~which) | (levels & which));
+}
+
+motion::Signals Simple2R3::signals_of(int axis) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  motion::Signals on = 0;
+  const auto add = [&](motion::Signal signal, bool is_on) {
+    if (is_on) on |= motion::bit(signal);
+  };
+  add(motion::Signal::alarm, alarm(axis));
+  const bool swapped = limits_physical_ && state_.image[slots.direction_polarity] != 0;
+  add(motion::Signal::limit_plus, swapped ? lower_limit(axis) : upper_limit(axis));
+  add(motion::Signal::limit_minus, swapped ? upper_limit(axis) : lower_limit(axis));
+  add(motion::Signal::home, assigned_input(slots.home_assigned, slots.home_input));
+  return on;
+}
+
+std::uint16_t Simple2R3::adc_at(int number) const {
+  // Millivolts. As the factory's calibration has it: 4000 at 10 V, or 1000.
+  const std::int32_t level = input(kFirstAnalog + number);
+  const std::int32_t adc = adc_10_bits_ ? std::min(level / 10, 1023) : std::min(level * 2 / 5, 4095);
+  return static_cast<std::uint16_t>(std::max(adc, 0));
+}
+
+std::uint16_t Simple2R3::input_levels() const {
+  std::uint32_t levels = 0;
+  for (int i = 0; i < kInputCount; ++i) levels |= static_cast<std::uint32_t>(input(i)) << i;
+  return static_cast<std::uint16_t>(levels);
+}
+
+void Simple2R3::sample_inputs(Tick) {
+  if (!take_inputs_changed()) return;
+  const std::uint16_t levels = input_levels();
+  if (levels != state_.inputs) state_.touched = true;
+  state_.inputs = levels;
+  for (int i = 0; i < kAnalogCount; ++i) state_.adc[static_cast<std::size_t>(i)] = adc_at(i);
+}
+
+bool Simple2R3::sees_something_new() const {
+  if (!inputs_changed()) return false;
+  if (input_levels() != state_.inputs) return true;
+  for (int i = 0; i < kAnalogCount; ++i) {
+    if (adc_at(i) != state_.adc[static_cast<std::size_t>(i)]) return true;
+  }
+  return false;
+}
+
+bool Simple2R3::starts_by_itself() const { return state_.image[slot("AutoStart_MainProg")] != 0; }
+
+void Simple2R3::run_interpreters(Tick tick) {
+  if (!motion_first_) run_program(tick);
+}
+
+void Simple2R3::run_program(Tick tick) {
+  if (tick == state_.first_tick && starts_by_itself()) start_program(0);
+  if (!state_.execution.running || tick % interpreter::simple2::kSlotMs != 0) return;
+  ProgramMachine machine(*this);
+  interpreter::simple2::step(state_.execution, tick, state_.program, dialect_, machine);
+  if (!state_.execution.running) program_has_ended();
+}
+
+void Simple2R3::heed_servo(int axis_number) {
+  motion::Axis& motor = state_.axes[static_cast<std::size_t>(axis_number)].motor;
+  const bool matters = servo_matters(axis_number);
+  if (matters == motor.settings.needs_servo) return;
+  motor.settings.needs_servo = matters;
+  if (lacks_servo(axis_number)) stop(axis_number);
+}
+
+void Simple2R3::step_motion(Tick tick) {
+  for (int number = 0; number < 2; ++number) {
+    AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(number)];
+    if (alarm_latches_) axis.alarm_latched = alarm(number);
+    if (alarm_takes_servo_ && axis.motor.servo_on && alarm(number)) switch_servo(number, false);
+    if (state_.touched || alarm_latches_) {
+      heed_servo(number);
+      meet(number, signals_of(number));
+    }
+    DriveSettings settings{.encoder_counts = followed_count(number),
+                           .stops_with_encoder = stops_with_encoder_,
+                           .pulses_by_speed_before = velocity_pulses_first_};
+    if (axis.mode == Mode::velocity) {
+      const bool latched = velocity_settings_latched_;
+      settings.pulses_per_revolution = latched ? axis.velocity_resolution : resolution_of(state_, number);
+      settings.velocity_step_urpm = latched ? axis.velocity_step_urpm : velocity_step_urpm(number);
+    }
+    const std::int64_t commanded = step_drive(axis, settings, tick);
+    const bool reversed = state_.image[slots.direction_polarity] != 0;
+    axis.pulses_this_tick = reversed ? -commanded : commanded;
+    const std::int64_t counted = quirk_coordinate_counts_physical_sense() ? axis.pulses_this_tick : commanded;
+    axis.coordinate_pulses = in_32_bits(axis.coordinate_pulses + counted, coordinate_saturates_);
+    const bool home_found = (axis.motor.events & motion::bit(motion::Event::homed)) != 0;
+    if (home_found && !chose(kHomeKeepsCoordinate)) axis.coordinate_pulses = 0;
+  }
+  state_.touched = false;
+  if (motion_first_) {
+    set_now(tick);  // what a line starts begins in the next tick
+    run_program(tick);
+  }
+}
+
+void Simple2R3::update_outputs(Tick tick) {
+  for (AxisState& axis : state_.axes) {
+    remember_encoder(axis, tick);
+    if (tick >= axis.alarm_clear_until) axis.alarm_clear_until = 0;
+  }
+  state_.eeprom.step(tick, state_.image);
+}
+
+Tick Simple2R3::next_active_tick(Tick done) const {
+  if (state_.touched) return done + 1;
+  if (done < state_.first_tick && starts_by_itself()) return state_.first_tick;
+  Tick next = state_.eeprom.next_active_tick();
+  if (state_.execution.running) {
+    next = std::min(next, done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs);
+  }
+  for (int number = 0; number < 2; ++number) {
+    const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
+    next = std::min(next, simple2_r3::next_active_tick(axis, done));
+    if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);
+  }
+  // Last, because it takes longest, and what moves need not be asked.
+  if (next > done + 1 && sees_something_new()) return done + 1;
+  return next;
+}
+
+void Simple2R3::prefetch(Tick tick) const {
+  Device::prefetch(tick);
+  prefetch_line(&dialect_);
+  prefetch_line(&state_);
+  for (const AxisState& axis : state_.axes) simple2_r3::prefetch(axis, tick);
+  prefetch_line(&state_.image[slot("Aaxis_DIR_Polarity")]);  // with the other polarities
+  if (tick % interpreter::simple2::kSlotMs != 0) return;
+  understudy::prefetch(&state_.image[slot("PROG_VAR{}")], 32 * sizeof(std::uint32_t));
+  prefetch_line(&state_.image[slot("Counter1_Value")]);
+  prefetch_line(&state_.program);
+}
+
+bool Simple2R3::same_state(const Device& other) const {
+  const auto* that = dynamic_cast<const Simple2R3*>(&other);
+  return that != nullptr && that->now() == now() && that->state_ == state_;
+}
+
+bool Simple2R3::output(int terminal) const {
+  return terminal >= kFirstOutput && terminal < kFirstOutput + kOutputCount &&
+         output_level(terminal - kFirstOutput);
+}
+
+std::int64_t Simple2R3::pulses_this_tick(int axis) const {
+  return state_.axes[static_cast<std::size_t>(axis)].pulses_this_tick;
+}
+
+std::uint32_t Simple2R3::resolution_in_velocity(int axis) const {
+  const AxisState& its = state_.axes[static_cast<std::size_t>(axis)];
+  return velocity_settings_latched_ ? its.velocity_resolution : resolution_of(state_, axis);
+}
+
+double Simple2R3::speed_pps(int axis) const {
+  const auto number = static_cast<std::size_t>(axis);
+  const AxisState& its = state_.axes[number];
+  const double speed = simple2_r3::speed_pps(its, now(), resolution_in_velocity(axis));
+  const bool reversed = state_.image[kAxisSlots[number].direction_polarity] != 0;
+  return (reversed ? -speed : speed) + 0.0;  // 0 has no sign
+}
+
+std::span<const std::string_view> Simple2R3::pulse_formats() const {
+  static constexpr std::array<std::string_view, 2> kFormats{"CW/CCW", "PLS/DIR"};  // by DIP2
+  return kFormats;
+}
+
+std::optional<int> Simple2R3::duty_percent(int axis) const {
+  return pwm_duty(state_.axes[static_cast<std::size_t>(axis)]);
+}
+
+void Simple2R3::set_encoder(int axis, std::int64_t counts) {
+  const auto number = static_cast<std::size_t>(axis);
+  count_encoder(state_.axes[number], counts, state_.image[kAxisSlots[number].encoder_polarity] != 0);
+}
+
+}  // namespace understudy::emulator::models::simple2_r3

@@ -1,0 +1,306 @@
+// Simple2-R3: a two-axis pulse controller on Modbus RTU. Its state is one value; what registers do is in
+// effects.cpp, what a tick does in device.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "emulator/device/device.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/registers.h"
+#include "interpreter/simple2/execution/execution.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+inline constexpr int kInputCount = 11;
+inline constexpr int kOutputCount = 7;
+inline constexpr int kAnalogCount = 2;
+inline constexpr int kSwitchCount = 2;
+// Where each kind begins among the terminals.
+inline constexpr int kFirstOutput = kInputCount;
+inline constexpr int kFirstAnalog = kFirstOutput + kOutputCount;
+inline constexpr int kFirstSwitch = kFirstAnalog + kAnalogCount;
+inline constexpr int kTerminalCount = kFirstSwitch + kSwitchCount;
+
+/// Timer1, Timer2: 32 bits, in units of its own time (Simple2R3::timer_time). Counted from when it was
+/// started, so it costs nothing.
+struct Timer {
+  std::uint32_t value = 0;  // at `since`
+  Tick since = 0;
+  bool running = false;
+
+  /// Beyond its 32 bits it goes on at 0, or stays where it is.
+  std::uint32_t at(Tick now, bool stays) const {
+    const std::uint64_t sum = value + (running ? static_cast<std::uint64_t>(now - since) : 0);
+    return stays && sum > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(sum);
+  }
+  void set(std::uint32_t new_value, Tick now) {
+    value = new_value;
+    since = now;
+  }
+  void run(bool on, Tick now, bool stays) {
+    set(at(now, stays), now);
+    running = on;
+  }
+
+  bool operator==(const Timer&) const = default;
+};
+
+/// How a program's moves run, where they do not share the axis's registers.
+struct ProgramSpeed {
+  std::uint32_t speed_rpm = 0;
+  std::uint32_t acceleration_10ms = 0;
+  std::uint32_t deceleration_10ms = 0;
+
+  bool operator==(const ProgramSpeed&) const = default;
+};
+
+/// Everything that a position move needs, latched when it starts (appendix A).
+struct MoveParameters {
+  std::int64_t distance_pulses = 0;
+  std::uint32_t speed_rpm = 0;
+  std::uint32_t acceleration_10ms = 0;
+  std::uint32_t deceleration_10ms = 0;
+  bool of_the_axis = false;  // the speed and times are those of its registers at 0x1002, 0x1008
+  bool by_trigger = false;   // it was started by the register that shows it
+
+  bool operator==(const MoveParameters&) const = default;
+};
+
+/// A command that waits for SVON, where a choice has it wait.
+struct KeptCommand {
+  Mode mode = Mode::position;
+  Command command = Command::none;  // of position mode; none: nothing waits
+  MoveParameters move{};
+  std::int64_t value = 0;  // mRPM, percent
+
+  bool operator==(const KeptCommand&) const = default;
+};
+
+/// Who stops an axis. An instruction and SVOFF stop it forcibly.
+enum class Stopping : std::uint8_t { forcibly, by_register };
+
+/// What a tick needs of it comes first and, up to the beginning of `eeprom`, on one cache line (a test looks
+/// at it).
+struct alignas(64) State {
+  bool touched = true;               // registers or inputs may have changed since motion looked at them
+  bool unlocked = true;              // PROG_UNLOCK
+  std::uint8_t switches = 0;         // bit n: DIP n + 1, as it was at power-up
+  std::uint8_t written_outputs = 0;  // bit n: the last level written to DOUT n
+  std::uint16_t inputs = 0;          // bit n: DIN n, as looked at in this tick
+  std::uint16_t assignments = 0;     // bit n: the register 0x0A00 + n, as it was at power-up
+  std::array<std::uint16_t, kAnalogCount> adc{};  // as looked at in this tick
+  std::uint16_t password = 0;  // NEW_PWD, whatever the image holds of it while it is locked
+  Tick first_tick = 1;         // after power-up: AutoStart_MainProg is looked at there
+  interpreter::simple2::Execution execution;
+  Eeprom eeprom;
+  std::array<AxisState, 2> axes;
+  alignas(64) std::array<std::uint32_t, kSlotCount> image{};
+  interpreter::simple2::Program program;  // the cells of the image, laid out to run
+  std::array<Timer, 2> timers;
+  std::array<ProgramSpeed, 2> program_speeds{};
+  std::array<KeptCommand, 2> kept{};  // by axis
+
+  bool operator==(const State&) const = default;
+};
+
+/// Pulses a revolution. A half of a 32-bit register may have been written alone, so it can hold anything: 0
+/// would divide by zero.
+std::uint32_t resolution_of(const State& state, int axis);
+
+class Simple2R3 final : public Device {
+ public:
+  explicit Simple2R3(const DeviceSettings& settings);
+
+  std::span<std::uint32_t> image() override { return state_.image; }
+  std::span<const std::uint32_t> image() const override { return state_.image; }
+  const MapPolicy& map_policy() const override { return map_policy_; }
+  bool answers_refusals() const override { return !chose(kRefusalsNotAnswered); }
+  void register_written(const RegisterRow& row, std::size_t slot) override;
+  void registers_written() override {
+    state_.touched = true;
+    was_saving_.reset();
+  }
+
+  bool keeps(const RegisterRow& row) const override;
+  std::span<const std::uint32_t> kept_image() const override { return state_.eeprom.kept(); }
+  std::uint64_t kept_revision() const override { return state_.eeprom.revision(); }
+  void settle_memory() override { state_.eeprom.settle(state_.image); }
+  void load_program(std::string_view listing) override;
+  std::string program_text() const override;
+
+  Addressing addressing(std::uint8_t address) const override;
+  pty::LineSettings line_settings() const override;
+
+  void sample_inputs(Tick tick) override;
+  void run_interpreters(Tick tick) override;
+  void step_motion(Tick tick) override;
+  void update_outputs(Tick tick) override;
+  Tick next_active_tick(Tick done) const override;
+  void prefetch(Tick tick) const override;
+  bool same_state(const Device& other) const override;
+
+  bool output(int terminal) const override;
+  std::int64_t pulses_this_tick(int axis) const override;
+  double speed_pps(int axis) const override;
+  /// What velocity mode goes by: as it is now, or as its last command found it.
+  std::uint32_t resolution_in_velocity(int axis) const;
+  double speed_of_pulses(int axis) const;
+  void set_encoder(int axis, std::int64_t counts) override;
+  std::string_view pulse_format() const override { return pulse_formats()[pulse_format_number()]; }
+  std::span<const std::string_view> pulse_formats() const override;
+  std::size_t pulse_format_number() const override { return dip_switch(1) ? 1 : 0; }
+  std::optional<int> duty_percent(int axis) const override;
+
+  // --- for effects.cpp ---------------------------------------------------------------------
+  /// DIN 0 to 10 as they were looked at in the last tick. Before the first one time has stood since power-up,
+  /// and they are looked at there.
+  std::uint16_t inputs() const { return is_just_up() ? input_levels() : state_.inputs; }
+  std::uint16_t adc(std::size_t number) const {
+    return is_just_up() ? adc_at(static_cast<int>(number)) : state_.adc[number];
+  }
+  State& state() { return state_; }
+  const State& state() const { return state_; }
+
+  /// Whether the register at `assignment_slot` (0x0A00 to 0x0A0D) gives its pin a function.
+  bool assigned(std::size_t assignment_slot) const;
+  bool alarm(int axis) const;
+  bool ready(int axis) const;
+  bool upper_limit(int axis) const;
+  bool lower_limit(int axis) const;
+  bool alarm_clear(int axis) const;
+  /// The level really on DOUT `number`, special functions included.
+  bool output_level(int number) const;
+  /// For each bit that is set in `which`, DOUT n is written the level of bit n.
+  void write_outputs(std::uint8_t which, std::uint8_t levels);
+
+  /// Appendix A. Dropped while the servo is off, an alarm lasts or a limit blocks that way.
+  void start_move(int axis, Command command, const MoveParameters& move);
+  /// Homing, by the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
+  void go_home(int axis, bool by_trigger = false);
+  /// The other modes. What each command does to what goes on is in reactions.h.
+  void run_velocity(int axis, std::int64_t milli_rpm);
+  void output_pwm(int axis, std::uint8_t percent);
+  void follow_encoder(int axis);
+  void stop(int axis, Stopping how = Stopping::forcibly);
+  void switch_servo(int axis, bool on);
+  /// EncSync, SyncRPM or SyncSlope of the axis were written.
+  void sync_changed(int axis);
+  /// Speed, AccTime, DecTime or Resoultion of the axis were written.
+  void speed_changed(int axis);
+  void preset_coordinate(int axis, std::int32_t pulses);
+  void clear_alarm(int axis);
+  /// A command that is not a write to DirectmRPM or DirectPWM, as these show it.
+  void show_velocity(int axis, std::int32_t milli_rpm);
+  void show_pwm(int axis, std::uint8_t percent);
+  void reset_to_factory();
+  void erase_program();
+  /// Compares PWD_Input with the password.
+  void judge_lock();
+  /// NEW_PWD was written; void while it is locked.
+  void change_password(std::uint16_t password);
+  bool unlocked() const;
+  void start_program(std::uint8_t line);
+  void stop_program();
+  /// The clock of the timers, in their unit.
+  Tick timer_time() const { return now() / timer_unit_; }
+  void run_timer(Timer& timer, bool on) { timer.run(on, timer_time(), chose(kTimersStay)); }
+  /// The image's cells have changed all at once.
+  void reload_program();
+  const interpreter::simple2::Dialect& dialect() const { return dialect_; }
+
+ protected:
+  void power_up() override;
+  void power_down() override;
+  void put_kept(std::size_t slot, std::uint32_t bits) override { state_.eeprom.put(slot, bits); }
+  void write_own_state(StateWriter& writer) const override;
+  std::function<void()> read_own_state(StateReader& reader) override;
+
+ private:
+  /// DIP1 is number 0.
+  bool dip_switch(int number) const;
+  std::uint8_t switch_levels() const;
+  /// No tick has been run since power-up.
+  bool is_just_up() const { return now() + 1 + boot_ticks_ == state_.first_tick; }
+  /// What is at the terminals now.
+  std::uint16_t input_levels() const;
+  std::uint16_t adc_at(int number) const;
+  bool sees_something_new() const;
+  Eeprom factory_memory() const;
+  /// A new state that has only the memory, and the encoders' counts.
+  void blank_state();
+  std::uint32_t factory_bits(const RegisterRow& row) const;
+  /// As they are when the power comes.
+  void reset_timers();
+  /// An input's level, if the register at `assignment_slot` gives it its special function.
+  bool assigned_input(std::size_t assignment_slot, int number) const;
+  /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").
+  bool quirk_coordinate_counts_physical_sense() const { return counts_physical_sense_; }
+
+  /// Appendix A and the 100 kHz limit: the law of a position move.
+  motion::SpeedLaw law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
+                          std::uint32_t deceleration_10ms) const;
+  MapPolicy chosen_map_policy() const;
+  bool is_too_fast(int axis, std::int64_t milli_rpm) const;
+  /// Where commands need Ready, and it is not there.
+  bool lacks_ready(int axis) const;
+  /// Whether SVOFF forbids anything.
+  bool servo_matters(int axis) const;
+  /// The servo is off, and matters.
+  bool lacks_servo(int axis) const;
+  /// What an axis does about an event, as it is now and as it was chosen.
+  Outcome reaction(int axis, Event event) const;
+  /// `towards` if a limit that is on forbids that way.
+  Event way_event(int axis, int way, Event towards, Event away) const;
+  /// Whether a command is carried out; otherwise what else comes of it is done.
+  bool may_begin(int axis, Outcome outcome, const KeptCommand& what);
+  void carry_out_kept(int axis);
+  void forget_kept(int axis);
+  /// Whether SVOFF forbids pulses may have changed.
+  void heed_servo(int axis);
+  /// Its limits and alarm are these from now on.
+  void meet(int axis, motion::Signals on);
+  void meet_in_sync(int axis, Outcome outcome);
+  bool ignores(motion::Signal signal) const;
+  void begin_following(int axis);
+  motion::Follower sync_follower(int axis) const;
+  /// The change of speed in 0.5 ms, by VelMode_ACC.
+  std::uint32_t velocity_step_urpm(int axis) const;
+  /// Of the encoder that sync mode follows.
+  std::int64_t followed_count(int axis) const;
+  /// The tick that a motion commanded now counts as the last one before it.
+  Tick tick_before_motion() const { return chose(kMoveBeginsOneTickIn) ? now() - 1 : now(); }
+  bool starts_by_itself() const;
+  void run_program(Tick tick);
+  void program_has_ended();
+  motion::Signals signals_of(int axis) const;
+  /// Gives the motor its signals as they are now, before a command that they may forbid.
+  void refresh_signals(int axis);
+
+  // From firmware and choices, for what is asked for often: no state. One cache line.
+  alignas(64) interpreter::simple2::Dialect dialect_;
+  bool assigned_at_power_up_ = false;
+  bool adc_10_bits_ = false;
+  bool motion_first_ = false;
+  bool limits_physical_ = false;
+  bool alarm_latches_ = false;
+  bool alarm_takes_servo_ = false;
+  bool coordinate_saturates_ = false;
+  std::uint32_t velocity_unit_urpm_ = 1;  // of VelMode_ACC, in each 0.5 ms
+  bool velocity_pulses_first_ = false;
+  bool velocity_settings_latched_ = false;
+  bool stops_with_encoder_ = false;
+  bool sync_follows_other_ = false;
+  bool counts_physical_sense_ = false;
+  Tick timer_unit_ = 1;
+
+  Tick boot_ticks_ = 0;
+  MapPolicy map_policy_;
+  std::optional<bool> was_saving_;  // within one request: whether the EEPROM was writing when it came
+  State state_;
+};
+
+}  // namespace understudy::emulator::models::simple2_r3

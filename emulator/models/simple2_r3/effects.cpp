@@ -1,0 +1,336 @@
+#include "emulator/models/simple2_r3/effects.h"
+
+#include <algorithm>
+
+#include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/device.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+namespace {
+
+Simple2R3& self(Device& device) { return static_cast<Simple2R3&>(device); }
+const Simple2R3& self(const Device& device) { return static_cast<const Simple2R3&>(device); }
+
+const AxisState& axis_of(const Device& device, Cell cell) {
+  return self(device).state().axes[static_cast<std::size_t>(cell.argument)];
+}
+
+/// Calls `act` for the axis that the cell names, or for both.
+template <typename Act>
+void for_each_axis(Cell cell, Act act) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (cell.argument == kAllAxes || cell.argument == axis) act(axis);
+  }
+}
+
+MoveParameters own_parameters(const Simple2R3& device, int axis) {
+  const auto& image = device.state().image;
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return {.distance_pulses = static_cast<std::int32_t>(image[slots.pulse]),
+          .speed_rpm = image[slots.speed],
+          .acceleration_10ms = image[slots.acc_time],
+          .deceleration_10ms = image[slots.dec_time],
+          .of_the_axis = true,
+          .by_trigger = true};
+}
+
+/// Only a choice has a set appear in the axis's registers.
+void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
+  if (!device.chose(kSetMoveCopied)) return;
+  auto& image = device.state().image;
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  image[slots.pulse] = static_cast<std::uint32_t>(set.distance_pulses);
+  image[slots.speed] = set.speed_rpm;
+  image[slots.acc_time] = set.acceleration_10ms;
+  image[slots.dec_time] = set.deceleration_10ms;
+}
+
+/// An axis's bit of STATUS: what the input means by its function, or, where it has none and a choice wants it
+/// so, the pin's level.
+bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slot, int input) {
+  if (device.assigned(assignment_slot) || !device.chose(kStatusShowsPin)) return by_function;
+  return ((device.inputs() >> input) & 1) != 0;
+}
+
+/// A trigger that goes on, as it reads.
+Value while_in_progress(const Device& device, Cell cell, Command command) {
+  const AxisState& axis = axis_of(device, cell);
+  const bool is_shown = axis.by_trigger || !self(device).chose(kTriggersByThemselves);
+  return axis.command == command && is_shown && !self(device).chose(kTriggersReadZero);
+}
+
+MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
+  const auto& image = device.state().image;
+  const auto i = static_cast<std::size_t>(set - 1);
+  return {.distance_pulses = static_cast<std::int32_t>(image[slot("Parms_Pulse{}") + i]),
+          .speed_rpm = image[slot("Parms_Speed{}") + i],
+          .acceleration_10ms = image[slot("Parms_AccTime{}") + i],
+          .deceleration_10ms = image[slot("Parms_DecTime{}") + i]};
+}
+
+/// A target into a distance: 64 bits, because it may be twice as far as a coordinate reaches.
+MoveParameters from_here(const Simple2R3& device, int axis, MoveParameters move) {
+  move.distance_pulses -= device.state().axes[static_cast<std::size_t>(axis)].coordinate_pulses;
+  return move;
+}
+
+/// Of a cell of the program.
+std::size_t cell_slot(Cell cell) {
+  constexpr std::array<std::size_t, 4> kColumns{slot("MAIN_LINE{}_CMD"), slot("MAIN_LINE{}_DATA1"),
+                                                slot("MAIN_LINE{}_DATA2"), slot("MAIN_LINE{}_JMP")};
+  return kColumns[static_cast<std::size_t>(cell.argument)] + static_cast<std::size_t>(cell.index);
+}
+
+}  // namespace
+
+Value read_status(const Device& device, Cell) {
+  const Simple2R3& d = self(device);
+  Value status = 0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const AxisState& state = d.state().axes[static_cast<std::size_t>(axis)];
+    const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+    const bool shows_moving = state.mode == Mode::position || !d.chose(kMovingInPositionOnly);
+    const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
+    bit(0, shown(d, d.alarm(axis), slots.alarm_assigned, slots.alarm_input));
+    bit(2, shown(d, d.ready(axis), slots.ready_assigned, slots.ready_input));
+    const bool homes_apart = state.command == Command::homing && d.chose(kHomingBitAlone);
+    bit(4, shows_moving && is_moving(state) && !homes_apart);
+    bit(6, state.command == Command::homing);
+    bit(8, state.homed);
+    bit(10, state.motor.servo_on);
+    bit(12, shown(d, d.upper_limit(axis), slots.upper_assigned, slots.upper_input));
+    bit(14, shown(d, d.lower_limit(axis), slots.lower_assigned, slots.lower_input));
+  }
+  return status;
+}
+
+Value read_version(const Device& device, Cell) {
+  const Value version = device.firmware();
+  if (!self(device).chose(kVersionBcd)) return version;
+  return version / 100 << 8 | version / 10 % 10 << 4 | version % 10;
+}
+
+Value read_output(const Device& device, Cell cell) {
+  if (self(device).chose(kOutputReadsWritten))
+    return (self(device).state().written_outputs >> cell.index) & 1;
+  return self(device).output_level(cell.index);
+}
+
+Value read_all_outputs(const Device& device, Cell) {
+  Value levels = 0;
+  for (int i = 0; i < kOutputCount; ++i) levels |= read_output(device, {.index = i}) << i;
+  return levels;
+}
+
+Value read_input(const Device& device, Cell cell) { return (self(device).inputs() >> cell.index) & 1; }
+
+Value read_all_inputs(const Device& device, Cell) { return self(device).inputs(); }
+
+Value read_encoder(const Device& device, Cell cell) {
+  const AxisState& axis = axis_of(device, cell);
+  return axis.encoder_counts + axis.encoder_preset;
+}
+
+Value read_coordinate(const Device& device, Cell cell) { return axis_of(device, cell).coordinate_pulses; }
+
+Value read_incremental_trigger(const Device& device, Cell cell) {
+  return while_in_progress(device, cell, Command::incremental);
+}
+
+Value read_absolute_trigger(const Device& device, Cell cell) {
+  return while_in_progress(device, cell, Command::absolute);
+}
+
+Value read_homing_trigger(const Device& device, Cell cell) {
+  return while_in_progress(device, cell, Command::homing);
+}
+
+Value read_mode(const Device& device, Cell cell) { return static_cast<Value>(axis_of(device, cell).mode); }
+
+Value read_encoder_speed(const Device& device, Cell cell) {
+  const auto& image = self(device).state().image;
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(cell.argument)];
+  const std::uint32_t resolution = std::max(image[slots.encoder_resolution], 1U);
+  return encoder_rpm(axis_of(device, cell), device.now(),
+                     {.window = self(device).chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow,
+                      .counts_per_revolution = resolution,
+                      .wraps = self(device).chose(kEncoderSpeedWraps)});
+}
+
+Value read_now_line(const Device& device, Cell) {
+  const auto& execution = self(device).state().execution;
+  return execution.running || !self(device).chose(kLineZeroAfterEnd) ? execution.now_line : 0;
+}
+
+Value read_program_runs(const Device& device, Cell) { return self(device).state().execution.running; }
+
+Value read_timer(const Device& device, Cell cell) {
+  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(
+      self(device).timer_time(), self(device).chose(kTimersStay));
+}
+
+Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
+
+Value read_alarm_clear(const Device& device, Cell cell) { return self(device).alarm_clear(cell.argument); }
+
+Value read_adc(const Device& device, Cell cell) {
+  return self(device).adc(static_cast<std::size_t>(cell.argument));
+}
+
+Value read_analog(const Device& device, Cell cell) {
+  const auto& image = self(device).state().image;
+  const auto i = static_cast<std::size_t>(cell.argument);
+  const Value at_10v = image[slot("ADC_10V_A") + i];
+  if (self(device).chose(kAnalogThroughZero)) {
+    return at_10v == 0 ? 0 : std::clamp<Value>(read_adc(device, cell) * 2000 / at_10v, 0, 65535);
+  }
+  // The line through the two points of the calibration: 200 at 1 V, 2000 at 10 V.
+  const Value at_1v = image[slot("ADC_1V_A") + i];
+  const Value span = at_10v - at_1v;
+  if (span == 0) return 0;
+  return std::clamp<Value>(200 + (read_adc(device, cell) - at_1v) * 1800 / span, 0, 65535);
+}
+
+Value read_eeprom_busy(const Device& device, Cell) { return self(device).state().eeprom.writing(); }
+
+Value read_cell(const Device& device, Cell cell) {
+  const Simple2R3& d = self(device);
+  return d.unlocked() ? d.state().image[cell_slot(cell)] : 0;
+}
+
+Value read_unlocked(const Device& device, Cell) { return self(device).unlocked(); }
+
+Value read_password(const Device& device, Cell) {
+  const Simple2R3& d = self(device);
+  return d.unlocked() && !d.chose(kPasswordReadsZero) ? d.state().password : 0;
+}
+
+Value read_zero(const Device&, Cell) { return 0; }
+
+void write_output(Device& device, Cell cell, Value level) {
+  self(device).write_outputs(static_cast<std::uint8_t>(1U << cell.index), level != 0 ? 0x7F : 0);
+}
+
+void write_all_outputs(Device& device, Cell, Value levels) {
+  self(device).write_outputs(0x7F, static_cast<std::uint8_t>(levels));
+}
+
+void preset_encoder(Device& device, Cell cell, Value counts) {
+  AxisState& axis = self(device).state().axes[static_cast<std::size_t>(cell.argument)];
+  axis.encoder_preset += counts - static_cast<std::int32_t>(read_encoder(device, cell));
+}
+
+void preset_coordinate(Device& device, Cell cell, Value pulses) {
+  self(device).preset_coordinate(cell.argument, static_cast<std::int32_t>(pulses));
+}
+
+void change_sync(Device& device, Cell cell, Value) { self(device).sync_changed(cell.argument); }
+
+void change_speed(Device& device, Cell cell, Value) { self(device).speed_changed(cell.argument); }
+
+void start_incremental(Device& device, Cell cell, Value) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) { d.start_move(axis, Command::incremental, own_parameters(d, axis)); });
+}
+
+void start_absolute(Device& device, Cell cell, Value) {
+  Simple2R3& d = self(device);
+  for_each_axis(cell, [&](int axis) {
+    d.start_move(axis, Command::absolute, from_here(d, axis, own_parameters(d, axis)));
+  });
+}
+
+void start_incremental_by_set(Device& device, Cell cell, Value set) {
+  Simple2R3& d = self(device);
+  const MoveParameters move = parameters_of_set(d, set);
+  for_each_axis(cell, [&](int axis) {
+    show_set(d, axis, move);
+    d.start_move(axis, Command::incremental, move);
+  });
+}
+
+void start_absolute_by_set(Device& device, Cell cell, Value set) {
+  Simple2R3& d = self(device);
+  const MoveParameters move = parameters_of_set(d, set);
+  for_each_axis(cell, [&](int axis) {
+    show_set(d, axis, move);
+    d.start_move(axis, Command::absolute, from_here(d, axis, move));
+  });
+}
+
+void stop_motion(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).stop(axis, Stopping::by_register); });
+}
+
+void switch_servo(Device& device, Cell cell, Value on) {
+  for_each_axis(cell, [&](int axis) { self(device).switch_servo(axis, on != 0); });
+}
+
+void clear_alarm(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).clear_alarm(axis); });
+}
+
+void go_home(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).go_home(axis, true); });
+}
+
+void run_velocity(Device& device, Cell cell, Value milli_rpm) {
+  // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
+  if (!cell.high_half && !self(device).chose(kVelocityByLowWord)) return;
+  self(device).run_velocity(cell.argument, milli_rpm);
+}
+
+void run_velocity_by_set(Device& device, Cell cell, Value set) {
+  const auto& image = self(device).state().image;
+  const std::uint32_t milli_rpm = image[slot("Parms_mRPM{}") + static_cast<std::size_t>(set - 1)];
+  for_each_axis(cell, [&](int axis) {
+    self(device).show_velocity(axis, static_cast<std::int32_t>(milli_rpm));
+    self(device).run_velocity(axis, static_cast<std::int32_t>(milli_rpm));
+  });
+}
+
+void output_pwm(Device& device, Cell cell, Value percent) {
+  self(device).output_pwm(cell.argument, static_cast<std::uint8_t>(percent));
+}
+
+void follow_encoder(Device& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { self(device).follow_encoder(axis); });
+}
+
+void preset_timer(Device& device, Cell cell, Value value) {
+  self(device).state().timers[static_cast<std::size_t>(cell.argument)].set(static_cast<std::uint32_t>(value),
+                                                                           self(device).timer_time());
+}
+
+void start_program(Device& device, Cell, Value line) {
+  if (!self(device).unlocked() && self(device).chose(kLockedStartIgnored)) return;
+  self(device).start_program(static_cast<std::uint8_t>(line));
+}
+
+void stop_program(Device& device, Cell, Value) { self(device).stop_program(); }
+
+void write_cell(Device& device, Cell cell, Value value) {
+  Simple2R3& d = self(device);
+  const int number = 4 * cell.index + cell.argument;
+  if (!d.unlocked() && d.chose(kLockedWritesIgnored)) {
+    d.state().image[cell_slot(cell)] = d.state().program.cell(number);
+    return;
+  }
+  d.state().program.set_cell(number, static_cast<std::uint8_t>(value));
+}
+
+void enter_password(Device& device, Cell, Value) { self(device).judge_lock(); }
+
+void change_password(Device& device, Cell, Value password) {
+  self(device).change_password(static_cast<std::uint16_t>(password));
+}
+
+void erase_program(Device& device, Cell, Value) {
+  if (!self(device).unlocked() && self(device).chose(kLockedWritesIgnored)) return;
+  self(device).erase_program();
+}
+
+void reset_to_factory(Device& device, Cell, Value) { self(device).reset_to_factory(); }
+
+}  // namespace understudy::emulator::models::simple2_r3

@@ -1,0 +1,144 @@
+#include "emulator/models/simple2_r3/model.h"
+
+#include <array>
+
+#include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/choices.h"
+#include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/parameters.h"
+#include "emulator/models/simple2_r3/registers.h"
+#include "interpreter/simple2/instructions.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+namespace {
+
+// Every version that the manual tells a difference of; 1.52 is the manual's own.
+constexpr std::array<Firmware, 7> kFirmwares{139, 140, 141, 142, 150, 151, 152};
+
+constexpr std::array<std::string_view, 2> kGaps{
+    "PWM is its duty (`feeder.A.pwm`) and the pulses' form its name (`feeder.pulse_format`): no levels on "
+    "the "
+    "pulse terminals. A duty does not move a machine.",
+    "An encoder's edges are counts: the lines A and B are not terminals.",
+};
+
+constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on
+constexpr std::array<std::uint8_t, 4> kFunctions{0x03, 0x04, 0x06, 0x10};
+
+using Kind = TerminalRow::Kind;
+constexpr std::array<TerminalRow, kTerminalCount> kTerminals{{
+    {Kind::digital_in, "DIN_0"},
+    {Kind::digital_in, "DIN_1"},
+    {Kind::digital_in, "DIN_2"},
+    {Kind::digital_in, "DIN_3"},
+    {Kind::digital_in, "DIN_4"},
+    {Kind::digital_in, "DIN_5"},
+    {Kind::digital_in, "DIN_6"},
+    {Kind::digital_in, "DIN_7"},
+    {Kind::digital_in, "DIN_8"},
+    {Kind::digital_in, "DIN_9"},
+    {Kind::digital_in, "DIN_10"},
+    {Kind::digital_out, "DOUT_0"},
+    {Kind::digital_out, "DOUT_1"},
+    {Kind::digital_out, "DOUT_2"},
+    {Kind::digital_out, "DOUT_3"},
+    {Kind::digital_out, "DOUT_4"},
+    {Kind::digital_out, "DOUT_5"},
+    {Kind::digital_out, "DOUT_6"},
+    {Kind::analog_in, "AIN_A", 0, 12'000},
+    {Kind::analog_in, "AIN_B", 0, 12'000},
+    {Kind::dip_switch, "DIP1"},
+    {Kind::dip_switch, "DIP2"},
+}};
+
+constexpr AxisRow axis_row(std::string_view name, const AxisSlots& slots) {
+  return {.name = name,
+          .upper_limit_input = slots.upper_input,
+          .lower_limit_input = slots.lower_input,
+          .home_input = slots.home_input,
+          .alarm_input = slots.alarm_input,
+          .ready_input = slots.ready_input,
+          .servo_output = kFirstOutput + slots.servo_output,
+          .alarm_clear_output = kFirstOutput + slots.alarm_clear_output,
+          .pulses_per_revolution = static_cast<int>(factory_value(slots.resolution))};
+}
+constexpr std::array<AxisRow, 2> kAxes{axis_row("A", kAxisSlots[kAxisA]), axis_row("B", kAxisSlots[kAxisB])};
+
+constexpr std::array<std::string_view, 8> kStateRegisters{"STATUS",
+                                                          "Aaxis_Mode",
+                                                          "Baxis_Mode",
+                                                          "Cord_A",
+                                                          "Cord_B",
+                                                          "PROG_MAIN_RunTime_Status",
+                                                          "PROG_MAIN_NowLine",
+                                                          "EEPROM_Writing"};
+
+constexpr SectionRow kSections[] = {
+    {"狀態相關", "status"},
+    {"輸入輸出功能指配相關", "functions of inputs and outputs"},
+    {"輸入輸出相關", "inputs and outputs"},
+    {"編碼器，座標，類比輸入相關", "encoders, coordinates, analog inputs"},
+    {"運動相關", "motion"},
+    {"預存位置表", "position sets"},
+    {"預存速度表", "speed sets"},
+    {"預存位置表相關運動指令(增量位置移動)", "incremental moves by position sets"},
+    {"預存速度表相關運動指令", "velocity by speed sets"},
+    {"預存位置表相關運動指令(絕對位置移動)", "absolute moves by position sets"},
+    {"程式控制", "program control"},
+    {"程式指令列表", "program instructions"},
+    {"旗標", "flags"},
+    {"程式碼通訊位址相關", "addresses of the program"},
+    {"系統參數相關", "system parameters"},
+    {"程式應用相關", "what programs use"},
+    {"位址列表", "list of addresses"},
+    {"附錄 A", "appendix A"},
+    {"附錄 B", "appendix B"},
+    {"附錄 C", "appendix C"},
+    {"1.40 以前", "up to 1.40"},
+};
+
+std::vector<InstructionRow> instruction_rows() {
+  std::vector<InstructionRow> rows;
+  for (const auto& instruction : interpreter::simple2::kInstructions) {
+    rows.push_back({.opcode = instruction.opcode,
+                    .mnemonic = instruction.mnemonic,
+                    .data1 = describe(instruction.data1),
+                    .data2 = describe(instruction.data2),
+                    .meaning = instruction.meaning});
+  }
+  return rows;
+}
+
+}  // namespace
+
+const Model& model() {
+  static const RegisterMap registers(kRegisters, MapPolicy{});
+  static const std::vector<InstructionRow> instructions = instruction_rows();
+  static const Model model{
+      .name = "simple2-r3",
+      .title = "2-axis pulse controller, Modbus RTU on RS485",
+      .firmwares = kFirmwares,
+      .registers = registers,
+      .parameters = kParameters,
+      .instructions = instructions,
+      .choices = kChoices,
+      .sections = kSections,
+      .terminals = kTerminals,
+      .axes = kAxes,
+      .state_registers = kStateRegisters,
+      .gaps = kGaps,
+      .rtu = {.bauds = kBauds,
+              .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
+              .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
+              .functions = kFunctions,
+              .lowest_address = 0,  // rotary switch 0: every station number
+              .highest_address = 15},
+      .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
+        return std::make_unique<Simple2R3>(settings);
+      },
+  };
+  return model;
+}
+
+}  // namespace understudy::emulator::models::simple2_r3

@@ -1,0 +1,324 @@
+// What an axis of Simple2-R3 does about each event, in each mode and phase: mode x phase x event, as data.
+// Commands (commands.cpp) and signals (signals.cpp) read it; a test walks all its cells against the running
+// device.
+//
+// Ways are those of the axis: a limit is "ahead" on the side it goes to, and commands are "towards" or "away"
+// from the limit that is on; while none is on, either is free.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "emulator/models/simple2_r3/options.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+/// Axis_Mode, with homing apart from the other motions of position mode.
+enum class Doing : std::uint8_t { position, homing, velocity, pwm, sync };
+inline constexpr int kDoings = 5;
+
+enum class Phase : std::uint8_t {
+  standing,   // no pulses; PWM: 0 percent
+  moving,     // PWM: duty
+  slowing,    // down, in its direction
+  turning,    // slows down to go the other way
+  leaving,    // moves away from a limit that is on
+  at_limit,   // stands while a limit is on, or is stopped by it; PWM: with or without duty
+  in_alarm,   // nothing comes out while the alarm lasts
+  servo_off,  // likewise, for commands
+};
+inline constexpr int kPhases = 8;
+
+enum class Event : std::uint8_t {
+  limit_ahead,
+  limit_behind,
+  limit_gone,
+  alarm,
+  alarm_gone,
+  stop,
+  servo_off,
+  // Commands.
+  move_towards,
+  move_away,
+  move_nowhere,  // a distance of 0
+  home,
+  velocity_towards,
+  velocity_away,
+  velocity_zero,
+  pwm,
+  pwm_zero,
+  sync,
+};
+inline constexpr int kEvents = 17;
+
+enum class Outcome : std::uint8_t {
+  goes_on,          // as if nothing had been
+  stops,            // no pulse, no duty from now on; what was wanted is over
+  leaves,           // the same, and the mode is position mode
+  waits,            // no pulse, no duty, until the cause is gone
+  turns,            // stops at once, and goes on the other way
+  slows,            // down to 0 by its ramp, and stands; what was wanted is over
+  slows_and_waits,  // the same until the cause is gone
+  blocked,          // follows the other way alone
+  resumes,          // what has waited goes on
+  dropped,          // the command does nothing
+  kept,             // the command waits for SVON
+  ends,             // the command does nothing, but what runs is over
+  begins,           // what runs ends at once, and the command begins from standstill
+  changes,          // from what is there to what is commanded
+};
+
+/// What a choice makes of a cell.
+struct OtherOutcome {
+  Option chosen{};
+  Outcome outcome = Outcome::goes_on;
+  bool is_there = false;
+
+  constexpr OtherOutcome() = default;
+  constexpr OtherOutcome(Option option, Outcome what) : chosen(option), outcome(what), is_there(true) {}
+};
+
+/// A set of Doings, Phases or Events.
+using Set = std::uint32_t;
+template <class... T>
+constexpr Set set_of(T... members) {
+  return ((Set{1} << static_cast<unsigned>(members)) | ...);
+}
+template <class T>
+constexpr bool has(Set set, T member) {
+  return (set >> static_cast<unsigned>(member) & 1) != 0;
+}
+
+struct ReactionRow {
+  Set doings, phases, events;
+  Outcome outcome;
+  /// The manual's section, or the choice that the cell follows.
+  std::string_view source;
+  OtherOutcome other{}, another{};  // the first that is chosen counts
+};
+
+namespace reactions {
+
+using enum Phase;
+using enum Outcome;
+using E = Event;
+
+inline constexpr Set kPositioning = set_of(Doing::position, Doing::homing);
+inline constexpr Set kVelocity = set_of(Doing::velocity);
+inline constexpr Set kPwm = set_of(Doing::pwm);
+inline constexpr Set kSync = set_of(Doing::sync);
+inline constexpr Set kPosition = set_of(Doing::position);
+inline constexpr Set kHoming = set_of(Doing::homing);
+inline constexpr Set kOthers = kVelocity | kPwm | kSync;
+inline constexpr Set kAny = kPositioning | kOthers;
+
+inline constexpr Set kRunning = set_of(moving, slowing, turning);
+inline constexpr Set kFree = set_of(standing) | kRunning;  // no limit, no alarm
+inline constexpr Set kResting = set_of(standing, at_limit);
+inline constexpr Set kGoing = kRunning | set_of(leaving);
+inline constexpr Set kOnLimit = set_of(leaving, at_limit);
+inline constexpr Set kReady = kFree | kOnLimit;
+inline constexpr Set kPowered = kReady | set_of(in_alarm);
+
+inline constexpr Set kMoves = set_of(E::move_towards, E::move_away);
+inline constexpr Set kVelocities = set_of(E::velocity_towards, E::velocity_away);
+inline constexpr Set kDuties = set_of(E::pwm, E::pwm_zero);
+inline constexpr Set kCommands = kMoves | set_of(E::move_nowhere, E::home) | kVelocities |
+                                 set_of(E::velocity_zero) | kDuties | set_of(E::sync);
+
+inline constexpr OtherOutcome kUnlessMoving{kMoveWhileMovingIgnored, dropped};
+inline constexpr OtherOutcome kUnlessPositioning{kModeWhileMovingIgnored, dropped};
+inline constexpr OtherOutcome kUnlessInOtherMode{kMoveInOtherModeIgnored, dropped};
+inline constexpr OtherOutcome kUnlessIntoLimit{kIntoLimitDropped, dropped};
+inline constexpr OtherOutcome kForgotten{kAfterAlarmResumes, ends};  // what would have resumed
+inline constexpr OtherOutcome kFromTheSpeed{kMoveFromTheSpeed, changes};
+
+// clang-format off
+inline constexpr ReactionRow kRows[] = {
+    // --- limits ---
+    {kPosition | kVelocity, kResting, set_of(E::limit_ahead), goes_on, "limit_reaction"},
+    {kPosition, kGoing,           set_of(E::limit_ahead), stops, "limit_reaction"},
+    {kHoming,   kRunning,         set_of(E::limit_ahead), turns, "homing_sequence"},
+    {kHoming,   set_of(leaving),  set_of(E::limit_ahead), stops, "homing_sequence"},
+    {kVelocity, set_of(moving, slowing, leaving), set_of(E::limit_ahead), stops, "after_limit", {kAfterLimitResumes, waits}},
+    {kVelocity, set_of(turning),  set_of(E::limit_ahead), turns, "limit_reaction"},
+    {kSync,     kReady,           set_of(E::limit_ahead), blocked, "limit_reaction"},
+
+    {kPositioning, kFree,         set_of(E::limit_behind), goes_on, "limit_reaction"},
+    {kVelocity, set_of(standing, moving, slowing), set_of(E::limit_behind), goes_on, "limit_reaction"},
+    {kVelocity, set_of(turning),  set_of(E::limit_behind), slows, "after_limit", {kAfterLimitResumes, slows_and_waits}},
+    {kSync,     kFree,            set_of(E::limit_behind), goes_on, "limit_reaction"},
+
+    {kPwm,      kPowered,         set_of(E::limit_ahead), goes_on, "pwm_at_limit", {kLimitStopsPwm, stops}},
+    {kPwm,      kFree,            set_of(E::limit_behind), goes_on, "pwm_at_limit", {kLimitStopsPwm, stops}},
+    {kAny & ~kPwm, set_of(in_alarm), set_of(E::limit_ahead), goes_on, "limit_reaction"},
+    {kAny,      set_of(in_alarm), set_of(E::limit_gone), goes_on, "limit_reaction"},
+
+    {kPositioning | kPwm, kOnLimit, set_of(E::limit_gone), goes_on, "limit_reaction"},
+    {kVelocity, set_of(leaving),  set_of(E::limit_gone), goes_on, "limit_reaction"},
+    {kVelocity, set_of(at_limit), set_of(E::limit_gone), goes_on, "after_limit", {kAfterLimitResumes, resumes}},
+    {kSync,     set_of(leaving),  set_of(E::limit_gone), goes_on, "limit_reaction"},
+    {kSync,     set_of(at_limit), set_of(E::limit_gone), resumes, "系統參數相關: 0xF024, left by STOP alone"},
+
+    // --- alarm ---
+    {kPosition | kVelocity, kResting, set_of(E::alarm), goes_on, "alarm_reaction"},
+    {kPositioning, kGoing,        set_of(E::alarm), stops, "alarm_reaction"},
+    {kVelocity, kGoing,           set_of(E::alarm), stops, "after_alarm", {kAfterAlarmResumes, waits}},
+    {kPwm, set_of(standing),      set_of(E::alarm), goes_on, "alarm_reaction"},
+    {kPwm, set_of(moving, at_limit), set_of(E::alarm), stops, "after_alarm", {kAfterAlarmResumes, waits}},
+    {kSync, kReady,               set_of(E::alarm), waits, "sync_after_alarm", {kAlarmLeavesSync, leaves}},
+
+    {kPosition, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "alarm_reaction"},
+    {kVelocity | kPwm, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "after_alarm", {kAfterAlarmResumes, resumes}},
+    {kSync, set_of(in_alarm),     set_of(E::alarm_gone), resumes, "sync_after_alarm"},
+
+    // --- STOP, SVOFF ---
+    {kPosition, kResting | set_of(in_alarm), set_of(E::stop, E::servo_off), goes_on, "運動相關: 0x100D, 0x1013"},
+    {kPositioning, kGoing, set_of(E::stop), stops, "stop", {kStopSlowsDown, slows}},
+    {kPositioning, kGoing, set_of(E::servo_off), stops, "程式指令列表: 0x2B, SVOFF"},
+    {kVelocity, kPowered, set_of(E::stop, E::servo_off), leaves, "mode_after_stop", {kModeStaysAfterStop, stops}},
+    {kPwm, kPowered, set_of(E::stop), leaves, "mode_after_stop", {kModeStaysAfterStop, stops}},
+    {kPwm, kPowered, set_of(E::servo_off), leaves, "pwm_servo", {kPwmWithoutServo, goes_on}, {kModeStaysAfterStop, stops}},
+    {kSync, kPowered, set_of(E::stop), leaves, "系統參數相關: 0xF024"},
+    {kSync, kPowered, set_of(E::servo_off), leaves, "程式指令列表: 0x2B, SVOFF"},
+
+    // --- commands while nothing may come out ---
+    {kPosition | kVelocity | kPwm, set_of(servo_off), kCommands & ~kDuties, dropped, "command_while_servo_off", {kKeptUntilServoOn, kept}},
+    {kPosition | kVelocity, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmWithoutServo, begins}, {kKeptUntilServoOn, kept}},
+    {kPwm, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmWithoutServo, changes}, {kKeptUntilServoOn, kept}},
+    {kPosition | kSync, set_of(in_alarm), kMoves | set_of(E::home, E::sync), dropped, "alarm_reaction"},
+    {kVelocity | kPwm, set_of(in_alarm), kMoves | set_of(E::home), dropped, "after_alarm", kUnlessInOtherMode, kForgotten},
+    {kVelocity | kPwm, set_of(in_alarm), set_of(E::sync), dropped, "after_alarm", kForgotten},
+    {kVelocity, set_of(in_alarm), kVelocities, dropped, "after_alarm", {kAfterAlarmResumes, waits}},
+    {kVelocity, set_of(in_alarm), set_of(E::velocity_zero), changes, "系統參數相關: 0xF006, at once"},
+    {kPosition | kSync, set_of(in_alarm), kVelocities, dropped, "alarm_reaction"},
+    {kPwm, set_of(in_alarm), kVelocities, dropped, "after_alarm", kForgotten},
+    {kAny & ~kVelocity, set_of(in_alarm), set_of(E::velocity_zero), begins, "系統參數相關: 0xF006, at once"},
+    {kPwm, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", {kAfterAlarmResumes, waits}},
+    {kPwm, set_of(in_alarm), set_of(E::pwm_zero), changes, "運動相關: 0x1019, at once"},
+    {kPosition | kSync, set_of(in_alarm), set_of(E::pwm), dropped, "alarm_reaction"},
+    {kVelocity, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", kForgotten},
+    {kAny & ~kPwm, set_of(in_alarm), set_of(E::pwm_zero), begins, "運動相關: 0x1019, at once"},
+
+    // --- moves and homing ---
+    {kAny, kPowered, set_of(E::move_nowhere), begins, "附錄 A: (2), at once"},
+    {kPosition, kResting, set_of(E::home, E::move_away), begins, "附錄 A"},
+    {kPosition, set_of(standing), set_of(E::move_towards), begins, "附錄 A"},
+    {kPosition, set_of(at_limit), set_of(E::move_towards), dropped, "limit_reaction"},
+    {kPositioning, kGoing, set_of(E::home, E::move_away), begins, "command_while_moving", kUnlessMoving},
+    {kPositioning, kRunning, set_of(E::move_towards), begins, "command_while_moving", kUnlessMoving},
+    {kPositioning, set_of(leaving), set_of(E::move_towards), ends, "command_into_limit", kUnlessMoving, kUnlessIntoLimit},
+    {kOthers, kReady, set_of(E::home), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kPwm, kReady, set_of(E::move_away), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kPwm, kFree, set_of(E::move_towards), begins, "move_in_other_mode", kUnlessInOtherMode},
+    {kVelocity | kSync, kReady, set_of(E::move_away), begins, "move_in_other_mode", kUnlessInOtherMode, kFromTheSpeed},
+    {kVelocity | kSync, kFree, set_of(E::move_towards), begins, "move_in_other_mode", kUnlessInOtherMode, kFromTheSpeed},
+    {kOthers, kOnLimit, set_of(E::move_towards), ends, "command_into_limit", kUnlessInOtherMode, kUnlessIntoLimit},
+
+    // --- velocity ---
+    {kPosition, kResting, set_of(E::velocity_away, E::velocity_zero), begins, "系統參數相關: 0xF006"},
+    {kPosition, set_of(standing), set_of(E::velocity_towards), begins, "系統參數相關: 0xF006"},
+    {kPosition, set_of(at_limit), set_of(E::velocity_towards), dropped, "limit_reaction"},
+    {kPositioning, kGoing, set_of(E::velocity_away, E::velocity_zero), begins, "mode_change_while_moving", kUnlessPositioning},
+    {kPositioning, kRunning, set_of(E::velocity_towards), begins, "mode_change_while_moving", kUnlessPositioning},
+    {kPositioning, set_of(leaving), set_of(E::velocity_towards), ends, "command_into_limit", kUnlessPositioning, kUnlessIntoLimit},
+    {kVelocity, kReady, set_of(E::velocity_away, E::velocity_zero), changes, "系統參數相關: 0xF006, at once"},
+    {kVelocity, kFree, set_of(E::velocity_towards), changes, "系統參數相關: 0xF006, at once"},
+    {kVelocity, kOnLimit, set_of(E::velocity_towards), slows, "after_limit", {kAfterLimitResumes, slows_and_waits}},
+    {kPwm | kSync, kReady, set_of(E::velocity_away, E::velocity_zero), begins, "系統參數相關: 0xF006, at once"},
+    {kPwm | kSync, kFree, set_of(E::velocity_towards), begins, "系統參數相關: 0xF006, at once"},
+    {kPwm | kSync, kOnLimit, set_of(E::velocity_towards), ends, "command_into_limit", kUnlessIntoLimit},
+
+    // --- PWM, sync ---
+    {kPosition, set_of(standing), kDuties, begins, "運動相關: 0x1019, at once"},
+    {kPosition, set_of(at_limit), set_of(E::pwm), begins, "pwm_at_limit", {kLimitStopsPwm, dropped}},
+    {kPosition, set_of(at_limit), set_of(E::pwm_zero), begins, "運動相關: 0x1019, at once"},
+    {kPositioning, kRunning, kDuties, begins, "mode_change_while_moving", kUnlessPositioning},
+    {kPositioning, set_of(leaving), set_of(E::pwm), begins, "pwm_at_limit", kUnlessPositioning, {kLimitStopsPwm, dropped}},
+    {kPositioning, set_of(leaving), set_of(E::pwm_zero), begins, "mode_change_while_moving", kUnlessPositioning},
+    {kVelocity | kSync, kFree, kDuties, begins, "運動相關: 0x1019, at once"},
+    {kVelocity | kSync, kOnLimit, set_of(E::pwm), begins, "pwm_at_limit", {kLimitStopsPwm, dropped}},
+    {kVelocity | kSync, kOnLimit, set_of(E::pwm_zero), begins, "運動相關: 0x1019, at once"},
+    {kPwm, kFree, kDuties, changes, "運動相關: 0x1019, at once"},
+    {kPwm, kOnLimit, set_of(E::pwm), changes, "pwm_at_limit", {kLimitStopsPwm, dropped}},
+    {kPwm, kOnLimit, set_of(E::pwm_zero), changes, "運動相關: 0x1019, at once"},
+    {kPosition, kResting, set_of(E::sync), begins, "系統參數相關: 0xF024"},
+    {kPositioning, kGoing, set_of(E::sync), begins, "mode_change_while_moving", kUnlessPositioning},
+    {kOthers, kReady, set_of(E::sync), begins, "系統參數相關: 0xF024"},
+};
+// clang-format on
+
+}  // namespace reactions
+
+/// Whether there is such a phase in a mode.
+constexpr bool is_phase_of(Doing doing, Phase phase) {
+  using enum Phase;
+  switch (doing) {
+    case Doing::position: return phase != turning;
+    case Doing::homing: return has(set_of(moving, slowing, leaving), phase);
+    case Doing::velocity: return true;
+    case Doing::pwm: return has(set_of(standing, moving, at_limit, in_alarm, servo_off), phase);
+    case Doing::sync: return has(set_of(standing, moving, slowing, leaving, at_limit, in_alarm), phase);
+  }
+  return false;
+}
+
+/// Whether an event can come in a phase.
+constexpr bool can_come(Phase phase, Event event) {
+  using namespace reactions;
+  if (phase == servo_off) return has(kCommands, event);
+  switch (event) {
+    case Event::limit_ahead: return true;  // of what stands, any limit
+    case Event::limit_behind: return has(kFree, phase);
+    case Event::limit_gone: return has(kOnLimit | set_of(in_alarm), phase);
+    case Event::alarm: return phase != in_alarm;
+    case Event::alarm_gone: return phase == in_alarm;
+    default: return true;
+  }
+}
+
+inline constexpr std::uint8_t kNoRow = 255;
+
+/// For each cell its row; kNoRow where there is none, 254 where there are several.
+inline constexpr auto kReactionOfCell = [] {
+  std::array<std::array<std::array<std::uint8_t, kEvents>, kPhases>, kDoings> cells{};
+  for (auto& phases : cells) {
+    for (auto& events : phases) events.fill(kNoRow);
+  }
+  for (std::size_t i = 0; i < std::size(reactions::kRows); ++i) {
+    for (std::size_t d = 0; d < kDoings; ++d) {
+      for (std::size_t p = 0; p < kPhases; ++p) {
+        for (std::size_t e = 0; e < kEvents; ++e) {
+          const ReactionRow& row = reactions::kRows[i];
+          if (!has(row.doings, d) || !has(row.phases, p) || !has(row.events, e)) continue;
+          std::uint8_t& cell = cells[d][p][e];
+          cell = cell == kNoRow ? static_cast<std::uint8_t>(i) : std::uint8_t{254};
+        }
+      }
+    }
+  }
+  return cells;
+}();
+
+static_assert(
+    [] {
+      for (int d = 0; d < kDoings; ++d) {
+        for (int p = 0; p < kPhases; ++p) {
+          for (int e = 0; e < kEvents; ++e) {
+            const bool there = is_phase_of(Doing(d), Phase(p)) && can_come(Phase(p), Event(e));
+            if (there && kReactionOfCell[d][p][e] >= 254) return false;
+          }
+        }
+      }
+      return true;
+    }(),
+    "each cell that there is has one row");
+
+constexpr const ReactionRow* reaction_row(Doing doing, Phase phase, Event event) {
+  const std::uint8_t row = kReactionOfCell[static_cast<std::size_t>(doing)][static_cast<std::size_t>(phase)]
+                                          [static_cast<std::size_t>(event)];
+  return row == kNoRow ? nullptr : &reactions::kRows[row];
+}
+
+}  // namespace understudy::emulator::models::simple2_r3

@@ -1,0 +1,296 @@
+// A chain of up to eight SLIM modules, as a value: what its commands do, without any text.
+//
+//   issued ──> FIFO of T0 ──┐
+//         ──> FIFO of T1 ──┤ a command starts at the head of all the FIFOs it is in
+//         ──> ...          ┘
+//                └─> one module: a move, a homing          (motion/axis.h)
+//                └─> a group: a line, an arc, a spiral     (motion/coordinated.h), up to three at a time
+//                └─> at once: outputs, coordinates, motor control
+//
+// What is running stays at the head until it is done. Jogs and thrust are not queued.
+//
+// Coordinates, distances and path speeds are in user units, angles in degrees, modules 0 .. 7, outputs 1 .. 4
+// as the commands have them. All commands come between ticks and answer with Error::none, or refuse and
+// change nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "base/simulated_time.h"
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/pauses.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+
+namespace understudy::emulator::models::slim {
+
+/// Axis letters.
+enum class Letter : std::uint8_t { x, y, z, w };
+
+/// What assign() takes for "none".
+inline constexpr int kUnassigned = 8;
+/// Modules 0 .. 5 can be coordinated.
+inline constexpr int kMappable = 6;
+
+/// ?MD.
+enum class Mode : std::uint8_t { idle = 0, position = 1, jog = 2, torque = 3, coordinated = 4, analog = 5 };
+
+/// What of ?ST the chain knows.
+struct ModuleStatus {
+  bool servo_on = false;
+  bool moving = false;
+  bool paused = false;  // TAPZ, or PZ as far as it goes
+  bool homed = false;
+  bool jog = false;
+  bool buffer_not_empty = false;
+  bool in_blend = false;  // part of a path that goes through several commands without stopping
+  Mode mode = Mode::idle;
+
+  bool operator==(const ModuleStatus&) const = default;
+};
+
+/// An arc, a helix (with `height_units`) or a spiral about a centre, in X and Y.
+struct ArcOrder {
+  bool absolute = true;  // centre and height; false: from where it begins
+  double centre_x_units = 0;
+  double centre_y_units = 0;
+  double sweep_deg = 0;  // > 0 counter-clockwise
+  std::optional<double> height_units{};
+  std::optional<double> radius_units{};  // by choice: the centre is the end, and this tells the sweep
+};
+
+class Chain {
+ public:
+  /// Module 0 is linked always.
+  explicit Chain(const ChainOptions& options = {});
+  bool operator==(const Chain&) const = default;
+
+  // ---- One module. By number: refused with not_assigned for a module other than 0 that has an axis letter.
+
+  Error move(int module, bool absolute, double units);
+  Error home(int module);
+  /// `way` +1 JGF, -1 JGR, 0 JG0.
+  Error jog(int module, int way);
+  Error thrust(int module, std::int32_t force);  // 1 .. 20000
+  Error set_coordinate(int module, double units);
+  /// XMA, XMR ...: the module that has the letter now.
+  Error move_axis(Letter letter, bool absolute, double units);
+
+  /// HON, HOFF: in their turn. IHON, IHOFF: at once; off discards the module's motion and FIFO.
+  Error set_servo(int module, bool on);
+  Error set_servo_at_once(int module, bool on);
+  /// RESET: stops at once, forgets the FIFO, motor control is as after power-up.
+  Error reset(int module);
+
+  // ---- Outputs 1 .. 4 of a module
+
+  Error set_output(int module, int output, bool on);          // SET, CLR: in their turn
+  Error set_output_at_once(int module, int output, bool on);  // ISET, ICLR
+  Error toggle_output(int module, int output);
+  Error pulse_output(int module, int output, std::int32_t width_4ms);  // >= 1
+  Error pwm(int module, int output, double frequency_hz, double duty_percent);
+  Error set_outputs(int module, int mask);  // 0 .. 15
+  /// P1SET, P2SET, P1CLR, P2CLR (`trigger` 1 or 2), armed in their turn.
+  Error arm(int module, int trigger, int output, bool sets, double at_units);
+
+  // ---- Coordinated
+
+  /// TX= ...: 0 .. 5 or kUnassigned.
+  Error assign(Letter letter, int module);
+  int assigned(Letter letter) const;  // kUnassigned: none
+  /// Two to four coordinates: X, Y, Z, W.
+  Error line(std::span<const double> units, bool absolute);
+  Error arc(const ArcOrder& order);
+  /// `growth_units`: of the radius, a turn or in all. By choice `sweep_deg` is the radius at its end.
+  Error spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units);
+  /// CM 0, 1, 2.
+  Error set_continuous_path(int mode);
+
+  // ---- Stopping and going on: pauses.h
+
+  Error pause() { return steer(InPause::tapz); }
+  Error resume() { return steer(InPause::taredo); }
+  Error discard() { return steer(InPause::taupz); }
+  Error emergency_stop() { return steer(InPause::tastop); }
+  Error pause_queues() { return steer(InPause::pz); }
+  Error resume_queues() { return steer(InPause::redo); }
+  Error clear_queues() { return steer(InPause::clear_buffer); }
+
+  // ---- Settings. Ranges are those of ModuleSettings.
+
+  void set_linked(int module, bool linked);
+  /// Not while the module moves or has anything to do.
+  Error set_scale(int module, std::int64_t multiplier, std::int64_t divider);
+  Error set_pulses_per_revolution(int module, std::int32_t pulses);
+  Error set_speed_unit(int module, SpeedUnit unit);
+  Error set_working_speed(int module, double speed);  // ends AVM
+  Error set_jog_speed(int module, double speed);
+  Error set_acceleration(int module, double acceleration);
+  Error set_path_speed(int module, double units_s);          // PR3 of one, and of the path that it is on
+  Error set_line_speed(int module, double units_s);          // PR4, the same of lines of two axes by choice
+  Error set_tvm(double units_s);                             // of all linked ones, and at once
+  Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: what runs keeps its own
+  Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180
+  Error set_analog_speed(int module);                        // AVM
+  void set_options(const ChainOptions& options);  // FIFOs that are longer than allowed then stay so
+
+  // ---- Inputs, between ticks
+
+  void set_horg(int module, bool on);
+  void set_analog(int module, int value);  // clamped to 0 .. kFullAnalog
+  /// For zones along the travel: edges are met at their pulse. Raise its version when it changes.
+  motion::Surroundings& surroundings(int module) { return surroundings_[at(module)]; }
+
+  // ---- State
+
+  const ModuleSettings& settings(int module) const { return modules_[at(module)].settings; }
+  bool linked(int module) const { return modules_[at(module)].linked; }
+  bool full(int module) const;
+  std::size_t queued(int module) const { return modules_[at(module)].fifo.size(); }
+  /// DN: all earlier commands are completed. A jog or thrust does not matter, unless it is stopping.
+  bool done(int module) const;
+  /// It does something, or a command waits for it.
+  bool busy(int module) const;
+  bool moving(int module) const;
+  /// What it does, or what of that a pause holds.
+  Activity activity_or_held(int module) const;
+  bool servo_on(int module) const { return axes_[at(module)].servo_on; }
+  bool paused() const { return paused_; }
+  bool queues_paused() const { return queues_paused_; }
+  bool horg(int module) const {
+    return (surroundings_[at(module)].steady & motion::bit(motion::Signal::home)) != 0;
+  }
+  int analog(int module) const { return modules_[at(module)].analog; }
+  bool analog_speed(int module) const { return modules_[at(module)].analog_speed; }
+  ContinuousPath continuous_path() const { return continuous_; }
+  ModuleStatus status(int module) const;
+  double coordinate(int module) const;
+  std::int64_t travel(int module) const { return axes_[at(module)].travel_pulses; }
+  double speed_pps(int module) const;  // signed
+  std::int32_t thrust_of(int module) const { return modules_[at(module)].thrust; }
+  bool output(int module, int number) const;  // its level after the last tick
+  const Output& output_state(int module, int number) const;
+  /// What a queued command was dropped for when its turn came; none once it is taken.
+  Error take_late_error(int module);
+  int groups_running() const;
+  const motion::Axis& axis(int module) const { return axes_[at(module)]; }
+
+  // ---- Time
+
+  /// One tick; ticks may be left out up to next_active_tick().
+  void step(Tick tick);
+  /// The same as stepping all ticks up to `now` where nothing happens: commands then count from `now`.
+  void skip_to(Tick now) { now_ = now; }
+  std::int64_t pulses(int module) const { return modules_[at(module)].sent_pulses; }  // of the last tick
+  /// The first tick after `done` at which anything may happen by itself; kNever.
+  Tick next_active_tick(Tick done) const;
+
+ private:
+  friend struct ChainFields;
+
+  /// A coordinated motion: the heads of its modules' FIFOs are its paths, one after another.
+  struct Group {
+    motion::Coordinated motion;
+    std::uint8_t paths = 0;                     // how many of the heads
+    motion::Point end = motion::Point::Zero();  // of the last one
+
+    bool operator==(const Group&) const = default;
+  };
+
+  static std::size_t at(int module) { return static_cast<std::size_t>(module); }
+  bool in_pause_scope(int module) const { return module == 0 || !options_.pause_is_of_module_0; }
+  bool in_pause_scope(const Group& group) const;
+  /// Of a module, or a group: by TAPZ, or by PZ as far as that goes.
+  Pauses pauses_of(const auto& what) const {
+    return slim::pauses_of(queues_paused_ && in_pause_scope(what), paused_);
+  }
+  bool held(const auto& what) const { return pauses_of(what) != Pauses::none; }
+
+  // Commands: chain_commands.cpp, chain_coordinated.cpp, chain_outputs.cpp.
+  Error refusal(int module) const;                                            // any command
+  Error refusal_of_motion(int module, InPause what = InPause::motion) const;  // ... that moves
+  Error refusal_by_number(int module, InPause what = InPause::motion) const;  // ... by its number
+  Error refusal_of_jog(int module) const;                                     // ... or of thrust
+  bool mapped(int module) const;
+  bool servo_expected(int module) const;  // when what is queued is done
+  double end_expected(int module) const;
+  Error enqueue(Job job);  // in the FIFOs of module_of
+  Error enqueue_move(int module, bool absolute, double units);
+  Error enqueue_output(int module, const OutputOrder& order);
+  Error enqueue_coordinated(Job job);
+  Error replace_jog(int module, int way, std::int32_t force);
+  void begin_jog(int module, int way, Tick begin_at);
+  void begin_thrust(int module, std::int32_t force, Tick begin_at);
+  void begin_next(int module, Tick begin_at);
+  void stop_jog(int module);
+  void hold_jog(int module);
+  void go_on_with_jog(int module);
+  void order_jog(int module, int way, std::int32_t force);
+
+  // Queues: chain_queues.cpp.
+  void serve(Tick begin_at);  // starts what can start, with its beginning at that tick
+  // These four: whether the FIFO has changed.
+  bool serve_head(int module, Tick begin_at);
+  bool start_move(int module, Tick begin_at);
+  bool start_home(int module, Tick begin_at);
+  bool start_group(int module, Tick begin_at);
+  void extend(Group& group);
+  void note_ends(const Job& job, std::size_t place, const motion::Point& end);
+  bool at_all_places(const Job& job, std::size_t place) const;
+  bool free_to_move(int module) const;
+  const ModuleSettings& path_settings(const Job& job) const;
+  bool goes_by_line_speed(const Job& job) const;
+  double path_speed(const Job& job, const ModuleSettings& settings) const;
+  void tell_path(int module, double units_s, bool of_lines);
+  bool within_reach(const Job& job, const motion::Path& path) const;
+  motion::Point begin_of(const Job& job) const;
+  void carry_out_order(int module, const OutputOrder& order, Tick begin_at);
+  void place_triggers(int module);
+  void put_coordinate(int module, double units);
+  void home_found(int module);
+  void drop_job(std::uint64_t number);
+  void drop_head(int module, Error why);
+
+  // Stopping: chain_stops.cpp.
+  Error steer(InPause what);
+  void give_up(bool in_scope_only);
+  void clear_waiting();
+  void stop_all();
+  void end_outputs(int module);
+  void hold();
+  void release();
+  void cut(int module, motion::Cause why);              // no pulse more; what was running is forgotten
+  void forget_queue(int module, std::size_t kept = 0);  // behind the first `kept`
+  void end_group(Group& group, motion::Cause why);
+  void release_group(Group& group, Tick begin_at);
+  void slow_for_discard(int module);
+  Group* group_of(int module);
+  const Group* group_of(int module) const;
+  void refresh_speed(int module);
+
+  // The tick: chain_step.cpp.
+  void step_groups(Tick tick);
+  bool undisturbed(int module) const;
+  void step_axes(Tick tick);
+  void after_motion(int module, Tick begin_at);
+  void meet_triggers(int module);
+
+  ChainOptions options_;
+  std::array<Module, kModules> modules_{};
+  std::array<motion::Axis, kModules> axes_{};
+  std::array<motion::Surroundings, kModules> surroundings_{};
+  std::array<Group, kMappable / 2> groups_{};
+  std::array<std::int8_t, kLetters> map_{kNoModule, kNoModule, kNoModule, kNoModule};
+  ContinuousPath continuous_ = ContinuousPath::off;
+  bool paused_ = false;
+  bool queues_paused_ = false;
+  std::uint64_t last_number_ = 0;
+  Tick now_ = 0;
+};
+
+}  // namespace understudy::emulator::models::slim

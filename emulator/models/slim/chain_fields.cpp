@@ -1,0 +1,182 @@
+// A restored chain must be one whose ticks can neither leave a table nor run away.
+#include "emulator/models/slim/chain_fields.h"
+
+#include <cmath>
+
+#include "emulator/models/slim/parameters.h"
+#include "motion/bad_motion.h"
+#include "motion/state.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace {
+
+template <class T>
+void read_motion(T& value, StateReader& reader) {
+  try {
+    reader.take(motion::restore(value, reader.rest()));
+  } catch (const motion::BadMotion& bad) {
+    throw StateError(bad.what());
+  }
+}
+
+void demand_coordinate(double units) {
+  demand_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
+}
+
+void demand_speed(double speed) {
+  demand_state(speed >= kLeastSpeed && speed <= kMostSpeed, "a speed is beyond its range");
+}
+
+}  // namespace
+
+void ChainFields::write(const motion::Axis& axis, StateWriter& writer) { writer.append(motion::save(axis)); }
+void ChainFields::read(motion::Axis& axis, StateReader& reader) { read_motion(axis, reader); }
+
+void ChainFields::write(const motion::Surroundings& here, StateWriter& writer) {
+  writer.append(motion::save(here));
+}
+void ChainFields::read(motion::Surroundings& here, StateReader& reader) { read_motion(here, reader); }
+
+void ChainFields::write(const Chain::Group& group, StateWriter& writer) {
+  const auto& [motion, paths, end] = group;
+  writer.write<ChainFields>(motion.engaged);
+  if (!motion.engaged) return;  // it is as new
+  writer.append(motion::save(motion));
+  writer.write<ChainFields>(paths);
+  for (const double units : end) writer.write<ChainFields>(units);
+}
+
+void ChainFields::read(Chain::Group& group, StateReader& reader) {
+  auto& [motion, paths, end] = group;
+  bool engaged = false;
+  group = {};
+  reader.read<ChainFields>(engaged);
+  if (!engaged) return;
+  read_motion(motion, reader);
+  demand_state(motion.engaged, "a group must be engaged");
+  reader.read<ChainFields>(paths);
+  for (double& units : end) {
+    reader.read<ChainFields>(units);
+    demand_coordinate(units);
+  }
+}
+
+void ChainFields::write(const Fifo<Job, kFifoLength>& fifo, StateWriter& writer) {
+  writer.write<ChainFields>(static_cast<std::uint8_t>(fifo.size()));
+  for (std::size_t i = 0; i < fifo.size(); ++i) writer.write<ChainFields>(fifo[i]);
+}
+
+void ChainFields::read(Fifo<Job, kFifoLength>& fifo, StateReader& reader) {
+  std::uint8_t count = 0;
+  reader.read<ChainFields>(count);
+  demand_state(count <= fifo.capacity(), "a FIFO holds more than it can");
+  fifo.truncate(0);
+  for (Job job; count > 0; --count) {
+    reader.read<ChainFields>(job);
+    fifo.push(job);
+  }
+}
+
+void ChainFields::check(const ChainOptions& options) { demand_within(options.fifo_length, 1, kFifoLength); }
+
+void ChainFields::check(const motion::UnitScale& scale) {
+  demand_within(scale.multiplier, 1, INT32_MAX);
+  demand_within(scale.divider, 1, INT32_MAX);
+}
+
+void ChainFields::check(const ModuleSettings& settings) {
+  demand_within(settings.pulses_per_revolution, 1, INT32_MAX);
+  for (const double speed :
+       {settings.working_speed, settings.acceleration, settings.path_acceleration_units_s2,
+        settings.path_speed_units_s, settings.line_speed_units_s}) {
+    demand_speed(speed);
+  }
+  if (settings.jog_speed != 0) demand_speed(std::abs(settings.jog_speed));
+  demand_state(settings.smooth_corner_deg >= 0 && settings.smooth_corner_deg <= 180,
+               "an angle is beyond its range");
+}
+
+void ChainFields::check(const Output& output) {
+  demand_reach(output.since);
+  demand_within(output.width, 0, INT32_MAX);
+  const bool fits = output.frequency_hz >= 0 && output.frequency_hz <= 1e6 && output.duty_percent >= 0 &&
+                    output.duty_percent <= 100;
+  demand_state(fits && (output.mode != Output::Mode::pwm || output.frequency_hz >= 0.001),
+               "an output's frequency or duty is beyond its range");
+}
+
+void ChainFields::check(const OutputOrder& order) {
+  demand_within(order.output, 0, kOutputs - 1);
+  demand_within(order.trigger, 0, 1);
+  demand_coordinate(order.at_units);
+  check(Output{.mode = order.kind == OutputOrder::Kind::pwm ? Output::Mode::pwm : Output::Mode::level,
+               .width = order.width,
+               .frequency_hz = order.frequency_hz,
+               .duty_percent = order.duty_percent});
+}
+
+void ChainFields::check(const PositionTrigger& trigger) {
+  demand_within(trigger.output, 0, kOutputs - 1);
+  demand_coordinate(trigger.at_units);
+}
+
+void ChainFields::check(const Job& job) {
+  const int most = job.coordinated() ? kMappable : kModules;
+  for (const std::int8_t module : job.module_of) demand_within(module, kNoModule, most - 1);
+  demand_state(job.module_of[0] >= 0, "a command must have a module");
+  if (job.coordinated()) demand_state(job.module_of[1] >= 0, "a coordinated command must have two modules");
+  for (const double units : job.units) demand_coordinate(units);
+  for (const double units : job.ends) demand_coordinate(units);
+  demand_state(std::isfinite(job.sweep_deg) && std::isfinite(job.growth_units_turn) &&
+                   std::isfinite(job.smooth_corner_deg),
+               "an angle is beyond its range");
+  if (job.path_acceleration_units_s2 != 0) demand_speed(job.path_acceleration_units_s2);
+}
+
+void ChainFields::check(const Module& module) {
+  demand_within(module.jog_way, -1, 1);
+  demand_within(module.next_jog_way, -1, 1);
+  demand_within(module.held_jog_way, -1, 1);
+  demand_within(module.analog, 0, kFullAnalog);
+  demand_reach(module.zero_pulses);
+  demand_reach(module.sent_pulses);
+  demand_coordinate(module.place_units);
+  const bool moves = module.activity == Activity::move;
+  if (moves || module.activity == Activity::home) {
+    const Job::Kind kind = moves ? Job::Kind::move : Job::Kind::home;
+    demand_state(!module.fifo.empty() && module.fifo[0].kind == kind,
+                 "a module runs what is not at the head of its FIFO");
+  }
+}
+
+void ChainFields::check(const Chain& chain) {
+  const auto& [options, modules, axes, here, groups, map, continuous, paused, pz, number, now] = chain;
+  for (const std::int8_t module : map) demand_within(module, kNoModule, kMappable - 1);
+  demand_reach(now);
+  for (int module = 0; module < kModules; ++module) {
+    const auto& fifo = modules[static_cast<std::size_t>(module)].fifo;
+    for (std::size_t i = 0; i < fifo.size(); ++i) {
+      demand_state(fifo[i].letter_of(module) >= 0, "a command is in the FIFO of another module");
+    }
+    const bool in_group = modules[static_cast<std::size_t>(module)].activity == Activity::group;
+    demand_state(in_group == (chain.group_of(module) != nullptr),
+                 "a module is in no group, or in one unawares");
+  }
+  for (const Chain::Group& group : groups) {
+    if (!group.motion.engaged) continue;
+    demand_state(group.motion.axis_of[0] >= 0, "a group must have a module at X");
+    for (const std::int8_t member : group.motion.axis_of) {
+      demand_within(member, kNoModule, kMappable - 1);
+      if (member < 0) continue;
+      const auto& fifo = modules[static_cast<std::size_t>(member)].fifo;
+      demand_state(group.paths <= fifo.size(), "a group has more paths than commands");
+      for (std::size_t i = 0; i < group.paths; ++i) {
+        demand_state(fifo[i].module_of == group.motion.axis_of, "a group runs another one's command");
+      }
+    }
+    demand_state(group.paths <= group.motion.run.queued(), "a group has more commands than paths");
+  }
+}
+
+}  // namespace understudy::emulator::models::slim

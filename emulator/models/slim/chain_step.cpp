@@ -1,0 +1,127 @@
+// The tick, and when there need not be one.
+#include <algorithm>
+
+#include "emulator/models/slim/chain.h"
+
+namespace understudy::emulator::models::slim {
+
+void Chain::step(Tick tick) {
+  now_ = tick;
+  step_groups(tick);
+  step_axes(tick);
+  // What follows begins at the end of what was: no tick is lost between two commands.
+  for (int module = 0; module < kModules; ++module) after_motion(module, tick);
+  for (const Module& each : modules_) {
+    if (each.fifo.empty()) continue;
+    serve(tick);
+    break;
+  }
+}
+
+void Chain::step_groups(Tick tick) {
+  std::array<std::int64_t, kModules> pulses{};
+  for (Group& group : groups_) {
+    motion::Coordinated& motion = group.motion;
+    if (!motion.engaged) continue;
+    motion.step(tick, axes_, surroundings_, pulses);
+    const int done = std::min<int>(motion.run.completed(), group.paths);
+    for (std::size_t i = 0; i < motion.axis_of.size(); ++i) {
+      if (motion.axis_of[i] < 0) continue;
+      Module& mine = modules_[at(motion.axis_of[i])];
+      mine.sent_pulses = pulses[at(motion.axis_of[i])];
+      for (int path = 0; path < done; ++path) {
+        mine.place_units = mine.fifo[0].ends[i];
+        mine.fifo.pop();
+      }
+      meet_triggers(motion.axis_of[i]);
+    }
+    group.paths = static_cast<std::uint8_t>(group.paths - done);
+  }
+}
+
+/// The axis met nothing in the last tick, and nothing has changed for it since.
+bool Chain::undisturbed(int module) const {
+  const motion::Axis& axis = axes_[at(module)];
+  return axis.events == 0 && !axis.attentive && surroundings_[at(module)].version == axis.seen_version;
+}
+
+void Chain::step_axes(Tick tick) {
+  for (int module = 0; module < kModules; ++module) {
+    Module& mine = modules_[at(module)];
+    if (mine.activity == Activity::group) continue;
+    motion::Axis& axis = axes_[at(module)];
+    const bool idle = !axis.moving() && undisturbed(module);
+    mine.sent_pulses = idle ? 0 : axis.step(tick, surroundings_[at(module)]);
+    if (!idle) meet_triggers(module);
+  }
+  for (Group& group : groups_) {
+    // Only now, so that its modules had one tick each.
+    const bool was_running = group.motion.axis_of[0] >= 0;
+    if (was_running && !group.motion.engaged) release_group(group, tick);
+  }
+}
+
+/// If what the module was doing has come to its end, what that means.
+void Chain::after_motion(int module, Tick begin_at) {
+  Module& mine = modules_[at(module)];
+  const motion::Axis& axis = axes_[at(module)];
+  if (mine.activity == Activity::idle || mine.activity == Activity::group || axis.moving()) return;
+  const Activity was = mine.activity;
+  if (was == Activity::jog && mine.starved) {
+    mine.place_units = coordinate(module);
+    return;  // goes on when AVM gives a speed
+  }
+  mine.activity = Activity::idle;
+  mine.place_units = coordinate(module);
+  switch (was) {
+    case Activity::move:
+      if (axis.cause == motion::Cause::arrived) {
+        mine.place_units = mine.fifo[0].ends[0];
+        mine.fifo.pop();
+      } else if (axis.cause != motion::Cause::stopped) {
+        drop_head(module, Error::not_allowed);
+      }  // else it is paused, and goes on from here
+      break;
+    case Activity::home:
+      if (axis.cause == motion::Cause::arrived) {
+        home_found(module);
+      } else if (axis.cause != motion::Cause::stopped) {
+        drop_head(module, Error::not_allowed);
+      }
+      break;
+    case Activity::jog:
+    case Activity::thrust:
+      mine.jog_way = 0;
+      mine.thrust = 0;
+      begin_next(module, begin_at);
+      break;
+    case Activity::stopping: begin_next(module, begin_at); break;
+    case Activity::idle:
+    case Activity::group: break;
+  }
+}
+
+Tick Chain::next_active_tick(Tick done) const {
+  for (const Group& group : groups_) {
+    const motion::PathRun& run = group.motion.run;
+    if (!group.motion.engaged) continue;
+    // What was completed is of the last tick only.
+    const bool stands = run.paused() && run.at_rest(done) && run.completed() == 0 &&
+                        group.motion.slowing_for == motion::Cause::none;
+    if (!stands) return done + 1;
+  }
+  Tick next = kNever;
+  for (int module = 0; module < kModules; ++module) {
+    const Module& mine = modules_[at(module)];
+    const motion::Axis& axis = axes_[at(module)];
+    const bool waits = mine.activity == Activity::idle || mine.activity == Activity::group ||
+                       axis.task == motion::Task::hanging || (mine.starved && !axis.moving());
+    if (!waits) return done + 1;
+    // What the axis met and sent is of the last tick only. A path may end without a pulse in its last tick.
+    if (!undisturbed(module) || mine.sent_pulses != 0) next = std::min(next, done + 1);
+    for (const Output& output : mine.outputs) next = std::min(next, output.next_change(done));
+  }
+  return next;
+}
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,329 @@
+#include "emulator/models/slim/device.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "emulator/models/slim/model.h"
+
+namespace understudy::emulator::models::slim {
+
+Slim::Slim(const DeviceSettings& settings)
+    : TextDevice(slim::model(), settings), modules_(std::max(settings.modules, 1)) {
+  flow_options_ = flow_options();
+  state_.kept = factory();
+  state_.ram = state_.kept;
+}
+
+ChainOptions Slim::chain_options() const {
+  ChainOptions options;
+  if (chose(kSpeedsOfT0)) options.unequal_speeds = ChainOptions::UnequalSpeeds::by_module_0;
+  if (chose(kIneffectivePauseRefused)) options.in_vain = ChainOptions::InVain::refused;
+  if (chose(kThrustRuns)) options.thrust = ChainOptions::Thrust::runs_at_vj;
+  if (chose(kNewSpeedAtOnce)) options.new_speed = ChainOptions::NewSpeed::at_once;
+  using PathSpeedInMotion = ChainOptions::PathSpeedInMotion;
+  if (chose(kPathSpeedByX)) options.path_speed_in_motion = PathSpeedInMotion::by_x;
+  if (chose(kPathSpeedOfNext)) options.path_speed_in_motion = PathSpeedInMotion::next_command;
+  if (chose(kSarHeightAbsolute)) options.sar_height = ChainOptions::SarHeight::absolute;
+  options.coordinate_at_rest_only = chose(kCoordinateAtRestOnly);
+  options.reset_clears_coordinate = chose(kResetClearsCoordinate);
+  options.first_bit_is_p4 = chose(kFirstBitIsP4);
+  options.triggers_stay_armed = chose(kTriggersStayArmed);
+  options.pause_is_of_module_0 = chose(kPauseIsOfT0);
+  options.one_pause = chose(kOnePause);
+  options.reset_ends_pause = chose(kResetEndsPause);
+  options.stops_end_outputs = chose(kStopsEndOutputs);
+  options.jog_ends_move = chose(kJogEndsMove);
+  options.spiral_growth_in_all = chose(kSpiralGrowthInAll);
+  options.emergency_switches_servo_off = chose(kEmergencyServoOff);
+  options.acceleration_of_next_command = chose(kAccelerationOfNext);
+  options.second_decides_joint = chose(kSecondDecidesJoint);
+  options.late_successor_speeds_up = chose(kLateSpeedsUp);
+  options.path_needs_length = chose(kPathNeedsLength);
+  options.ramps_by_path_acceleration = chose(kTrapezoidWithTva);
+  options.homes_forwards = chose(kHomesForwards);
+  options.analog_speed_jogs = chose(kAnalogSpeedJogs);
+  options.only_moves_reserved = chose(kOnlyMovesReserved);
+  options.arcs_by_radius = chose(kArcsByRadius);
+  options.spiral_to_radius = chose(kSpiralToRadius);
+  options.spiral_centre_relative = chose(kSpiralCentreRelative);
+  options.lines_of_two_have_own_speed = chose(kPr4OfItsOwn);
+  options.clear_keeps_half_done = chose(kClearKeepsHalfDone);
+  options.analog_leaves_jogs = chose(kAnalogOfMovesOnly);
+  options.motion_ends_thrust = chose(kMotionEndsThrust);
+  options.done_waits_for_all = chose(kDoneWaitsForAll);
+  options.fifo_length = static_cast<std::uint8_t>(chosen_number(kBufferLength));
+  options.servo_at_power_up = !chose(kServoOffAtPowerUp);
+  return options;
+}
+
+lang::ProgramOptions Slim::program_options() const {
+  using Options = lang::ProgramOptions;
+  Options options;
+  lang::Dialect& dialect = options.dialect;
+  dialect.event_count = chosen_number(kEvents);
+  dialect.longest_line = static_cast<std::size_t>(chosen_number(kLongestLine));
+  if (chose(kHelixOfVariablesOnly)) dialect.helix_constants = false;
+  if (chose(kQueriesAreFunctions)) dialect.quantities = true;
+  if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
+  if (chose(kExternalColumnOnly)) options.columns.external = lang::Columns::External::strict;
+  if (chose(kResetWhileRunning)) options.columns.external = lang::Columns::External::with_reset;
+  if (chose(kImmediateColumnIgnored))
+    options.columns.variable_forms = lang::Columns::VariableForms::typed_too;
+  if (chose(kSavesInPrograms)) options.columns.saves = lang::Columns::Saves::stored_too;
+  options.capacity = chosen_number(kProgramSize);
+  if (chose(kLinesFrom1)) options.first_number = 1;
+  if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
+  if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
+  if (chose(kRefusedLineEndsEditing)) options.refused_line = Options::RefusedLine::ends_pe_and_pi;
+  options.check_command =
+      chose(kModuleTakenFromLetter)
+          ? [](const lang::Command& command) { return check_parameter_line(command, true); }
+          : [](const lang::Command& command) { return check_parameter_line(command, false); };
+  if (chose(kFirstLabelCounts)) options.same_label = Options::SameLabel::first_counts;
+  if (chose(kListsTextOnly)) options.listing = Options::Listing::bare;
+  return options;
+}
+
+lang::FlowOptions Slim::flow_options() const {
+  lang::FlowOptions options{.program = program_options()};
+  if (chose(kFourLinesATick)) options.lines_per_tick = 4;
+  if (chose(kLineIn4Ticks)) options.lines_every_ms = 4;
+  if (chose(kTimeUnitOf4Ms)) options.window_unit_ms = 4;
+  options.call_depth = chosen_number(kCallDepth);
+  if (chose(kBareNumberInN0)) options.bare_number = lang::FlowOptions::BareNumber::into_n0_or_r0;
+  if (chose(kEventsRunAlone)) options.events_need_program = false;
+  if (chose(kEventsEach4Ms)) options.events.look_every_ms = 4;
+  if (chose(kFailedLinePassed)) options.failed_line = lang::FlowOptions::FailedLine::is_passed;
+  if (chose(kWaitsHaveGoneOn)) options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
+  if (chose(kEventsWaitForChange)) options.events.at_arming = lang::EventOptions::AtArming::waits_for_change;
+  if (chose(kHeldEventDropped)) options.events.held = lang::EventOptions::Held::is_dropped;
+  return options;
+}
+
+MemoryForm Slim::memory_form() const {
+  return {.speed_names = chose(kPn14IsVm) ? SpeedNames::pn14_is_vm : SpeedNames::pn10_is_vm,
+          .integer_least = of_programs().dialect.integer_least};
+}
+
+Memory Slim::factory() const { return factory_memory(chose(kT0AloneIsLinked) ? 1 : modules_); }
+
+namespace {
+
+std::string history_name(int module, std::size_t number) {
+  return (module == 0 ? "" : "T" + std::to_string(module)) + "ERC(" + std::to_string(number) + ")";
+}
+
+}  // namespace
+
+// --- power and memory ------------------------------------------------------------------------------
+
+void Slim::power_up() {
+  state_.ram = state_.kept;
+  state_.chain = Chain(chain_options());
+  state_.chain.skip_to(now());
+  state_.program.clear();
+  state_.program.set_texts(state_.kept_program, of_programs());
+  state_.powered_at = now();
+  state_.clock_zero = now();
+  state_.touched = true;
+  for (int m = 0; m < kModules; ++m) state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
+  for (int m = 0; m < kModules; ++m) {
+    state_.chain.set_pulses_per_revolution(m, chosen_number(kPulsesPerRevolution));
+  }
+  apply_all_parameters();
+  const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
+  for (int letter = 0; letter < kLetters; ++letter) {
+    assign_axis(static_cast<Letter>(letter), (map >> (4 * letter)) & 0xF);
+  }
+}
+
+void Slim::power_down() {
+  State blank;
+  blank.kept = std::move(state_.kept);
+  blank.ram = blank.kept;
+  blank.kept_program = std::move(state_.kept_program);
+  blank.kept_revision = state_.kept_revision;
+  blank.chain.skip_to(now());
+  if (chose(kHistoryIsKept)) {
+    for (std::size_t m = 0; m < blank.errors.size(); ++m) {
+      blank.errors[m].history = std::move(state_.errors[m].history);
+    }
+  }
+  state_ = std::move(blank);
+}
+
+/// RESET H.
+void Slim::reboot() {
+  power_down();
+  power_up();
+}
+
+/// What was set when the device was made is kept, as if saved.
+void Slim::settle_memory() {
+  state_.kept = state_.ram;
+  keep_program();
+}
+
+void Slim::write_memory(NvImage& image) const {
+  write_image(state_.kept, factory(), memory_form(), image);
+  if (chose(kHistoryIsKept)) write_history(image);
+  image.program = state_.kept_program;
+}
+
+/// The errors of each module, the last one first: ERC(0), ERC(1) ..., T1ERC(0) ...
+void Slim::write_history(NvImage& image) const {
+  for (int m = 0; m < kModules; ++m) {
+    const auto& history = state_.errors[static_cast<std::size_t>(m)].history;
+    for (std::size_t i = 0; i < history.size(); ++i) {
+      image.registers.emplace_back(history_name(m, i), history[i]);
+    }
+  }
+}
+
+/// Takes them out of the image.
+std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
+  std::array<Errors, kModules> errors{};
+  if (!chose(kHistoryIsKept)) return errors;
+  for (int m = 0; m < kModules; ++m) {
+    for (std::size_t i = 0; i < history_length(); ++i) {
+      const auto found = std::ranges::find(image.registers, history_name(m, i),
+                                           [](const auto& entry) { return std::string_view(entry.first); });
+      if (found == image.registers.end()) break;
+      constexpr auto kMost = static_cast<std::int64_t>(Error::address);
+      if (found->second < 1 || found->second > kMost) {
+        throw NvError("registers: " + history_name(m, i) + ": " + std::to_string(found->second) +
+                      " is not an error; expected 1 to " + std::to_string(kMost));
+      }
+      errors[static_cast<std::size_t>(m)].history.push_back(static_cast<std::uint8_t>(found->second));
+      image.registers.erase(found);
+    }
+  }
+  return errors;
+}
+
+void Slim::read_memory(const NvImage& given) {
+  NvImage image = given;
+  const std::array<Errors, kModules> errors = read_history(image);
+  Memory memory = read_image(image, factory(), memory_form());
+  const auto capacity = static_cast<std::size_t>(of_programs().capacity);
+  if (image.program.size() > capacity) {
+    throw NvError("program: has " + std::to_string(image.program.size()) + " lines; expected at most " +
+                  std::to_string(capacity));
+  }
+  lang::Program program;
+  if (!program.set_texts(image.program, of_programs())) {
+    throw NvError(
+        "program: holds a line that is not a command of a program; expected lines as ULP shows them");
+  }
+  state_.kept = std::move(memory);
+  if (chose(kHistoryIsKept)) state_.errors = errors;
+  state_.kept_program = image.program;
+  ++state_.kept_revision;
+}
+
+void Slim::load_program(std::string_view text) {
+  wake();
+  lang::Program program;
+  std::istringstream lines{std::string(text)};
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::size_t first = line.find_first_not_of(" \t");
+    // What a file has for people: empty lines and remarks.
+    if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
+    const Error error = program.insert(program.size(), line, of_programs());
+    if (error == Error::none) continue;
+    const std::string lines_that_fit = std::to_string(of_programs().capacity);
+    const std::string what =
+        error == Error::buffer_full   ? "the program is full; expected at most " + lines_that_fit + " lines"
+        : error == Error::range       ? "has a value out of range"
+        : error == Error::not_allowed ? "may not stand in a program"
+        : error == Error::address     ? "begins with a label that another line has"
+                                  : "is not a command; expected one of `understudy describe slim commands`";
+    throw ProgramError(number, what);
+  }
+  stop(state_.execution);
+  state_.program = std::move(program);
+}
+
+std::string Slim::program_text() const {
+  std::string text;
+  for (const std::string& line : state_.program.texts()) text += line + "\n";
+  return text;
+}
+
+// --- a tick ----------------------------------------------------------------------------------------
+
+std::uint8_t Slim::input_levels(int module) const {
+  unsigned levels = 0;
+  for (int i = 0; i < kInputs; ++i) levels |= (level(module, i) ? 1U : 0U) << i;
+  return static_cast<std::uint8_t>(levels);
+}
+
+void Slim::sample_inputs(Tick tick) {
+  state_.chain.skip_to(tick - 1);
+  for (int m = 0; m < kModules; ++m) {
+    state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
+    state_.chain.set_horg(m, level(m, kHorg));
+    state_.chain.set_analog(m, Device::input(terminal(m, kAnalog)));
+  }
+  state_.touched = false;
+}
+
+void Slim::run_interpreters(Tick tick) {
+  if (program_is_held()) return;
+  failed_module_ = 0;
+  const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
+  if (error == Error::none) return;
+  // A program that goes on failing is faster than its line: what has no room is remembered only.
+  const bool is_said = chose(kProgramErrorsSaid) && has_room_to_speak();
+  const int module = is_said ? fail(failed_module_, error) : remember(failed_module_, error);
+  // Whoever asks T0 why its program has ended is told, although the motor was another one's.
+  if (module != 0 && !state_.execution.running) note_error(0, error);
+}
+
+void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
+
+void Slim::update_outputs(Tick) {
+  for (int m = 0; m < kModules; ++m) {
+    const Error late = state_.chain.take_late_error(m);
+    if (late != Error::none) note_error(chose(kErrorsAreT0s) ? 0 : m, late);
+  }
+}
+
+Tick Slim::next_active_tick(Tick done) const {
+  if (state_.touched) return done + 1;
+  for (int m = 0; m < kModules; ++m) {
+    if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return done + 1;
+    const bool sees_horg = level(m, kHorg) == state_.chain.horg(m);
+    if (!sees_horg || Device::input(terminal(m, kAnalog)) != state_.chain.analog(m)) return done + 1;
+  }
+  if (program_is_held()) return state_.chain.next_active_tick(done);
+  // A program that waits for the chain asks in every tick.
+  if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
+  return std::min(state_.chain.next_active_tick(done),
+                  next_active_ms(state_.execution, done, state_.program, flow_options_, *this));
+}
+
+State Slim::settled() const {
+  State state = state_;
+  state.chain.skip_to(now());
+  return state;
+}
+
+bool Slim::same_state(const Device& other) const {
+  const auto* that = dynamic_cast<const Slim*>(&other);
+  return that != nullptr && that->now() == now() && that->settled() == settled();
+}
+
+// --- terminals and axes ----------------------------------------------------------------------------
+
+bool Slim::output(int number) const {
+  const int module = number / kTerminalsOfModule;
+  const int which = number % kTerminalsOfModule;
+  return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
+}
+
+void Slim::set_encoder(int, std::int64_t) {}  // its loop is closed inside; see the model's gaps
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,237 @@
+// SLIM: a chain of integrated servos behind one RS232 line. The host types commands and queries at module T0,
+// or has it run a stored program; both act on the chain (chain.h).
+//
+//   a line ──> dialogue.cpp ──> an editor's line, a number for GETI, or a command
+//                                            └─> commands.cpp, queries.cpp ──> chain, memory, program
+//   a tick ──> device.cpp ──> program (interpreter/slim/flow.h) ──> commands.cpp
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/text/text_device.h"
+#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/meetings.h"
+#include "emulator/models/slim/memory.h"
+#include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/options.h"
+#include "interpreter/slim/availability.h"
+#include "interpreter/slim/editor.h"
+#include "interpreter/slim/flow.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace lang = interpreter::slim;
+
+inline constexpr std::size_t kMostSpeech = 256 * 1024;
+
+// A module's terminals, among all: T0's, then T1's ...
+inline constexpr int kInputs = lang::kInputCount;
+inline constexpr int kHorg = kInputs;
+inline constexpr int kAnalog = kHorg + 1;
+inline constexpr int kFirstSwitch = kAnalog + 1;
+inline constexpr int kFirstOutput = kFirstSwitch + lang::kSwitchCount;
+inline constexpr int kTerminalsOfModule = kFirstOutput + kOutputs;
+constexpr int terminal(int module, int which) { return module * kTerminalsOfModule + which; }
+
+/// ?ERR and ?ERC of a module.
+struct Errors {
+  Error present = Error::none;
+  std::vector<std::uint8_t> history{};  // the last one first
+
+  bool operator==(const Errors&) const = default;
+};
+
+struct State {
+  Memory ram;
+  Memory kept;
+  std::vector<std::string> kept_program{};
+  std::uint64_t kept_revision = 0;
+  Chain chain{};
+  lang::Program program{};
+  lang::Editor editor{};
+  lang::Execution execution{};
+  std::array<Errors, kModules> errors{};
+  std::array<std::uint8_t, kModules> inputs{};  // bit n: input n + 1, as looked at in this tick
+  Tick powered_at = 0;                          // ?time counts from it
+  Tick clock_zero = 0;                          // TM counts from it
+  std::string speech{};                         // not taken yet
+  bool touched = true;                          // something was done from outside since the last tick
+
+  bool operator==(const State&) const = default;
+};
+
+class Slim final : public TextDevice, private lang::Machine {
+ public:
+  explicit Slim(const DeviceSettings& settings);
+
+  // --- the dialogue ---
+  TextRules text_rules() const override;
+  void hear_line(std::string_view line) override;
+  void hear_overlong() override;
+  void hear_escape() override;
+  bool has_speech() const override { return !state_.speech.empty(); }
+  std::string take_speech() override { return std::exchange(state_.speech, {}); }
+
+  // --- by name ---
+  std::optional<double> value_named(std::string_view name) const override;
+  std::optional<std::string> assign(std::string_view name, double value) override;
+  std::vector<std::string> names() const override;
+
+  // --- memory ---
+  std::uint64_t kept_revision() const override { return state_.kept_revision; }
+  void settle_memory() override;
+  void load_program(std::string_view text) override;
+  std::string program_text() const override;
+
+  // --- time ---
+  void sample_inputs(Tick tick) override;
+  void run_interpreters(Tick tick) override;
+  void step_motion(Tick tick) override;
+  void update_outputs(Tick tick) override;
+  Tick next_active_tick(Tick done) const override;
+  bool same_state(const Device& other) const override;
+
+  // --- terminals and axes ---
+  bool has_axis(int axis) const override { return axis < modules_ || state_.chain.linked(axis); }
+  bool has_terminal(int terminal) const override { return has_axis(terminal / kTerminalsOfModule); }
+  bool output(int terminal) const override;
+  std::int64_t pulses_this_tick(int axis) const override { return state_.chain.pulses(axis); }
+  double speed_pps(int axis) const override { return state_.chain.speed_pps(axis); }
+  void set_encoder(int axis, std::int64_t counts) override;
+
+  const State& state() const { return state_; }
+
+ protected:
+  void power_up() override;
+  void power_down() override;
+  void write_own_state(StateWriter& writer) const override;
+  std::function<void()> read_own_state(StateReader& reader) override;
+  void write_memory(NvImage& image) const override;
+  void read_memory(const NvImage& image) override;
+
+ private:
+  /// What a command has to say.
+  struct Answer {
+    std::string name{};
+    std::string text{};
+    std::optional<double> number{};  // of a query that has one
+    bool has_words = true;           // false: only the number is wanted
+  };
+
+  // Of a program: interpreter/slim/machine.h.
+  bool input(int number) const override;
+  double value(const lang::Operand& operand) const override;
+  lang::Outcome carry_out(const lang::Command& command) override;
+
+  const std::optional<lang::Command>& query_named(std::string_view name) const;
+  int chosen_number(std::size_t row) const { return number_of(kChoices[row], choice(row)); }
+
+  // dialogue.cpp
+  std::string_view line_end() const { return chose(kSaidLinesEndWithCr) ? "\r" : "\r\n"; }
+  bool is_silence(Error error) const { return error == Error::not_linked && chose(kUnlinkedSilent); }
+  /// As it is shown.
+  int code_of(Error error) const;
+  std::size_t history_length() const { return static_cast<std::size_t>(chosen_number(kHistoryLength)); }
+  /// For what a program says of itself: it is faster than its line.
+  bool has_room_to_speak() const {
+    return state_.speech.size() < static_cast<std::size_t>(chosen_number(kPrintAhead));
+  }
+  void say(std::string_view text);
+  /// These two give the module that has the error in the end.
+  int fail(int module, Error error);
+  int remember(int module, Error error);
+  void note_error(int module, Error error);
+  void conclude();
+  void hear_command(std::string_view line);
+  bool is_heard_instead_of_number(std::string_view line) const;
+  Error obey(lang::Command& command, std::vector<std::string>& lines);
+
+  // commands.cpp
+  Error execute(const lang::Command& command);
+  lang::Outcome::Program program_after_stop(From from) const;
+  Error move_one(const lang::Command& command, int module);
+  Error move_several(const lang::Command& command);
+  Error switch_outputs(const lang::Command& command, int module);
+  Error assign_axis(Letter letter, int module);
+  Error control_all(const lang::Command& command);
+  bool is_done(const lang::Command& command) const;
+  bool would_wait(const lang::Command& command) const;
+
+  // values.cpp
+  RealForm real_form() const { return chose(kRealsWithExponent) ? RealForm::exponent : RealForm::plain; }
+  double amount(const lang::Command& command, std::size_t operand) const;
+  std::string text_of(const lang::Operand& variable) const;
+  Error set_variable(const lang::Operand& variable, double value);
+  /// PR4 is another name of PR3, unless it is a speed of its own.
+  std::string_view meant(std::string_view parameter) const {
+    return parameter == "PR4" && !chose(kPr4OfItsOwn) ? "PR3" : parameter;
+  }
+  /// By number: so many pulses are so many user units.
+  struct UserUnit {
+    std::size_t pulses = parameter("PN45");
+    std::size_t units = parameter("PN46");
+  };
+  UserUnit user_unit() const {
+    if (chose(kUnitOfPn44AndPn45)) return {parameter("PN44"), parameter("PN45")};
+    return chose(kUnitOfPn46AndPn45) ? UserUnit{parameter("PN46"), parameter("PN45")} : UserUnit{};
+  }
+  bool is_of_user_unit(std::size_t number) const {
+    return number == user_unit().pulses || number == user_unit().units;
+  }
+  Error set_scale(int module, std::size_t number, double value);
+  Error set_parameter(int module, std::string_view name, double value);
+  Error apply_parameter(int module, std::size_t number, double value);
+  void apply_all_parameters();
+  void keep_axis_map();
+  Error restore_factory_parameters();
+  void keep_parameters();
+  void keep_data();
+  void keep_program();
+  std::vector<std::string> parameter_list() const;
+  std::int64_t clock_s() const { return (now() - state_.clock_zero) / 1000; }
+
+  // queries.cpp
+  Error query(const lang::Command& command, Answer& answer) const;
+  std::uint16_t status_bits(int module) const;
+  std::string history_text(const Errors& errors) const;
+
+  bool level(int module, int which) const { return Device::input(terminal(module, which)) != 0; }
+  std::uint8_t input_levels(int module) const;
+  /// What a module's number is, or that it is not linked.
+  Error linked(int module) const;
+  ChainOptions chain_options() const;
+  lang::ProgramOptions program_options() const;
+  lang::FlowOptions flow_options() const;
+  MemoryForm memory_form() const;
+  const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
+  Memory factory() const;
+  void write_history(NvImage& image) const;
+  std::array<Errors, kModules> read_history(NvImage& image) const;
+  /// By PZ.
+  bool program_is_held() const {
+    const bool is_paused = state_.chain.queues_paused() || (chose(kOnePause) && state_.chain.paused());
+    return chose(kPauseHoldsProgram) && is_paused;
+  }
+  void reboot();
+  /// As if all ticks up to now had been run one by one.
+  State settled() const;
+  void wake() {
+    state_.chain.skip_to(now());
+    state_.touched = true;
+  }
+
+  int modules_ = 1;
+  lang::FlowOptions flow_options_{};
+  int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
+  // Queries by their names: not state, it only saves reading the words again.
+  mutable std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
+  State state_;
+};
+
+}  // namespace understudy::emulator::models::slim

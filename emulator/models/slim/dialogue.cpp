@@ -1,0 +1,178 @@
+// SLIM's dialogue: what becomes of a line, and what is answered.
+#include <algorithm>
+#include <utility>
+
+#include "emulator/models/slim/device.h"
+
+namespace understudy::emulator::models::slim {
+
+/// Whether a line that comes while a program waits for a number is a command all the same: what else may be
+/// typed while a program runs, but for queries.
+bool Slim::is_heard_instead_of_number(std::string_view line) const {
+  const lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
+  if (!parsed.line.command) return false;
+  const lang::Command& command = *parsed.line.command;
+  if (command.verb == lang::Verb::exit) return !chose(kExitIsNoNumber);
+  const bool is_query = lang::kCommands[static_cast<std::size_t>(command.row)].is_query();
+  return !chose(kNumbersOnly) && !is_query &&
+         is_allowed(command, lang::Place::external, of_programs().columns);
+}
+
+TextRules Slim::text_rules() const {
+  return {.echo = chose(kEcho),
+          .longest_line = of_programs().dialect.longest_line,
+          .line_feed_ends = !chose(kCrAloneEnds),
+          .has_flow_control = chose(kXonXoff),
+          .echoed_end = line_end()};
+}
+
+/// A host that types faster than its line answers loses what is beyond a bound that no listing reaches.
+void Slim::say(std::string_view text) {
+  if (state_.speech.size() >= kMostSpeech) return;
+  state_.speech += text;
+  state_.speech += line_end();
+}
+
+/// T0 reads the lines: what is wrong with one is T0's error, whichever module it names. What a motor refuses
+/// is its own, unless nobody could ask: of a module that is not linked the host has it.
+int Slim::remember(int module, Error error) {
+  const bool is_of_line = error == Error::syntax || error == Error::range || error == Error::address;
+  if (is_of_line || !state_.chain.linked(module) || chose(kErrorsAreT0s)) module = 0;
+  note_error(module, error);
+  return module;
+}
+
+void Slim::note_error(int module, Error error) {
+  Errors& errors = state_.errors[static_cast<std::size_t>(module)];
+  errors.present = error;
+  if (chose(kHistoryIsKept)) ++state_.kept_revision;
+  errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
+  if (errors.history.size() > history_length()) errors.history.pop_back();
+}
+
+int Slim::code_of(Error error) const {
+  return error != Error::none && chose(kOneErrorCode) ? 1 : static_cast<int>(error);
+}
+
+int Slim::fail(int module, Error error) {
+  if (!chose(kErrorsNotAnswered)) say("ERR " + std::to_string(code_of(error)));
+  return remember(module, error);
+}
+
+/// After each completed line.
+void Slim::conclude() {
+  if (!chose(kPrompt)) return;
+  if (const auto number = next_line_number(state_.editor, state_.program, of_programs())) {
+    state_.speech += std::to_string(*number);
+  }
+  state_.speech += ">";
+}
+
+void Slim::hear_line(std::string_view line) {
+  wake();
+  if (is_editing(state_.editor)) {
+    const Error error = enter_line(state_.editor, state_.program, line, of_programs());
+    if (error != Error::none) {
+      fail(0, error);
+    } else if (chose(kAcknowledges)) {
+      say("OK");
+    }
+  } else if (wants_number(state_.execution) && !is_heard_instead_of_number(line)) {
+    const Error error = give_number(state_.execution, state_.program, line, of_programs().dialect);
+    if (error != Error::none) fail(0, error);
+  } else {
+    hear_command(line);
+  }
+  conclude();
+}
+
+void Slim::hear_overlong() {
+  wake();
+  fail(0, Error::syntax);
+  conclude();
+}
+
+void Slim::hear_escape() {
+  wake();
+  state_.editor = {};
+}
+
+void Slim::hear_command(std::string_view line) {
+  lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
+  if (parsed.error == Error::none && !parsed.line.command) {
+    // A label belongs into a program.
+    if (!parsed.line.label.empty()) fail(0, Error::syntax);
+    return;
+  }
+  if (parsed.error == Error::none && !parsed.line.label.empty()) parsed.error = Error::syntax;
+  if (parsed.error != Error::none) {
+    fail(0, parsed.error);
+    return;
+  }
+
+  lang::Command& command = *parsed.line.command;
+  const lang::Place place = state_.execution.running ? lang::Place::external : lang::Place::immediate;
+  if (!is_allowed(command, place, of_programs().columns)) {
+    fail(0, Error::not_allowed);
+    return;
+  }
+  std::vector<std::string> lines;
+  const Error error = obey(command, lines);
+  if (is_silence(error)) return;
+  if (error != Error::none) {
+    fail(command.module < 0 ? 0 : command.module, error);
+    return;
+  }
+  for (const std::string& text : lines) say(text);
+  if (lines.empty() && chose(kAcknowledges) && powered()) say("OK");
+}
+
+/// A typed command. `lines` is what it has to say.
+Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
+  using lang::Verb;
+  if (const Error error = resolve_indices(command, *this); error != Error::none) return error;
+  const bool has_quantity = std::ranges::any_of(command.operands, [](const lang::Operand& operand) {
+    return operand.kind == lang::Operand::Kind::quantity;
+  });
+  if (has_quantity && of_programs().check_command(command) != Error::none) return Error::syntax;
+  if (lang::kCommands[static_cast<std::size_t>(command.row)].is_query()) {
+    Answer answer;
+    const Error error = query(command, answer);
+    if (error == Error::none) {
+      lines.push_back(chose(kNamesValues) ? answer.name + "=" + answer.text : answer.text);
+    }
+    return error;
+  }
+  switch (command.verb) {
+    case Verb::run: {
+      const lang::Operand* const address = command.operands.empty() ? nullptr : command.operands.data();
+      return start(state_.execution, state_.program, address, flow_options_);
+    }
+    case Verb::exit: stop(state_.execution); return Error::none;
+    case Verb::stop_all:
+      if (program_after_stop(From::host) == lang::Outcome::Program::ends) stop(state_.execution);
+      break;
+    case Verb::set_event:
+    case Verb::on_event:
+      define_event(state_.execution.events, command, flow_options_.events);
+      return Error::none;
+    case Verb::program_list: lines = state_.program.listing(of_programs()); return Error::none;
+    case Verb::upload: lines = state_.program.upload(); return Error::none;
+    case Verb::program_new:
+    case Verb::program_append:
+    case Verb::program_edit:
+    case Verb::program_insert:
+    case Verb::program_delete:
+    case Verb::download: return begin_edit(state_.editor, state_.program, command, of_programs());
+    case Verb::list_parameters: lines = parameter_list(); return Error::none;
+    case Verb::print: {
+      const lang::Operand& what = command.operands.front();
+      lines.push_back(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
+      return Error::none;
+    }
+    default: break;
+  }
+  return chose(kBusyRefused) && would_wait(command) ? Error::not_allowed : execute(command);
+}
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,10 @@
+// What a chain of SLIM modules refuses: the language's own numbers, which ?ERR shows.
+#pragma once
+
+#include "interpreter/slim/error.h"
+
+namespace understudy::emulator::models::slim {
+
+using interpreter::slim::Error;
+
+}  // namespace understudy::emulator::models::slim

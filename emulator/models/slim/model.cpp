@@ -1,0 +1,139 @@
+#include "emulator/models/slim/model.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "emulator/device/text/text_device.h"
+#include "emulator/models/slim/device.h"
+#include "emulator/models/slim/numbers.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace {
+
+constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual names none
+constexpr std::array<int, 5> kBauds{9600, 19200, 38400, 57600, 115200};
+
+constexpr SectionRow kSections[] = {
+    {"程式/立即", "program, immediate"},
+    {"立即", "immediate"},
+    {"立即/外部", "immediate, external"},
+    {"緩衝區", "buffer"},
+};
+
+/// Names live as long as the program.
+struct Names {
+  std::vector<std::string> texts;
+  std::vector<TerminalRow> terminals;
+  std::vector<std::string> axis_texts;
+  std::vector<AxisRow> axes;
+};
+
+Names make_names() {
+  Names names;
+  names.texts.reserve(static_cast<std::size_t>(kModules * kTerminalsOfModule));
+  const auto add = [&](int module, TerminalRow::Kind kind, const std::string& name, int highest = 1) {
+    // T0 needs no prefix, as in commands.
+    names.texts.push_back((module == 0 ? "" : "T" + std::to_string(module)) + name);
+    names.terminals.push_back({.kind = kind, .name = names.texts.back(), .lowest = 0, .highest = highest});
+  };
+  using Kind = TerminalRow::Kind;
+  for (int m = 0; m < kModules; ++m) {
+    for (int i = 1; i <= kInputs; ++i) add(m, Kind::digital_in, "IN" + std::to_string(i));
+    add(m, Kind::digital_in, "HORG");
+    add(m, Kind::analog_number, "AIN", kFullAnalog);
+    for (int i = 1; i <= lang::kSwitchCount; ++i) add(m, Kind::dip_switch, "SW" + std::to_string(i));
+    for (int i = 1; i <= kOutputs; ++i) add(m, Kind::digital_out, "P" + std::to_string(i));
+  }
+  names.axis_texts.reserve(kModules);
+  for (int m = 0; m < kModules; ++m) {
+    names.axis_texts.push_back("T" + std::to_string(m));
+    names.axes.push_back({.name = names.axis_texts.back(),
+                          .home_input = terminal(m, kHorg),
+                          .pulses_per_revolution = ModuleSettings{}.pulses_per_revolution});
+  }
+  return names;
+}
+
+/// Where a command may be given, as bits of Place, in words.
+constexpr std::array<std::string_view, 8> kWhere{
+    "nowhere", "program",          "typed",          "program, typed",
+    "running", "program, running", "typed, running", "program, typed, running"};
+
+std::vector<CommandRow> command_rows() {
+  std::vector<CommandRow> rows;
+  for (std::size_t i = 0; i < lang::kCommands.size(); ++i) {
+    const lang::CommandRow& row = lang::kCommands[i];
+    const lang::Command command{.verb = row.verb, .row = static_cast<int>(i)};
+    std::size_t where = 0;
+    for (const lang::Place place : {lang::Place::program, lang::Place::immediate, lang::Place::external}) {
+      if (is_allowed(command, place)) where |= std::size_t{1} << static_cast<unsigned>(place);
+    }
+    rows.push_back({row.command, row.syntax, row.meaning, kWhere[where]});
+  }
+  return rows;
+}
+
+std::vector<NamedParameterRow> parameter_rows() {
+  std::vector<NamedParameterRow> rows;
+  for (const ParameterDefinition& row : kParameters) {
+    const bool is_real = row.type == ParameterDefinition::Type::real;
+    rows.push_back({.number = row.name.starts_with('P') ? row.name : "",
+                    .name = row.alias.empty() ? row.name : row.alias,
+                    .width = is_real || row.highest > 65535 ? 32 : 16,
+                    .least = (row.above_lowest ? "> " : "") + text_of_real(row.lowest),
+                    .most = is_real ? text_of_real(row.highest) : text_of_integer(row.highest),
+                    .unit = row.unit,
+                    .factory = text_of_real(row.factory),
+                    .meaning = row.meaning,
+                    .unmodelled = row.unmodelled});
+  }
+  return rows;
+}
+
+constexpr std::array<std::string_view, 5> kStateNames{"ST", "MD", "PE", "ERR", "TM"};
+
+constexpr std::array<std::string_view, 5> kGaps{
+    "?AC and ?TEMP always show the same, 24 and 25 or what a bench has chosen, ?IMX and ?IC 0: nothing "
+    "electrical is modelled. ?VER and ?MT are of no version in particular.",
+    "The servo's own loop has no error: ?FLE shows 0, and EL and LL are stored without effect.",
+    "FT pushes against something that does not give way, and TpSYN and one of PN44 to PN46 are stored "
+    "without effect.",
+    "PWM is in whole milliseconds, and above 500 Hz the level that prevails stays.",
+    "Moves that a real chain would make wrongly, with PR2 or PR3 unequal, are refused instead; where PR3 of "
+    "one "
+    "module changes in motion, the path is kept to all the same.",
+};
+
+}  // namespace
+
+const Model& model() {
+  static const Names names = make_names();
+  static const std::vector<CommandRow> commands = command_rows();
+  static const std::vector<NamedParameterRow> parameters = parameter_rows();
+  static const Model model{
+      .name = "slim",
+      .title = "chain of up to 8 integrated servos, ASCII commands on RS232",
+      .firmwares = kFirmwares,
+      .registers = no_registers(),
+      .parameters = {},
+      .named_parameters = parameters,
+      .instructions = {},
+      .commands = commands,
+      .choices = kChoices,
+      .sections = kSections,
+      .terminals = names.terminals,
+      .axes = names.axes,
+      .state_registers = kStateNames,
+      .gaps = kGaps,
+      .text = TextPort{.bauds = kBauds},
+      .most_modules = kModules,
+      .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
+        return std::make_unique<Slim>(settings);
+      },
+  };
+  return model;
+}
+
+}  // namespace understudy::emulator::models::slim

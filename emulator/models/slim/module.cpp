@@ -1,0 +1,69 @@
+#include "emulator/models/slim/module.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace understudy::emulator::models::slim {
+
+namespace {
+
+/// Beyond this a double does not hold every pulse, and sums of two might not either.
+constexpr double kFarthest_pulses = 4'503'599'627'370'496.0;  // 2^52
+
+/// No module is that fast; faster, and a century of jogging could not be counted.
+constexpr double kFastest_pps = 1e9;
+
+double pulses_a_second(const ModuleSettings& settings, double speed) {
+  const double rps = settings.speed_unit == SpeedUnit::rps ? speed : speed / 60;
+  return std::min(rps * settings.pulses_per_revolution, kFastest_pps);
+}
+
+/// PR2, where it stands for VA.
+double path_slope(const ModuleSettings& settings) {
+  constexpr double kSlowest_pps2 = 1e-8;  // VA's least comes to that, and a ramp must have an end
+  return std::clamp(settings.path_acceleration_units_s2 * settings.scale.pulses_per_unit(), kSlowest_pps2,
+                    kFastest_pps);
+}
+
+motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed, const ChainOptions& options) {
+  const double slope = options.ramps_by_path_acceleration ? path_slope(settings)
+                                                          : pulses_a_second(settings, settings.acceleration);
+  const auto ramp = motion::RampLaw::by_slope(slope);
+  return {.top_speed_u_s = pulses_a_second(settings, speed), .up = ramp, .down = ramp};
+}
+
+}  // namespace
+
+std::int64_t Module::pulses_of(double units) const {
+  // In the order that coordinated motion reckons in: both must come to the same pulse.
+  const double pulses =
+      units * static_cast<double>(settings.scale.multiplier) / static_cast<double>(settings.scale.divider);
+  return std::llround(pulses);
+}
+
+double Module::units_of(std::int64_t pulses) const {
+  return static_cast<double>(pulses) * static_cast<double>(settings.scale.divider) /
+         static_cast<double>(settings.scale.multiplier);
+}
+
+bool Module::reaches(double units) const {
+  // The path's own bound, and the pulses'.
+  constexpr double kFarthest_units = 1e12;
+  return std::abs(units) <= kFarthest_units &&
+         std::abs(units) * settings.scale.pulses_per_unit() <= kFarthest_pulses;
+}
+
+double Module::analog_factor() const {
+  return analog_speed ? static_cast<double>(analog) / kFullAnalog : 1.0;
+}
+
+motion::SpeedLaw Module::working_law(const ChainOptions& options) const {
+  return trapezoid(settings, settings.working_speed * analog_factor(), options);
+}
+
+motion::SpeedLaw Module::jog_law(const ChainOptions& options) const {
+  return trapezoid(
+      settings, std::abs(settings.jog_speed) * (options.analog_leaves_jogs ? 1 : analog_factor()), options);
+}
+
+}  // namespace understudy::emulator::models::slim

@@ -1,0 +1,20 @@
+// How SLIM writes its numbers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace understudy::emulator::models::slim {
+
+enum class RealForm : std::uint8_t {
+  plain,     // digits and a point, whatever the size
+  exponent,  // from 1e9 on and below 1e-4 with an exponent
+};
+
+std::string text_of_integer(double value);
+/// As few digits as tell a 32-bit real apart.
+std::string text_of_real(double value, RealForm form = RealForm::plain);
+/// Every pulse: whole numbers exactly, others to the ninth decimal as far as 15 digits go.
+std::string text_of_coordinate(double units);
+
+}  // namespace understudy::emulator::models::slim

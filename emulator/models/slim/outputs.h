@@ -1,0 +1,64 @@
+// A module's four outputs: levels, single pulses, pulse width modulation.
+#pragma once
+
+#include <cstdint>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::models::slim {
+
+/// The unit of PLS's width.
+inline constexpr Tick kPulseUnit = 4;
+
+/// One output, P1 .. P4.
+struct Output {
+  enum class Mode : std::uint8_t {
+    level,
+    pulse,  // on from `since` until `since` + `width`, then off
+    pwm,    // on for the first `duty_percent` of each period, counted from `since`
+  };
+  Mode mode = Mode::level;
+  bool on = false;  // of a level; else before `since`
+  Tick since = 0;
+  Tick width = 0;  // of a pulse
+  double frequency_hz = 0;
+  double duty_percent = 0;
+
+  bool operator==(const Output&) const = default;
+
+  /// A frequency that ticks cannot show (above 500 Hz) shows the level that prevails.
+  bool level_at(Tick tick) const;
+  /// The first tick after `done` at which the level may change by itself; kNever if it will not.
+  Tick next_change(Tick done) const;
+};
+
+/// What a command does to outputs.
+struct OutputOrder {
+  enum class Kind : std::uint8_t { set, clear, toggle, pulse, pwm, all, arm };
+  Kind kind = Kind::set;
+  std::uint8_t output = 0;   // 0 is P1
+  std::uint8_t mask = 0;     // all: bit 0 is P1
+  std::uint8_t trigger = 0;  // arm: which of the two, 0 or 1
+  bool trigger_sets = false;
+  Tick width = 0;
+  double frequency_hz = 0;
+  double duty_percent = 0;
+  double at_units = 0;  // arm: the coordinate
+
+  bool operator==(const OutputOrder&) const = default;
+};
+
+/// P1SET, P1CLR (trigger 0), P2SET, P2CLR (trigger 1): when the coordinate is reached from either side.
+struct PositionTrigger {
+  bool armed = false;
+  bool sets = false;
+  std::uint8_t output = 0;
+  double at_units = 0;
+
+  bool operator==(const PositionTrigger&) const = default;
+};
+
+/// All kinds but arm. Pulses and PWM begin with tick `begin_at`, so that they last for whole ticks.
+void carry_out(Output& output, const OutputOrder& order, Tick begin_at);
+
+}  // namespace understudy::emulator::models::slim

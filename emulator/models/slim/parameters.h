@@ -1,0 +1,128 @@
+// SLIM: the parameters that its command list names (part 1 "參數", part 2 parameter table), as data.
+// Assignments, queries, range checks, the memory, ULC, describe and docs read these rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "emulator/models/slim/errors.h"
+#include "interpreter/slim/command.h"
+
+namespace understudy::emulator::models::slim {
+
+struct ParameterDefinition {
+  std::string_view name;
+  std::string_view alias;  // a second name of the manual; empty if there is none
+  enum class Type : std::uint8_t { integer, real } type = Type::real;
+  double lowest = 0;
+  double highest = 0;
+  bool above_lowest = false;  // the lowest itself is not allowed
+  double factory = 0;
+  std::string_view unit;
+  bool host_only = false;  // one for the chain, T0's
+  std::string_view meaning;
+  std::string_view unmodelled{};  // what is missing, if it is only stored
+};
+
+inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
+/// Speeds and accelerations outside are no machine's, and may not be plannable. (As 32 bits hold 1e-6.)
+inline constexpr double kLeastSpeed = 1e-6F;
+inline constexpr double kMostSpeed = 1e9;
+
+/// In the order in which ULC lists them.
+inline constexpr ParameterDefinition kParameters[] = {
+    {"PN10", "VM", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 1000, "RPM or RPS, by FU", false,
+     "working speed"},
+    {"PN14", "VJ", ParameterDefinition::Type::real, kLeastSpeed, 1e6, false, 100, "RPM or RPS, by FU", false,
+     "jog speed"},
+    {"FU", "", ParameterDefinition::Type::integer, 0, 1, false, 0, "", false,
+     "unit of PN10 and PN14: 0 RPM, 1 RPS"},
+    {"VA", "", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 10000,
+     "RPM/s or RPS/s, by FU", false, "acceleration of moves of one axis; the name is ours, like TVA"},
+    {"LL", "", ParameterDefinition::Type::real, 0, 1e6, false, 0, "W", false, "load limit; 0: none",
+     "no load is computed"},
+    {"EL", "", ParameterDefinition::Type::integer, 0, 2147483647, false, 0, "pulse", false,
+     "position error limit; 0: none", "the servo follows without error"},
+    {"PN37", "", ParameterDefinition::Type::integer, 0, 65535, false, 0x8888, "", true,
+     "module of each axis at power-up, a nibble for x, y, z and w; 8: none"},
+    {"PN44", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "", false,
+     "user coordinate unit", "coordinates go by PN45 and PN46"},
+    {"PN45", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "pulse", false,
+     "user coordinate unit: so many pulses ..."},
+    {"PN46", "", ParameterDefinition::Type::integer, 1, 2147483647, false, 1, "unit", false,
+     "... are so many units"},
+    {"PN50", "", ParameterDefinition::Type::integer, 0, 255, false, 1, "", true,
+     "linked modules, bit p for Tp; T0 always"},
+    {"PR2", "TVA", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 1000, "unit/s2", false,
+     "resultant acceleration of coordinated motion"},
+    {"PR3", "TVM", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 100, "unit/s", false,
+     "resultant speed of coordinated motion"},
+    {"PR4", "", ParameterDefinition::Type::real, kLeastSpeed, kMostSpeed, false, 100, "unit/s", false,
+     "PR3 by another name, or by choice the speed of 2MA and 2MR"},
+    {"PR7", "CMA", ParameterDefinition::Type::real, 0, 180, false, 0, "degree", false,
+     "largest angle that CM 2 joins"},
+    {"SYN", "", ParameterDefinition::Type::integer, 0, 7, false, 0, "", false,
+     "master of linked axes, of older models", "arcs need no master"},
+};
+inline constexpr std::size_t kParameterCount = std::size(kParameters);
+
+/// The values of one module. An integer is held exactly.
+using Parameters = std::array<double, kParameterCount>;
+
+/// The number of a row; a compile error for a name that there is not.
+consteval std::size_t parameter(std::string_view name) {
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
+      return i;
+  }
+  throw "no such parameter";
+}
+
+/// Of PN10 and PN14 the manual says only that both are speeds. Rows go by what they mean: with
+/// `pn14_is_vm` the first is called PN14.
+enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
+
+/// The row whose name stands at that place of a list; and likewise the place of a row.
+constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
+  static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
+  return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
+}
+constexpr std::string_view name_of(std::size_t number, SpeedNames names) {
+  return kParameters[listed_at(number, names)].name;
+}
+
+/// By name or alias, in capitals.
+constexpr std::optional<std::size_t> find_parameter(std::string_view name, SpeedNames names) {
+  for (std::size_t i = 0; i < kParameterCount; ++i) {
+    const std::string_view alias = kParameters[i].alias;
+    if (name_of(i, names) == name || (!alias.empty() && alias == name)) return i;
+  }
+  return std::nullopt;
+}
+
+constexpr Parameters factory_parameters() {
+  Parameters all{};
+  for (std::size_t i = 0; i < kParameterCount; ++i) all[i] = kParameters[i].factory;
+  return all;
+}
+
+/// The value as the parameter holds it: a real one is rounded to what 32 bits hold. Nothing if it is out of
+/// range.
+std::optional<double> fitted(const ParameterDefinition& row, double value);
+
+/// TM is set like a parameter.
+inline constexpr double kMostClock_s = 1e9;
+
+/// What an assignment is refused for, whatever the chain is doing: no such parameter (syntax), or a value
+/// that it cannot have. Without a value, the former. An axis map may name a module twice only if the last
+/// letter takes it from the others.
+Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
+                      bool module_taken_from_letter);
+/// The same for a line of a program, whose value may be a variable; other lines are all right.
+Error check_parameter_line(const interpreter::slim::Command& command, bool module_taken_from_letter);
+
+}  // namespace understudy::emulator::models::slim

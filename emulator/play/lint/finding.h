@@ -1,0 +1,38 @@
+// What a host's manners lack, counted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::play {
+
+enum class Manner : std::uint8_t {
+  too_soon,     // a request began before the line had been silent for long enough
+  not_waited,   // a request had begun when the answer to the one before came
+  gap,          // a pause within a frame
+  absent,       // a request to a station that is not there
+  read_only,    // a write to what can only be read
+  eeprom_wear,  // a register that is kept in EEPROM, changed again and again
+};
+
+struct Finding {
+  std::uint64_t count = 0;
+  SimTime first{0};
+  SimTime last{0};
+  SimTime extreme{0};  // the shortest silence, the longest gap
+
+  void add(SimTime at) {
+    if (count == 0) first = at;
+    ++count;
+    last = at;
+  }
+};
+
+/// What a finding is about: a station's number, a register's name; empty for the line as a whole.
+using Findings = std::map<std::pair<Manner, std::string>, Finding>;
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,167 @@
+#include "emulator/play/lint/line_manners.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace understudy::emulator::play {
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 4 * pty::kRtuMaxFrame;
+constexpr int kFastestByCharacters = 19200;
+
+/// t1.5, the longest silence within a frame (MODBUS over Serial Line V1.02, 2.5.1.1).
+SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
+  if (settings.baud > kFastestByCharacters) return std::chrono::microseconds(750);
+  return settings.duration_of(3) / 2;
+}
+
+int word_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
+
+/// The words that a request writes, in bytes; none if it is not a write.
+std::span<const std::uint8_t> written(std::span<const std::uint8_t> frame) {
+  if (frame.size() == 8 && frame[1] == 0x06) return frame.subspan(4, 2);
+  const bool is_several = frame.size() > 9 && frame[1] == 0x10 && frame.size() == 9U + frame[6] &&
+                          frame[6] == 2 * word_at(frame, 4);
+  return is_several ? frame.subspan(7, frame[6]) : std::span<const std::uint8_t>();
+}
+
+}  // namespace
+
+LineManners::LineManners(world::World& world, std::size_t line)
+    : world_(world),
+      number_(line),
+      options_(world.line(line).line.options()),
+      // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
+      framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
+  world::WorldLine& watched = world_.line(line);
+  if (watched.protocol == Protocol::text) return;  // whatever a host does there, the device hears it
+  if (has_time()) {
+    longest_gap_ = one_and_a_half_characters(options_.settings);
+    for (const auto& station : watched.stations) {
+      const SimTime end_silence = station->device().model().rtu.end_silence;
+      silence_ = std::max(silence_, end_silence);
+      longest_gap_ = std::min(longest_gap_, end_silence);
+    }
+  }
+  watched.line.add_observer(*this);
+}
+
+LineManners::~LineManners() { world_.line(number_).line.remove_observer(*this); }
+
+void LineManners::begin_anew() {
+  framer_.reset();
+  waiting_.clear();
+  under_way_.reset();
+  busy_until_.reset();
+  asked_.reset();
+  last_number_ = 0;
+}
+
+void LineManners::on_character(const pty::TimedByte& character, bool is_heard) {
+  const bool follows = last_number_ == 0 || character.number == last_number_ + 1;
+  if (!follows || !is_heard) begin_anew();  // a host that nobody hears has other troubles
+  last_number_ = character.number;
+  under_way_.reset();
+  if (!is_heard) return;
+  const SimTime idle = busy_until_ ? character.start - *busy_until_ : kForever;
+  waiting_.push_back({character.number, character.start, idle});
+  if (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin(), waiting_.end() - pty::kRtuMaxFrame);
+  busy_until_ = std::max(character.end, busy_until_.value_or(character.end));
+  framer_.push(character);
+}
+
+void LineManners::on_speech(const pty::Speech& speech) {
+  const auto next = waiting_.empty() ? under_way_ : std::optional(waiting_.front().start);
+  if (asked_ && next && *next < speech.start) find(Manner::not_waited).add(*next);
+  const bool is_answer = asked_ && speech.bytes.size() > 1 && speech.bytes[0] == asked_->station;
+  if (is_answer && speech.bytes[1] == asked_->function) carried_out(*asked_);
+  asked_.reset();
+  SimTime end = speech.start;
+  if (has_time()) end += options_.settings.duration_of(static_cast<std::int64_t>(speech.bytes.size()));
+  busy_until_ = std::max(end, busy_until_.value_or(end));
+}
+
+void LineManners::run(SimTime now) {
+  while (const auto frame = framer_.take_due(now)) {
+    const auto last = std::find_if(waiting_.begin(), waiting_.end(), [&](const Character& character) {
+      return character.number == frame->last_character;
+    });
+    if (last == waiting_.end()) continue;
+    const auto end = static_cast<std::size_t>(last - waiting_.begin()) + 1;
+    if (end < frame->size) continue;
+    const auto characters = std::span(waiting_).subspan(end - frame->size, frame->size);
+    const SimTime begin = characters.front().start;
+    judge_times(characters);
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(end));
+    judge_request(std::span(frame->bytes).first(frame->size), begin);
+  }
+}
+
+void LineManners::judge_times(std::span<const Character> frame) {
+  if (!has_time()) return;
+  const Character& first = frame.front();
+  if (first.idle < silence_) {
+    Finding& finding = find(Manner::too_soon);
+    finding.extreme = finding.count == 0 ? first.idle : std::min(finding.extreme, first.idle);
+    finding.add(first.start);
+  }
+  SimTime longest{0};
+  for (const Character& character : frame.subspan(1)) longest = std::max(longest, character.idle);
+  if (longest <= longest_gap_) return;
+  Finding& finding = find(Manner::gap);
+  finding.extreme = std::max(finding.extreme, longest);
+  finding.add(first.start);
+}
+
+void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at) {
+  const std::uint8_t station = frame[0];
+  asked_ = Asked{.station = station, .function = frame[1], .at = at, .worn = {}};
+  const auto values = written(frame);
+  bool is_there = false;
+  bool will_be_answered = false;
+  for (const auto& present : world_.line(number_).stations) {
+    const Device& device = present->device();
+    const Addressing addressing = device.addressing(station);
+    if (addressing == Addressing::ignore) continue;
+    is_there = true;
+    will_be_answered = will_be_answered || addressing == Addressing::obey_and_reply;
+    if (!values.empty() && device.powered()) judge_write(device, word_at(frame, 2), values, at);
+  }
+  if (!is_there) find(Manner::absent, std::to_string(station)).add(at);
+  if (will_be_answered) return;
+  if (is_there) carried_out(*asked_);
+  asked_.reset();
+}
+
+void LineManners::judge_write(const Device& device, int first, std::span<const std::uint8_t> values,
+                              SimTime at) {
+  const RegisterRow* last_row = nullptr;
+  int last_index = 0;
+  for (std::size_t i = 0; 2 * i < values.size(); ++i) {
+    const auto address = static_cast<std::uint16_t>(first + static_cast<int>(i));
+    const Place place =
+        device.registers().at(Table::holding, address, device.firmware(), device.low_word_first());
+    if (!place) continue;
+    const std::string name = device.name() + "." + RegisterMap::name_of(*place.row, place.index);
+    // A register of two words counts once.
+    const bool is_second_word = place.row == last_row && place.index == last_index;
+    last_row = place.row;
+    last_index = place.index;
+    if (place.row->access == Access::read) {
+      if (!is_second_word) find(Manner::read_only, name).add(at);
+      continue;
+    }
+    if (!device.keeps(*place.row)) continue;
+    const std::uint32_t bits = device.image()[static_cast<std::size_t>(place.slot)];
+    const auto present = static_cast<std::uint16_t>(place.part == Place::Part::high ? bits >> 16 : bits);
+    const bool is_listed = !asked_->worn.empty() && asked_->worn.back() == name;
+    if (present != word_at(values, 2 * i) && !is_listed) asked_->worn.push_back(name);
+  }
+}
+
+void LineManners::carried_out(const Asked& asked) {
+  for (const std::string& name : asked.worn) find(Manner::eeprom_wear, name).add(asked.at);
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,76 @@
+// Listens to one line and judges how the host on it behaves. It only listens: the line does the same with and
+// without it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/play/lint/finding.h"
+#include "emulator/world/world.h"
+#include "pty/line_observer.h"
+#include "pty/rtu_framer.h"
+
+namespace understudy::emulator::play {
+
+class LineManners final : public pty::LineObserver {
+ public:
+  LineManners(world::World& world, std::size_t line);
+  ~LineManners() override;
+  LineManners(const LineManners&) = delete;
+  LineManners& operator=(const LineManners&) = delete;
+
+  /// What was on the line is forgotten, as it was put into another state.
+  void begin_anew();
+  const Findings& findings() const { return findings_; }
+  /// How long the line is to be silent before a request, and may be at most within one; neither where bytes
+  /// take no time.
+  SimTime silence() const { return silence_; }
+  SimTime longest_gap() const { return longest_gap_; }
+
+  void on_start_bit(SimTime at) override {
+    framer_.start_bit(at);
+    under_way_ = at;
+  }
+  void on_character(const pty::TimedByte& character, bool is_heard) override;
+  void on_nothing_more() override { framer_.give_up_waiting(); }
+  void on_speech(const pty::Speech& speech) override;
+  std::optional<SimTime> due() const override { return framer_.due(); }
+  void run(SimTime now) override;
+
+ private:
+  struct Character {
+    std::uint64_t number = 0;
+    SimTime start{0};
+    SimTime idle{0};  // how long nothing was on the line before it; negative if something still was
+  };
+  /// The last request, until it is answered.
+  struct Asked {
+    std::uint8_t station = 0;
+    std::uint8_t function = 0;
+    SimTime at{0};
+    std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is carried out
+  };
+
+  bool has_time() const { return options_.timing == pty::Timing::wire; }
+  Finding& find(Manner manner, std::string subject = {}) { return findings_[{manner, std::move(subject)}]; }
+  void judge_times(std::span<const Character> frame);
+  void judge_request(std::span<const std::uint8_t> frame, SimTime at);
+  void judge_write(const Device& device, int first, std::span<const std::uint8_t> values, SimTime at);
+  void carried_out(const Asked& asked);
+
+  world::World& world_;
+  std::size_t number_;
+  pty::LineOptions options_;
+  SimTime silence_{0};
+  SimTime longest_gap_{0};
+  pty::RtuFramer framer_;
+  std::vector<Character> waiting_;    // characters of no frame yet
+  std::optional<SimTime> under_way_;  // a character that began then
+  std::optional<SimTime> busy_until_;
+  std::uint64_t last_number_ = 0;
+  std::optional<Asked> asked_;
+  Findings findings_;
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,103 @@
+#include "emulator/play/lint/lint.h"
+
+#include <optional>
+
+namespace understudy::emulator::play {
+
+namespace {
+
+// What small EEPROMs are made for: writes of one cell.
+constexpr std::int64_t kEndurance = 100'000;
+// A register is told of that was changed more often than this, at a rate that would wear its cell out in less
+// than a year.
+constexpr std::uint64_t kChangesAllowed = 10;
+constexpr SimTime kLeastLife = std::chrono::hours(24 * 365);
+
+/// "3 requests", with what they do.
+std::string counted(std::uint64_t count, const char* one, const char* several) {
+  return std::to_string(count) + " " + (count == 1 ? one : several);
+}
+
+/// "1.4 hours": coarse.
+std::string rough(SimTime time) {
+  struct Scale {
+    SimTime unit;
+    const char* name;
+  };
+  const auto tenths = [&](SimTime unit) { return time / (unit / 10); };
+  Scale scale{std::chrono::minutes(1), "minutes"};
+  for (const Scale larger : {Scale{std::chrono::hours(1), "hours"}, Scale{std::chrono::hours(24), "days"}}) {
+    if (time >= larger.unit) scale = larger;
+  }
+  return std::to_string(tenths(scale.unit) / 10) + "." + std::to_string(tenths(scale.unit) % 10) + " " +
+         scale.name;
+}
+
+/// How long a cell lasts at the rate of its changes; nothing if they are few, or it lasts for long.
+std::optional<SimTime> life_of(const Finding& changes) {
+  if (changes.count <= kChangesAllowed) return std::nullopt;
+  const auto intervals = static_cast<std::int64_t>(changes.count - 1);
+  const SimTime interval = (changes.last - changes.first) / intervals;
+  if (interval > kLeastLife / kEndurance) return std::nullopt;
+  return interval * kEndurance;
+}
+
+/// Without the line and the moment; empty if it is not worth telling.
+std::string text_of(const LineManners& line, Manner manner, const std::string& subject,
+                    const Finding& finding) {
+  const std::uint64_t count = finding.count;
+  switch (manner) {
+    case Manner::too_soon: {
+      const bool overlaps = finding.extreme < SimTime{0};
+      return counted(count, "request", "requests") + " began before the line had been silent for " +
+             format_duration(line.silence()) + " (" +
+             (overlaps ? "while a station spoke" : "after " + format_duration(finding.extreme)) +
+             " at the worst)";
+    }
+    case Manner::not_waited:
+      return counted(count, "request", "requests") + " began before the answer to the one before";
+    case Manner::gap:
+      return counted(count, "request", "requests") + " had gaps of more than " +
+             format_duration(line.longest_gap()) + " between two bytes (" + format_duration(finding.extreme) +
+             " at the worst)";
+    case Manner::absent:
+      return counted(count, "request", "requests") + " to station " + subject + ", which is not there";
+    case Manner::read_only:
+      return counted(count, "write", "writes") + " to " + subject + ", which can only be read";
+    case Manner::eeprom_wear: {
+      const auto life = life_of(finding);
+      if (!life) return "";
+      return std::to_string(count) + " changes of " + subject +
+             ", which is kept in EEPROM: at this rate its " + std::to_string(kEndurance) +
+             " writes last for " + rough(*life);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Lint::Lint(world::World& world) : world_(world) {
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    lines_.push_back(std::make_unique<LineManners>(world, i));
+  }
+}
+
+void Lint::world_restored(std::size_t) {
+  for (const auto& line : lines_) line->begin_anew();
+}
+
+std::vector<std::string> Lint::findings() const {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    for (const auto& [about, finding] : lines_[i]->findings()) {
+      const std::string text = text_of(*lines_[i], about.first, about.second, finding);
+      if (text.empty()) continue;
+      texts.push_back(world_.line(i).line.name() + ": " + text + "; first at " +
+                      format_duration(finding.first));
+    }
+  }
+  return texts;
+}
+
+}  // namespace understudy::emulator::play

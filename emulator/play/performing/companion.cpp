@@ -1,0 +1,96 @@
+#include "emulator/play/performing/companion.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "base/files/file_error.h"
+#include "emulator/play/performing/runner.h"
+#include "emulator/play/reading/scenario_file.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+/// Why a step cannot be played beside somebody else; null if it can.
+struct Objection {
+  const char* operator()(const WriteStep&) const { return kUsesLine; }
+  const char* operator()(const ExpectStep&) const { return kUsesLine; }
+  const char* operator()(const SendStep&) const { return kUsesLine; }
+  const char* operator()(const TextStep&) const { return kUsesLine; }
+  const char* operator()(const WaitStep& step) const { return step.poll ? kUsesLine : nullptr; }
+  const char* operator()(const RestoreStep&) const { return kGoesBack; }
+  const char* operator()(const ForkStep&) const { return kGoesBack; }
+  const char* operator()(const auto&) const { return nullptr; }
+
+  static constexpr const char* kUsesLine =
+      "uses a line, which belongs to the program beside it; expected steps without a line, such as `wait` "
+      "without "
+      "`poll`, `assert`, `input`";
+  static constexpr const char* kGoesBack =
+      "goes back in time, which the program beside it cannot; expected steps that go on";
+};
+
+bool is_same_bench(const world::Bench& one, const world::Bench& other) {
+  const auto same_device = [](const world::DeviceSetup& a, const world::DeviceSetup& b) {
+    return a.model == b.model && a.settings.name == b.settings.name &&
+           a.settings.firmware == b.settings.firmware;
+  };
+  const auto same_line = [](const world::LineSetup& a, const world::LineSetup& b) {
+    return a.name == b.name && a.stations == b.stations;
+  };
+  return std::equal(one.devices.begin(), one.devices.end(), other.devices.begin(), other.devices.end(),
+                    same_device) &&
+         std::equal(one.lines.begin(), one.lines.end(), other.lines.begin(), other.lines.end(), same_line);
+}
+
+}  // namespace
+
+Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
+                        const std::string& save_below) {
+  std::vector<Scenario> scenarios = load_scenarios(models, path, save_below);
+  if (scenarios.size() != 1) {
+    throw FileError(path + ": cases: there are " + std::to_string(scenarios.size()) +
+                    "; expected one, as it is played beside one program");
+  }
+  Scenario scenario = std::move(scenarios.front());
+  if (!is_same_bench(scenario.bench, bench)) {
+    throw FileError(path +
+                    ": bench: has other devices or lines than the one that is served; expected the same");
+  }
+  for (const Step& step : scenario.steps) {
+    if (const char* const why = std::visit(Objection{}, step.what)) {
+      throw FileError(step.file + ":" + std::to_string(step.line) + ": " + step.text + ": " + why);
+    }
+  }
+  return scenario;
+}
+
+Companion::Companion(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over)
+    : thread_([this, &scenario, &daemon, over = std::move(over)] {
+        play_on(scenario, daemon);
+        daemon.post(over);
+      }) {}
+
+void Companion::play_on(const Scenario& scenario, serve::Daemon& daemon) {
+  try {
+    PlayOptions options;
+    options.make_stage = [&](const Scenario&) {
+      return std::make_unique<RealStage>(daemon,
+                                         RealStageOptions{.has_hosts = false, .given_up = &given_up_});
+    };
+    results_ = play(scenario, options);
+  } catch (const StageGivenUp&) {
+    was_given_up_ = true;
+  } catch (...) {
+    error_ = std::current_exception();
+  }
+}
+
+const std::vector<ScenarioResult>& Companion::results() const {
+  if (error_) std::rethrow_exception(error_);
+  return results_;
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,54 @@
+// A scenario that is played on a bench beside the program that is the host on its lines: what it gives from
+// outside, and what it demands of the world meanwhile.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "emulator/play/results/result.h"
+#include "emulator/play/script/scenario.h"
+#include "emulator/play/stages/real_stage.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::play {
+
+/// The one scenario of a file, for that bench. Throws FileError, also where a step is the host's (it uses a
+/// line) or not for a world that somebody else is in (it goes back in time).
+Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
+                        const std::string& save_below = "");
+
+class Companion {
+ public:
+  /// Begins once the daemon runs, which it does until `over` was called, on the daemon's thread. Where it
+  /// ends before, the play was given up. The scenario must outlive it, and nobody may touch the world before
+  /// this is gone.
+  Companion(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over);
+  ~Companion() { thread_.join(); }
+  Companion(const Companion&) = delete;
+  Companion& operator=(const Companion&) = delete;
+
+  /// Ends it soon.
+  void give_up() { given_up_ = true; }
+
+  // --- after it is over
+  bool was_given_up() const { return was_given_up_; }
+  /// Throws what playing has thrown.
+  const std::vector<ScenarioResult>& results() const;
+
+ private:
+  void play_on(const Scenario& scenario, serve::Daemon& daemon);
+
+  std::atomic<bool> given_up_ = false;
+  bool was_given_up_ = false;
+  std::vector<ScenarioResult> results_;
+  std::exception_ptr error_;
+  std::thread thread_;
+};
+
+}  // namespace understudy::emulator::play

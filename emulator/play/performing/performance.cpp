@@ -1,0 +1,204 @@
+#include "emulator/play/performing/performance.h"
+
+#include <algorithm>
+
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/play/performing/state_text.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+constexpr std::size_t kFramesTold = 10;
+
+/// Whether any expression asks for what is to be looked at in every tick from the beginning.
+bool names_peaks(const Steps& steps);
+
+struct NamesPeaks {
+  static bool in(const std::string& expression) { return expression.find("greatest_") != std::string::npos; }
+  bool operator()(const WriteStep& step) const {
+    return std::any_of(step.entries.begin(), step.entries.end(),
+                       [](const WriteStep::Entry& entry) { return in(entry.value); });
+  }
+  bool operator()(const WaitStep& step) const { return in(step.until); }
+  bool operator()(const AssertStep& step) const {
+    return std::any_of(step.expressions.begin(), step.expressions.end(), in);
+  }
+  bool operator()(const SpanStep& step) const { return in(step.expression); }
+  bool operator()(const ForkStep& step) const {
+    return std::any_of(step.branches.begin(), step.branches.end(),
+                       [](const ForkStep::Branch& branch) { return names_peaks(branch.steps); });
+  }
+  bool operator()(const auto&) const { return false; }
+};
+
+bool names_peaks(const Steps& steps) {
+  return std::any_of(steps.begin(), steps.end(),
+                     [](const Step& step) { return std::visit(NamesPeaks{}, step.what); });
+}
+
+/// Whether a step lets time go on, or puts it back.
+struct MovesTime {
+  bool operator()(const WriteStep&) const { return true; }
+  bool operator()(const ExpectStep&) const { return true; }
+  bool operator()(const SendStep&) const { return true; }
+  bool operator()(const TextStep&) const { return true; }
+  bool operator()(const WaitStep&) const { return true; }
+  bool operator()(const AdvanceStep&) const { return true; }
+  bool operator()(const RestoreStep&) const { return true; }
+  bool operator()(const auto&) const { return false; }
+};
+bool moves_time(const Step& step) { return std::visit(MovesTime{}, step.what); }
+
+/// What is waited for, in these steps or a branch of them, before anything else moves time.
+void add_awaited(std::span<const Step> steps, std::vector<std::string>& conditions) {
+  for (const Step& step : steps) {
+    if (const auto* const wait = std::get_if<WaitStep>(&step.what); wait != nullptr && !wait->poll) {
+      conditions.push_back(wait->until);
+    }
+    if (const auto* const fork = std::get_if<ForkStep>(&step.what)) {
+      for (const ForkStep::Branch& branch : fork->branches) add_awaited(branch.steps, conditions);
+    }
+    if (moves_time(step)) return;
+  }
+}
+
+}  // namespace
+
+Performance::Eyes::Eyes(world::World& of, bool with_hash)
+    : world(of),
+      peaks(of),
+      probes(of, &peaks),
+      spans(of, probes, state_text),
+      frames(of),
+      hash(with_hash ? std::make_unique<world::OutcomeHash>(of) : nullptr) {}
+
+Performance::Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash)
+    : scenario_(scenario), stage_(std::move(stage)), places_(scenario.bench.devices.size()) {
+  for (std::size_t i = 0; i < scenario.bench.lines.size(); ++i) {
+    for (const std::size_t device : scenario.bench.lines[i].stations) {
+      places_[device] = {i, scenario.bench.devices[device].settings.address};
+    }
+  }
+  keeps_peaks_ = names_peaks(scenario.steps);
+  stage_->with_world([&](world::World& world) {
+    eyes_ = std::make_unique<Eyes>(world, with_hash);
+    if (keeps_peaks_) world.add_watcher(eyes_->peaks);  // before those who ask for them
+  });
+}
+
+Performance::~Performance() {
+  stage_->with_world([&](world::World& world) {
+    world.remove_watcher(eyes_->peaks);
+    world.remove_watcher(eyes_->spans);
+    for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
+    eyes_.reset();
+  });
+}
+
+std::optional<Failure> Performance::play(std::span<const Step> steps) {
+  const Step& step = steps.front();
+  step_ = &step;
+  try {
+    const bool may_write = std::holds_alternative<WriteStep>(step.what) ||
+                           std::holds_alternative<SendStep>(step.what) ||
+                           std::holds_alternative<TextStep>(step.what);
+    if (may_write) {
+      std::vector<std::string> awaited;
+      add_awaited(steps.subspan(1), awaited);
+      end_histories();
+      for (const std::string& condition : awaited) begin_history(condition);
+    }
+    std::visit([this](const auto& what) { perform(what); }, step.what);
+    if (!may_write && moves_time(step)) end_histories();
+    throw_if_broken();
+    return std::nullopt;
+  } catch (const StepError& error) {
+    return explain_failure(error);
+  } catch (const world::ExpressionError& error) {
+    return explain_failure(StepError(error.what()));
+  } catch (const world::NameError& error) {
+    return explain_failure(StepError(error.what()));
+  } catch (const ProgramError& error) {
+    return explain_failure(StepError(error.what()));
+  } catch (const NvError& error) {
+    return explain_failure(StepError(error.what()));
+  }
+}
+
+void Performance::throw_if_broken() {
+  bool is_broken = false;
+  stage_->with_world([&](world::World&) { is_broken = eyes_->spans.violation().has_value(); });
+  if (is_broken) throw StepError("");  // explain_failure() knows more
+}
+
+Failure Performance::explain_failure(const StepError& error) {
+  Failure failure{
+      .what = error.what(), .expected = error.expected, .came = error.came, .details = error.details};
+  stage_->with_world([&](world::World& world) {
+    failure.frames = eyes_->frames.last(kFramesTold);
+    // A broken span comes first: it was there before whatever else is wrong.
+    if (const auto& violation = eyes_->spans.violation()) {
+      failure.at = violation->at;
+      failure.what = violation->what + " did not hold at " + format_duration(violation->at);
+      failure.expected = violation->what;
+      failure.came = violation->explained;
+      failure.details.clear();
+      failure.state = violation->state;
+    } else {
+      failure.at = world.now();
+      failure.state = state_text(world);
+    }
+  });
+  return failure;
+}
+
+Performance::Checkpoint Performance::save() {
+  Checkpoint checkpoint;
+  checkpoint.faults = faults_;
+  checkpoint.last_write = last_write();
+  checkpoint.quiet_since = stage_->quiet_since();
+  stage_->with_world([&](world::World& world) {
+    checkpoint.world = world::save(world);
+    checkpoint.spans = eyes_->spans.save();
+    checkpoint.peaks = eyes_->peaks.save();
+    for (const auto& [condition, history] : eyes_->histories) {
+      checkpoint.histories[condition] = history.save();
+    }
+    if (eyes_->hash) checkpoint.hash = eyes_->hash->value();
+  });
+  return checkpoint;
+}
+
+void Performance::restore(const Checkpoint& checkpoint) {
+  faults_ = checkpoint.faults;
+  last_write_ = checkpoint.last_write;
+  stage_->with_world([&](world::World& world) {
+    world::restore(world, checkpoint.world);
+    world.remove_watcher(eyes_->spans);
+    if (!checkpoint.spans.empty()) world.add_watcher(eyes_->spans);
+    std::vector<SpanWatch::Span> spans = checkpoint.spans;
+    for (SpanWatch::Span& span : spans) {
+      // What its names stand for is known to the probes that found them, and those were another
+      // performance's.
+      span.condition = world::parse_expression(span.condition.text, eyes_->probes);
+    }
+    eyes_->spans.restore(spans);
+    eyes_->peaks.restore(checkpoint.peaks);
+    eyes_->frames.begin_anew();
+    if (eyes_->hash) eyes_->hash->restore(checkpoint.hash);
+  });
+  stage_->set_quiet_since(checkpoint.quiet_since);
+  end_histories();
+  for (const auto& [condition, past] : checkpoint.histories) begin_history(condition, past);
+}
+
+std::uint64_t Performance::outcome_hash() {
+  std::uint64_t hash = 0;
+  stage_->with_world([&](world::World&) {
+    if (eyes_->hash) hash = eyes_->hash->value();
+  });
+  return hash;
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,145 @@
+// A scenario's steps, one by one, on one stage: what each of them does, and all that looks on meanwhile.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/play/performing/watches.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/script/requests.h"
+#include "emulator/play/script/scenario.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/world/frames/frame_log.h"
+#include "emulator/world/outcome_hash.h"
+#include "emulator/world/probe/peaks.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/snapshot.h"
+
+namespace understudy::emulator::play {
+
+/// Why a step has failed; `what`, `expected`, `came` and `details` as in Failure.
+struct StepError : std::runtime_error {
+  StepError(const std::string& what_is_wrong, std::string what_was_expected = {}, std::string what_came = {},
+            std::vector<std::string> further_details = {})
+      : std::runtime_error(what_is_wrong),
+        expected(std::move(what_was_expected)),
+        came(std::move(what_came)),
+        details(std::move(further_details)) {}
+  std::string expected;
+  std::string came;
+  std::vector<std::string> details;
+};
+
+class Performance {
+ public:
+  /// A state between two steps, that another performance of the same scenario can go on from.
+  struct Checkpoint {
+    world::WorldState world;
+    std::vector<SpanWatch::Span> spans;
+    world::Peaks::State peaks;
+    std::vector<std::pair<std::string, std::size_t>> faults;
+    Tick last_write = 0;
+    std::map<std::string, ConditionHistory::State> histories;
+    std::vector<SimTime> quiet_since;  // as Stage has it
+    std::uint64_t hash = 0;
+  };
+
+  /// The scenario must outlive it. `with_hash`: outcome_hash() is kept, which has its price.
+  Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash);
+  ~Performance();
+  Performance(const Performance&) = delete;
+  Performance& operator=(const Performance&) = delete;
+
+  /// Plays the first one of `steps`, which is neither a snapshot, nor a restore, nor a fork. Those after it
+  /// tell what will be waited for.
+  std::optional<Failure> play(std::span<const Step> steps);
+
+  Checkpoint save();
+  void restore(const Checkpoint& checkpoint);
+
+  SimTime now() { return stage_->now(); }
+  /// As Stage has it.
+  void with_world(const std::function<void(world::World&)>& act) { stage_->with_world(act); }
+  std::uint64_t outcome_hash();
+
+ private:
+  /// What looks at the world.
+  struct Eyes {
+    Eyes(world::World& of, bool with_hash);
+    world::World& world;
+    world::Peaks peaks;
+    world::Probes probes;
+    SpanWatch spans;
+    world::FrameLog frames;
+    std::unique_ptr<world::OutcomeHash> hash;
+    std::map<std::string, ConditionHistory> histories;  // by the condition that a `wait` after a write has
+  };
+  struct Place {
+    std::size_t line = 0;
+    int station = 0;
+  };
+
+  // performance_line.cpp: over the line
+  void perform(const WriteStep& step);
+  void perform(const ExpectStep& step);
+  void perform(const SendStep& step);
+  void perform(const TextStep& step);  // performance_text.cpp
+  /// The words of each target, one after the other.
+  std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
+                                                         const Answer& answer);
+  void demand(const HostReply& reply, const Answer& answer, const std::string& what);
+  void demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
+                      const std::string& what);
+  std::vector<Words> words_of_all(const std::vector<Target>& targets, std::vector<bool>& low_word_first);
+
+  // performance_time.cpp: what passes time, or looks at every tick
+  void perform(const WaitStep& step);
+  void perform(const AdvanceStep& step);
+  void perform(const AssertStep& step);
+  void perform(const SpanStep& step);
+  void perform(const EndSpanStep& step);
+  void perform(const ResetPeaksStep& step);
+  void perform(const SayStep&) {}
+  Tick wait_for(const WaitStep& step);
+  Tick poll_for(const WaitStep& step);
+  /// Up to that time, or to the tick at which a span is broken.
+  void pass_time(SimTime until);
+  /// The moment so long after this one. StepError where time has ended by then.
+  SimTime moment_in(SimTime duration);
+  Tick last_write();
+  void begin_history(const std::string& condition, const ConditionHistory::State& past = {});
+  void end_histories();
+
+  // performance_outside.cpp: what is done to the bench
+  void perform(const InputStep& step);
+  void perform(const InjectStep& step);
+  void perform(const ClearStep& step);
+  void perform(const PowerStep& step);
+  void perform(const ProgramStep& step);
+  void perform(const MemoryStep& step);
+
+  // Those are the runner's.
+  void perform(const SnapshotStep&) {}
+  void perform(const RestoreStep&) {}
+  void perform(const ForkStep&) {}
+
+  void throw_if_broken();
+  Failure explain_failure(const StepError& error);
+
+  const Scenario& scenario_;
+  std::unique_ptr<Stage> stage_;
+  std::vector<Place> places_;  // by device
+  std::unique_ptr<Eyes> eyes_;
+  bool keeps_peaks_ = false;
+  const Step* step_ = nullptr;                               // the one that is played
+  std::vector<std::pair<std::string, std::size_t>> faults_;  // by their names, with the world's numbers
+  Tick last_write_ = 0;  // of a checkpoint, while nothing was written since
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,196 @@
+// Steps over the line: write, expect, send.
+#include <cmath>
+
+#include "emulator/play/performing/performance.h"
+#include "emulator/play/stages/modbus_host.h"
+#include "emulator/world/frames/frame_text.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+Value demand_whole(const std::string& name, world::Number number) {
+  if (number.is_whole()) return number.whole();
+  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  const double real = number.real();
+  if (std::abs(real) > kLargest || std::floor(real) != real) {
+    throw StepError(name + ": " + world::number_text(number) + " is not a whole number; expected one");
+  }
+  return static_cast<Value>(real);
+}
+
+std::string to_text(const HostReply& reply) {
+  switch (reply.kind) {
+    case HostReply::Kind::good: return "done";
+    case HostReply::Kind::exception: return "exception " + world::exception_text(reply.exception);
+    case HostReply::Kind::silence: return "no reply";
+    case HostReply::Kind::garbled: return "no reply to it, but " + world::hex_text(reply.bytes);
+  }
+  return {};
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+std::string names_of(const std::vector<Target>& targets, const Request& request) {
+  std::vector<std::string> names;
+  for (const std::size_t entry : request.entries) names.push_back(targets[entry].name);
+  return joined(names);
+}
+
+std::string bytes_text(std::span<const std::uint8_t> bytes) {
+  return bytes.empty() ? "nothing" : world::hex_text(bytes);
+}
+
+}  // namespace
+
+void Performance::demand(const HostReply& reply, const Answer& answer, const std::string& what) {
+  const auto& exception = answer.exception;
+  const bool is_good = exception ? reply.kind == HostReply::Kind::exception && reply.exception == *exception
+                       : answer.silence ? reply.kind == HostReply::Kind::silence
+                                        : reply.kind == HostReply::Kind::good;
+  if (is_good) return;
+  const std::string expected = exception        ? "exception " + world::exception_text(*exception)
+                               : answer.silence ? "no reply"
+                                                : "it done";
+  throw StepError(what + ": " + to_text(reply) + "; expected " + expected, what + ": " + expected,
+                  what + ": " + to_text(reply));
+}
+
+/// A host that gives up after `within`, whatever comes.
+void Performance::demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
+                                 const std::string& what) {
+  moment_in(within);  // there is such a moment
+  const auto reply = stage_->exchange(place.line, request, SIZE_MAX, within);
+  demand(judge_reply(request, reply), {.silence = within}, what);
+}
+
+std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
+                                             std::vector<bool>& low_word_first) {
+  std::vector<Words> words;
+  stage_->with_world([&](world::World& world) {
+    for (const Target& target : targets) {
+      if (target.place && target.place->place.row->table != Table::holding) {
+        throw StepError(target.name + ": is not a holding register; expected one");
+      }
+      low_word_first.push_back(world.device(target.device).low_word_first());
+      words.push_back(words_of(target, low_word_first.back()));
+    }
+  });
+  return words;
+}
+
+std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::vector<Target>& targets,
+                                                                    const Answer& answer) {
+  std::vector<bool> low_word_first;
+  const std::vector<Words> words = words_of_all(targets, low_word_first);
+  std::vector<std::vector<std::uint16_t>> read(targets.size());
+  for (const Request& request : read_requests(words)) {
+    const Place& place = places_[request.words.device];
+    const std::string what = "read " + names_of(targets, request);
+    if (answer.silence) {
+      demand_silence(place, read_request(place.station, request.words.first, request.words.count),
+                     *answer.silence, what);
+      continue;
+    }
+    const HostReply reply =
+        stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
+    demand(reply, answer, what);
+    if (answer.exception) continue;
+    for (const std::size_t entry : request.entries) {
+      const auto first = reply.words.begin() + (words[entry].first - request.words.first);
+      read[entry].assign(first, first + words[entry].count);
+    }
+  }
+  return read;
+}
+
+void Performance::perform(const WriteStep& step) {
+  std::vector<Target> targets;
+  std::vector<Value> values;
+  for (const WriteStep::Entry& entry : step.entries) targets.push_back(entry.target);
+  stage_->with_world([&](world::World&) {
+    for (const WriteStep::Entry& entry : step.entries) {
+      const world::Number value =
+          world::evaluate(world::parse_expression(entry.value, eyes_->probes), eyes_->probes);
+      values.push_back(demand_whole(entry.target.name, value));
+    }
+  });
+  std::vector<bool> low_word_first;
+  const std::vector<Words> words = words_of_all(targets, low_word_first);
+  for (const Request& request : write_requests(words, [&](std::size_t i) { return is_bit(targets[i]); })) {
+    const Place& place = places_[request.words.device];
+    const std::string what = "write " + names_of(targets, request);
+    std::vector<std::uint16_t> brought;
+    for (const std::size_t entry : request.entries) {
+      std::vector<std::uint16_t> present;
+      if (is_bit(targets[entry])) {
+        const HostReply reply =
+            stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
+        demand(reply, {}, "read " + targets[entry].name + " to write it");
+        present = reply.words;
+      }
+      const auto part = words_with(targets[entry], values[entry], low_word_first[entry], present);
+      brought.insert(brought.end(), part.begin(), part.end());
+    }
+    if (step.answer.silence) {
+      demand_silence(place, write_request(place.station, request.words.first, brought), *step.answer.silence,
+                     what);
+    } else {
+      demand(stage_->write_registers(place.line, place.station, request.words.first, brought), step.answer,
+             what);
+    }
+  }
+}
+
+void Performance::perform(const ExpectStep& step) {
+  std::vector<Target> targets;
+  for (const ExpectStep::Entry& entry : step.entries) {
+    if (!entry.target.is_value) targets.push_back(entry.target);
+  }
+  std::vector<bool> low_word_first;
+  words_of_all(targets, low_word_first);
+  const auto words = read_over_line(targets, step.answer);
+  if (!step.answer.is_good()) return;
+  std::vector<std::string> expected;
+  std::vector<std::string> came;
+  std::vector<std::string> details;
+  std::size_t next = 0;  // of those that were read
+  for (const auto& [target, wanted] : step.entries) {
+    world::Number value;
+    if (target.is_value) {
+      stage_->with_world([&, &name = target.name](world::World&) {
+        value = world::evaluate(world::parse_expression(name, eyes_->probes), eyes_->probes);
+      });
+    } else {
+      value = world::Number(value_in(target, words[next], low_word_first[next]));
+      ++next;
+    }
+    if (wanted.holds(value)) continue;
+    expected.push_back(target.name + " = " + wanted.text);
+    came.push_back(target.name + " = " + world::number_text(value));
+    details.push_back(target.name + " is " + world::number_text(value) + "; expected " + wanted.text);
+  }
+  if (details.empty()) return;
+  throw StepError(details.front(), joined(expected), joined(came), {details.begin() + 1, details.end()});
+}
+
+void Performance::perform(const SendStep& step) {
+  const bool wants_bytes = step.reply && !step.reply->empty();
+  moment_in(step.within);  // there is such a moment
+  const std::size_t wanted = wants_bytes ? step.reply->size() : SIZE_MAX;
+  const std::vector<std::uint8_t> reply = stage_->exchange(step.line, step.bytes, wanted, step.within);
+  if (!step.reply || reply == *step.reply) return;
+  std::vector<std::string> details;
+  stage_->with_world([&](world::World& world) {
+    details.push_back("that is: " + world::reply_text(world, step.line, step.bytes, reply));
+  });
+  if (reply.empty()) details.clear();
+  throw StepError("the reply is " + bytes_text(reply) + "; expected " + bytes_text(*step.reply),
+                  bytes_text(*step.reply), bytes_text(reply), std::move(details));
+}
+
+}  // namespace understudy::emulator::play

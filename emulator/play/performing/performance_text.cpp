@@ -1,0 +1,21 @@
+// Steps over lines of text.
+#include "emulator/play/performing/performance.h"
+#include "emulator/world/frames/text_lines_heard.h"
+
+namespace understudy::emulator::play {
+
+void Performance::perform(const TextStep& step) {
+  moment_in(step.within);  // there is such a moment
+  const world::LinesWanted wanted{.lines = step.lines.value_or(std::vector<std::string>()),
+                                  .is_answer = step.text.has_value()};
+  // A line that nobody waits for an answer to is over when the device has heard it.
+  if (!step.lines) return stage_->say(step.line, *step.text);
+  const std::vector<std::string> heard = stage_->converse(step.line, step.text, wanted, step.within);
+  if (heard == wanted.lines) return;
+  const std::string expected = world::lines_text(wanted.lines);
+  const std::string came = world::lines_text(heard);
+  throw StepError((step.text ? "the reply is " : "what comes is ") + came + "; expected " + expected,
+                  expected, came);
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,193 @@
+// Steps that let time pass, or look at the truth.
+#include <algorithm>
+
+#include "emulator/play/performing/performance.h"
+#include "emulator/world/names/names.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+/// The registers that a condition names, as a host has read them.
+class PolledRegisters final : public world::NameResolver, public world::ValueSource {
+ public:
+  explicit PolledRegisters(const world::KnownDevices& known) : known_(known) {}
+
+  world::NamedNumber resolve(std::string_view name) const override {
+    const world::RegisterName found = world::find_register(known_, name);
+    targets_.push_back({.device = found.device, .name = std::string(name), .place = found.place});
+    return {static_cast<std::int32_t>(targets_.size() - 1), world::Unit::none};
+  }
+  world::Number value(std::int32_t handle) const override { return values[static_cast<std::size_t>(handle)]; }
+
+  const std::vector<Target>& targets() const { return targets_; }
+  std::vector<Value> values;
+
+ private:
+  world::KnownDevices known_;
+  mutable std::vector<Target> targets_;
+};
+
+std::string place_of(const Step& step) { return step.file + ":" + std::to_string(step.line); }
+
+}  // namespace
+
+void Performance::pass_time(SimTime until) {
+  bool has_spans = false;
+  stage_->with_world([&](world::World&) { has_spans = !eyes_->spans.is_empty(); });
+  if (has_spans) {
+    stage_->run_until([this](world::World&) { return eyes_->spans.violation().has_value(); }, until);
+    throw_if_broken();
+  } else if (until > stage_->now()) {
+    stage_->advance(until - stage_->now());
+  }
+}
+
+SimTime Performance::moment_in(SimTime duration) {
+  const SimTime rest = std::max(kHorizon - stage_->now(), SimTime{0});
+  if (duration <= rest) return stage_->now() + duration;
+  throw StepError(format_duration(duration) +
+                  " from now on is beyond the end of simulated time; expected at most " +
+                  format_duration(rest));
+}
+
+void Performance::perform(const AdvanceStep& step) { pass_time(moment_in(step.by)); }
+
+// --- waiting -----------------------------------------------------------------------------------
+
+/// By the tick that it acts from.
+Tick Performance::last_write() {
+  const Tick tick = stage_->tick_of_last_write();
+  return tick != 0 ? tick : last_write_;
+}
+
+/// What comes true while the reply to a write is still on the line has come true after that write.
+void Performance::begin_history(const std::string& condition, const ConditionHistory::State& past) {
+  stage_->with_world([&](world::World& world) {
+    const auto [history, is_new] = eyes_->histories.try_emplace(
+        condition, world::parse_expression(condition, eyes_->probes), eyes_->probes);
+    if (!is_new) return;
+    history->second.restore(past);
+    world.add_watcher(history->second);
+  });
+}
+
+void Performance::end_histories() {
+  if (eyes_->histories.empty()) return;
+  stage_->with_world([&](world::World& world) {
+    for (auto& [condition, history] : eyes_->histories) world.remove_watcher(history);
+    eyes_->histories.clear();
+  });
+}
+
+void Performance::perform(const WaitStep& step) {
+  const Tick begin = last_write();
+  const Tick came_true = step.poll ? poll_for(step) : wait_for(step);
+  if (!step.takes) return;
+  const SimTime took = time_of(came_true - begin);
+  if (step.takes->holds(world::Number(took.count()))) return;
+  throw StepError("took " + format_duration(took) + "; expected " + step.takes->text,
+                  "'" + world::on_one_line(step.until) + "' after " + step.takes->text,
+                  "it came true after " + format_duration(took));
+}
+
+Tick Performance::wait_for(const WaitStep& step) {
+  const SimTime deadline = moment_in(step.within);
+  const Tick earliest = last_write();
+  std::optional<Tick> came_true;
+  world::Expression condition;
+  stage_->with_world([&](world::World&) {
+    condition = world::parse_expression(step.until, eyes_->probes);
+    if (const auto history = eyes_->histories.find(step.until); history != eyes_->histories.end()) {
+      came_true = history->second.first_from(earliest);
+    }
+  });
+  if (came_true) return *came_true;
+  std::optional<std::string> no_result;
+  const auto is_over = [&](world::World&) {
+    try {
+      return eyes_->spans.violation() || world::is_true(condition, eyes_->probes);
+    } catch (const std::runtime_error& error) {
+      no_result = error.what();
+      return true;
+    }
+  };
+  const bool is_there = stage_->run_until(is_over, deadline);
+  throw_if_broken();
+  if (no_result) throw StepError(*no_result);
+  if (is_there) return std::max(tick_at(stage_->now()), earliest);
+  std::string explained;
+  stage_->with_world([&](world::World&) { explained = world::explain(condition, eyes_->probes); });
+  const std::string text = world::to_text(condition);
+  throw StepError("'" + text + "' did not come true within " + format_duration(step.within),
+                  text + " within " + format_duration(step.within), explained);
+}
+
+Tick Performance::poll_for(const WaitStep& step) {
+  world::KnownDevices known;
+  stage_->with_world([&](world::World& world) { known = world.known(); });
+  PolledRegisters registers(known);
+  const world::Expression condition = world::parse_expression(step.until, registers);
+  const SimTime deadline = moment_in(step.within);
+  for (SimTime round = stage_->now();; round = std::max(round + *step.poll, stage_->now())) {
+    if (round >= deadline) break;
+    pass_time(round);
+    registers.values.clear();
+    std::vector<bool> low_word_first;
+    words_of_all(registers.targets(), low_word_first);
+    const auto words = read_over_line(registers.targets(), {});
+    throw_if_broken();
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      registers.values.push_back(value_in(registers.targets()[i], words[i], low_word_first[i]));
+    }
+    if (world::is_true(condition, registers)) return std::max(tick_at(stage_->now()), last_write());
+  }
+  const std::string text = world::to_text(condition);
+  throw StepError("'" + text + "' did not come true within " + format_duration(step.within) +
+                      ", polled every " + format_duration(*step.poll),
+                  text + " within " + format_duration(step.within), world::explain(condition, registers));
+}
+
+// --- truths ------------------------------------------------------------------------------------
+
+void Performance::perform(const AssertStep& step) {
+  std::vector<std::string> untrue;
+  std::vector<std::string> explained;
+  stage_->with_world([&](world::World&) {
+    for (const std::string& text : step.expressions) {
+      const world::Expression expression = world::parse_expression(text, eyes_->probes);
+      if (world::is_true(expression, eyes_->probes)) continue;
+      untrue.push_back(world::to_text(expression));
+      explained.push_back(world::explain(expression, eyes_->probes));
+    }
+  });
+  if (untrue.empty()) return;
+  throw StepError("'" + untrue.front() + "' is not so", untrue.front(), explained.front(),
+                  {explained.begin() + 1, explained.end()});
+}
+
+void Performance::perform(const SpanStep& step) {
+  stage_->with_world([&](world::World& world) {
+    world::Expression condition = world::parse_expression(step.expression, eyes_->probes);
+    if (eyes_->spans.is_empty()) world.add_watcher(eyes_->spans);
+    eyes_->spans.open({.name = step.name.empty() ? world::to_text(condition) : step.name,
+                       .condition = std::move(condition),
+                       .is_never = step.never,
+                       .place = place_of(*step_)});
+  });
+}
+
+void Performance::perform(const EndSpanStep& step) {
+  bool was_open = false;
+  stage_->with_world([&](world::World& world) {
+    was_open = eyes_->spans.close(step.name);
+    if (eyes_->spans.is_empty()) world.remove_watcher(eyes_->spans);
+  });
+  if (!was_open) throw StepError("no span called '" + step.name + "' is open; expected one");
+}
+
+void Performance::perform(const ResetPeaksStep&) {
+  stage_->with_world([&](world::World&) { eyes_->peaks.reset(); });
+}
+
+}  // namespace understudy::emulator::play

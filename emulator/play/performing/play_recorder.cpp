@@ -1,0 +1,38 @@
+#include "emulator/play/performing/play_recorder.h"
+
+#include <utility>
+
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/snapshot_file.h"
+
+namespace understudy::emulator::play {
+
+PlayRecorder::PlayRecorder(world::World& world, world::RecordingHeader header, std::string path)
+    : world_(world), header_(std::move(header)), path_(std::move(path)) {
+  begin();
+}
+
+void PlayRecorder::begin() {
+  spool_.reset();  // the one before is over, and its file is free
+  // What breaks off is played as far as it goes: nobody needs to be told while the play is on.
+  const auto log = [](const std::string&) {};
+  spool_ = std::make_unique<world::RecordingSpool>(world_, header_,
+                                                   std::make_unique<GrowingFile>(path_, "the recording", log),
+                                                   world::kRecordingCapBytes, log);
+}
+
+void PlayRecorder::world_restored(std::size_t) {
+  header_.snapshot = world::to_text(
+      world::save(world_),
+      world::bench_hash(world::parse_recorded_bench(world::models_of(world_.known()), header_.bench)));
+  begin();
+}
+
+void PlayRecorder::step_over() { spool_->look(); }
+
+void PlayRecorder::finish(ScenarioResult& result) {
+  spool_.reset();
+  result.recording = path_;
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,164 @@
+#include "emulator/play/performing/runner.h"
+
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "emulator/play/performing/performance.h"
+#include "emulator/play/stages/free_stage.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+using Checkpoint = std::shared_ptr<const Performance::Checkpoint>;
+using Checkpoints = std::map<std::string, Checkpoint>;
+
+/// Those who look on at one performance.
+class Onlookers {
+ public:
+  Onlookers(Performance& performance, const std::vector<OnlookerMaker>& makers) : performance_(performance) {
+    if (makers.empty()) return;
+    performance_.with_world([&](world::World& world) {
+      for (const OnlookerMaker& make : makers) onlookers_.push_back(make(world));
+    });
+  }
+  ~Onlookers() {
+    if (onlookers_.empty()) return;
+    performance_.with_world([&](world::World&) { onlookers_.clear(); });
+  }
+  Onlookers(const Onlookers&) = delete;
+  Onlookers& operator=(const Onlookers&) = delete;
+
+  void world_restored(std::size_t steps) {
+    tell([&](Onlooker& onlooker) { onlooker.world_restored(steps); });
+  }
+  void step_over() {
+    tell([](Onlooker& onlooker) { onlooker.step_over(); });
+  }
+  void finish(ScenarioResult& result) {
+    tell([&](Onlooker& onlooker) { onlooker.finish(result); });
+  }
+
+ private:
+  void tell(const std::function<void(Onlooker&)>& what) {
+    if (onlookers_.empty()) return;
+    performance_.with_world([&](world::World&) {
+      for (const auto& onlooker : onlookers_) what(*onlooker);
+    });
+  }
+
+  Performance& performance_;
+  std::vector<std::unique_ptr<Onlooker>> onlookers_;
+};
+
+class Runner {
+ public:
+  Runner(const Scenario& scenario, const PlayOptions& options) : scenario_(scenario), options_(options) {}
+
+  /// From power-up on, or from a checkpoint.
+  void play(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
+    const std::size_t number = results_.size();
+    results_.push_back({.name = name, .file = scenario_.file});
+    Performance performance(scenario_, options_.make_stage(scenario_), options_.with_hash);
+    Onlookers onlookers(performance, options_.onlookers);
+    if (begin) {
+      performance.restore(*begin);
+      onlookers.world_restored(0);
+    }
+
+    struct Fork {
+      const ForkStep* step = nullptr;
+      Checkpoint begin;  // null if it was not reached
+      Checkpoints known;
+    };
+    std::vector<Fork> forks;
+    ScenarioResult result = std::move(results_[number]);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const Step& step = steps[i];
+      const auto* const fork = std::get_if<ForkStep>(&step.what);
+      if (result.failure) {
+        if (fork != nullptr) forks.push_back({.step = fork, .begin = {}, .known = {}});
+        continue;
+      }
+      result.steps.push_back({.file = step.file, .line = step.line, .text = step.text});
+      StepResult& played = result.steps.back();
+      played.begin = performance.now();
+      const auto save = [&] { return std::make_shared<const Performance::Checkpoint>(performance.save()); };
+      if (const auto* const snapshot = std::get_if<SnapshotStep>(&step.what)) {
+        known[snapshot->name] = save();
+      } else if (const auto* const restored = std::get_if<RestoreStep>(&step.what)) {
+        restore(performance, known, *restored, result);
+        onlookers.world_restored(result.steps.size());
+      } else if (fork != nullptr) {
+        forks.push_back({.step = fork, .begin = save(), .known = known});
+      } else {
+        result.failure = performance.play(std::span(steps).subspan(i));
+      }
+      played.end = performance.now();
+      played.has_failed = result.failure.has_value();
+      const bool is_restored = std::holds_alternative<RestoreStep>(step.what);
+      if (!is_restored) result.simulated += played.end - played.begin;
+      onlookers.step_over();
+    }
+    if (result.failure) result.verdict = ScenarioResult::Verdict::failed;
+    if (options_.with_hash) result.outcome_hash = performance.outcome_hash();
+    onlookers.finish(result);
+    results_[number] = std::move(result);
+
+    for (const Fork& fork : forks) {
+      for (const ForkStep::Branch& branch : fork.step->branches) {
+        const std::string its_name = name + " / " + branch.name;
+        if (fork.begin) {
+          play(its_name, branch.steps, fork.begin, fork.known);
+        } else {
+          leave_out(its_name, branch.steps);
+        }
+      }
+    }
+  }
+
+  std::vector<ScenarioResult> take() { return std::move(results_); }
+
+ private:
+  static void restore(Performance& performance, const Checkpoints& known, const RestoreStep& step,
+                      ScenarioResult& result) {
+    if (const auto found = known.find(step.name); found != known.end()) {
+      performance.restore(*found->second);
+    } else {
+      result.failure = Failure{.at = performance.now(),
+                               .what = "no snapshot is called '" + step.name + "'; expected one from before"};
+    }
+  }
+
+  void leave_out(const std::string& name, const Steps& steps) {
+    results_.push_back(
+        {.verdict = ScenarioResult::Verdict::not_reached, .name = name, .file = scenario_.file});
+    for (const Step& step : steps) {
+      const auto* const fork = std::get_if<ForkStep>(&step.what);
+      if (fork == nullptr) continue;
+      for (const ForkStep::Branch& branch : fork->branches) {
+        leave_out(name + " / " + branch.name, branch.steps);
+      }
+    }
+  }
+
+  const Scenario& scenario_;
+  const PlayOptions& options_;
+  std::vector<ScenarioResult> results_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> make_free_stage(const Scenario& scenario) {
+  return std::make_unique<FreeStage>(scenario.bench, FreeStageOptions{.gap = scenario.gap});
+}
+
+std::vector<ScenarioResult> play(const Scenario& scenario, const PlayOptions& options) {
+  Runner runner(scenario, options);
+  runner.play(scenario.name, scenario.steps, {}, {});
+  return runner.take();
+}
+
+}  // namespace understudy::emulator::play

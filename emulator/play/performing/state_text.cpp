@@ -1,0 +1,110 @@
+#include "emulator/play/performing/state_text.h"
+
+#include <array>
+#include <cstdio>
+
+#include "emulator/device/register_map/access.h"
+#include "emulator/world/expression/number.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+std::string registers_text(const Device& device) {
+  std::string text;
+  const auto add = [&](const std::string& name) {
+    const auto place = device.registers().find(name, device.firmware());
+    if (const auto number = place ? std::nullopt : device.value_named(name)) {
+      text += (text.empty() ? "" : ", ") + name + " " + world::number_text(world::Number(*number));
+    }
+    if (!place) return;
+    const Value value = read_value(device, *place);
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(value);
+    if (name != "STATUS") return;
+    std::array<char, 16> hexadecimal{};
+    std::snprintf(hexadecimal.data(), hexadecimal.size(), " (0x%04X)",
+                  static_cast<unsigned>(value) & 0xFFFFU);
+    text += hexadecimal.data();
+  };
+  for (const std::string_view name : device.model().state_registers) add(std::string(name));
+  return text;
+}
+
+/// The device reads its inputs at each tick: until then the register of an input has the level before.
+bool is_read_later(const Device& device, const TerminalRow& row, std::int32_t level) {
+  if (row.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
+  const auto place = device.registers().find(row.name, device.firmware());
+  return place && read_value(device, *place) != level;
+}
+
+std::string terminals_text(const Device& device) {
+  std::string text;
+  const auto terminals = device.model().terminals;
+  for (std::size_t i = 0; i < terminals.size(); ++i) {
+    const bool is_output = !is_input(terminals[i].kind);
+    const auto number = static_cast<int>(i);
+    const std::int32_t level = is_output ? (device.output(number) ? 1 : 0) : device.input(number);
+    if (level == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(terminals[i].name);
+    const world::Unit unit =
+        terminals[i].kind == TerminalRow::Kind::analog_in ? world::Unit::millivolts : world::Unit::none;
+    text += is_analog(terminals[i].kind) ? " " + world::number_text(world::Number(level), unit) : " on";
+    if (is_read_later(device, terminals[i], level)) text += " (to be read at the next tick)";
+  }
+  return text;
+}
+
+std::string axis_text(const world::World& world, std::size_t number, std::size_t axis) {
+  const auto a = static_cast<int>(axis);
+  const world::PlantAxis& plant = world.plant(number, a);
+  std::string text = "pulses " + std::to_string(world.sent_pulses(number, a)) + ", speed " +
+                     world::number_text(world::Number(world.device(number).speed_pps(a))) + ", position " +
+                     std::to_string(plant.position_pulses());
+  const int duty_percent = world.device(number).duty_percent(a).value_or(0);
+  if (duty_percent != 0) text += ", PWM " + std::to_string(duty_percent) + " %";
+  if (plant.lost_pulses() != 0) text += ", lost " + std::to_string(plant.lost_pulses());
+  if (plant.at_home()) text += ", at home";
+  if (plant.at_upper_limit()) text += ", at the upper limit";
+  if (plant.at_lower_limit()) text += ", at the lower limit";
+  if (plant.in_alarm()) text += ", in alarm";
+  return text;
+}
+
+std::string fault_text(const world::World& world, std::size_t number, const world::ArmedFault& armed) {
+  const auto& [fault, course] = armed;
+  std::string text = "fault " + std::to_string(number) + " " + world::to_text(world.known(), fault) + ":";
+  if (!world::is_of_frames(fault.kind)) text += course.in_force ? " in force" : " not in force";
+  if (world::waits(fault)) {
+    text += (world::is_of_frames(fault.kind) ? " hit " : ", hit ") + std::to_string(course.hits) + " of " +
+            std::to_string(course.matched) + " that matched";
+  } else if (world::is_of_frames(fault.kind)) {
+    text += " in force";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> state_text(const world::World& world) {
+  std::vector<std::string> texts;
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    const Device& device = world.device(d);
+    if (!device.powered()) {
+      texts.push_back(device.name() + ": without power");
+    } else if (const std::string registers = registers_text(device); !registers.empty()) {
+      texts.push_back(device.name() + ": " + registers);
+    }
+    for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
+      if (!device.has_axis(static_cast<int>(a))) continue;
+      texts.push_back(device.name() + "." + std::string(device.model().axes[a].name) + ": " +
+                      axis_text(world, d, a));
+    }
+    if (const std::string terminals = terminals_text(device); !terminals.empty()) {
+      texts.push_back(device.name() + ": " + terminals);
+    }
+  }
+  for (const auto& [number, armed] : world.faults()) texts.push_back(fault_text(world, number, armed));
+  return texts;
+}
+
+}  // namespace understudy::emulator::play

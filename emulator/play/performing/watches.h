@@ -1,0 +1,80 @@
+// What looks at a world at every tick while a scenario is played.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::play {
+
+/// The spans of `always` and `never` that are open. An expression without a result breaks its span as well.
+class SpanWatch final : public world::TickWatcher {
+ public:
+  struct Span {
+    std::string name;
+    world::Expression condition;
+    bool is_never = false;
+    std::string place;  // "feed.yaml:12", where it was opened
+  };
+  struct Violation {
+    SimTime at{0};
+    std::string what;       // "never 'feeder.A.pulses > 10' (feed.yaml:12)"
+    std::string explained;  // the condition with its values
+    std::vector<std::string> state;
+  };
+
+  /// `describe` tells the state around a violation. All must outlive it.
+  SpanWatch(const world::World& world, const world::ValueSource& values,
+            std::vector<std::string> (*describe)(const world::World&))
+      : world_(world), values_(values), describe_(describe) {}
+
+  void on_tick(Tick tick) override;
+  void open(Span span) { spans_.push_back(std::move(span)); }
+  /// False if none of that name is open.
+  bool close(const std::string& name);
+
+  bool is_empty() const { return spans_.empty(); }
+  /// The first one; nothing is looked at after it.
+  const std::optional<Violation>& violation() const { return violation_; }
+
+  const std::vector<Span>& save() const { return spans_; }
+  void restore(const std::vector<Span>& spans) { spans_ = spans; }
+
+ private:
+  const world::World& world_;
+  const world::ValueSource& values_;
+  std::vector<std::string> (*describe_)(const world::World&);
+  std::vector<Span> spans_;
+  std::optional<Violation> violation_;
+};
+
+/// At which ticks a condition held, from when it is added to the world.
+class ConditionHistory final : public world::TickWatcher {
+ public:
+  /// What it has seen so far, as a value.
+  struct State {
+    std::vector<Tick> changes;  // it holds from the first on, not from the second on, and so forth
+    Tick last = 0;
+  };
+
+  /// The source must outlive it.
+  ConditionHistory(world::Expression condition, const world::ValueSource& values)
+      : condition_(std::move(condition)), values_(values) {}
+
+  void on_tick(Tick tick) override;
+  /// The first tick from `begin` on at which it held.
+  std::optional<Tick> first_from(Tick begin) const;
+
+  const State& save() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+ private:
+  world::Expression condition_;
+  const world::ValueSource& values_;
+  State state_;
+};
+
+}  // namespace understudy::emulator::play

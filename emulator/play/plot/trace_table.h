@@ -1,0 +1,28 @@
+// A trace as it is read back, from CSV or VCD, as this program writes them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files/file_error.h"
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::play {
+
+struct TraceTable {
+  std::vector<std::string> names;
+  std::vector<Tick> ticks;                   // they ascend
+  std::vector<std::vector<double>> columns;  // one a name, each as long as `ticks`
+};
+
+/// Both throw FileError, with the line.
+TraceTable parse_csv_trace(std::string_view text, const std::string& name);
+TraceTable parse_vcd_trace(std::string_view text, const std::string& name);
+
+/// By its ending, .csv or .vcd. Throws FileError, also for a file that cannot be read, and for one without
+/// rows.
+TraceTable read_trace(const std::string& path);
+
+}  // namespace understudy::emulator::play

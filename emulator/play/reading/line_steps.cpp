@@ -1,0 +1,156 @@
+// Steps that use the line: write, expect, send.
+#include <cctype>
+
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "emulator/play/reading/step_forms.h"
+#include "emulator/play/reading/step_readers.h"
+#include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/script/requests.h"
+#include "pty/rtu_crc.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+/// A time to wait for something.
+SimTime read_within(const world::YamlFields& field) {
+  const SimTime within = field.duration();
+  if (within <= SimTime{0}) field.fail("takes no time; expected some");
+  return within;
+}
+
+Answer read_answer(const world::YamlFields& step) {
+  Answer answer;
+  if (step.has("exception")) {
+    answer.exception = static_cast<int>(step.at("exception").integer(kExceptionForm));
+  }
+  if (step.has("reply")) {
+    const world::YamlFields reply = step.at("reply");
+    if (reply.text() != kNothing.front()) {
+      reply.fail(quoted(reply.text()) +
+                 " is unknown; expected nothing (what is read is compared without `reply`)");
+    }
+    if (answer.exception) reply.fail("an exception is a reply; expected one of both");
+    answer.silence = SendStep{}.within;
+  }
+  if (step.has("within")) {
+    const world::YamlFields within = step.at("within");
+    if (!answer.silence) within.fail("is for `reply: nothing` only; expected that beside it");
+    answer.silence = read_within(within);
+  }
+  return answer;
+}
+
+/// "write feeder.A=1, feeder.B=2", and "(exception 3)" or "(no reply)" behind it.
+struct Sentence {
+  std::string text;
+  bool is_first = true;
+  void add(const std::string& part) {
+    text += (is_first ? " " : ", ") + part;
+    is_first = false;
+  }
+  std::string finished(const Answer& answer) const {
+    if (answer.silence) return text + " (no reply)";
+    return answer.exception ? text + " (exception " + std::to_string(*answer.exception) + ")" : text;
+  }
+};
+
+std::vector<std::pair<std::string, world::YamlFields>> demand_registers(const world::YamlFields& value) {
+  value.demand_map();
+  auto entries = value.entries();
+  if (entries.empty()) value.fail("is empty; expected registers, as in `{ feeder.Aaxis_SVON: 1 }`");
+  return entries;
+}
+
+constexpr std::size_t kMostBytes = 1024;  // of one step
+
+std::vector<std::uint8_t> read_bytes(const world::YamlFields& field) {
+  const std::string text = field.text();
+  std::vector<std::uint8_t> bytes;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(" \t\n", at)) != std::string::npos) {
+    const std::size_t end = std::min(text.find_first_of(" \t\n", at), text.size());
+    const std::string word = text.substr(at, end - at);
+    at = end;
+    if (word == "+crc" && !bytes.empty() && text.find_first_not_of(" \t\n", at) == std::string::npos) {
+      pty::append_rtu_crc(bytes);
+      break;
+    }
+    const bool is_hexadecimal =
+        word.size() % 2 == 0 && word.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+    if (!is_hexadecimal) {
+      field.fail(quoted(word) +
+                 " is not a byte; expected bytes such as 01 03 00 01, with +crc at the end for the "
+                 "checksum");
+    }
+    for (std::size_t i = 0; i < word.size(); i += 2) {
+      bytes.push_back(static_cast<std::uint8_t>(*parse_integer("0x" + word.substr(i, 2))));
+    }
+  }
+  if (bytes.empty() || bytes.size() > kMostBytes) {
+    field.fail("has " + std::to_string(bytes.size()) + " bytes; expected 1 to " + std::to_string(kMostBytes));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void read_write(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  WriteStep write;
+  write.answer = read_answer(step);
+  Sentence sentence{"write"};
+  for (const auto& [name, field] : demand_registers(value)) {
+    Target target = reader.trial().target(field, name);
+    if (target.is_value) {
+      field.fail(name +
+                 " is not a register, and is not written over the line so; expected `send: { text: ... }`");
+    }
+    if (write.answer.silence && is_bit(target)) {
+      field.fail(
+          "a bit's register is read before it is written; expected whole registers with `reply: nothing`");
+    }
+    std::string what = reader.trial().value_to_write(field, target, write.answer.exception.has_value());
+    sentence.add(name + "=" + world::on_one_line(what));
+    write.entries.push_back({.target = std::move(target), .value = std::move(what)});
+  }
+  const std::string text = sentence.finished(write.answer);
+  reader.add(step, text, std::move(write));
+}
+
+void read_expect(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  ExpectStep expect;
+  expect.answer = read_answer(step);
+  Sentence sentence{"expect"};
+  for (const auto& [name, field] : demand_registers(value)) {
+    Target target = reader.trial().target(field, name);
+    if (target.is_value && expect.answer.exception)
+      field.fail(name + " is not a register; expected no exception");
+    if (target.is_value && expect.answer.silence)
+      field.fail(name + " is not a register, and is looked at past the line; expected no `reply`");
+    world::Tolerance wanted = reader.trial().value_to_expect(field, target);
+    sentence.add(name + ": " + wanted.text);
+    expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});
+  }
+  const std::string text = sentence.finished(expect.answer);
+  reader.add(step, text, std::move(expect));
+}
+
+void read_send(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  if (value.is_map() && value.has("text")) return read_send_text(reader, step, value);
+  value.demand_keys(kSendKeys);
+  SendStep send;
+  send.line = read_line_of(reader, value, Protocol::modbus_rtu);
+  send.bytes = read_bytes(value.at("bytes"));
+  std::string text = "send " + world::on_one_line(value.at("bytes").text());
+  if (value.has("reply")) {
+    const world::YamlFields reply = value.at("reply");
+    const bool is_nothing = reply.text() == "nothing";
+    send.reply = is_nothing ? std::vector<std::uint8_t>() : read_bytes(reply);
+    text += ", reply " + world::on_one_line(reply.text());
+  }
+  if (value.has("within")) send.within = read_within(value.at("within"));
+  reader.add(step, text, std::move(send));
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,149 @@
+// Steps that do what people and machines do to devices: inputs, faults, power, programs, memories.
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/memory/nv_file.h"
+#include "emulator/play/reading/step_forms.h"
+#include "emulator/play/reading/step_readers.h"
+#include "emulator/play/reading/steps_reader.h"
+#include "emulator/world/bench_file/disturbance_fields.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+std::vector<std::pair<std::string, world::YamlFields>> demand_entries(const world::YamlFields& value,
+                                                                      const std::string& example) {
+  value.demand_map();
+  auto entries = value.entries();
+  if (entries.empty()) value.fail("is empty; expected something such as `{ " + example + " }`");
+  return entries;
+}
+
+}  // namespace
+
+void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  InputStep inputs;
+  std::string text = "input";
+  for (const auto& [name, field] : demand_entries(value, "feeder.DIN_10: on")) {
+    const world::InputSetup input = world::read_input(field, name, reader.trial().known());
+    for (const world::InputSetup& other : inputs.inputs) {
+      if (other.device == input.device && other.terminal == input.terminal) {
+        field.fail("is the same input as another; expected it once");
+      }
+    }
+    text += (inputs.inputs.empty() ? " " : ", ") + name + "=" + field.text();
+    inputs.inputs.push_back(input);
+  }
+  reader.add(step, text, std::move(inputs));
+}
+
+void read_inject(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  InjectStep inject;
+  inject.fault = reader.trial().fault(value, "name");
+  const std::string fault = world::to_text(reader.trial().known(), inject.fault);
+  inject.name = fault;
+  auto& in_force = reader.story().faults;
+  if (value.has("name")) {
+    inject.name = value.at("name").text();
+    if (inject.name.empty() || inject.name == "all") {
+      value.at("name").fail(understudy::quoted(inject.name) + " is not a name of a fault; expected another");
+    }
+    if (std::find(in_force.begin(), in_force.end(), inject.name) != in_force.end()) {
+      value.at("name").fail(understudy::quoted(inject.name) +
+                            " is in force already; expected another name, or a `clear` before");
+    }
+  }
+  in_force.push_back(inject.name);
+  const std::string text = "inject " + fault + (inject.name == fault ? "" : " as " + inject.name);
+  reader.add(step, text, std::move(inject));
+}
+
+void read_clear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  const std::string name = value.text();
+  auto& in_force = reader.story().faults;
+  if (name == "all") {
+    in_force.clear();
+    reader.add(step, "clear all", ClearStep{});
+    return;
+  }
+  if (std::find(in_force.begin(), in_force.end(), name) == in_force.end()) {
+    value.fail("no fault in force here is called " + understudy::quoted(name) + suggestion(name, in_force));
+  }
+  std::erase(in_force, name);
+  reader.add(step, "clear " + name, ClearStep{name});
+}
+
+void read_power(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  PowerStep power;
+  std::string text = "power";
+  for (const auto& [name, field] : demand_entries(value, "feeder: off")) {
+    const std::size_t device = reader.trial().device(field, name);
+    const std::string word = field.text();
+    const auto it = std::find(kPowerWords.begin(), kPowerWords.end(), word);
+    if (it == kPowerWords.end())
+      field.fail(understudy::quoted(word) + " is unknown; expected on, off or cycle");
+    text += (power.devices.empty() ? " " : ", ") + name + " " + word;
+    power.devices.emplace_back(device, word == "on"    ? PowerStep::To::on
+                                       : word == "off" ? PowerStep::To::off
+                                                       : PowerStep::To::cycle);
+  }
+  reader.add(step, text, std::move(power));
+}
+
+void read_program(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  for (const auto& [name, field] : demand_entries(value, "feeder: indexing.lst")) {
+    ProgramStep program;
+    program.device = reader.trial().device(field, name);
+    // The path of a listing, or the listing itself if it has several lines.
+    const bool is_inline = field.text().find('\n') != std::string::npos;
+    program.file = is_inline ? field.file() : field.path();
+    if (is_inline) {
+      program.text = field.text();
+    } else {
+      const auto text = read_text_file(program.file);
+      if (!text) field.fail(program.file + " " + text.why + "; expected a listing");
+      program.text = *text;
+      reader.add_file(program.file, "a program that a step loads");
+    }
+    reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
+    reader.add(step, "program " + name + (is_inline ? "" : " " + field.text()), std::move(program));
+  }
+}
+
+void read_memory(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  for (const auto& [name, field] : demand_entries(value, "feeder: after.json")) {
+    MemoryStep memory{
+        .what = MemoryStep::What::expect, .device = reader.trial().device(field, name), .file = field.path()};
+    if (!reader.story().saved.contains(memory.file)) {
+      try {
+        const auto image = read_nv_file(memory.file);
+        if (!image) field.fail(memory.file + " " + why_not_readable(memory.file) + "; expected an NV image");
+        reader.trial().demand_memory(field, memory.device, *image);
+        reader.add_file(memory.file, "a memory that a step compares with");
+      } catch (const NvError& error) {
+        field.fail(error.what());
+      }
+    }
+    reader.add(step, "memory " + name + " " + field.text(), std::move(memory));
+  }
+}
+
+void read_save(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  for (const auto& [name, field] : demand_entries(value, "feeder: after.json")) {
+    MemoryStep memory{
+        .what = MemoryStep::What::save, .device = reader.trial().device(field, name), .file = field.path()};
+    const std::string folder = std::filesystem::path(memory.file).parent_path().string();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+      field.fail(folder + " is not a folder; expected one to write in");
+    }
+    reader.story().saved.insert(memory.file);
+    reader.add_saved(memory.file, field);
+    reader.add(step, "save " + name + " " + field.text(), std::move(memory));
+  }
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,40 @@
+// What ${...} stands for in a scenario file: parameters and the variables of loops, by name, as text; and
+// small sums over them: ${speed}, ${speed * 2}, ${takes + 5ms}. `$${` is a plain `${`.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::play {
+
+class Parameters final : public world::ScalarRule {
+ public:
+  Parameters() = default;
+  /// Those of `outer`, which must outlive it, and some more.
+  explicit Parameters(const Parameters& outer) : outer_(&outer) {}
+  Parameters& operator=(const Parameters&) = delete;
+
+  /// Throws NameError for what is not a name, or is one already.
+  void define(const std::string& name, const std::string& value);
+  /// Throws NameError or ExpressionError.
+  std::string apply(const std::string& written) const override;
+
+  /// Null if there is none.
+  const std::string* find(std::string_view name) const;
+  std::vector<std::string> names() const;
+  bool was_used(const std::string& name) const { return used_.contains(name); }
+
+ private:
+  std::string evaluated(std::string_view written) const;
+
+  const Parameters* outer_ = nullptr;
+  std::map<std::string, std::string, std::less<>> values_;
+  mutable std::set<std::string, std::less<>> used_;
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,19 @@
+// What the scenarios of one run have read already. Many name the same bench and the same files of steps: each
+// is read, and the bench checked, once.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::play {
+
+struct SharedReading {
+  ModelList models;                                   // that devices may be of
+  std::map<std::string, world::Bench> benches;        // by path, as it is spelled in messages
+  std::map<std::string, world::YamlFields> included;  // the steps of a file, likewise
+};
+
+}  // namespace understudy::emulator::play

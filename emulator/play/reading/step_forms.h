@@ -1,0 +1,86 @@
+// What the values of steps look like.
+#pragma once
+
+#include <array>
+
+#include "emulator/world/bench_file/fault_form.h"
+#include "emulator/world/bench_file/form.h"
+
+namespace understudy::emulator::play {
+
+inline constexpr world::Form kExceptionForm = world::integer_form(1, 255);
+inline constexpr std::array<std::string_view, 1> kNothing{"nothing"};
+inline constexpr world::Form kNothingForm = world::words_form(kNothing);
+inline constexpr std::array kAnswerKeys{
+    world::KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm},
+    world::KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
+    world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}};
+
+inline constexpr std::array kWaitKeys{
+    world::KeyRow{"until", "The condition, looked at in every tick without the line.", &world::kText, true},
+    world::KeyRow{"within", "It fails if this long is not enough.", &world::kDuration, true},
+    world::KeyRow{"takes", "How long it takes from the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
+    world::KeyRow{"poll", "Reads the registers over the line this often instead.", &world::kDuration}};
+inline constexpr world::Form kWaitForm = world::keys_form(kWaitKeys);
+
+inline constexpr std::array<const world::Form*, 2> kAssertWays{&world::kText, &world::kTextList};
+inline constexpr world::Form kAssertForm = world::either_form(kAssertWays);
+
+inline constexpr std::array kSpanKeys{
+    world::KeyRow{"what", "The condition, looked at in every tick.", &world::kText, true},
+    world::KeyRow{"name", "For `end`; the condition itself without it.", &world::kText}};
+inline constexpr world::Form kSpanKeysForm = world::keys_form(kSpanKeys);
+inline constexpr std::array<const world::Form*, 2> kSpanWays{&world::kText, &kSpanKeysForm};
+inline constexpr world::Form kSpanForm = world::either_form(kSpanWays);
+
+inline constexpr world::Form kInjectForm = world::keys_form(world::kInjectKeys);
+
+inline constexpr std::array<std::string_view, 3> kPowerWords{"on", "off", "cycle"};
+inline constexpr world::Form kPowerWordsForm = world::words_form(kPowerWords);
+inline constexpr world::Form kPowerForm = world::names_form(kPowerWordsForm);
+
+inline constexpr std::array<const world::Form*, 2> kReplyLinesWays{&world::kText, &world::kTextList};
+inline constexpr world::Form kReplyLinesForm = world::either_form(kReplyLinesWays);
+inline constexpr std::array kSendKeys{
+    world::KeyRow{"line", "On which line; the only one without it.", &world::kText},
+    world::KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
+    world::KeyRow{"reply", "The bytes that must come, or `nothing`.", &world::kText},
+    world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
+inline constexpr std::array kSendTextKeys{
+    world::KeyRow{"line", "On which line; the only one without it.", &world::kText},
+    world::KeyRow{"text", "A line of text, without its end.", &world::kText, true},
+    world::KeyRow{"reply", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm},
+    world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
+inline constexpr world::Form kSendBytesForm = world::keys_form(kSendKeys);
+inline constexpr world::Form kSendTextForm = world::keys_form(kSendTextKeys);
+inline constexpr std::array<const world::Form*, 2> kSendWays{&kSendBytesForm, &kSendTextForm};
+inline constexpr world::Form kSendForm = world::either_form(kSendWays);
+inline constexpr std::array kHearKeys{
+    world::KeyRow{"line", "On which line; the only one without it.", &world::kText},
+    world::KeyRow{"text", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm, true},
+    world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
+inline constexpr world::Form kHearForm = world::keys_form(kHearKeys);
+
+inline constexpr world::Form kForkForm = world::names_form(world::kSteps);
+
+inline constexpr std::array<std::string_view, 1> kResetWords{"peaks"};
+inline constexpr world::Form kResetForm = world::words_form(kResetWords);
+
+inline constexpr world::Form kTimesForm = world::integer_form(1, 100'000);
+inline constexpr std::array kRepeatKeys{
+    world::KeyRow{"times", "How often.", &kTimesForm, true},
+    world::KeyRow{"as", "A name for the number of the round, from 1.", &world::kText},
+    world::KeyRow{"steps", "What is repeated.", &world::kSteps, true}};
+inline constexpr world::Form kRepeatForm = world::keys_form(kRepeatKeys);
+
+inline constexpr std::array<const world::Form*, 2> kRowWays{&world::kText, &world::kTextByName};
+inline constexpr world::Form kRowForm = world::either_form(kRowWays);
+inline constexpr world::Form kRowsForm = world::list_form(kRowForm);
+inline constexpr std::array kForKeys{
+    world::KeyRow{"each", "The values, or rows of several: [ { n: 1, speed: 200 }, { n: 2, speed: 400 } ].",
+                  &kRowsForm, true},
+    world::KeyRow{"as", "A name for the value (rows have names already).", &world::kText},
+    world::KeyRow{"steps", "What is done for each.", &world::kSteps, true}};
+inline constexpr world::Form kForForm = world::keys_form(kForKeys);
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,176 @@
+#include "emulator/play/reading/steps_reader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+#include <utility>
+
+#include "base/files/text_file.h"
+#include "base/text/suggestion.h"
+#include "emulator/play/reading/step_rows.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+const StepRow* find_row(std::string_view key) {
+  for (const StepRow& row : step_rows()) {
+    if (row.key.key == key) return &row;
+  }
+  return nullptr;
+}
+
+/// What kind of step it is, by its first key that is one; null: by none.
+const StepRow* row_of(const world::YamlFields& step) {
+  if (!step.is_map()) step.fail("expected a step, as in `- advance: 250ms`");
+  for (const auto& [key, value] : step.entries()) {
+    if (const StepRow* const row = find_row(key)) return row;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void fail_without_row(const world::YamlFields& step) {
+  const auto entries = step.entries();
+  if (entries.empty()) step.fail("is empty; expected a step, as in `- advance: 250ms`");
+  std::vector<std::string> names;
+  for (const StepRow& row : step_rows()) names.emplace_back(row.key.key);
+  const std::string& key = entries.front().first;
+  entries.front().second.fail("is not a step" + suggestion(key, names));
+}
+
+/// What a step carries besides its text: of the kinds that may carry much.
+struct BytesOf {
+  std::size_t operator()(const SendStep& step) const {
+    return step.bytes.size() + (step.reply ? step.reply->size() : 0);
+  }
+  std::size_t operator()(const TextStep& step) const {
+    std::size_t bytes = step.text ? step.text->size() : 0;
+    if (!step.lines) return bytes;
+    for (const std::string& line : *step.lines) bytes += line.size();
+    return bytes;
+  }
+  std::size_t operator()(const ProgramStep& step) const { return step.text.size(); }
+  std::size_t operator()(const SayStep& step) const { return step.text.size(); }
+  template <typename Other>
+  std::size_t operator()(const Other&) const {
+    return 0;
+  }
+};
+
+/// However it is spelled.
+std::string canonical(const std::string& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path)).string();
+}
+
+}  // namespace
+
+StepsReader::StepsReader(const Trial& trial, FileReading& file, std::string path)
+    : trial_(trial), file_(file), paths_{canonical(path)} {
+  for (const world::Fault& fault : trial.bench().faults)
+    story_.faults.push_back(world::to_text(trial.known(), fault));
+}
+
+Steps StepsReader::read(const world::YamlFields& list, const Parameters& parameters) {
+  Steps steps;
+  into_ = &steps;
+  complaints_.demand([&] { read_here(list, parameters); });
+  return steps;
+}
+
+void StepsReader::count(const world::YamlFields& where) {
+  if (++file_.steps > FileReading::kMostSteps) {
+    throw world::LastError(where.place(), where.field() + ": is one step too many; expected at most " +
+                                              std::to_string(FileReading::kMostSteps) +
+                                              " with all loops and cases");
+  }
+}
+
+void StepsReader::count_bytes(const world::YamlFields& where, const Step& step) {
+  file_.bytes += step.text.size() + std::visit(BytesOf{}, step.what);
+  if (file_.bytes > FileReading::kMostBytes) {
+    where.fail("is too much: the steps have grown beyond " + std::to_string(FileReading::kMostBytes >> 20) +
+               " MiB; expected less, with all loops and cases");
+  }
+}
+
+void StepsReader::read_here(const world::YamlFields& list, const Parameters& parameters) {
+  if (++depth_ > FileReading::kDeepest) {
+    list.fail("is too deep; expected at most " + std::to_string(FileReading::kDeepest) +
+              " loops, forks and includes in each other");
+  }
+  const Parameters* const outer = std::exchange(parameters_, &parameters);
+  const auto steps = list.with_rule(&parameters).elements();
+  if (steps.empty()) list.fail("is empty; expected at least one step");
+  for (const world::YamlFields& step : steps) read_or_complain(step);
+  parameters_ = outer;
+  --depth_;
+}
+
+/// What a step that cannot be read has begun is undone.
+void StepsReader::read_or_complain(const world::YamlFields& step) {
+  const auto before = std::tuple(parameters_, into_, paths_.size(), depth_);
+  const StepRow* row = nullptr;
+  const bool is_read = complaints_.attempt([&] {
+    row = row_of(step);
+    try {
+      read_step(step, row);
+    } catch (const world::LastError&) {
+      throw;
+    } catch (const FileError&) {
+      if (lacks_names_ && row != nullptr && row->names == StepRow::Names::wants) throw world::Untold();
+      throw;
+    }
+  });
+  if (is_read) return;
+  lacks_names_ = lacks_names_ || row == nullptr || row->names == StepRow::Names::gives;
+  std::size_t paths = 0;
+  std::tie(parameters_, into_, paths, depth_) = before;
+  paths_.resize(paths);
+}
+
+Steps StepsReader::read_branch(const world::YamlFields& list) {
+  Steps steps;
+  Steps* const outer = std::exchange(into_, &steps);
+  const Story before = story_;
+  complaints_.attempt([&] { read_here(list, *parameters_); });
+  story_ = before;
+  into_ = outer;
+  return steps;
+}
+
+void StepsReader::read_included(const world::YamlFields& field) {
+  const std::string path = canonical(field.path());
+  if (std::find(paths_.begin(), paths_.end(), path) != paths_.end()) {
+    field.fail(field.path() + " includes itself; expected another file");
+  }
+  auto& included = file_.shared.included;
+  auto it = included.find(field.path());
+  if (it == included.end()) {
+    const auto text = read_text_file(path);
+    if (!text) field.fail(field.path() + " " + text.why + "; expected a file of steps");
+    const world::YamlFields root =
+        world::YamlFields::parse(*text, field.path(), "steps", "`understudy: 1` and `steps:`");
+    root.demand_keys(kIncludedKeys);
+    root.at("understudy").integer(world::kVersionForm);
+    it = included.emplace(field.path(), root.at("steps")).first;
+  }
+  add_file(field.path(), "a file of steps that is included");
+  paths_.push_back(path);
+  read_here(it->second, *parameters_);
+  paths_.pop_back();
+}
+
+void StepsReader::read_step(const world::YamlFields& step, const StepRow* row) {
+  step.demand_map();
+  if (row == nullptr) fail_without_row(step);
+  std::vector<world::KeyRow> known{row->key};
+  known.insert(known.end(), row->beside.begin(), row->beside.end());
+  for (const auto& [key, value] : step.entries()) {
+    if (key != row->key.key && find_row(key) != nullptr)
+      value.fail("is a second step in one; expected `- ` before it");
+  }
+  step.demand_keys(known);
+  row->read(*this, step, step.at(row->key.key));
+}
+
+}  // namespace understudy::emulator::play

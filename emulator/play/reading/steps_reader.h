@@ -1,0 +1,86 @@
+// Steps as a scenario file has them into the list that is played: loops, tables and includes are unrolled,
+// and everything is checked on the way.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "emulator/play/reading/parameters.h"
+#include "emulator/play/reading/shared_reading.h"
+#include "emulator/play/reading/story.h"
+#include "emulator/play/reading/trial.h"
+#include "emulator/play/script/scenario.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::play {
+
+/// What the cases of a file share.
+struct FileReading {
+  static constexpr int kMostSteps = 100'000;                        // of all cases
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of what they say and send
+  static constexpr int kDeepest = 32;                               // loops, forks and includes in each other
+  int steps = 0;
+  std::size_t bytes = 0;
+  SharedReading& shared;
+};
+
+struct StepRow;
+
+class StepsReader {
+ public:
+  StepsReader(const Trial& trial, FileReading& file, std::string path);
+
+  /// Throws all that is wrong with them.
+  Steps read(const world::YamlFields& list, const Parameters& parameters);
+
+  // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
+  const Trial& trial() const { return trial_; }
+  const Parameters& parameters() const { return *parameters_; }
+  Story& story() { return story_; }
+  /// A file that a step is read from.
+  void add_file(const std::string& path, const std::string& what) { files_.push_back({path, what}); }
+  const std::vector<FileClaim>& files() const { return files_; }
+  /// A file that a step writes when it is played, and where that is said.
+  void add_saved(const std::string& path, const world::YamlFields& field) {
+    saved_.emplace_back(path, field);
+  }
+  const std::vector<std::pair<std::string, world::YamlFields>>& saved() const { return saved_; }
+  /// One step more; `text` says what it does.
+  template <typename What>
+  void add(const world::YamlFields& where, const std::string& text, What what) {
+    count(where);
+    into_->push_back(
+        {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
+    count_bytes(where, into_->back());
+  }
+  /// The steps of a list, in this place, with other parameters.
+  void read_here(const world::YamlFields& list, const Parameters& parameters);
+  /// The steps of a list, from the story so far, which goes on as if they had not been.
+  Steps read_branch(const world::YamlFields& list);
+  void read_included(const world::YamlFields& path);
+  /// Whether a step could not be read: another round of a loop would tell the same.
+  bool has_complaints() const { return complaints_.count() > 0; }
+
+ private:
+  void read_or_complain(const world::YamlFields& step);
+  void read_step(const world::YamlFields& step, const StepRow* row);
+  void count(const world::YamlFields& where);
+  void count_bytes(const world::YamlFields& where, const Step& step);
+
+  const Trial& trial_;
+  FileReading& file_;
+  const Parameters* parameters_ = nullptr;
+  Story story_;
+  Steps* into_ = nullptr;
+  std::vector<FileClaim> files_;
+  std::vector<std::pair<std::string, world::YamlFields>> saved_;
+  std::vector<std::string> paths_;  // of the files that include each other here
+  int depth_ = 0;
+  world::Complaints complaints_;
+  bool lacks_names_ = false;  // a step that could not be read may have given some
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,89 @@
+// Steps with lines of text: send (with `text`), hear.
+#include "emulator/play/reading/step_forms.h"
+#include "emulator/play/reading/step_readers.h"
+#include "emulator/play/reading/steps_reader.h"
+#include "emulator/world/frames/text_lines_heard.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+constexpr std::size_t kLongestText = 1023;  // with its end 1024 bytes
+
+/// A line as it is written there.
+std::string read_text(const world::YamlFields& field) {
+  std::string text = field.text();
+  if (text.find_first_of("\r\n") != std::string::npos) {
+    field.fail("has several lines; expected one, without its end");
+  }
+  if (text.size() > kLongestText) {
+    field.fail("has " + std::to_string(text.size()) + " characters; expected at most " +
+               std::to_string(kLongestText));
+  }
+  return text;
+}
+
+/// One line, or a list of them; none for `nothing`.
+std::vector<std::string> read_texts(const world::YamlFields& field) {
+  std::vector<std::string> lines;
+  if (field.is_list()) {
+    for (const world::YamlFields& line : field.elements()) lines.push_back(read_text(line));
+    if (lines.empty()) field.fail("is empty; expected lines, or `nothing`");
+  } else if (field.text() != "nothing") {
+    lines.push_back(read_text(field));
+  }
+  return lines;
+}
+
+SimTime read_within(const world::YamlFields& value) {
+  const world::YamlFields within = value.at("within");
+  const SimTime time = within.duration();
+  if (time <= SimTime{0}) within.fail("takes no time; expected some");
+  return time;
+}
+
+}  // namespace
+
+std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value, Protocol wanted) {
+  const world::Bench& bench = reader.trial().bench();
+  const auto protocol_of = [&](std::size_t line) {
+    return bench.devices[bench.lines[line].stations.front()].model->protocol();
+  };
+  std::size_t line = 0;
+  if (value.has("line")) {
+    line = reader.trial().line(value.at("line"), value.at("line").text());
+  } else if (bench.lines.size() > 1) {
+    value.fail("'line' is missing, and there are several; expected it here");
+  }
+  if (wanted == Protocol::text && protocol_of(line) != Protocol::text) {
+    value.fail("line '" + bench.lines[line].name +
+               "' carries Modbus frames; expected a line of text here, or `bytes`");
+  }
+  return line;
+}
+
+void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  value.demand_keys(kSendTextKeys);
+  TextStep say;
+  say.line = read_line_of(reader, value, Protocol::text);
+  say.text = read_text(value.at("text"));
+  std::string text = "send \"" + *say.text + "\"";
+  if (value.has("reply")) {
+    say.lines = read_texts(value.at("reply"));
+    text += ", reply " + world::lines_text(*say.lines);
+  }
+  if (value.has("within")) say.within = read_within(value);
+  reader.add(step, text, std::move(say));
+}
+
+void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  value.demand_keys(kHearKeys);
+  TextStep hear;
+  hear.line = read_line_of(reader, value, Protocol::text);
+  hear.lines = read_texts(value.at("text"));
+  if (value.has("within")) hear.within = read_within(value);
+  const std::string text = "hear " + world::lines_text(*hear.lines);
+  reader.add(step, text, std::move(hear));
+}
+
+}  // namespace understudy::emulator::play

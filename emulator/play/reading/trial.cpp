@@ -1,0 +1,203 @@
+#include "emulator/play/reading/trial.h"
+
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "base/text/suggestion.h"
+#include "emulator/play/script/requests.h"
+#include "emulator/world/bench_file/disturbance_fields.h"
+#include "emulator/world/expression/parser.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+std::string to_text(const Limits& limits) {
+  return std::to_string(limits.low) + " to " + std::to_string(limits.high);
+}
+
+/// `feeder["Logic Position X"].4` without its quotes; anything else as it is.
+std::string plain_name(const world::YamlFields& field, const std::string& written) {
+  if (written.find('[') == std::string::npos) return written;
+  try {
+    world::Lexer lexer(written);
+    const world::Token word = lexer.next();
+    if (word.kind == world::Token::Kind::name && lexer.next().kind == world::Token::Kind::end)
+      return word.name;
+  } catch (const world::ExpressionError& error) {
+    field.fail(error.what());
+  }
+  field.fail(quoted(written) + " is not a name; expected one such as feeder[\"Logic Position X\"]");
+}
+
+}  // namespace
+
+Trial::Trial(const world::Bench& bench)
+    : bench_(bench), world_(bench, world::WorldOptions{}, {}), probes_(world_) {}
+
+std::size_t Trial::device(const world::YamlFields& field, const std::string& name) const {
+  try {
+    return world::find_device(known(), plain_name(field, name));
+  } catch (const world::NameError& error) {
+    field.fail(error.what());
+  }
+}
+
+std::size_t Trial::line(const world::YamlFields& field, const std::string& name) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
+    if (bench_.lines[i].name == name) return i;
+    names.push_back(bench_.lines[i].name);
+  }
+  field.fail("no line is called " + quoted(name) + suggestion(name, names));
+}
+
+Target Trial::target(const world::YamlFields& field, const std::string& written) const {
+  Target target;
+  target.name = written;
+  const std::string name = plain_name(field, written);
+  try {
+    const std::size_t dot = name.find('.');
+    std::string rest = name;
+    for (std::size_t i = 0; i < known().size() && dot != std::string::npos; ++i) {
+      if (name.compare(0, dot, known()[i].name) != 0) continue;
+      target.device = i;
+      rest = name.substr(dot + 1);
+    }
+    if (world::find_value(known(), name)) {
+      probes_.resolve(name);
+      target.is_value = true;
+      return target;
+    }
+    if (rest.empty() || rest.front() < '0' || rest.front() > '9') {
+      const world::RegisterName found = world::find_register(known(), name);
+      target.device = found.device;
+      target.place = found.place;
+      return target;
+    }
+    if (rest == name) world::find_device(known(), known().size() == 1 ? "" : name.substr(0, dot));
+    const auto address = parse_integer(rest);
+    if (!address || *address > UINT16_MAX) {
+      field.fail(quoted(rest) + " is not a number of a register; expected 0 to 0xFFFF");
+    }
+    target.address = static_cast<std::uint16_t>(*address);
+    return target;
+  } catch (const world::NameError& error) {
+    field.fail(error.what());
+  }
+}
+
+world::Expression Trial::expression(const world::YamlFields& field) const {
+  const std::string text = field.text();
+  try {
+    world::ExpressionParser parser(text, probes_);
+    const world::Term term = parser.expression();
+    parser.expect_end();
+    if (term.unit != world::Unit::none) {
+      field.fail("is " + world::kind_of(term.unit) + "; expected a number, or a condition");
+    }
+    world::Expression expression = parser.take();
+    if (expression.names.empty())
+      world::evaluate(expression, probes_);  // it has no result, or has one for ever
+    return expression;
+  } catch (const world::ExpressionError& error) {
+    field.fail(error.what());
+  }
+}
+
+std::string Trial::condition(const world::YamlFields& field) const { return expression(field).text; }
+
+std::string Trial::changing_condition(const world::YamlFields& field) const {
+  const world::Expression condition = expression(field);
+  if (condition.names.empty()) {
+    field.fail(quoted(world::to_text(condition)) +
+               " never changes; expected a condition that names something");
+  }
+  return condition.text;
+}
+
+void Trial::demand_registers_only(const world::YamlFields& field) const {
+  for (const world::Expression::Name& name : expression(field).names) {
+    try {
+      world::find_register(known(), plain_name(field, name.spelling));
+    } catch (const world::NameError&) {
+      field.fail(quoted(name.spelling) + " cannot be polled; expected registers only");
+    }
+  }
+}
+
+std::string Trial::value_to_write(const world::YamlFields& field, const Target& target,
+                                  bool is_refused) const {
+  const world::Expression value = expression(field);
+  const RegisterRow* const row = target.place ? target.place->place.row : nullptr;
+  if (row != nullptr && row->access == Access::read && !is_refused) {
+    field.fail(target.name +
+               " cannot be written; it is read-only (expected `exception:` where that is meant)");
+  }
+  if (!value.names.empty()) return value.text;
+  const world::Number number = world::evaluate(value, probes_);
+  const auto out_of = [&](const std::string& range) {
+    field.fail(world::number_text(number) + " is out of range for " + target.name + "; expected " + range);
+  };
+  if (!number.is_whole()) field.fail(world::number_text(number) + " is not a whole number; expected one");
+  const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
+                         target.place->place.part == Place::Part::whole && !is_refused;
+  if (is_judged && (number.whole() < row->min || number.whole() > row->max)) out_of(range_text(*row));
+  const Limits limits = limits_of(target);
+  if (number.whole() < limits.low || number.whole() > limits.high) out_of(to_text(limits));
+  return value.text;
+}
+
+world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Target& target) const {
+  try {
+    world::Tolerance value = world::parse_tolerance(field.text());
+    if (target.is_value) return value;
+    const Limits limits = limits_of(target);
+    if ((value.low && *value.low > world::Number(limits.high)) ||
+        (value.high && *value.high < world::Number(limits.low))) {
+      const bool has_range = target.place && target.place->bit < 0 && target.place->place.row->ranged &&
+                             target.place->place.part == Place::Part::whole;
+      field.fail(target.name + " is never " + value.text + "; expected something in " +
+                 (has_range ? range_text(*target.place->place.row) : to_text(limits)));
+    }
+    return value;
+  } catch (const world::ExpressionError& error) {
+    field.fail(error.what());
+  }
+}
+
+void Trial::demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,
+                           const std::string& name) const {
+  DeviceSettings settings = bench_.devices[device].settings;
+  settings.program = text;
+  try {
+    make_device(*bench_.devices[device].model, settings);
+  } catch (const ProgramError& error) {
+    if (name.empty()) field.fail("line " + std::to_string(error.line) + ": " + error.what());
+    throw FileError(name + ":" + std::to_string(error.line) + ": " + error.what());
+  } catch (const SettingError& error) {
+    field.fail(error.what());
+  }
+}
+
+world::Fault Trial::fault(const world::YamlFields& field, std::string_view other_key) const {
+  world::Complaints complaints;
+  const auto fault = world::read_fault(field, known(), complaints, other_key);
+  world::demand_possible(field, world_, fault, complaints);
+  complaints.throw_if_any();
+  return *fault;
+}
+
+void Trial::demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const {
+  DeviceSettings settings = bench_.devices[device].settings;
+  settings.nv = image;
+  settings.program.clear();
+  try {
+    make_device(*bench_.devices[device].model, settings);
+  } catch (const NvError& error) {
+    field.fail(error.what());
+  } catch (const SettingError& error) {
+    field.fail(error.what());
+  }
+}
+
+}  // namespace understudy::emulator::play

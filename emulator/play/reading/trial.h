@@ -1,0 +1,52 @@
+// A world of the bench in which nothing happens: a scenario's names, conditions and values are checked in it
+// before any of them is used.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "emulator/play/script/scenario.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::play {
+
+class Trial {
+ public:
+  /// Throws SettingError, NvError or ProgramError for what the models refuse.
+  explicit Trial(const world::Bench& bench);
+
+  const world::Bench& bench() const { return bench_; }
+  const world::KnownDevices& known() const { return world_.known(); }
+
+  // All of these take what a field says, or complain of it.
+  std::size_t device(const world::YamlFields& field, const std::string& name) const;
+  std::size_t line(const world::YamlFields& field, const std::string& name) const;
+  /// A register or a number, as a key or in an expression.
+  Target target(const world::YamlFields& field, const std::string& written) const;
+  /// An expression that is true or false.
+  std::string condition(const world::YamlFields& field) const;
+  /// One that can change: it names something.
+  std::string changing_condition(const world::YamlFields& field) const;
+  /// One that a host could evaluate by reading registers.
+  void demand_registers_only(const world::YamlFields& field) const;
+  /// What is written to a register; where that `is_refused` it may be out of the register's range.
+  std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
+  world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
+  /// Text for a register map's device: a program, or an image of its memory.
+  void demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,
+                      const std::string& name) const;
+  /// A fault that this world can have: what it waits for is there. `other_key` is for others.
+  world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
+  void demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;
+
+ private:
+  world::Expression expression(const world::YamlFields& field) const;
+
+  const world::Bench& bench_;
+  world::World world_;
+  world::Probes probes_;
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,122 @@
+// Steps that look, without the line: wait, advance, assert, always, never, end, reset, say.
+#include <algorithm>
+
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/play/reading/step_forms.h"
+#include "emulator/play/reading/step_readers.h"
+#include "emulator/play/reading/steps_reader.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+SimTime read_some_time(const world::YamlFields& field) {
+  const SimTime time = field.duration();
+  if (time <= SimTime{0}) field.fail("takes no time; expected some");
+  return time;
+}
+
+world::Tolerance read_takes(const world::YamlFields& field, SimTime within) {
+  try {
+    world::Tolerance takes = world::parse_tolerance(field.text(), world::Unit::nanoseconds);
+    if (takes.low && *takes.low > world::Number(within.count())) {
+      field.fail("is longer than `within`, " + format_duration(within) + "; expected it to fit");
+    }
+    return takes;
+  } catch (const world::ExpressionError& error) {
+    field.fail(error.what());
+  }
+}
+
+void read_span(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value,
+               bool never) {
+  SpanStep span{.expression = {}, .never = never, .name = {}};
+  if (value.is_map()) value.demand_keys(kSpanKeys);
+  const world::YamlFields what = value.is_map() ? value.at("what") : value;
+  span.expression = reader.trial().changing_condition(what);
+  const bool is_named = value.is_map() && value.has("name");
+  span.name = is_named ? value.at("name").text() : world::on_one_line(span.expression);
+  auto& open = reader.story().spans;
+  if (std::find(open.begin(), open.end(), span.name) != open.end()) {
+    value.fail(quoted(span.name) + " holds already; expected another name, or an `end` before");
+  }
+  open.push_back(span.name);
+  const std::string text = (never ? "never " : "always ") + world::on_one_line(span.expression);
+  reader.add(step, text, std::move(span));
+}
+
+constexpr SimTime kShortestPoll = kTickLength;
+
+}  // namespace
+
+void read_wait(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  value.demand_keys(kWaitKeys);
+  WaitStep wait;
+  wait.until = reader.trial().changing_condition(value.at("until"));
+  wait.within = read_some_time(value.at("within"));
+  std::string text =
+      "wait until " + world::on_one_line(wait.until) + " within " + format_duration(wait.within);
+  if (value.has("takes")) {
+    wait.takes = read_takes(value.at("takes"), wait.within);
+    text += ", takes " + wait.takes->text;
+  }
+  if (value.has("poll")) {
+    wait.poll = read_some_time(value.at("poll"));
+    if (*wait.poll < kShortestPoll) {
+      value.at("poll").fail(format_duration(*wait.poll) +
+                            " is less than any request takes; expected 1ms or more");
+    }
+    reader.trial().demand_registers_only(value.at("until"));
+    text += ", polled every " + format_duration(*wait.poll);
+  }
+  reader.add(step, text, std::move(wait));
+}
+
+void read_advance(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  const SimTime by = read_some_time(value);
+  reader.add(step, "advance " + format_duration(by), AdvanceStep{by});
+}
+
+void read_assert(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  AssertStep truths;
+  const auto fields = value.is_list() ? value.elements() : std::vector<world::YamlFields>{value};
+  if (fields.empty()) value.fail("is empty; expected a condition");
+  std::string text = "assert";
+  for (const world::YamlFields& field : fields) {
+    truths.expressions.push_back(reader.trial().condition(field));
+    text += (truths.expressions.size() == 1 ? " " : "; ") + world::on_one_line(truths.expressions.back());
+  }
+  reader.add(step, text, std::move(truths));
+}
+
+void read_always(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  read_span(reader, step, value, false);
+}
+
+void read_never(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  read_span(reader, step, value, true);
+}
+
+void read_end(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  const std::string name = world::on_one_line(value.text());
+  auto& open = reader.story().spans;
+  const auto it = std::find(open.begin(), open.end(), name);
+  if (it == open.end()) {
+    value.fail("no `always` or `never` that holds here is called " + quoted(name) + suggestion(name, open));
+  }
+  open.erase(it);
+  reader.add(step, "end " + name, EndSpanStep{name});
+}
+
+void read_reset(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  if (value.text() != "peaks") value.fail(quoted(value.text()) + " cannot be reset; expected peaks");
+  reader.add(step, "reset peaks", ResetPeaksStep{});
+}
+
+void read_say(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  const std::string text = world::on_one_line(value.text());
+  reader.add(step, "say " + text, SayStep{text});
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,27 @@
+// The scale of a picture's axis: which round numbers stand along it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace understudy::emulator::play {
+
+struct AxisScale {
+  double low = 0;
+  double high = 1;
+  std::vector<double> marks;  // multiples of 1, 2 or 5 times a power of ten, within the two
+  int decimals = 0;           // that the marks need
+};
+
+/// From the least to the greatest value, and a little beyond so that lines do not touch the frame; at most so
+/// many marks (2 or more). One that does not vary is in the middle.
+AxisScale scale_for(double least, double greatest, int most_marks);
+/// The same without the little beyond.
+AxisScale exact_scale_for(double low, double high, int most_marks);
+
+/// "32000", "10666.67": whole numbers as they are, others with seven digits.
+std::string plain_number(double value);
+/// With so many decimals.
+std::string fixed_number(double value, int decimals);
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,50 @@
+// Takes the footage of a play.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/report/envelope.h"
+#include "emulator/play/report/footage.h"
+#include "emulator/world/probe/probes.h"
+#include "pty/capture_frames.h"
+
+namespace understudy::emulator::play {
+
+class Camera final : public Onlooker, private world::TickWatcher {
+ public:
+  explicit Camera(world::World& world);
+  ~Camera() override;
+  Camera(const Camera&) = delete;
+  Camera& operator=(const Camera&) = delete;
+
+  void world_restored(std::size_t steps) override;
+  /// Into ScenarioResult::footage.
+  void finish(ScenarioResult& result) override;
+
+ private:
+  struct Sight {
+    SeenSignal::Kind kind;
+    std::string name;
+    std::int32_t handle;
+    Envelope values;
+  };
+  void add_sight(const std::string& name, SeenSignal::Kind kind);
+  void watch_lines();
+  void ignore_lines();
+  void on_tick(Tick tick) override;
+  void add(const pty::CapturedPacket& packet);
+  void end_scene();
+
+  world::World& world_;
+  world::Probes probes_;
+  std::vector<Sight> sights_;
+  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
+  std::vector<std::vector<std::uint8_t>> requests_;           // by line: what a reply is read by
+  Scene scene_;
+  Footage footage_;
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,70 @@
+#include "emulator/play/report/envelope.h"
+
+#include <algorithm>
+#include <array>
+
+namespace understudy::emulator::play {
+
+void Envelope::add(Tick tick, double value) {
+  const Point point{tick, value};
+  if (stretches_.empty()) {
+    origin_ = tick;
+    least_ = greatest_ = value;
+    stretches_.push_back({point, point, point, point});
+    return;
+  }
+  if (tick <= stretches_.back().last.tick) return;
+  least_ = std::min(least_, value);
+  greatest_ = std::max(greatest_, value);
+  while (static_cast<std::size_t>((tick - origin_) / length_) >= most_stretches_) halve();
+  Stretch& last = stretches_.back();
+  if ((tick - origin_) / length_ != (last.first.tick - origin_) / length_) {
+    stretches_.push_back({point, point, point, point});
+    return;
+  }
+  if (value < last.least.value) last.least = point;
+  if (value > last.greatest.value) last.greatest = point;
+  last.last = point;
+}
+
+/// Stretches of twice the length.
+void Envelope::halve() {
+  length_ *= 2;
+  std::vector<Stretch> longer;
+  for (const Stretch& stretch : stretches_) {
+    const bool is_new = longer.empty() || (stretch.first.tick - origin_) / length_ !=
+                                              (longer.back().first.tick - origin_) / length_;
+    if (is_new) {
+      longer.push_back(stretch);
+      continue;
+    }
+    Stretch& whole = longer.back();
+    if (stretch.least.value < whole.least.value) whole.least = stretch.least;
+    if (stretch.greatest.value > whole.greatest.value) whole.greatest = stretch.greatest;
+    whole.last = stretch.last;
+  }
+  stretches_ = std::move(longer);
+}
+
+std::vector<Envelope::Point> Envelope::points() const {
+  std::vector<Point> points;
+  const auto add = [&](const Point& point) {
+    if (!points.empty() && point.tick <= points.back().tick) return;
+    const std::size_t size = points.size();
+    const bool stays =
+        size >= 2 && points[size - 1].value == point.value && points[size - 2].value == point.value;
+    if (stays) {
+      points.back() = point;
+    } else {
+      points.push_back(point);
+    }
+  };
+  for (const Stretch& stretch : stretches_) {
+    std::array<Point, 4> four{stretch.first, stretch.least, stretch.greatest, stretch.last};
+    std::sort(four.begin(), four.end(), [](const Point& a, const Point& b) { return a.tick < b.tick; });
+    for (const Point& point : four) add(point);
+  }
+  return points;
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,59 @@
+// What was seen while a scenario was played, as a value: signals over time, and the frames on its lines.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::play {
+
+struct SeenSignal {
+  std::string name;  // as probes.h has it: "feeder.A.position"
+  enum class Kind : std::uint8_t {
+    position,  // of the machine, in pulses
+    pulses,    // that an axis has sent
+    speed,     // by plan, in pulses a second
+    duty,      // of an axis that drives by PWM, in percent
+    voltage,   // of an analog input, in volts
+    level,     // of an analog input without a unit
+    bit,       // an input, an output, a switch, power
+  } kind = Kind::bit;
+  struct Point {
+    Tick tick = 0;
+    double value = 0;
+  };
+  std::vector<Point> points{};  // the first and the last of the scene among them
+  double least = 0;
+  double greatest = 0;
+  bool varies() const { return least != greatest; }
+};
+
+struct SeenFrame {
+  SimTime time{0};  // when its first character began
+  std::string line;
+  bool is_from_host = true;
+  std::string text;        // decoded
+  std::string bytes;       // "01 03 00 00"
+  std::string remark;      // "dropped: bad CRC"; empty if there is nothing to say
+  bool is_struck = false;  // by a fault; without bytes: one that is not here, or was before
+};
+
+/// A stretch of the play in which time only goes on: each `restore` begins another one.
+struct Scene {
+  std::size_t first_step = 0;  // of the result's
+  SimTime begin{0};
+  SimTime end{0};
+  std::vector<SeenSignal> signals;
+  std::vector<SeenFrame> frames;  // in the order of time, the first and the last ones if there were many
+  std::size_t frames_left_out = 0;
+  std::size_t left_out_at = 0;  // before this one
+};
+
+struct Footage {
+  std::vector<Scene> scenes;
+};
+
+}  // namespace understudy::emulator::play

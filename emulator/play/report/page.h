@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/play/results/result.h"
+
+namespace understudy::emulator::play {
+
+/// Results as one HTML page that needs nothing else, neither files nor a network: a list of the scenarios,
+/// then for each one why it failed, pictures of what moved and switched (where the result has footage), its
+/// steps with their times and frames. Equal results make equal pages. `version`: of the program.
+std::string report_page(std::span<const ScenarioResult> results, std::string_view version);
+
+}  // namespace understudy::emulator::play

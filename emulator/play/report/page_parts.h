@@ -1,0 +1,11 @@
+// What all report pages have in common.
+#pragma once
+
+#include <string_view>
+
+namespace understudy::emulator::play {
+
+extern const std::string_view kPageStyle;   // CSS, for light and dark
+extern const std::string_view kPageScript;  // values under the pointer; the page is whole without it
+
+}  // namespace understudy::emulator::play

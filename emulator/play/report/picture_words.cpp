@@ -1,0 +1,54 @@
+#include "emulator/play/report/picture_words.h"
+
+#include "emulator/play/report/axis_scale.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+using Kind = SeenSignal::Kind;
+
+const char* unit_of(Kind kind) {
+  switch (kind) {
+    case Kind::position:
+    case Kind::pulses: return " pulses";
+    case Kind::speed: return " pulses/s";
+    case Kind::duty: return " %";
+    case Kind::voltage: return " V";
+    case Kind::level:
+    case Kind::bit: break;
+  }
+  return "";
+}
+
+std::string words_of(const SeenSignal& signal) {
+  const SeenSignal::Point& first = signal.points.front();
+  const SeenSignal::Point& last = signal.points.back();
+  if (signal.kind == Kind::bit) {
+    const auto level = [](const SeenSignal::Point& point) { return point.value != 0 ? "on" : "off"; };
+    return signal.name + " is " + level(first) + " at first and " + level(last) + " at the end";
+  }
+  return signal.name + " goes from " + plain_number(first.value) + " to " + plain_number(last.value) +
+         unit_of(signal.kind) + ", between " + plain_number(signal.least) + " and " +
+         plain_number(signal.greatest);
+}
+
+}  // namespace
+
+std::string picture_name(const Scene& scene, std::string_view of) {
+  return std::string(of) + ": what moved and switched, from " + format_duration(scene.begin) + " to " +
+         format_duration(scene.end);
+}
+
+std::string picture_words(const Scene& scene, std::optional<SimTime> failed_at) {
+  std::string words;
+  for (const SeenSignal& signal : scene.signals) {
+    if (!signal.varies() || signal.points.empty()) continue;
+    words += (words.empty() ? "" : "; ") + words_of(signal);
+  }
+  if (words.empty()) words = "nothing moved or switched";
+  if (failed_at) words += "; failed at " + format_duration(*failed_at);
+  return words + ".";
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,18 @@
+// What a picture shows, in words, for whoever cannot see it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "emulator/play/report/footage.h"
+
+namespace understudy::emulator::play {
+
+/// One line: "a move: what moved and switched, from 0s to 3.2s".
+std::string picture_name(const Scene& scene, std::string_view of);
+
+/// Each signal that varies, with its extremes and where it ends, and when it failed.
+std::string picture_words(const Scene& scene, std::optional<SimTime> failed_at);
+
+}  // namespace understudy::emulator::play

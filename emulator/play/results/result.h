@@ -1,0 +1,56 @@
+// What came of playing a scenario, as a value: for a terminal, for JUnit, for a report.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+
+namespace understudy::emulator::play {
+
+struct Footage;  // emulator/play/report/footage.h
+
+struct StepResult {
+  std::string file{};
+  int line = 0;
+  std::string text{};
+  SimTime begin{0};  // simulated
+  SimTime end{0};
+  bool has_failed = false;
+};
+
+/// All texts are single lines.
+struct Failure {
+  SimTime at{0};                       // of a span: the tick that broke it
+  std::string what{};                  // "feeder.Cord_A is 31999; expected 32000"
+  std::string expected{};              // "feeder.Cord_A = 32000"
+  std::string came{};                  // "feeder.Cord_A = 31999"
+  std::vector<std::string> details{};  // expressions with their values, more that differs
+  std::vector<std::string> frames{};   // the last ones on all lines, decoded
+  std::vector<std::string> state{};    // of the devices and machines
+};
+
+/// Of a scenario, or of one of its branches.
+struct ScenarioResult {
+  enum class Verdict : std::uint8_t {
+    passed,
+    failed,
+    not_reached,  // a branch whose fork was not played, as a step before it failed
+  } verdict = Verdict::passed;
+  std::string name{};  // "a move takes its time", a branch "a move takes its time / with a stall"
+  std::string file{};
+  std::vector<StepResult> steps{};           // the last one is that which failed; of a branch its own
+  std::optional<Failure> failure{};          // if it failed
+  SimTime simulated{0};                      // how long it was played; of a branch, from its fork on
+  std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
+  std::shared_ptr<const Footage> footage{};  // of a report, if one was asked for
+  std::vector<std::string> manners{};        // what a lint has found, if one was asked for; single lines
+  std::string recording{};                   // its path, if one was made; of a trace and a capture as well
+  std::string trace{};
+  std::string capture{};
+};
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,79 @@
+#include "emulator/play/results/result_text.h"
+
+#include <algorithm>
+
+#include "base/text/one_line.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+using Verdict = ScenarioResult::Verdict;
+
+std::string place_of(const StepResult& step) { return step.file + ":" + std::to_string(step.line); }
+
+}  // namespace
+
+std::string seconds_text(SimTime time) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return std::to_string(time.count() / kSecond) + "." +
+         std::to_string(time.count() % kSecond + kSecond).substr(1);
+}
+
+std::string verdict_line(const ScenarioResult& result) {
+  const std::string name = result.file + ": " + result.name;
+  switch (result.verdict) {
+    case Verdict::passed: return one_line("ok    " + name + " (" + format_duration(result.simulated) + ")");
+    case Verdict::failed: {
+      const SimTime at = result.failure ? result.failure->at : SimTime{0};
+      return one_line("FAIL  " + name + " (at " + format_duration(at) + ")");
+    }
+    case Verdict::not_reached: return one_line("-     " + name + " (not reached)");
+  }
+  return {};
+}
+
+std::vector<std::string> step_lines(const ScenarioResult& result) {
+  std::vector<std::string> lines;
+  for (const StepResult& step : result.steps) {
+    lines.push_back(one_line(format_duration(step.begin) + " to " + format_duration(step.end) + "  " +
+                             place_of(step) + "  " + step.text + (step.has_failed ? "  FAILED" : "")));
+  }
+  return lines;
+}
+
+std::vector<std::string> failure_lines(const ScenarioResult& result) {
+  if (!result.failure) return {};
+  const Failure& failure = *result.failure;
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& text) { lines.push_back(one_line(text)); };
+  if (!result.steps.empty()) add(place_of(result.steps.back()) + ": " + result.steps.back().text);
+  add("  " + failure.what);
+  if (!failure.expected.empty()) add("  expected: " + failure.expected);
+  if (!failure.came.empty()) add("  came:     " + failure.came);
+  for (const std::string& detail : failure.details) add("  also:     " + detail);
+  if (!failure.frames.empty()) add("  the last frames:");
+  for (const std::string& frame : failure.frames) add("    " + frame);
+  if (!failure.state.empty()) add("  the state at " + format_duration(failure.at) + ":");
+  for (const std::string& state : failure.state) add("    " + state);
+  if (!result.recording.empty()) add("to run this again: understudy replay " + result.recording);
+  return lines;
+}
+
+std::string summary_line(std::span<const ScenarioResult> results) {
+  const auto count = [&](Verdict verdict) {
+    return static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(),
+                      [&](const ScenarioResult& result) { return result.verdict == verdict; }));
+  };
+  SimTime simulated{0};
+  for (const ScenarioResult& result : results) simulated += result.simulated;
+  std::string text = std::to_string(count(Verdict::passed)) + " passed, " +
+                     std::to_string(count(Verdict::failed)) + " failed";
+  if (const std::size_t left_out = count(Verdict::not_reached); left_out != 0) {
+    text += ", " + std::to_string(left_out) + " not reached";
+  }
+  return text + "; " + format_duration(simulated) + " simulated";
+}
+
+}  // namespace understudy::emulator::play

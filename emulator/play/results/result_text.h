@@ -1,0 +1,26 @@
+// Results for people.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/play/results/result.h"
+
+namespace understudy::emulator::play {
+
+/// "3.061338541": exact.
+std::string seconds_text(SimTime time);
+
+/// "ok    feed.yaml: a move takes its time (3.06s)".
+std::string verdict_line(const ScenarioResult& result);
+/// A line for each step: when it began and ended, where it stands, what it is.
+std::vector<std::string> step_lines(const ScenarioResult& result);
+/// What failed, what was expected, what came, the last frames and the state around it; empty if nothing
+/// failed.
+std::vector<std::string> failure_lines(const ScenarioResult& result);
+
+/// "12 passed, 1 failed, 2 not reached; 48.3s simulated".
+std::string summary_line(std::span<const ScenarioResult> results);
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,143 @@
+#include "emulator/play/schema/json_schema.h"
+
+#include <nlohmann/json.hpp>
+
+#include "emulator/play/reading/scenario_form.h"
+#include "emulator/play/reading/step_rows.h"
+#include "emulator/world/bench_file/bench_form.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kWholeNumber = "^-?(0x[0-9A-Fa-f]+|[0-9]+)$";
+constexpr const char* kDurationText = "^[0-9]*\\.?[0-9]+ *(ns|us|ms|s|min|h)$";
+constexpr const char* kParameter = "\\$\\{";
+
+class SchemaWriter {
+ public:
+  /// Where there are parameters any value may be a ${name}.
+  explicit SchemaWriter(bool has_parameters) : has_parameters_(has_parameters) {}
+
+  Json of(const world::Form& form) const {
+    switch (form.kind) {
+      case world::Form::Kind::text: return Json{{"type", {"string", "number", "boolean"}}};
+      case world::Form::Kind::integer: return integer(form);
+      case world::Form::Kind::level:
+        return Json{{"enum", {"on", "off", "true", "false", "0", "1", true, false, 0, 1}}};
+      case world::Form::Kind::duration:
+        return or_parameter(Json{{"type", "string"}, {"pattern", kDurationText}});
+      case world::Form::Kind::words: return words(form);
+      case world::Form::Kind::list: return list(form);
+      case world::Form::Kind::names: return Json{{"type", "object"}, {"additionalProperties", of(*form.of)}};
+      case world::Form::Kind::keys: return keys(form.keys);
+      case world::Form::Kind::either: {
+        Json ways = Json::array();
+        for (const world::Form* way : form.ways) ways.push_back(of(*way));
+        return Json{{"anyOf", ways}};
+      }
+      case world::Form::Kind::steps: return Json{{"$ref", "#/definitions/steps"}};
+    }
+    return Json::object();
+  }
+
+  Json keys(std::span<const world::KeyRow> rows) const {
+    Json properties = Json::object();
+    Json required = Json::array();
+    for (const world::KeyRow& row : rows) {
+      properties[std::string(row.key)] = described(row);
+      if (row.required) required.push_back(row.key);
+    }
+    Json schema{{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+    if (!required.empty()) schema["required"] = required;
+    return schema;
+  }
+
+  /// One step: exactly one of its kinds, and what may stand beside that.
+  Json step() const {
+    Json properties = Json::object();
+    Json kinds = Json::array();
+    std::map<std::string, Json> needed;  // by the keys that stand beside a kind: which kinds
+    for (const StepRow& row : step_rows()) {
+      properties[std::string(row.key.key)] = described(row.key);
+      kinds.push_back(Json{{"required", {row.key.key}}});
+      for (const world::KeyRow& beside : row.beside) {
+        properties[std::string(beside.key)] = described(beside);
+        needed[std::string(beside.key)].push_back(Json{{"required", {row.key.key}}});
+      }
+    }
+    Json dependencies = Json::object();
+    for (const auto& [key, ways] : needed) dependencies[key] = Json{{"anyOf", ways}};
+    return Json{{"type", "object"},
+                {"properties", properties},
+                {"additionalProperties", false},
+                {"oneOf", kinds},
+                {"dependencies", dependencies}};
+  }
+
+ private:
+  Json or_parameter(Json schema) const {
+    if (!has_parameters_) return schema;
+    return Json{{"anyOf", {schema, Json{{"type", "string"}, {"pattern", kParameter}}}}};
+  }
+
+  Json integer(const world::Form& form) const {
+    Json number{{"type", "integer"}};
+    if (form.lowest != INT64_MIN) number["minimum"] = form.lowest;
+    if (form.highest != INT64_MAX) number["maximum"] = form.highest;
+    return or_parameter(Json{{"anyOf", {number, Json{{"type", "string"}, {"pattern", kWholeNumber}}}}});
+  }
+
+  /// `on` and `true` are words to us, and truth values to some readers of YAML.
+  Json words(const world::Form& form) const {
+    Json words = Json::array();
+    for (const std::string_view word : form.words) words.push_back(word);
+    for (const std::string_view word : form.words) {
+      if (word == "on" || word == "true") words.push_back(true);
+      if (word == "off" || word == "false") words.push_back(false);
+    }
+    return or_parameter(Json{{"enum", words}});
+  }
+
+  Json list(const world::Form& form) const {
+    Json schema{{"type", "array"}, {"items", of(*form.of)}};
+    if (form.count > 0) schema["maxItems"] = form.count;
+    schema["minItems"] = std::max(form.count, 1);
+    return schema;
+  }
+
+  Json described(const world::KeyRow& row) const {
+    Json schema = of(*row.form);
+    // Draft 7 ignores what stands beside a $ref.
+    if (schema.contains("$ref")) schema = Json{{"allOf", {schema}}};
+    schema["description"] = row.doc;
+    return schema;
+  }
+
+  bool has_parameters_;
+};
+
+std::string finished(const std::string& title, Json schema, Json definitions) {
+  Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+  whole.update(schema);
+  if (!definitions.empty()) whole["definitions"] = std::move(definitions);
+  return whole.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string bench_schema() {
+  return finished("Understudy bench", SchemaWriter(false).keys(world::kBenchKeys), Json::object());
+}
+
+std::string scenario_schema() {
+  const SchemaWriter writer(true);
+  Json definitions{
+      {"step", writer.step()},
+      {"steps", {{"type", "array"}, {"minItems", 1}, {"items", {{"$ref", "#/definitions/step"}}}}}};
+  return finished("Understudy scenario", writer.keys(kScenarioKeys), definitions);
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,114 @@
+#include "emulator/play/script/requests.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace understudy::emulator::play {
+
+namespace {
+
+bool is_whole_32(const Target& target) {
+  return target.place && is_32_bit(target.place->place.row->type) &&
+         target.place->place.part == Place::Part::whole;
+}
+
+std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first) {
+  if (words.size() == 1) return words[0];
+  const std::uint32_t first = words[0];
+  const std::uint32_t second = words[1];
+  return low_word_first ? first | second << 16 : second | first << 16;
+}
+
+}  // namespace
+
+Limits limits_of(const Target& target) {
+  if (!target.place) return {0, UINT16_MAX};
+  if (target.place->bit >= 0) return {0, 1};
+  if (target.place->place.part != Place::Part::whole) return {0, UINT16_MAX};
+  switch (target.place->place.row->type) {
+    case Type::u16: return {0, UINT16_MAX};
+    case Type::s16: return {INT16_MIN, INT16_MAX};
+    case Type::u32: return {0, UINT32_MAX};
+    case Type::s32: return {INT32_MIN, INT32_MAX};
+  }
+  return {};
+}
+
+Words words_of(const Target& target, bool low_word_first) {
+  if (!target.place) return {target.device, target.address, 1};
+  const Place& place = target.place->place;
+  if (is_whole_32(target)) return {target.device, place.address(), 2};
+  const bool is_second =
+      place.part != Place::Part::whole && (place.part == Place::Part::high) == low_word_first;
+  return {target.device, static_cast<std::uint16_t>(place.address() + (is_second ? 1 : 0)), 1};
+}
+
+std::vector<Request> read_requests(std::span<const Words> entries) {
+  std::vector<Request> requests;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Words& next = entries[i];
+    if (!requests.empty()) {
+      Words& last = requests.back().words;
+      const int end = std::max(last.end(), next.end());
+      if (next.device == last.device && next.first >= last.first && next.first <= last.end() &&
+          end - last.first <= kMostWordsToRead) {
+        last.count = end - last.first;
+        requests.back().entries.push_back(i);
+        continue;
+      }
+    }
+    requests.push_back({next, {i}});
+  }
+  return requests;
+}
+
+std::vector<Request> write_requests(std::span<const Words> entries,
+                                    const std::function<bool(std::size_t)>& stands_alone) {
+  std::vector<Request> requests;
+  bool is_open = false;  // whether the last request may still grow
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Words& next = entries[i];
+    const bool is_alone = stands_alone(i);
+    if (is_open && !is_alone) {
+      Words& last = requests.back().words;
+      if (next.device == last.device && next.first == last.end() &&
+          last.count + next.count <= kMostWordsToWrite) {
+        last.count += next.count;
+        requests.back().entries.push_back(i);
+        continue;
+      }
+    }
+    requests.push_back({next, {i}});
+    is_open = !is_alone;
+  }
+  return requests;
+}
+
+Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first) {
+  const std::uint32_t bits = bits_in(words, low_word_first);
+  if (!target.place) return bits;
+  if (target.place->bit >= 0) return bits >> target.place->bit & 1;
+  if (target.place->place.part != Place::Part::whole) return bits;
+  return value_of(bits, target.place->place.row->type);
+}
+
+std::vector<std::uint16_t> words_with(const Target& target, Value value, bool low_word_first,
+                                      std::span<const std::uint16_t> present) {
+  const Limits limits = limits_of(target);
+  if (value < limits.low || value > limits.high) {
+    throw world::NameError(target.name + ": " + std::to_string(value) + " does not fit; expected " +
+                           std::to_string(limits.low) + " to " + std::to_string(limits.high));
+  }
+  auto bits = static_cast<std::uint32_t>(value);
+  if (target.place && target.place->bit >= 0) {
+    const std::uint32_t mask = 1U << target.place->bit;
+    const std::uint32_t whole = bits_in(present, low_word_first);
+    bits = value != 0 ? whole | mask : whole & ~mask;
+  }
+  const auto low = static_cast<std::uint16_t>(bits);
+  const auto high = static_cast<std::uint16_t>(bits >> 16);
+  if (!is_whole_32(target)) return {low};
+  return low_word_first ? std::vector{low, high} : std::vector{high, low};
+}
+
+}  // namespace understudy::emulator::play

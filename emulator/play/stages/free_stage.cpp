@@ -1,0 +1,266 @@
+#include "emulator/play/stages/free_stage.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "emulator/play/stages/modbus_host.h"
+
+namespace understudy::emulator::play {
+
+SimTime silence_between_frames(const pty::LineSettings& settings) {
+  if (settings.baud > 19200) return std::chrono::microseconds(1750);
+  const std::int64_t seven_halves = std::int64_t{7} * settings.bits_per_character() * 1'000'000'000;
+  return SimTime{(seven_halves + 2 * settings.baud - 1) / (2 * settings.baud)};
+}
+
+/// The master on one line: knows when something was last said on it, and takes what is said to it.
+class FreeStage::Host final : public pty::LineObserver {
+ public:
+  explicit Host(world::WorldLine& line)
+      : line_(line.line), stations_(line.stations), settings_(line.line.options().settings) {
+    line_.host_settings(pty::HostSettings{.baud = settings_.baud, .stop_bits = settings_.stop_bits});
+    line_.add_observer(*this);
+  }
+  ~Host() override { line_.remove_observer(*this); }
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  pty::Line& line() { return line_; }
+  SimTime silence() const { return silence_between_frames(settings_); }
+  /// The longest time between two bytes of one reply: the next may begin just before t3.5 are over.
+  SimTime longest_pause() const { return silence() + duration_of(1); }
+  SimTime duration_of(std::size_t count) const {
+    if (line_.options().timing == pty::Timing::instant) return SimTime{0};
+    return settings_.duration_of(static_cast<std::int64_t>(count));
+  }
+
+  /// When the last byte of whatever was on the line is over.
+  SimTime quiet_since() const { return quiet_since_; }
+  void keep_busy(SimTime until) { quiet_since_ = std::max(quiet_since_, until); }
+  void set_quiet_since(SimTime since) { quiet_since_ = since; }
+  /// Simulated time was set back: what was said later was never said.
+  void forget_after(SimTime now) { quiet_since_ = now == SimTime{0} ? kEver : std::min(quiet_since_, now); }
+
+  /// What has come since the last call.
+  void take(std::vector<std::uint8_t>& bytes) {
+    const auto came = line_.output();
+    bytes.insert(bytes.end(), came.begin(), came.end());
+    line_.take_output(came.size());
+  }
+  /// The same as lines of text; it stays there.
+  world::LinesHeard lines() const {
+    const auto came = line_.output();
+    return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});
+  }
+  void discard() { line_.take_output(line_.output().size()); }
+
+  /// How many frames were carried out so far.
+  std::uint64_t requests() const {
+    std::uint64_t sum = 0;
+    for (const auto& station : stations_) sum += station->counters().requests;
+    return sum;
+  }
+
+  // --- of the line -----------------------------------------------------------------------------
+  void on_start_bit(SimTime) override {}
+  void on_character(const pty::TimedByte&, bool) override {}
+  void on_nothing_more() override {}
+  void on_speech(const pty::Speech& speech) override {
+    keep_busy(speech.start + duration_of(speech.bytes.size()));
+  }
+  std::optional<SimTime> due() const override { return std::nullopt; }
+  void run(SimTime) override {}
+
+ private:
+  pty::Line& line_;
+  const std::vector<std::unique_ptr<world::LineStation>>& stations_;
+  pty::LineSettings settings_;  // as the line has it in the beginning; a host does not follow a DIP switch
+  static constexpr SimTime kEver = SimTime::min() / 2;
+  SimTime quiet_since_ = kEver;
+};
+
+FreeStage::FreeStage(const world::Bench& bench, FreeStageOptions options)
+    : world_(bench, world::WorldOptions{.strict_framing = true}, options.log), options_(std::move(options)) {
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    hosts_.push_back(std::make_unique<Host>(world_.line(i)));
+  }
+}
+
+FreeStage::~FreeStage() = default;
+
+void FreeStage::with_world(const std::function<void(world::World&)>& act) {
+  const SimTime before = world_.now();
+  act(world_);
+  if (world_.now() == before) return;
+  // It was put into another state: what was said and written meanwhile is not part of its past.
+  for (const auto& host : hosts_) host->forget_after(world_.now());
+  tick_of_last_write_ = 0;
+}
+
+std::vector<SimTime> FreeStage::quiet_since() {
+  std::vector<SimTime> since;
+  for (const auto& host : hosts_) since.push_back(host->quiet_since());
+  return since;
+}
+
+void FreeStage::set_quiet_since(const std::vector<SimTime>& since) {
+  for (std::size_t i = 0; i < hosts_.size() && i < since.size(); ++i) hosts_[i]->set_quiet_since(since[i]);
+}
+
+bool FreeStage::run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) {
+  struct Look final : world::TickWatcher {
+    Look(world::World& of, const std::function<bool(world::World&)>& condition)
+        : world(of), is_there(condition) {
+      world.add_watcher(*this);
+    }
+    ~Look() override { world.remove_watcher(*this); }
+    Look(const Look&) = delete;
+    Look& operator=(const Look&) = delete;
+    void on_tick(Tick) override { is_over = is_over || is_there(world); }
+    world::World& world;
+    const std::function<bool(world::World&)>& is_there;
+    bool is_over = false;
+  };
+  if (is_there(world_)) return true;
+  Look look(world_, is_there);
+  while (!look.is_over && world_.now() < deadline) {
+    world_.advance_to(std::min(deadline, time_of(tick_at(world_.now()) + 1)));
+  }
+  return look.is_over;
+}
+
+HostReply FreeStage::read_registers(std::size_t line, int station, std::uint16_t first, int count) {
+  return ask(*hosts_[line], read_request(station, first, count));
+}
+
+HostReply FreeStage::write_registers(std::size_t line, int station, std::uint16_t first,
+                                     std::span<const std::uint16_t> words) {
+  return ask(*hosts_[line], write_request(station, first, words));
+}
+
+HostReply FreeStage::ask(Host& host, const std::vector<std::uint8_t>& request) {
+  const Tick written_before = tick_of_last_write_;
+  send(host, request);
+  std::vector<std::uint8_t> reply;
+  SimTime limit = host.quiet_since() + options_.timeout;
+  while (true) {
+    const std::size_t before = reply.size();
+    host.take(reply);
+    if (reply.size() >= wanted_size(request, reply)) break;
+    if (reply.size() > before) limit = world_.now() + host.longest_pause();
+    if (world_.now() >= limit) break;
+    advance_to_next(limit);
+  }
+  HostReply judged = judge_reply(request, reply);
+  if (judged.kind == HostReply::Kind::exception) tick_of_last_write_ = written_before;  // it was refused
+  return judged;
+}
+
+std::vector<std::uint8_t> FreeStage::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                              std::size_t wanted, SimTime within) {
+  Host& host = *hosts_[line];
+  const Tick written_before = tick_of_last_write_;
+  send(host, bytes);
+  const SimTime deadline = host.quiet_since() + within;
+  std::vector<std::uint8_t> reply;
+  host.take(reply);
+  while (reply.size() < wanted && world_.now() < deadline) {
+    advance_to_next(deadline);
+    host.take(reply);
+  }
+  if (world_.now() < deadline) {  // a byte that follows at once is part of it, wanted or not
+    const SimTime rounding{1};    // a character's end is a whole nanosecond
+    world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
+    host.take(reply);
+  }
+  const bool is_refused = bytes.size() >= 2 && reply.size() >= 2 && reply[1] == (bytes[1] | 0x80);
+  if (is_refused) tick_of_last_write_ = written_before;
+  return reply;
+}
+
+void FreeStage::say(std::size_t line, const std::string& text) {
+  Host& host = *hosts_[line];
+  const std::uint64_t before = host.requests();
+  send_text(host, text);
+  // A line that is too long, or that a fault swallows, is never carried out.
+  const SimTime limit = host.quiet_since() + options_.timeout;
+  while (host.requests() == before && world_.now() < limit) advance_to_next(limit);
+}
+
+std::vector<std::string> FreeStage::converse(std::size_t line, const std::optional<std::string>& text,
+                                             const world::LinesWanted& wanted, SimTime within) {
+  Host& host = *hosts_[line];
+  SimTime deadline = world_.now() + within;
+  if (text) {
+    send_text(host, *text);
+    deadline = host.quiet_since() + within;
+  }
+  world::LinesHeard heard = host.lines();
+  while (!world::has_come(wanted, heard) && world_.now() < deadline) {
+    advance_to_next(deadline);
+    heard = host.lines();
+  }
+  // What follows an answer at once is part of it, wanted or not: up to a line more.
+  while (text && world_.now() < deadline && heard.finished <= wanted.lines.size()) {
+    const std::size_t before = host.line().output().size();
+    const SimTime rounding{1};  // a character's end is a whole nanosecond
+    world_.advance_to(std::min(world_.now() + host.duration_of(1) + rounding, deadline));
+    heard = host.lines();
+    if (host.line().output().size() == before) break;
+  }
+  const std::size_t wanted_lines = wanted.lines.size();
+  if (!text && wanted_lines > 0 && heard.finished >= wanted_lines) {
+    host.line().take_output(heard.ends[wanted_lines - 1]);
+    heard.lines.resize(wanted_lines);
+  } else {
+    host.discard();
+  }
+  return heard.lines;
+}
+
+/// After the gap; on return all of it is on the line, though not over.
+void FreeStage::send_text(Host& host, const std::string& text) {
+  writing_ = nullptr;
+  world_.advance_to(world_.now());  // what an act at this moment has made it say comes first
+  if (options_.gap > SimTime{0} && host.quiet_since() + options_.gap > world_.now()) {
+    world_.advance_to(host.quiet_since() + options_.gap);
+  }
+  host.discard();
+  writing_ = &host;
+  requests_before_ = host.requests();
+  const std::string line = text + '\r';
+  const std::vector<std::uint8_t> bytes(line.begin(), line.end());
+  host.keep_busy(world_.now() + host.duration_of(bytes.size()));
+  host.line().receive(bytes, world_.now());
+}
+
+/// After t3.5 and the gap; on return all of it is on the line, though not over.
+void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
+  writing_ = nullptr;
+  for (SimTime start{0}; start = host.quiet_since() + host.silence() + options_.gap, world_.now() < start;) {
+    world_.advance_to(start);  // a station may say something late
+  }
+  host.discard();
+  if (is_write(bytes)) {
+    writing_ = &host;
+    requests_before_ = host.requests();
+  }
+  host.keep_busy(world_.now() + host.duration_of(bytes.size()));
+  while (true) {
+    const auto part = bytes.first(std::min(bytes.size(), host.line().room()));
+    host.line().receive(part, world_.now());
+    bytes = bytes.subspan(part.size());
+    if (bytes.empty()) break;
+    advance_to_next(host.quiet_since());
+  }
+}
+
+/// To whatever happens next, at most to `limit`; a write is carried out at such a moment.
+void FreeStage::advance_to_next(SimTime limit) {
+  world_.advance_to(std::min(world_.next_due().value_or(limit), limit));
+  if (writing_ == nullptr || writing_->requests() == requests_before_) return;
+  requests_before_ = writing_->requests();
+  tick_of_last_write_ = tick_at(world_.now()) + 1;
+}
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,57 @@
+// libmodbus as the master on a serial port: what a real host would see of it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/play/stages/stage.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "pty/line_settings.h"
+
+struct _modbus;
+
+namespace understudy::emulator::play {
+
+class LibmodbusHost {
+ public:
+  /// `timeout`: from a request's end to the first byte of its reply; `silence`: before each request. Throws
+  /// pty::PortError.
+  LibmodbusHost(const std::string& port, const pty::LineSettings& settings, serve::WallTime timeout,
+                serve::WallTime silence);
+  ~LibmodbusHost();
+  LibmodbusHost(const LibmodbusHost&) = delete;
+  LibmodbusHost& operator=(const LibmodbusHost&) = delete;
+
+  HostReply read_registers(int station, std::uint16_t first, int count);
+  HostReply write_registers(int station, std::uint16_t first, std::span<const std::uint16_t> words);
+  /// Bytes as they are, past libmodbus; see Stage::exchange(). `sending`: how long they are on the line.
+  std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
+                                     serve::WallTime sending, serve::WallTime within);
+
+  /// Lines of text, past libmodbus; see Stage::converse().
+  std::vector<std::string> converse(const std::optional<std::string>& text, const world::LinesWanted& wanted,
+                                    serve::WallTime sending, serve::WallTime within);
+  void say(const std::string& text);
+
+ private:
+  void write_all(std::span<const std::uint8_t> bytes);
+  world::LinesHeard lines_heard() const;
+  struct Close {
+    void operator()(_modbus* context) const;
+  };
+  void begin_request(int station);
+  HostReply judge(int result);
+  void keep_silence() const;
+  std::size_t read_some(std::vector<std::uint8_t>& bytes, serve::WallTime until) const;
+
+  std::string port_;
+  std::unique_ptr<_modbus, Close> context_;
+  serve::WallTime silence_;
+  serve::WallTime quiet_since_{0};
+  std::vector<std::uint8_t> unread_;  // of lines of text
+};
+
+}  // namespace understudy::emulator::play

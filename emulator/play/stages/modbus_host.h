@@ -1,0 +1,26 @@
+// The frames that a Modbus RTU host sends, and what it makes of those that come back. No time, no line.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "emulator/play/stages/stage.h"
+
+namespace understudy::emulator::play {
+
+std::vector<std::uint8_t> read_request(int station, std::uint16_t first, int count);
+/// Function 06 for one word, 16 for more.
+std::vector<std::uint8_t> write_request(int station, std::uint16_t first,
+                                        std::span<const std::uint16_t> words);
+
+/// How many bytes a host waits for that has sent `request` and has got `reply` so far.
+std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
+
+/// What `reply`, all that came, says to a request of read_request() or write_request().
+HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
+
+/// Whether a frame's function may change something in a device.
+bool is_write(std::span<const std::uint8_t> frame);
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,262 @@
+#include "emulator/play/stages/real_stage.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "emulator/play/stages/free_stage.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+// The daemon sleeps until something is due; who watches every tick has it look up this often.
+constexpr serve::WallTime kLook = std::chrono::milliseconds(1);
+// How long a wait lasts at most before it asks whether it was given up.
+constexpr serve::WallTime kLongestSleep = std::chrono::milliseconds(50);
+
+}  // namespace
+
+/// Watches, on the daemon's thread, for what another thread waits for.
+class RealStage::Look final : public world::TickWatcher {
+ public:
+  Look(const std::function<bool(world::World&)>& is_there, SimTime deadline)
+      : is_there_(is_there), deadline_(deadline) {}
+
+  void begin(world::World& world) {
+    world_ = &world;
+    if (!look(world.now())) world.add_watcher(*this);
+  }
+  void end(world::World& world) { world.remove_watcher(*this); }
+  void on_tick(Tick tick) override {
+    if (time_of(tick) <= deadline_) look(time_of(tick));
+  }
+
+  /// For `patience` at most. Throws what the condition has thrown.
+  std::optional<SimTime> wait(serve::WallTime patience) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, patience, [this] { return found_at_ || error_; });
+    if (error_) std::rethrow_exception(error_);
+    return found_at_;
+  }
+
+ private:
+  bool look(SimTime now) {
+    const std::lock_guard lock(mutex_);
+    if (found_at_ || error_) return true;
+    try {
+      if (!is_there_(*world_)) return false;
+      found_at_ = now;
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    changed_.notify_all();
+    return true;
+  }
+
+  const std::function<bool(world::World&)>& is_there_;
+  SimTime deadline_;
+  world::World* world_ = nullptr;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<SimTime> found_at_;
+  std::exception_ptr error_;
+};
+
+RealStage::RealStage(serve::Daemon& daemon, RealStageOptions options) : daemon_(daemon), options_(options) {
+  std::vector<bool> is_text;
+  with_world([&](world::World& world) {
+    for (std::size_t i = 0; i < world.line_count(); ++i) {
+      lines_.push_back(world.line(i).line.options());
+      is_text.push_back(world.line(i).protocol == Protocol::text);
+    }
+  });
+  for (std::size_t i = 0; options_.has_hosts && i < lines_.size(); ++i) {
+    const SimTime silence = is_text[i] ? SimTime{0} : silence_between_frames(lines_[i].settings);
+    hosts_.push_back(std::make_unique<LibmodbusHost>(
+        daemon_.ports()[i]->terminal().path(), lines_[i].settings, options_.timeout, silence + options_.gap));
+  }
+  with_world([this](world::World& world) { writes_ = std::make_unique<WriteClock>(world); });
+}
+
+RealStage::RealStage(std::unique_ptr<serve::DaemonThread> thread, RealStageOptions options)
+    : RealStage(thread->daemon(), options) {
+  own_ = std::move(thread);
+}
+
+RealStage::~RealStage() {
+  with_world([this](world::World&) { writes_.reset(); });
+}
+
+void RealStage::with_world(const std::function<void(world::World&)>& act) {
+  const auto act_now = [&] {
+    world::World& world = daemon_.world();
+    const SimTime before = world.now();
+    act(world);
+    if (world.now() < before) writes_->begin_anew();
+  };
+  // What is dropped unused breaks its promise.
+  auto done = std::make_shared<std::promise<void>>();
+  std::future<void> is_done = done->get_future();
+  bool was_dropped = !daemon_.post([&act_now, done = std::move(done)] {
+    try {
+      act_now();
+      done->set_value();
+    } catch (...) {
+      done->set_exception(std::current_exception());
+    }
+  });
+  if (!was_dropped) {
+    try {
+      is_done.get();
+    } catch (const std::future_error&) {
+      was_dropped = true;
+    }
+  }
+  // Nobody else runs the world any more. What looks at it is still to be taken away.
+  if (was_dropped) act_now();
+}
+
+void RealStage::throw_if_given_up() const {
+  const bool is_given_up = options_.given_up != nullptr && *options_.given_up;
+  if (is_given_up || daemon_.is_over()) throw StageGivenUp();
+}
+
+std::optional<serve::WallTime> RealStage::wall_time_until(SimTime time) {
+  std::optional<serve::WallTime> there;
+  with_world([&](world::World& world) {
+    there = world.now() >= time ? serve::WallTime{0} : daemon_.pacer().wall_time_of(time);
+  });
+  if (!there || *there == serve::WallTime{0}) return there;
+  return std::max(*there - serve::wall_now(), serve::WallTime{1});
+}
+
+bool RealStage::run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) {
+  throw_if_given_up();
+  found_at_.reset();
+  Look look(is_there, deadline);
+  struct Watching {
+    Watching(RealStage& of, Look& watcher) : stage(of), look(watcher) {
+      stage.with_world([&](world::World& world) { look.begin(world); });
+    }
+    ~Watching() {
+      stage.with_world([&](world::World& world) { look.end(world); });
+    }
+    Watching(const Watching&) = delete;
+    Watching& operator=(const Watching&) = delete;
+    RealStage& stage;
+    Look& look;
+  };
+  const Watching watching(*this, look);
+  while (true) {
+    found_at_ = look.wait(kLook);
+    if (found_at_) return true;
+    throw_if_given_up();
+    // Asking brings the world to the present moment, and shows every tick up to it.
+    const auto rest = wall_time_until(deadline);
+    if (rest == serve::WallTime{0}) {
+      found_at_ = look.wait(serve::WallTime{0});
+      return found_at_.has_value();
+    }
+  }
+}
+
+void RealStage::advance(SimTime by) {
+  const SimTime target = now() + by;
+  found_at_.reset();
+  while (true) {
+    throw_if_given_up();
+    const auto rest = wall_time_until(target);
+    if (rest == serve::WallTime{0}) return;
+    std::this_thread::sleep_for(std::min(rest.value_or(kLook), kLongestSleep));
+  }
+}
+
+SimTime RealStage::now() {
+  if (found_at_) return *found_at_;
+  SimTime present{0};
+  with_world([&](world::World& world) { present = world.now(); });
+  return present;
+}
+
+Tick RealStage::tick_of_last_write() {
+  Tick tick = 0;
+  with_world([&](world::World&) { tick = writes_->tick_of_last_write(); });
+  return tick;
+}
+
+LibmodbusHost& RealStage::host(std::size_t line) {
+  throw_if_given_up();
+  if (!options_.has_hosts) {
+    throw std::logic_error("this stage has no host of its own; expected only steps that use no line");
+  }
+  found_at_.reset();
+  return *hosts_[line];
+}
+
+HostReply RealStage::read_registers(std::size_t line, int station, std::uint16_t first, int count) {
+  return host(line).read_registers(station, first, count);
+}
+
+HostReply RealStage::write_registers(std::size_t line, int station, std::uint16_t first,
+                                     std::span<const std::uint16_t> words) {
+  return host(line).write_registers(station, first, words);
+}
+
+std::vector<std::uint8_t> RealStage::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                              std::size_t wanted, SimTime within) {
+  LibmodbusHost& on_line = host(line);
+  const pty::LineOptions& options = lines_[line];
+  const SimTime sending = options.timing == pty::Timing::instant
+                              ? SimTime{0}
+                              : options.settings.duration_of(static_cast<std::int64_t>(bytes.size()));
+  return on_line.exchange(bytes, wanted, sending, within);
+}
+
+void RealStage::say(std::size_t line, const std::string& text) {
+  LibmodbusHost& on_line = host(line);
+  const auto requests = [&] {
+    std::uint64_t sum = 0;
+    with_world([&](world::World& world) {
+      for (const auto& station : world.line(line).stations) sum += station->counters().requests;
+    });
+    return sum;
+  };
+  const std::uint64_t before = requests();
+  const SimTime sending = time_to_send(line, text);
+  on_line.say(text);
+  // A line that is too long, or that a fault swallows, is never carried out.
+  const serve::WallTime limit = serve::wall_now() + sending + options_.timeout;
+  while (requests() == before && serve::wall_now() < limit) {
+    throw_if_given_up();
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+std::vector<std::string> RealStage::converse(std::size_t line, const std::optional<std::string>& text,
+                                             const world::LinesWanted& wanted, SimTime within) {
+  return host(line).converse(text, wanted, text ? time_to_send(line, *text) : SimTime{0}, within);
+}
+
+SimTime RealStage::time_to_send(std::size_t line, const std::string& text) const {
+  const pty::LineOptions& options = lines_[line];
+  if (options.timing == pty::Timing::instant) return SimTime{0};
+  return options.settings.duration_of(static_cast<std::int64_t>(text.size()) + 1);
+}
+
+std::unique_ptr<Stage> make_real_stage(const Scenario& scenario) {
+  world::Bench bench = scenario.bench;
+  for (world::LineSetup& line : bench.lines) line.link.clear();
+  for (world::DeviceSetup& device : bench.devices) device.nv_path.clear();
+  serve::DaemonOptions options;
+  options.watch_signals = false;
+  auto thread = std::make_unique<serve::DaemonThread>(bench, options, [](const std::string&) {});
+  thread->start();
+  return std::make_unique<RealStage>(std::move(thread), RealStageOptions{.gap = scenario.gap});
+}
+
+}  // namespace understudy::emulator::play

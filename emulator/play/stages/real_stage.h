@@ -1,0 +1,84 @@
+// A stage in real time: the world of a daemon, which another thread runs, and libmodbus as the host on its
+// ports.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "emulator/play/script/scenario.h"
+#include "emulator/play/stages/libmodbus_host.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/write_clock.h"
+#include "emulator/serve/daemon/daemon_thread.h"
+
+namespace understudy::emulator::play {
+
+/// Somebody has given the play up.
+struct StageGivenUp : std::runtime_error {
+  StageGivenUp() : std::runtime_error("the play was given up") {}
+};
+
+struct RealStageOptions {
+  SimTime gap{0};                                    // beyond t3.5
+  SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
+  /// False: the hosts on its lines are others, and it has none of its own.
+  bool has_hosts = true;
+  /// Once it is true, whatever waits for time to pass throws StageGivenUp; so it does where the daemon has
+  /// ended, as time stands from then on. Null: nobody gives up.
+  const std::atomic<bool>* given_up = nullptr;
+};
+
+class RealStage final : public Stage {
+ public:
+  /// Another thread runs the daemon. Once that has ended, however it did, it must leave the world alone as
+  /// long as this lives. Throws pty::PortError.
+  RealStage(serve::Daemon& daemon, RealStageOptions options);
+  /// The same with a daemon of its own, which has been started.
+  RealStage(std::unique_ptr<serve::DaemonThread> thread, RealStageOptions options);
+  ~RealStage() override;
+  RealStage(const RealStage&) = delete;
+  RealStage& operator=(const RealStage&) = delete;
+
+  HostReply read_registers(std::size_t line, int station, std::uint16_t first, int count) override;
+  HostReply write_registers(std::size_t line, int station, std::uint16_t first,
+                            std::span<const std::uint16_t> words) override;
+  std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
+                                     std::size_t wanted, SimTime within) override;
+  void say(std::size_t line, const std::string& text) override;
+  std::vector<std::string> converse(std::size_t line, const std::optional<std::string>& text,
+                                    const world::LinesWanted& wanted, SimTime within) override;
+
+  void with_world(const std::function<void(world::World&)>& act) override;
+  bool run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) override;
+  void advance(SimTime by) override;
+  /// Right after run_until() has found what it looked for: that tick.
+  SimTime now() override;
+  Tick tick_of_last_write() override;
+
+ private:
+  class Look;
+
+  LibmodbusHost& host(std::size_t line);
+  SimTime time_to_send(std::size_t line, const std::string& text) const;
+  void throw_if_given_up() const;
+  /// How long simulated time takes to get to `time`, by the clock on the wall; nothing while it stands.
+  std::optional<serve::WallTime> wall_time_until(SimTime time);
+
+  std::unique_ptr<serve::DaemonThread> own_;
+  serve::Daemon& daemon_;
+  RealStageOptions options_;
+  std::unique_ptr<WriteClock> writes_;
+  std::vector<pty::LineOptions> lines_;  // as they are in the beginning; hosts do not follow a DIP switch
+  std::vector<std::unique_ptr<LibmodbusHost>> hosts_;  // one a line
+  std::optional<SimTime> found_at_;                    // by run_until(), and no time was let pass since
+};
+
+/// In real time, by the scenario's bench and gap, with ports that nobody else has. Its
+/// devices' memories begin as their files say, and leave those alone.
+std::unique_ptr<Stage> make_real_stage(const Scenario& scenario);
+
+}  // namespace understudy::emulator::play

@@ -1,0 +1,41 @@
+// When the last write that a host made was carried out, whoever the host is: by what goes over the lines of a
+// world.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "emulator/world/world.h"
+#include "pty/capture_frames.h"
+
+namespace understudy::emulator::play {
+
+class WriteClock {
+ public:
+  /// The world must outlive it.
+  explicit WriteClock(world::World& world);
+  ~WriteClock();
+  WriteClock(const WriteClock&) = delete;
+  WriteClock& operator=(const WriteClock&) = delete;
+
+  /// The tick that it acts from; 0 if there was none. One that was refused is none.
+  Tick tick_of_last_write() const { return last_; }
+  /// The lines were put into another state: what they were just hearing is forgotten.
+  void begin_anew();
+
+ private:
+  void watch();
+  void ignore();
+  void hear(std::size_t line, const pty::CapturedPacket& packet);
+  bool is_for_somebody(std::size_t line, std::uint8_t address) const;
+
+  world::World& world_;
+  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
+  Tick last_ = 0;
+  Tick before_ = 0;  // of the write before
+  static constexpr std::size_t kNone = SIZE_MAX;
+  std::size_t unanswered_ = kNone;  // the line on which the last write waits for its reply
+};
+
+}  // namespace understudy::emulator::play

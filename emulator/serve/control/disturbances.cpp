@@ -1,0 +1,167 @@
+// What a user does to devices and machines from outside: inputs, power, programs, faults.
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/names/level.h"
+#include "emulator/world/names/names.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+std::int64_t demand_integer(const Json& value, const std::string& name) {
+  const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
+  if (!value.is_number_integer() || huge) throw MessageError(name + ": expected a whole number");
+  return value.get<std::int64_t>();
+}
+
+/// A whole number, or a level as text.
+std::int64_t level_of(const Json& value, const std::string& name, TerminalRow::Kind kind) {
+  if (!value.is_string()) return demand_integer(value, name);
+  const auto level = world::parse_level(value.get<std::string>(), kind);
+  if (!level) {
+    throw MessageError(name + ": " + understudy::quoted(value.get<std::string>()) +
+                       " is not a level; expected " + std::string(world::level_example(kind)));
+  }
+  return *level;
+}
+
+std::int32_t demand_level(const Json& value, const std::string& name, const TerminalRow& row) {
+  const std::int64_t level = level_of(value, name, row.kind);
+  world::demand_level(row, name, level);
+  return static_cast<std::int32_t>(level);
+}
+
+/// Of a fault.
+std::string field_of(const Json& value, const std::string& name) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number_integer()) throw MessageError(name + ": expected a whole number or a text");
+  return value.dump();
+}
+
+/// What has come of a fault so far.
+Json course_of(std::size_t number, const world::ArmedFault& armed, const world::KnownDevices& known) {
+  const auto& [fault, course] = armed;
+  Json entry{{"number", number}, {"fault", world::to_text(known, fault)}};
+  if (!world::waits(fault)) return entry;
+  if (world::is_of_frames(fault.kind) || world::is_about_frames(fault.trigger)) entry["seen"] = course.seen;
+  entry["matched"] = course.matched;
+  entry["hits"] = course.hits;
+  if (!world::is_of_frames(fault.kind)) entry["in_force"] = course.in_force;
+  return entry;
+}
+
+std::size_t demand_device(const Daemon& daemon, const Json& message) {
+  return world::find_device(daemon.world().known(),
+                            message.contains("device") ? demand_text(message, "device") : std::string());
+}
+
+}  // namespace
+
+Json input_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "values"});
+  const Json& values = demand(message, "values");
+  if (!values.is_object() || values.empty()) {
+    throw MessageError("values: expected an object of names and levels");
+  }
+  daemon.catch_up();
+  const world::KnownDevices& known = daemon.world().known();
+  std::vector<world::InputSetup> wanted;
+  for (const auto& [name, value] : values.items()) {
+    const world::InputName input = world::find_input(known, name);
+    for (const world::InputSetup& other : wanted) {
+      if (other.device == input.device && other.terminal == input.terminal) {
+        throw MessageError(name + ": is named twice; expected it once");
+      }
+    }
+    wanted.push_back({.device = input.device,
+                      .terminal = input.terminal,
+                      .level = demand_level(value, name, input.row(known))});
+  }
+  for (const world::InputSetup& input : wanted) {
+    daemon.world().set_external_input(input.device, input.terminal, input.level);
+  }
+  return Json{{"ok", true}};
+}
+
+Json power_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "device", "to"});
+  const std::string to = demand_text(message, "to");
+  if (to != "on" && to != "off" && to != "cycle") {
+    throw MessageError("to: " + understudy::quoted(to) + " is unknown; expected on, off or cycle");
+  }
+  const std::size_t device = demand_device(daemon, message);
+  daemon.catch_up();
+  if (to != "on") daemon.world().switch_power(device, false);
+  if (to != "off") daemon.world().switch_power(device, true);
+  return Json{{"ok", true}};
+}
+
+Json program_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "device", "text"});
+  const std::size_t number = demand_device(daemon, message);
+  daemon.catch_up();
+  Device& device = daemon.world().device(number);
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  if (!message.contains("text")) return Json{{"ok", true}, {"text", device.program_text()}};
+  try {
+    daemon.world().load_program(number, demand_text(message, "text"));
+  } catch (const ProgramError& error) {
+    throw MessageError((error.line != 0 ? "line " + std::to_string(error.line) + ": " : "") + error.what());
+  }
+  return Json{{"ok", true}};
+}
+
+Json inject_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "fault"});
+  const Json& entries = demand(message, "fault");
+  if (!entries.is_object() || entries.empty() || !entries.front().is_string()) {
+    throw MessageError("fault: expected an object such as {\"stall\":\"feeder.A\"}");
+  }
+  world::FaultText text{};
+  for (const auto& [key, value] : entries.items()) {
+    if (&value != &entries.front()) {
+      text.fields.emplace_back(key, field_of(value, key));
+      continue;
+    }
+    text.kind = key;
+    text.place = value.get<std::string>();
+  }
+  const world::Fault fault = world::find_fault(daemon.world().known(), text);
+  daemon.catch_up();
+  return Json{{"ok", true}, {"number", daemon.world().inject(fault)}};
+}
+
+Json clear_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "number"});
+  daemon.catch_up();
+  world::World& world = daemon.world();
+  if (!message.contains("number")) {
+    world.clear_faults();
+    return Json{{"ok", true}};
+  }
+  const std::int64_t number = demand_integer(message["number"], "number");
+  if (number < 0 || !world.clear_fault(static_cast<std::size_t>(number))) {
+    throw MessageError("number: " + std::to_string(number) +
+                       " is not a fault in force; expected one of `list`");
+  }
+  return Json{{"ok", true}};
+}
+
+Json faults_message_part(const world::World& world) {
+  Json faults = Json::array();
+  for (const auto& [number, armed] : world.faults())
+    faults.push_back(course_of(number, armed, world.known()));
+  return faults;
+}
+
+Json list_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do"});
+  daemon.catch_up();
+  return Json{{"ok", true}, {"faults", faults_message_part(daemon.world())}};
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,37 @@
+// What the control messages are read with. Only files of this folder include it: the JSON library is slow to
+// compile.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace understudy::emulator::world {
+class World;
+}
+
+namespace understudy::emulator::serve {
+
+class Daemon;
+
+using Json = nlohmann::ordered_json;
+
+/// A message that is refused: one line.
+struct MessageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// All of these throw MessageError.
+void demand_keys(const Json& message, std::initializer_list<std::string_view> known);
+const Json& demand(const Json& message, const char* key);
+/// A whole number as such, else the real one.
+Json json_of(double value);
+std::string demand_text(const Json& message, const char* key);
+
+/// The faults there are, and what has come of them.
+Json faults_message_part(const world::World& world);
+
+}  // namespace understudy::emulator::serve

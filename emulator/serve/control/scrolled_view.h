@@ -1,0 +1,26 @@
+// A text that may be longer than the window it is shown in: which part of it is shown, and the keys that move
+// it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace understudy::emulator::serve {
+
+class ScrolledView {
+ public:
+  /// Lines are folded where they are longer than the window; where there are more than `rows`, the last row
+  /// tells which are shown.
+  std::vector<std::string> fit(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns);
+  /// Keys as a terminal sends them: arrows, j, k, Page Up, Page Down, space, b, Home, End, g, G. True for q.
+  bool press(std::string_view keys);
+
+ private:
+  std::size_t top_ = 0;    // the first line that is shown
+  std::size_t page_ = 0;   // how many of them have room, and
+  std::size_t total_ = 0;  // how many there are, when it was shown last
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,261 @@
+#include "emulator/serve/control/server.h"
+
+#include "base/text/one_line.h"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+constexpr std::size_t kLongestMessage = 64 * 1024;
+constexpr std::size_t kMostUnread = 4 * 1024 * 1024;
+constexpr std::size_t kMostClients = 256;
+constexpr WallTime kRest = std::chrono::milliseconds(250);
+
+sockaddr_un address_of(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.empty() || path.size() >= sizeof(address.sun_path)) {
+    throw ControlError(quoted(path) + ": is not a path for a socket; expected 1 to " +
+                       std::to_string(sizeof(address.sun_path) - 1) + " characters");
+  }
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
+}
+
+int connect_to(const std::string& path) {
+  const sockaddr_un address = address_of(path);
+  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (descriptor < 0) throw ControlError(path + ": " + std::strerror(errno));
+  if (connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) < 0) {
+    const int error = errno;
+    close(descriptor);
+    errno = error;
+    return -1;
+  }
+  return descriptor;
+}
+
+/// Makes room for a socket of ours at `path`, if what is there is a socket that nobody answers.
+void remove_dead_socket(const std::string& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) < 0) return;
+  if (!S_ISSOCK(status.st_mode)) throw ControlError(path + ": is not a socket; expected a free path");
+  const int descriptor = connect_to(path);
+  if (descriptor >= 0) {
+    close(descriptor);
+    throw ControlError(path + ": another understudy answers there; expected a free path");
+  }
+  if (errno == ECONNREFUSED) unlink(path.c_str());
+}
+
+}  // namespace
+
+struct ControlServer::Client {
+  int descriptor = -1;
+  bool is_awaiting = false;   // a reply is still to come: nothing is read meanwhile
+  bool has_said_all = false;  // it has closed its side
+  std::string input;          // the beginning of a message
+  std::string output;
+};
+
+ControlServer::ControlServer(EventLoop& loop, std::string path, Handler handler)
+    : loop_(loop), path_(std::move(path)), handler_(std::move(handler)) {
+  const sockaddr_un address = address_of(path_);
+  remove_dead_socket(path_);
+  listener_ = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (listener_ < 0) throw ControlError(path_ + ": " + std::strerror(errno));
+  // Only its owner may open it, from the first moment on.
+  const mode_t before = umask(0177);
+  const bool bound = bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  const int error = errno;
+  umask(before);
+  if (!bound || listen(listener_, 64) < 0) {
+    close(listener_);
+    throw ControlError(path_ + ": cannot be made: " + std::strerror(bound ? errno : error) +
+                       "; expected a free path in a folder that can be written");
+  }
+  struct stat status {};
+  if (lstat(path_.c_str(), &status) == 0) inode_ = status.st_ino;
+  loop_.watch(
+      listener_, EventLoop::readable, [this](std::uint32_t) { accept_clients(); }, EventLoop::Rank::later);
+}
+
+ControlServer::~ControlServer() {
+  while (!clients_.empty()) drop(clients_.begin()->first);
+  loop_.unwatch(listener_);
+  close(listener_);
+  // Another's socket may stand there by now.
+  struct stat status {};
+  if (lstat(path_.c_str(), &status) == 0 && status.st_ino == inode_) unlink(path_.c_str());
+}
+
+void ControlServer::accept_clients() {
+  while (true) {
+    const int descriptor = accept4(listener_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (descriptor < 0) {
+      const bool is_none_there = errno == EAGAIN || errno == EINTR || errno == ECONNABORTED;
+      if (!is_none_there) rest();
+      return;
+    }
+    if (clients_.size() >= kMostClients) {
+      close(descriptor);
+      continue;
+    }
+    auto client = std::make_shared<Client>();
+    client->descriptor = descriptor;
+    clients_[descriptor] = client;
+    loop_.watch(
+        descriptor, EventLoop::readable,
+        [this, descriptor](std::uint32_t ready) { on_client(descriptor, ready); }, EventLoop::Rank::later);
+  }
+}
+
+/// There are no descriptors left: who waits would be told again and again. They wait until a client has gone,
+/// or for a moment, as others may give descriptors back.
+void ControlServer::rest() {
+  loop_.change_interest(listener_, 0);
+  rests_until_ = wall_now() + kRest;
+}
+
+void ControlServer::rest_no_more() {
+  if (!rests_until_) return;
+  rests_until_.reset();
+  loop_.change_interest(listener_, EventLoop::readable);
+}
+
+void ControlServer::look(WallTime now) {
+  if (rests_until_ && now >= *rests_until_) rest_no_more();
+}
+
+/// One message a call, however many are there: the rest stays in the socket, and others have their turn.
+void ControlServer::on_client(int descriptor, std::uint32_t ready) {
+  const std::shared_ptr<Client> client = clients_.at(descriptor);
+  if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
+  if ((ready & EventLoop::readable) == 0) return;
+  if (client->is_awaiting || client->has_said_all) return drop(descriptor);  // not read from: it has hung up
+  std::array<char, 4096> bytes;
+  ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
+  if (count > 0) {
+    const void* const end = std::memchr(bytes.data(), '\n', static_cast<std::size_t>(count));
+    if (end != nullptr) count = static_cast<const char*>(end) + 1 - bytes.data();
+    count = recv(descriptor, bytes.data(), static_cast<std::size_t>(count), 0);
+  }
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (count < 0) return drop(descriptor);
+  if (count == 0) {
+    client->has_said_all = true;
+    if (!write_out(*client)) drop(descriptor);
+    return;
+  }
+  client->input.append(bytes.data(), static_cast<std::size_t>(count));
+  const bool is_whole = client->input.back() == '\n';
+  if (client->input.size() > kLongestMessage + (is_whole ? 1 : 0)) {
+    send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
+    return drop(descriptor);
+  }
+  if (is_whole) serve(client);
+}
+
+void ControlServer::serve(const std::shared_ptr<Client>& client) {
+  std::string line = std::exchange(client->input, {});
+  line.pop_back();
+  client->is_awaiting = true;
+  handler_(line, [this, weak = std::weak_ptr<Client>(client)](const std::string& reply) {
+    const auto alive = weak.lock();
+    if (!alive) return;
+    alive->is_awaiting = false;
+    send(alive, reply);
+  });
+  if (client->descriptor >= 0 && client->is_awaiting) write_out(*client);  // it is not read from meanwhile
+}
+
+void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
+  if (client->descriptor < 0) return;
+  client->output += line + "\n";
+  if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
+}
+
+/// False if there is nothing more to do for the client.
+bool ControlServer::write_out(Client& client) {
+  while (!client.output.empty()) {
+    const ssize_t count = ::send(client.descriptor, client.output.data(), client.output.size(), MSG_NOSIGNAL);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      if (errno != EAGAIN) return false;
+      break;
+    }
+    client.output.erase(0, static_cast<std::size_t>(count));
+  }
+  if (client.has_said_all && client.output.empty()) return false;
+  // What waits behind a message whose reply is to come stays in the socket.
+  const std::uint32_t read = client.has_said_all || client.is_awaiting ? 0U : EventLoop::readable;
+  const std::uint32_t write = client.output.empty() ? 0U : EventLoop::writable;
+  loop_.change_interest(client.descriptor, read | write);
+  return true;
+}
+
+void ControlServer::drop(int descriptor) {
+  const auto it = clients_.find(descriptor);
+  if (it == clients_.end()) return;
+  loop_.unwatch(descriptor);
+  close(descriptor);
+  it->second->descriptor = -1;  // for whoever still holds it
+  clients_.erase(it);
+  rest_no_more();
+}
+
+bool is_answered(const std::string& path) {
+  const int descriptor = connect_to(path);
+  if (descriptor < 0) return false;
+  close(descriptor);
+  return true;
+}
+
+std::string ask_control(const std::string& path, const std::string& message,
+                        std::optional<std::chrono::milliseconds> patience) {
+  const int descriptor = connect_to(path);
+  if (descriptor < 0) {
+    throw ControlError(path + ": nobody answers (" + std::strerror(errno) +
+                       "); expected the control socket of a running `understudy serve`");
+  }
+  if (patience) {
+    const timeval time{patience->count() / 1000, (patience->count() % 1000) * 1000};
+    setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof(time));
+    setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &time, sizeof(time));
+  }
+  std::string reply;
+  const std::string line = message + "\n";
+  std::size_t sent = 0;
+  while (sent < line.size()) {
+    const ssize_t count = ::send(descriptor, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) break;  // the reply may still tell why
+    sent += static_cast<std::size_t>(count);
+  }
+  std::array<char, 4096> bytes;
+  while (reply.empty() || reply.back() != '\n') {
+    const ssize_t count = recv(descriptor, bytes.data(), bytes.size(), 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    reply.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  close(descriptor);
+  if (reply.empty() || reply.back() != '\n')
+    throw ControlError(path + ": the daemon went away before it answered");
+  reply.pop_back();
+  return reply;
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,66 @@
+// The control socket: a Unix stream socket that only its owner may open. A message is a line, so is its
+// reply; what they say is for messages.h.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "emulator/serve/daemon/door.h"
+#include "emulator/serve/loop/event_loop.h"
+
+namespace understudy::emulator::serve {
+
+/// The socket could not be had: one line that names the path and what was expected.
+struct ControlError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class ControlServer final : public Door {
+ public:
+  using Reply = std::function<void(const std::string& line)>;  // may be called later, once
+  using Handler = std::function<void(const std::string& line, const Reply& reply)>;
+
+  /// A dead socket at `path` is replaced, anything else that is there is left alone. Throws ControlError.
+  ControlServer(EventLoop& loop, std::string path, Handler handler);
+  ~ControlServer() override;
+  ControlServer(const ControlServer&) = delete;
+  ControlServer& operator=(const ControlServer&) = delete;
+
+  const std::string& path() const override { return path_; }
+  /// Where new clients wait for descriptors.
+  std::optional<WallTime> next_look() const override { return rests_until_; }
+  void look(WallTime now) override;
+
+ private:
+  struct Client;
+  void accept_clients();
+  void on_client(int descriptor, std::uint32_t ready);
+  void rest();
+  void rest_no_more();
+  void serve(const std::shared_ptr<Client>& client);
+  void send(const std::shared_ptr<Client>& client, const std::string& line);
+  bool write_out(Client& client);
+  void drop(int descriptor);
+
+  EventLoop& loop_;
+  std::string path_;
+  Handler handler_;
+  int listener_ = -1;
+  std::uint64_t inode_ = 0;  // of our socket
+  std::map<int, std::shared_ptr<Client>> clients_;
+  std::optional<WallTime> rests_until_;  // nobody is let in until then
+};
+
+/// Whether somebody listens at that path.
+bool is_answered(const std::string& path);
+
+/// Sends one message and waits for its reply, without the line's end: as long as it takes, or for so long.
+/// Throws ControlError.
+std::string ask_control(const std::string& path, const std::string& message,
+                        std::optional<std::chrono::milliseconds> patience = {});
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,109 @@
+// Snapshots of the running world, in files of the user's.
+#include <cstring>
+#include <memory>
+
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/snapshot_file.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+/// Absolute, because the daemon runs in another folder than who asks.
+std::string demand_file(const Json& message) {
+  demand_keys(message, {"do", "file"});
+  const std::string path = demand_text(message, "file");
+  if (!path.starts_with('/')) {
+    throw MessageError("file: " + understudy::quoted(path) + " is not absolute; expected a path from / on");
+  }
+  return path;
+}
+
+Json reply_of(const Daemon& daemon) {
+  return Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
+}
+
+void demand_restorable(const Daemon& daemon) {
+  if (const std::string_view why = daemon.why_no_restore(); !why.empty()) {
+    throw MessageError(std::string(why));
+  }
+}
+
+/// Why it could not be; empty if it was.
+std::string written(const std::string& path, const world::WorldState& state, std::uint64_t bench_hash) {
+  try {
+    return replace_text_file(path, world::to_text(state, bench_hash));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  const std::string path = demand_file(message);
+  if (const std::string why = daemon.files().objection_to(path); !why.empty()) {
+    throw MessageError(path + ": file: " + why);
+  }
+  daemon.catch_up();
+  // Of this moment, whatever the devices do while it is written.
+  const Json taken = reply_of(daemon);
+  const auto state = std::make_shared<const world::WorldState>(world::save(daemon.world()));
+  daemon.do_aside([path, reply, taken, state, hash = daemon.bench_hash()]() -> std::function<void()> {
+    const std::string why = written(path, *state, hash);
+    return [path, reply, taken, why] {
+      answer(reply, [&]() -> Json {
+        if (why.empty()) return taken;
+        throw MessageError(path + ": file: cannot be written (" + why + "); expected a place for it");
+      });
+    };
+  });
+}
+
+namespace {
+
+/// Read and looked through aside: the devices do not wait for a large file, or for one that is not a
+/// snapshot.
+world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_hash) {
+  const auto text = read_text_file(path);
+  if (!text) throw MessageError(path + ": file: " + text.why + "; expected a snapshot");
+  try {
+    return world::parse_snapshot(*text, bench_hash);
+  } catch (const world::SnapshotError& error) {
+    throw MessageError(path + ": " + error.what());
+  }
+}
+
+Json restored(Daemon& daemon, const std::string& path, const world::WorldState& state) {
+  demand_restorable(daemon);  // it may have become otherwise
+  try {
+    daemon.restore(state);
+  } catch (const StateError& error) {
+    throw MessageError(path + ": state: " + error.what() + "; expected a snapshot of this bench");
+  }
+  return reply_of(daemon);
+}
+
+}  // namespace
+
+void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  const std::string path = demand_file(message);
+  demand_restorable(daemon);
+  daemon.do_aside([&daemon, path, reply, hash = daemon.bench_hash()]() -> std::function<void()> {
+    try {
+      return [&daemon, path, reply, state = std::make_shared<world::WorldState>(read_snapshot(path, hash))] {
+        answer(reply, [&] { return restored(daemon, path, *state); });
+      };
+    } catch (const std::exception& error) {
+      return [reply, why = std::string(error.what())] {
+        answer(reply, [&]() -> Json { throw MessageError(why); });
+      };
+    }
+  });
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,139 @@
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "base/version.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+double microseconds(WallTime time) { return static_cast<double>(time.count()) / 1000.0; }
+
+Json line_status(const Daemon& daemon, const Port& port) {
+  const world::WorldLine& line = daemon.world().line(port.line_number());
+  const pty::LineCounters& counters = line.line.counters();
+  Json status{{"name", line.line.name()},
+              {"pty", port.terminal().path()},
+              {"link", port.terminal().link_path()},
+              {"settings", pty::to_string(line.line.options().settings)},
+              {"timing", line.line.options().timing == pty::Timing::wire ? "wire" : "instant"},
+              {"host", port.host_present() ? "open" : "closed"}};
+  if (port.host_present() && port.host_settings()) status["host_baud"] = port.host_settings()->baud;
+  status["bytes_in"] = counters.bytes_in;
+  status["bytes_out"] = counters.bytes_out;
+  status["bytes_unheard"] = counters.bytes_unheard;
+  status["bytes_discarded"] = counters.bytes_discarded;
+  status["collisions"] = counters.collisions;
+  status["stations"] = Json::array();
+  for (const auto& station : line.stations) {
+    Json entry{{"device", station->device().name()}};
+    if (line.protocol == Protocol::modbus_rtu) entry["address"] = station->device().settings().address;
+    entry["requests"] = station->counters().requests;
+    entry["replies"] = station->counters().replies;
+    entry["exceptions"] = station->counters().exceptions;
+    entry["bytes_dropped"] = station->dropped_bytes();
+    status["stations"].push_back(std::move(entry));
+  }
+  return status;
+}
+
+/// Those that tell best what it is doing.
+Json telling_registers(const Device& device) {
+  Json values = Json::object();
+  for (const std::string_view name : device.model().state_registers) {
+    const auto place = device.registers().find(name, device.firmware());
+    if (place) {
+      values[std::string(name)] = read_value(device, *place);
+    } else if (const auto value = device.value_named(name)) {
+      values[std::string(name)] = json_of(*value);
+    }
+  }
+  return values;
+}
+
+Json device_status(const world::World& world, std::size_t number) {
+  const Device& device = world.device(number);
+  Json status{
+      {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
+  status["power"] = device.powered() ? "on" : "off";
+  if (!device.pulse_format().empty()) status["pulse_format"] = device.pulse_format();
+  if (device.powered()) status["registers"] = telling_registers(device);
+  status["inputs"] = Json::object();
+  status["outputs"] = Json::object();
+  for (std::size_t i = 0; i < device.model().terminals.size(); ++i) {
+    const TerminalRow& terminal = device.model().terminals[i];
+    const auto place = static_cast<int>(i);
+    if (!device.has_terminal(place)) continue;
+    const std::string name(terminal.name);
+    if (is_input(terminal.kind)) {
+      status["inputs"][name] = device.input(place);
+    } else {
+      status["outputs"][name] = device.output(place) ? 1 : 0;
+    }
+  }
+  status["axes"] = Json::object();
+  status["machines"] = Json::object();
+  for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
+    const auto place = static_cast<int>(axis);
+    if (!device.has_axis(place)) continue;
+    const std::string name(device.model().axes[axis].name);
+    status["axes"][name] =
+        Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
+    if (const auto duty = device.duty_percent(place)) status["axes"][name]["pwm_percent"] = *duty;
+    const world::PlantAxis& plant = world.plant(number, place);
+    Json& machine = status["machines"][name];
+    machine = Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};
+    if (plant.has_drive()) machine["drive"] = plant.in_alarm() ? "alarm" : plant.ready() ? "ready" : "off";
+  }
+  return status;
+}
+
+}  // namespace
+
+Json status_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do"});
+  daemon.catch_up();
+  const world::World& world = daemon.world();
+  const Pacer& pacer = daemon.pacer();
+  Json status{{"simulated_time", format_duration(world.now())},
+              {"simulated_time_ns", world.now().count()},
+              {"speed", format_speed(pacer.speed())},
+              {"paused", pacer.paused()},
+              {"lateness",
+               {{"wakes", pacer.lateness().count()},
+                {"p50_us", microseconds(pacer.lateness().percentile(50))},
+                {"p99_us", microseconds(pacer.lateness().percentile(99))},
+                {"max_us", microseconds(pacer.lateness().greatest())},
+                {"slips", pacer.slips()}}},
+              {"ticks", {{"stepped", world.ticks_run()}, {"crossed", world.ticks_crossed()}}}};
+  status["lines"] = Json::array();
+  for (const auto& port : daemon.ports()) status["lines"].push_back(line_status(daemon, *port));
+  status["devices"] = Json::array();
+  for (std::size_t i = 0; i < world.device_count(); ++i) status["devices"].push_back(device_status(world, i));
+  status["faults"] = faults_message_part(world);
+  return Json{{"ok", true}, {"status", status}};
+}
+
+Json identify_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do"});
+  Json lines = Json::array();
+  for (const auto& port : daemon.ports()) {
+    const std::string& link = port->terminal().link_path();
+    lines.push_back({{"name", daemon.world().line(port->line_number()).line.name()},
+                     {"pty", port->terminal().path()},
+                     {"link", std::filesystem::absolute(link).lexically_normal().string()}});
+  }
+  return Json{{"ok", true},
+              {"daemon",
+               {{"pid", getpid()},
+                {"version", program_version()},
+                {"bench", daemon.bench_path()},
+                {"lines", lines}}}};
+}
+
+}  // namespace understudy::emulator::serve

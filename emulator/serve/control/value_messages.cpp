@@ -1,0 +1,178 @@
+// Messages about what can be named: registers, and everything else that conditions can see.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/text/one_line.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/expression/parser.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/probe/probes.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+/// What `set` wants: of registers, and of devices without them.
+struct WantedValues {
+  std::vector<std::pair<std::string, std::int64_t>> registers;
+  std::vector<std::pair<world::ValueName, double>> values;
+};
+
+/// The object under "values": names with numbers, whole ones for registers.
+WantedValues named_values(const Json& message, const world::KnownDevices& known) {
+  demand_keys(message, {"do", "values"});
+  const Json& values = demand(message, "values");
+  if (!values.is_object() || values.empty())
+    throw MessageError("values: expected an object of names and whole numbers");
+  WantedValues all;
+  for (const auto& [name, value] : values.items()) {
+    if (value.is_number()) {
+      if (auto found = world::find_value(known, name)) {
+        all.values.emplace_back(std::move(*found), value.get<double>());
+        continue;
+      }
+    }
+    const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
+    if (!value.is_number_integer() || huge) throw MessageError(name + ": expected a whole number");
+    all.registers.emplace_back(name, value.get<std::int64_t>());
+  }
+  return all;
+}
+
+void demand_power(const Device& device) {
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+}
+
+/// A number as JSON has it, and what it counts where it is not a plain one.
+Json json_number(world::Number number) {
+  if (number.is_whole()) return number.whole();
+  return number.real();
+}
+
+std::string_view unit_word(world::Unit unit) {
+  switch (unit) {
+    case world::Unit::nanoseconds: return "ns";
+    case world::Unit::millivolts: return "mV";
+    case world::Unit::none: break;
+  }
+  return {};
+}
+
+world::NamedNumber resolve(const world::World& world, const world::Probes& probes, const std::string& name) {
+  try {
+    return probes.resolve(name);
+  } catch (const world::NameError&) {
+    // A device that speaks text knows its names only while it has power.
+    std::optional<world::ValueName> value;
+    try {
+      value = world::find_value(world.known(), name);
+    } catch (const world::NameError&) {
+    }
+    if (value) demand_power(world.device(value->device));
+    throw;
+  }
+}
+
+void demand_accepted(Refusal refusal, const std::string& name, std::int64_t value, const RegisterRow& row) {
+  switch (refusal) {
+    case Refusal::none: return;
+    case Refusal::no_register: throw MessageError(name + " cannot be written; it is read-only");
+    case Refusal::bad_value:
+      throw MessageError(name + ": " + std::to_string(value) + " is out of range; expected " +
+                         range_text(row));
+  }
+}
+
+/// Each is tried on a device that is made alike, so that all are given or none.
+void demand_possible(const world::World& world,
+                     const std::vector<std::pair<world::ValueName, double>>& wanted) {
+  std::map<std::size_t, std::unique_ptr<Device>> trials;
+  for (const auto& [place, value] : wanted) {
+    const Device& device = world.device(place.device);
+    demand_power(device);
+    auto& trial = trials[place.device];
+    if (!trial) {
+      trial = make_device(device.model(), device.settings());
+      trial->restore_state(device.save_state());
+    }
+    if (!device.value_named(place.name)) throw MessageError(device.why_no_value(place.name));
+    if (const auto complaint = trial->assign(place.name, value)) {
+      throw MessageError(place.name + ": " + *complaint);
+    }
+  }
+}
+
+}  // namespace
+
+Json get_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "names"});
+  const Json& names = demand(message, "names");
+  if (!names.is_array() || names.empty()) throw MessageError("names: expected a list of names");
+  daemon.catch_up();
+  const world::World& world = daemon.world();
+  const world::Probes probes(world);
+  Json values = Json::object();
+  Json units = Json::object();
+  for (const Json& entry : names) {
+    if (!entry.is_string()) throw MessageError("names: expected a list of names");
+    const std::string name = entry.get<std::string>();
+    const world::NamedNumber found = resolve(world, probes, name);
+    if (const auto device = probes.device_read(found.handle)) demand_power(world.device(*device));
+    values[name] = json_number(probes.value(found.handle));
+    if (found.unit != world::Unit::none) units[name] = unit_word(found.unit);
+  }
+  Json reply{{"ok", true}, {"values", values}};
+  if (!units.empty()) reply["units"] = units;
+  return reply;
+}
+
+Json eval_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "expression"});
+  const std::string text = demand_text(message, "expression");
+  daemon.catch_up();
+  const world::Probes probes(daemon.world());
+  world::ExpressionParser parser(text, probes);
+  const world::Term term = parser.expression();
+  parser.expect_end();
+  const world::Expression expression = parser.take();
+  for (const std::int32_t name : world::names_in(expression)) {
+    if (const auto device = probes.device_read(name)) demand_power(daemon.world().device(*device));
+  }
+  Json reply{{"ok", true}, {"value", json_number(world::evaluate(expression, probes))}};
+  if (term.unit != world::Unit::none) reply["unit"] = unit_word(term.unit);
+  return reply;
+}
+
+Json set_message(Daemon& daemon, const Json& message) {
+  daemon.catch_up();
+  world::World& world = daemon.world();
+  const auto [wanted, values] = named_values(message, world.known());
+  demand_possible(world, values);
+  std::vector<world::RegisterName> places;
+  std::vector<PreparedWrite> writes(wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto& [name, value] = wanted[i];
+    const world::RegisterName place = world::find_register(world.known(), name);
+    // Two bits, or halves, of one register would be judged one without the other.
+    for (const world::RegisterName& other : places) {
+      if (other.device == place.device && other.place.place.slot == place.place.place.slot) {
+        throw MessageError(name + ": its register is named twice; expected it once");
+      }
+    }
+    places.push_back(place);
+    demand_power(world.device(place.device));
+    demand_accepted(prepare_value(world.device(place.device), place.place, value, writes[i]), name, value,
+                    *place.place.place.row);
+  }
+  for (std::size_t i = 0; i < writes.size(); ++i) world.write(places[i].device, writes[i]);
+  for (const auto& [place, value] : values) world.assign(place.device, place.name, value);
+  return Json{{"ok", true}};
+}
+
+}  // namespace understudy::emulator::serve

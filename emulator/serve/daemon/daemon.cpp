@@ -1,0 +1,353 @@
+#include "emulator/serve/daemon/daemon.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "base/text/one_line.h"
+#include "emulator/world/bench/bench_text.h"
+#include "emulator/world/snapshot_file.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+// Free running and long advances look up from their work this often (wall time), so that ports and the
+// control socket are served meanwhile.
+constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
+// For bytes, which are stamped with the moment that the world has come to.
+constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
+// A trace looks at every tick, so a long quiet span takes long to cross: it is crossed as it goes by.
+constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
+// What they do at first before they look at the clock again.
+constexpr SimTime kSimSlice = std::chrono::milliseconds(100);
+
+// For whoever looks: some seconds of a busy line.
+constexpr std::size_t kFramesKept = 1024;
+
+// In simulated time, which may run fast beside the host's.
+SimTime patience_at(const Speed& speed) {
+  const double factor = std::max(1.0, speed.rate());
+  return SimTime{static_cast<std::int64_t>(static_cast<double>(world::kFramePatience.count()) * factor)};
+}
+
+world::WorldOptions world_options(const DaemonOptions& options) {
+  return {.strict_framing = options.strict_framing,
+          .patience = options.patience.value_or(patience_at(options.speed)),
+          .enforce_settings = options.enforce_settings};
+}
+
+}  // namespace
+
+Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
+               std::function<void(const std::string&)> log)
+    : log_(std::move(log)),
+      world_(bench, world_options(options), log_),
+      frames_(world_, kFramesKept),
+      bench_path_(options.bench_path),
+      bench_hash_(world::bench_hash(bench)),
+      files_(options.files),
+      pacer_(options.speed, wall_now()) {
+  if (options.watch_signals) watch_signals();
+  watch_posts();
+  make_ports(bench);
+  if (options.door) door_ = options.door(*this, log_);
+  memories_ = std::make_unique<NvKeeper>(bench, world_, log_);
+  // Last: a run that cannot start leaves the files of the one before alone.
+  open_files(bench, options);
+}
+
+Daemon::~Daemon() {
+  helper_.reset();
+  door_.reset();
+  ports_.clear();
+  memories_.reset();
+  trace_.reset();
+  recording_.reset();
+  capture_.reset();
+  if (signals_ >= 0) close(signals_);
+  if (posted_signal_ >= 0) close(posted_signal_);
+}
+
+void Daemon::watch_posts() {
+  posted_signal_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (posted_signal_ < 0) throw std::system_error(errno, std::generic_category(), "eventfd");
+  loop_.watch(posted_signal_, EventLoop::readable, [this](std::uint32_t) {
+    std::uint64_t ignored = 0;
+    [[maybe_unused]] const ssize_t got = read(posted_signal_, &ignored, sizeof ignored);
+    std::vector<std::function<void()>> acts;
+    {
+      const std::lock_guard lock(posted_mutex_);
+      acts.swap(posted_);
+    }
+    catch_up();
+    const SimTime before = world_.now();
+    for (const auto& act : acts) act();
+    if (world_.now() != before) pacer_.moved_to(world_.now(), wall_now());
+  });
+}
+
+bool Daemon::post(std::function<void()> act) {
+  {
+    const std::lock_guard lock(posted_mutex_);
+    if (is_over_) return false;
+    posted_.push_back(std::move(act));
+  }
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t put = write(posted_signal_, &one, sizeof one);
+  return true;
+}
+
+void Daemon::do_aside(std::function<std::function<void()>()> work) {
+  helper_->give([this, work = std::move(work)] { post(work()); });
+}
+
+bool Daemon::is_over() {
+  const std::lock_guard lock(posted_mutex_);
+  return is_over_;
+}
+
+/// Whoever waits for what was posted learns by its end that it is never done.
+void Daemon::end_posts() {
+  std::vector<std::function<void()>> dropped;
+  const std::lock_guard lock(posted_mutex_);
+  is_over_ = true;
+  dropped.swap(posted_);
+}
+
+const std::string& Daemon::control_path() const {
+  static const std::string none;
+  return door_ ? door_->path() : none;
+}
+
+void Daemon::watch_signals() {
+  sigset_t stop;
+  sigemptyset(&stop);
+  for (const int signal_number : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&stop, signal_number);
+  sigprocmask(SIG_BLOCK, &stop, nullptr);
+  signals_ = signalfd(-1, &stop, SFD_NONBLOCK | SFD_CLOEXEC);
+  loop_.watch(signals_, EventLoop::readable, [this](std::uint32_t) { stopping_ = true; });
+}
+
+void Daemon::make_ports(const world::Bench& bench) {
+  for (std::size_t i = 0; i < bench.lines.size(); ++i) {
+    std::string link = bench.lines[i].link;
+    if (link.empty()) link = private_folder_.path() + "/" + bench.lines[i].name + ".port";
+    try {
+      ports_.push_back(std::make_unique<Port>(
+          loop_, world_, i, link, [this] { catch_up_for_bytes(); }, log_));
+    } catch (const pty::PortError& error) {
+      const auto folder = std::filesystem::absolute(link).parent_path();
+      const bool is_there = faccessat(AT_FDCWD, folder.c_str(), F_OK, AT_EACCESS) == 0;
+      if (!is_there || faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) == 0) throw;
+      throw pty::PortError(std::string(error.what()) + " (--links FOLDER puts the links elsewhere)");
+    }
+  }
+}
+
+FileClaims Daemon::files() const {
+  FileClaims files = files_;
+  for (const auto& port : ports_) {
+    const std::string line = "of line " + understudy::quoted(world_.line(port->line_number()).line.name());
+    files.add_place({port->terminal().link_path(), "the link " + line});
+    files.add_place({port->terminal().path(), "the port " + line});
+  }
+  files.add_place({control_path(), "the control socket"});
+  return files;
+}
+
+/// All are open before any is emptied.
+void Daemon::open_files(const world::Bench& bench, const DaemonOptions& options) {
+  if (!options.capture_path.empty()) {
+    capture_ = std::make_unique<world::WorldCapture>(world_, options.capture_path, log_);
+  }
+  std::unique_ptr<GrowingFile> recording;
+  if (!options.record_path.empty()) {
+    recording = std::make_unique<GrowingFile>(options.record_path, "the recording", log_);
+  }
+  if (!options.trace_path.empty()) {
+    trace_ = std::make_unique<world::TraceFile>(world_, options.trace_path, options.trace_also, log_);
+  }
+  if (capture_) capture_->begin();
+  if (recording) {
+    const world::RecordingHeader header{.version = options.version,
+                                        .bench = world::to_text(bench),
+                                        .options = world_options(options),
+                                        .seed = bench.seed,
+                                        .snapshot = {}};
+    recording_ = std::make_unique<world::RecordingSpool>(world_, header, std::move(recording),
+                                                         options.record_cap_bytes, log_);
+  }
+  if (trace_) trace_->begin();
+}
+
+void Daemon::catch_up() { catch_up(kWorkSlice); }
+
+void Daemon::catch_up_for_bytes() { catch_up(kWorkForBytes); }
+
+void Daemon::catch_up(WallTime longest) {
+  const WallTime now = wall_now();
+  judge_stall();
+  const bool is_free = pacer_.speed().kind == Speed::Kind::free;
+  const SimTime target = std::max(world_.now(), pacer_.target(now));
+  work_towards(target, is_free ? kWorkSlice : longest);
+  if (world_.now() >= target) {
+    behind_since_.reset();
+  } else if (is_free) {
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as it goes: what it could not do is not a debt
+  } else if (!behind_since_) {
+    behind_since_ = now;
+  }
+}
+
+/// Before anything catches up with the time that has passed: was it a stall?
+void Daemon::judge_stall() {
+  if (!planned_) return;
+  const WallTime planned = *std::exchange(planned_, std::nullopt);
+  const WallTime left_out = pacer_.woke(planned, wall_now());
+  if (behind_since_) *behind_since_ += left_out;
+  // Every real stall is told; a machine that never keeps up slips by little again and again, and would fill
+  // the log.
+  const bool worth_a_line = left_out >= Pacer::kLongestStall || (pacer_.slips() & (pacer_.slips() - 1)) == 0;
+  if (left_out > WallTime{0} && worth_a_line) {
+    log_("stalled: " + format_duration(left_out) + " of simulated time were left out (stall number " +
+         std::to_string(pacer_.slips()) + ")");
+  }
+}
+
+/// For so much wall time at most; quiet spans are crossed in ever larger steps.
+void Daemon::work_towards(SimTime target, WallTime longest) {
+  const WallTime until = wall_now() + longest;
+  for (SimTime step = kSimSlice; world_.now() < target; step = std::min(2 * step, kHorizon / 4)) {
+    world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
+    if (wall_now() >= until) return;
+  }
+}
+
+void Daemon::pause() {
+  if (advance_done_) advance_target_ = world_.now();  // it ends here, and says so
+  judge_stall();
+  pacer_.pause(wall_now());
+  catch_up();                                 // to the moment at which the clock stopped,
+  pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
+  behind_since_.reset();
+}
+
+bool Daemon::resume() {
+  if (advance_done_) return false;
+  pacer_.resume(wall_now());
+  return true;
+}
+
+bool Daemon::advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there) {
+  if (!pacer_.standing() || advance_done_ || duration > kHorizon - world_.now()) return false;
+  advance_target_ = world_.now() + duration;
+  advance_is_there_ = std::move(is_there);
+  advance_done_ = std::move(done);
+  return true;
+}
+
+/// Tick by tick, for a slice of wall time at most. The target moves here where the condition is true.
+void Daemon::work_towards_condition() {
+  const WallTime until = wall_now() + kWorkSlice;
+  while (world_.now() < advance_target_ && wall_now() < until) {
+    if (advance_is_there_()) {
+      advance_target_ = world_.now();
+      return;
+    }
+    world_.advance_to(std::min(advance_target_, time_of(tick_at(world_.now()) + 1)));
+  }
+}
+
+void Daemon::work_on_advance() {
+  if (advance_is_there_) {
+    work_towards_condition();
+  } else {
+    work_towards(advance_target_, kWorkSlice);
+  }
+  pacer_.moved_to(world_.now(), wall_now());
+  if (world_.now() < advance_target_) return;
+  // What the advance has put on the line is on its way before the caller hears that it is over.
+  for (const auto& port : ports_) port->flush();
+  const std::function<void()> done = std::move(advance_done_);
+  advance_done_ = nullptr;
+  advance_is_there_ = nullptr;
+  done();
+}
+
+std::string_view Daemon::why_no_restore() const {
+  if (advance_done_) return "time is being advanced; expected `restore` after that";
+  if (recording_) return "a recording is being made, which has one course; expected none";
+  if (trace_) return "a trace is being made, which has one course; expected none";
+  return {};
+}
+
+void Daemon::restore(const world::WorldState& state) {
+  world::restore(world_, state);
+  frames_.begin_anew();
+  planned_.reset();
+  behind_since_.reset();
+  pacer_.moved_to(world_.now(), wall_now());
+  for (const auto& port : ports_) port->world_restored();
+  memories_->world_restored();
+}
+
+std::optional<WallTime> Daemon::next_wake() const {
+  const auto due = world_.next_due();
+  if (!trace_) return due ? pacer_.wall_time_of(*due) : std::nullopt;
+  return pacer_.wall_time_of(std::min(due.value_or(kHorizon), world_.now() + kTracedSpan));
+}
+
+void Daemon::wait() {
+  // An advance is work in hand, not a moment that was planned for. So is catching up: what counts is since
+  // when it lasts, not how much simulated time it has still to cross, which may have been a long sleep.
+  planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
+  std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
+  for (const auto& port : ports_) {
+    const auto look = port->next_look(pacer_.standing());
+    if (look && (!wake || *look < *wake)) wake = look;
+  }
+  if (const auto look = memories_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  if (door_) {
+    if (const auto look = door_->next_look(); look && (!wake || *look < *wake)) wake = look;
+  }
+  loop_.wait(wake);
+}
+
+void Daemon::run() {
+  struct Leaving {
+    ~Leaving() { daemon.end_posts(); }
+    Daemon& daemon;
+  } const leaving{*this};
+  pacer_.moved_to(world_.now(), wall_now());  // opening the ports took no simulated time
+  while (!stopping_) {
+    wait();
+    if (stopping_) break;
+    if (advance_done_) {
+      work_on_advance();
+    } else if (planned_) {
+      catch_up();
+    }
+    const WallTime now = wall_now();
+    for (const auto& port : ports_) {
+      port->look(now, pacer_.standing());
+      port->flush();
+    }
+    memories_->look(now);
+    if (door_) door_->look(now);
+    if (recording_) recording_->look();
+  }
+  // A recording or a trace of a bench on which nothing happens ends now as well, and not when last something
+  // did.
+  if (!advance_done_) catch_up();
+}
+
+}  // namespace understudy::emulator::serve

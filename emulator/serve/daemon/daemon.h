@@ -1,0 +1,148 @@
+// A world in touch with the outside: ports, control socket, pacing, signals. One thread, one event loop;
+// it wakes for what is readable and for what is due, not for every tick.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files/file_claims.h"
+#include "base/files/helper_thread.h"
+#include "emulator/serve/daemon/door.h"
+#include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/pacer.h"
+#include "emulator/serve/ports/port.h"
+#include "emulator/serve/ports/private_folder.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/frames/frame_log.h"
+#include "emulator/world/recording/recording_spool.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/trace/trace_file.h"
+#include "emulator/world/trace/world_capture.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::serve {
+
+struct DaemonOptions {
+  Speed speed;
+  bool strict_framing = false;
+  std::optional<SimTime> patience{};  // with half a frame; without it, as the speed has it
+  bool enforce_settings = true;
+  DoorMaker door{};        // empty: nobody can ask it anything
+  std::string bench_path;  // the file that is served; empty if there is none
+  bool watch_signals = true;
+  std::string capture_path;  // empty: no capture
+  std::string record_path;   // empty: no recording
+  std::size_t record_cap_bytes = world::kRecordingCapBytes;
+  std::string trace_path;  // .csv or .vcd; empty: no trace
+  std::vector<std::string> trace_also;
+  std::string version;  // of the program, for the recording
+  FileClaims files{};   // that no snapshot may replace; what the daemon opens itself is added
+};
+
+class Daemon {
+ public:
+  /// Opens everything, or throws what says why not (SettingError, PortError, ControlError, CaptureError).
+  Daemon(const world::Bench& bench, const DaemonOptions& options,
+         std::function<void(const std::string&)> log);
+  ~Daemon();
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  /// Runs until SIGTERM, SIGINT or SIGHUP (if it watches signals), or stop().
+  void run();
+  /// Ends run() soon. On the thread that runs it.
+  void stop() { stopping_ = true; }
+  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread. It
+  /// may put the world into another state; simulated time goes on from there. Once run() has left, however it
+  /// did, nothing is called any more: what still waits is dropped, and this returns false.
+  bool post(std::function<void()> act);
+  /// Has `work` done on a helper thread, and posts what comes of it. For what would make the devices wait.
+  void do_aside(std::function<std::function<void()>()> work);
+  /// Whether run() has left.
+  bool is_over();
+  /// For what else is to be waited for.
+  EventLoop& loop() { return loop_; }
+
+  world::World& world() { return world_; }
+  const world::World& world() const { return world_; }
+  const Pacer& pacer() const { return pacer_; }
+  const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
+  /// Of its door; empty if it has none.
+  const std::string& control_path() const;
+  const std::string& bench_path() const { return bench_path_; }
+  /// The last ones that went over the lines.
+  const world::FrameLog& frames() const { return frames_; }
+
+  /// An advance that is under way ends here.
+  void pause();
+  /// False while an advance is under way.
+  bool resume();
+  /// Moves simulated time on by `duration`, or to the end of the first tick at which `is_there` is true
+  /// (asked at the end of every tick), then calls `done`. Only where the clock stands; false otherwise, or
+  /// while another advance is under way.
+  bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
+  /// Brings the world to the present moment, or as far as it comes in a few milliseconds.
+  void catch_up();
+  /// Like catch_up(), but as far as it comes in a tenth of a second: for what is stamped with this moment.
+  void catch_up_for_bytes();
+
+  /// Of the bench that the world is of, for snapshots.
+  std::uint64_t bench_hash() const { return bench_hash_; }
+  /// What it reads and writes besides them.
+  FileClaims files() const;
+  /// Why the world cannot be put into another state now; empty if it can.
+  std::string_view why_no_restore() const;
+  /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
+  /// are there now. Throws StateError, and nothing has changed then.
+  void restore(const world::WorldState& state);
+
+ private:
+  void watch_signals();
+  void watch_posts();
+  void end_posts();
+  void make_ports(const world::Bench& bench);
+  void open_files(const world::Bench& bench, const DaemonOptions& options);
+  void judge_stall();
+  void catch_up(WallTime longest);
+  void work_towards(SimTime target, WallTime longest);
+  void work_on_advance();
+  void work_towards_condition();
+  std::optional<WallTime> next_wake() const;
+  void wait();
+
+  EventLoop loop_;
+  std::function<void(const std::string&)> log_;
+  world::World world_;
+  world::FrameLog frames_;
+  std::string bench_path_;
+  std::uint64_t bench_hash_;
+  FileClaims files_;
+  std::unique_ptr<world::WorldCapture> capture_;
+  std::unique_ptr<NvKeeper> memories_;
+  std::unique_ptr<world::RecordingSpool> recording_;
+  std::unique_ptr<world::TraceFile> trace_;
+  Pacer pacer_;
+  PrivateFolder private_folder_;  // for links that nobody asked for
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::unique_ptr<Door> door_;
+  int signals_ = -1;
+  int posted_signal_ = -1;  // an eventfd
+  std::mutex posted_mutex_;
+  std::vector<std::function<void()>> posted_;
+  bool is_over_ = false;  // under the same mutex
+  std::unique_ptr<HelperThread> helper_ = std::make_unique<HelperThread>();
+  bool stopping_ = false;
+  std::optional<WallTime> planned_;       // for when the loop meant to wake; judged once
+  std::optional<WallTime> behind_since_;  // since when it has worked to catch up; nothing: it has caught up
+
+  SimTime advance_target_{0};
+  std::function<bool()> advance_is_there_;  // may be none
+  std::function<void()> advance_done_;      // set while an advance is under way
+};
+
+}  // namespace understudy::emulator::serve

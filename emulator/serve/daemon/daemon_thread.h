@@ -1,0 +1,38 @@
+// A daemon that runs on a thread of its own.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "emulator/serve/daemon/daemon.h"
+
+namespace understudy::emulator::serve {
+
+class DaemonThread {
+ public:
+  /// Everything is open; nothing runs yet. `options` must not watch signals: they come to the process.
+  DaemonThread(const world::Bench& bench, const DaemonOptions& options,
+               std::function<void(const std::string&)> log)
+      : daemon_(bench, options, std::move(log)) {}
+  ~DaemonThread() { stop(); }
+  DaemonThread(const DaemonThread&) = delete;
+  DaemonThread& operator=(const DaemonThread&) = delete;
+
+  Daemon& daemon() { return daemon_; }
+  void start() {
+    thread_ = std::thread([this] { daemon_.run(); });
+  }
+  /// What was posted is done, then nothing runs any more.
+  void stop() {
+    if (!thread_.joinable()) return;
+    daemon_.post([this] { daemon_.stop(); });
+    thread_.join();
+  }
+
+ private:
+  Daemon daemon_;
+  std::thread thread_;
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,137 @@
+#include "emulator/serve/daemon/nv_keeper.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <system_error>
+
+#include "pty/port_link.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+/// However its path is spelled.
+std::filesystem::path file_of(const world::DeviceSetup& device) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(device.nv_path));
+}
+
+void demand_own_files(const world::Bench& bench) {
+  std::map<std::filesystem::path, std::string> owners;
+  for (const world::DeviceSetup& device : bench.devices) {
+    if (device.nv_path.empty()) continue;
+    const auto [owner, is_free] = owners.emplace(file_of(device), device.settings.name);
+    if (!is_free) {
+      throw NvError(device.nv_path + ": nv: is the memory of '" + owner->second + "' and of '" +
+                    device.settings.name + "'; expected a file for each");
+    }
+  }
+}
+
+void make_folder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::is_directory(folder)) return;
+  if (std::filesystem::exists(folder)) throw NvError("--nv: " + folder + " is not a folder; expected one");
+  throw std::system_error(error, "--nv: " + folder + " cannot be made");
+}
+
+}  // namespace
+
+void read_memories(world::Bench& bench, const std::string& folder) {
+  make_folder(folder);
+  for (world::DeviceSetup& device : bench.devices) {
+    if (device.nv_path.empty() && !folder.empty()) {
+      device.nv_path = folder + "/" + device.settings.name + ".json";
+    }
+  }
+  demand_own_files(bench);
+  for (world::DeviceSetup& device : bench.devices) {
+    if (device.nv_path.empty()) continue;
+    // Until there is a file, the bench may say what the memory holds.
+    if (auto image = read_nv_file(device.nv_path)) device.settings.nv = std::move(image);
+    try {
+      make_device(*device.model, device.settings);
+    } catch (const NvError& error) {
+      throw NvError(device.nv_path + ": " + error.what());
+    }
+  }
+}
+
+NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,
+                   std::function<void(const std::string&)> log)
+    : world_(world), log_(std::move(log)) {
+  for (std::size_t i = 0; i < bench.devices.size(); ++i) {
+    const world::DeviceSetup& device = bench.devices[i];
+    if (device.nv_path.empty()) continue;
+    claim(device);
+    files_.push_back({.device = i, .path = device.nv_path});
+    files_.back().written = world.device(i).kept_revision();
+    const NvImage image = world.device(i).nv_image();
+    const bool is_there = device.settings.nv && std::filesystem::exists(device.nv_path);
+    if (!is_there || device.settings.nv->registers != image.registers) write(files_.back());
+  }
+}
+
+/// Where nothing can be written there is nothing to claim.
+void NvKeeper::claim(const world::DeviceSetup& device) {
+  try {
+    claims_.emplace_back(file_of(device).string());
+  } catch (const std::system_error&) {
+    return;
+  }
+  if (!claims_.back()) {
+    throw pty::PortError(device.nv_path +
+                         ": nv: another understudy, which is running, keeps a memory there; expected a file, "
+                         "or a folder with --nv, for each");
+  }
+}
+
+NvKeeper::~NvKeeper() {
+  for (File& file : files_) {
+    if (is_behind(file)) write(file);
+  }
+  writer_.flush();
+  for (const std::string& news : writer_.take_news()) log_(news);
+}
+
+bool NvKeeper::is_behind(const File& file) const {
+  return world_.device(file.device).kept_revision() != file.written;
+}
+
+void NvKeeper::write(File& file) {
+  file.written = world_.device(file.device).kept_revision();
+  writer_.write(file.path, to_json(world_.device(file.device).nv_image()));
+}
+
+void NvKeeper::world_restored() {
+  for (File& file : files_) file.written.reset();
+}
+
+void NvKeeper::look(WallTime now) {
+  if (files_.empty()) return;
+  looked_ = now;
+  for (const std::string& news : writer_.take_news()) log_(news);
+  const bool anything =
+      std::any_of(files_.begin(), files_.end(), [&](const File& f) { return is_behind(f); });
+  if (!anything) {
+    due_.reset();
+  } else if (!due_) {
+    due_ = std::max(now, handed_over_ + NvWriter::kCoalesce);
+  }
+  if (!due_ || now < *due_) return;
+  for (File& file : files_) {
+    if (is_behind(file)) write(file);
+  }
+  handed_over_ = now;
+  due_.reset();
+}
+
+std::optional<WallTime> NvKeeper::next_look() const {
+  // Also for news from the disk, which nothing else wakes anybody for.
+  if (!due_ && !writer_.is_idle()) return looked_ + NvWriter::kCoalesce;
+  return due_;
+}
+
+}  // namespace understudy::emulator::serve

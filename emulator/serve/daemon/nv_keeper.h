@@ -1,0 +1,58 @@
+// Keeps the files of the devices' memories up to date with what their simulated memories have kept.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/device/memory/nv_file.h"
+#include "emulator/serve/loop/pacer.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/world.h"
+#include "pty/port_claim.h"
+
+namespace understudy::emulator::serve {
+
+/// Gives every device without a file of its own one in `folder`, which is made if it is not there (unless it
+/// is empty: then they have none), and reads those that exist into the settings.
+/// Throws NvError "path: field: what", or std::system_error.
+void read_memories(world::Bench& bench, const std::string& folder);
+
+class NvKeeper {
+ public:
+  /// The world that was made from the bench. What differs from its file already is written now. Throws
+  /// pty::PortError where another process keeps one of these files.
+  NvKeeper(const world::Bench& bench, const world::World& world, std::function<void(const std::string&)> log);
+  ~NvKeeper();  // writes what has changed, and waits for it
+  NvKeeper(const NvKeeper&) = delete;
+  NvKeeper& operator=(const NvKeeper&) = delete;
+
+  /// Hands what has changed to the helper thread, at most once in NvWriter::kCoalesce.
+  void look(WallTime now);
+  /// When it wants to look again, if there is something to hand over or to hear of.
+  std::optional<WallTime> next_look() const;
+  /// The world has another state: whatever their revisions, the files are not of its memories.
+  void world_restored();
+
+ private:
+  struct File {
+    std::size_t device = 0;
+    std::string path;
+    std::optional<std::uint64_t> written{};  // the memory's revision, if the file is of this memory
+  };
+  void claim(const world::DeviceSetup& device);
+  bool is_behind(const File& file) const;
+  void write(File& file);
+
+  const world::World& world_;
+  std::function<void(const std::string&)> log_;
+  std::vector<File> files_;
+  std::vector<pty::PortClaim> claims_;  // of the files: two daemons would undo each other's work
+  std::optional<WallTime> due_;
+  WallTime handed_over_{0};
+  WallTime looked_{0};
+  NvWriter writer_;
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,136 @@
+#include "emulator/serve/loop/event_loop.h"
+
+#include <sys/epoll.h>
+#include <sys/timerfd.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+std::uint32_t epoll_events(std::uint32_t interest) {
+  return ((interest & EventLoop::readable) != 0 ? EPOLLIN : 0U) |
+         ((interest & EventLoop::writable) != 0 ? EPOLLOUT : 0U);
+}
+
+}  // namespace
+
+WallTime wall_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+}
+
+EventLoop::EventLoop()
+    : epoll_(epoll_create1(EPOLL_CLOEXEC)),
+      later_(epoll_create1(EPOLL_CLOEXEC)),
+      timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC)) {
+  if (epoll_ < 0 || later_ < 0) throw std::system_error(errno, std::generic_category(), "epoll_create1");
+  if (timer_ < 0) throw std::system_error(errno, std::generic_category(), "timerfd_create");
+  // Edge-triggered: an expiration is told once and needs no reading, setting the timer again clears it.
+  epoll_event event{};
+  event.events = EPOLLIN | EPOLLET;
+  event.data.fd = timer_;
+  if (epoll_ctl(epoll_, EPOLL_CTL_ADD, timer_, &event) < 0) {
+    throw std::system_error(errno, std::generic_category(), "epoll_ctl");
+  }
+  event.events = EPOLLIN;
+  event.data.fd = later_;
+  if (epoll_ctl(epoll_, EPOLL_CTL_ADD, later_, &event) < 0) {
+    throw std::system_error(errno, std::generic_category(), "epoll_ctl");
+  }
+}
+
+EventLoop::~EventLoop() {
+  close(timer_);
+  close(later_);
+  close(epoll_);
+}
+
+void EventLoop::watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t)> ready,
+                      Rank rank) {
+  const int epoll = rank == Rank::first ? epoll_ : later_;
+  watches_[descriptor] = {epoll, interest,
+                          std::make_shared<std::function<void(std::uint32_t)>>(std::move(ready))};
+  epoll_event event{};
+  event.events = epoll_events(interest);
+  event.data.fd = descriptor;
+  if (epoll_ctl(epoll, EPOLL_CTL_ADD, descriptor, &event) < 0) {
+    watches_.erase(descriptor);
+    throw std::system_error(errno, std::generic_category(), "epoll_ctl");
+  }
+}
+
+void EventLoop::change_interest(int descriptor, std::uint32_t interest) {
+  const auto it = watches_.find(descriptor);
+  if (it == watches_.end() || it->second.interest == interest) return;
+  it->second.interest = interest;
+  epoll_event event{};
+  event.events = epoll_events(interest);
+  event.data.fd = descriptor;
+  epoll_ctl(it->second.epoll, EPOLL_CTL_MOD, descriptor, &event);
+}
+
+void EventLoop::unwatch(int descriptor) {
+  const auto it = watches_.find(descriptor);
+  if (it == watches_.end()) return;
+  epoll_ctl(it->second.epoll, EPOLL_CTL_DEL, descriptor, nullptr);
+  watches_.erase(it);
+}
+
+/// A timer that stays set over many waits: a timeout of each wait would set and cancel one every time,
+/// which costs several times what serving a request does.
+void EventLoop::wake_at(WallTime moment) {
+  if (alarm_ == moment) return;
+  alarm_ = moment;
+  itimerspec setting{};
+  setting.it_value.tv_sec = moment.count() / 1'000'000'000;
+  setting.it_value.tv_nsec = moment.count() % 1'000'000'000;
+  timerfd_settime(timer_, TFD_TIMER_ABSTIME, &setting, nullptr);
+}
+
+void EventLoop::wait(std::optional<WallTime> until) {
+  const bool only_look = until && *until <= wall_now();
+  // A timer that is still set for a moment nobody waits for any more wakes us once, for nothing.
+  if (until && !only_look) wake_at(*until);
+  std::array<epoll_event, 32> events{};
+  const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()), only_look ? 0 : -1);
+  bool later_ones = false;
+  for (int i = 0; i < count; ++i) {
+    const epoll_event& event = events[static_cast<std::size_t>(i)];
+    if (event.data.fd == later_) {
+      later_ones = true;
+    } else {
+      call(event.data.fd, event.events);
+    }
+  }
+  if (later_ones) call_later_ones();
+}
+
+void EventLoop::call(int descriptor, std::uint32_t events) {
+  const auto it = watches_.find(descriptor);
+  if (it == watches_.end()) return;  // an earlier call has unwatched it
+  std::uint32_t ready = 0;
+  if ((events & (EPOLLIN | EPOLLHUP | EPOLLERR)) != 0) ready |= readable;
+  if ((events & (EPOLLOUT | EPOLLERR)) != 0) ready |= writable;
+  const auto function = it->second.ready;
+  (*function)(ready);
+}
+
+/// The kernel gives one at a time, and the next one next time: it puts what stays ready at the end of its
+/// list.
+void EventLoop::call_later_ones() {
+  const WallTime until = wall_now() + kLaterSlice;
+  epoll_event event{};
+  do {
+    if (epoll_wait(later_, &event, 1, 0) != 1) return;
+    call(event.data.fd, event.events);
+  } while (wall_now() < until);
+}
+
+}  // namespace understudy::emulator::serve

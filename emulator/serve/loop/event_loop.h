@@ -1,0 +1,58 @@
+// Waiting for descriptors and for a moment, on one thread: epoll in one small class. What must not wait
+// (ports, signals) comes first in every turn; what others ask of us gets a slice of time behind it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace understudy::emulator::serve {
+
+/// The wall clock of the edge: CLOCK_MONOTONIC. The model never sees it.
+using WallTime = std::chrono::nanoseconds;
+WallTime wall_now();
+
+class EventLoop {
+ public:
+  EventLoop();
+  ~EventLoop();
+  EventLoop(const EventLoop&) = delete;
+  EventLoop& operator=(const EventLoop&) = delete;
+
+  enum Readiness : std::uint32_t { readable = 1, writable = 2 };
+  /// Of all that is ready, what is `later` is called when all else was, one after the other in turn, and for
+  /// kLaterSlice at most: however many there are, the rest is looked at again soon.
+  enum class Rank : std::uint8_t { first, later };
+  static constexpr WallTime kLaterSlice = std::chrono::milliseconds(1);
+
+  /// Calls `ready` whenever the descriptor is ready for what is in `interest` (or has hung up).
+  void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
+             Rank rank = Rank::first);
+  void change_interest(int descriptor, std::uint32_t interest);
+  void unwatch(int descriptor);
+
+  /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what
+  /// is ready. A moment in the past only looks.
+  void wait(std::optional<WallTime> until);
+
+ private:
+  struct Watch {
+    int epoll = -1;  // that it is in
+    std::uint32_t interest = 0;
+    std::shared_ptr<std::function<void(std::uint32_t)>> ready;  // outlives an unwatch() from inside
+  };
+  void wake_at(WallTime moment);
+  void call(int descriptor, std::uint32_t events);
+  void call_later_ones();
+
+  int epoll_ = -1;
+  int later_ = -1;  // another epoll, in that one
+  int timer_ = -1;
+  WallTime alarm_{0};  // what the timer is, or was last, set for
+  std::map<int, Watch> watches_;
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,105 @@
+#include "emulator/serve/loop/pacer.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+namespace understudy::emulator::serve {
+
+std::optional<Speed> parse_speed(std::string_view text) {
+  if (text == "real") return Speed{};
+  if (text == "free") return Speed{.kind = Speed::Kind::free};
+  if (text == "manual") return Speed{.kind = Speed::Kind::manual};
+  if (text.ends_with("x")) text.remove_suffix(1);
+  double factor = 0;
+  const char* const end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, factor);
+  if (error != std::errc{} || parsed != end || !(factor > 0) || factor > 10'000) return std::nullopt;
+  return Speed{.factor = factor};
+}
+
+double Speed::rate() const {
+  switch (kind) {
+    case Kind::factor: return factor;
+    case Kind::free: return kFreest;
+    case Kind::manual: break;
+  }
+  return 0;
+}
+
+std::string format_speed(const Speed& speed) {
+  switch (speed.kind) {
+    case Speed::Kind::free: return "free";
+    case Speed::Kind::manual: return "manual";
+    case Speed::Kind::factor: break;
+  }
+  if (speed.factor == 1.0) return "real";
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), speed.factor);
+  return error == std::errc{} ? std::string(text.data(), end) + "x" : "";
+}
+
+void Lateness::record(WallTime lateness) {
+  recent_[count_ % recent_.size()] = lateness;
+  ++count_;
+  greatest_ = std::max(greatest_, lateness);
+}
+
+WallTime Lateness::percentile(int percent) const {
+  const std::size_t kept = std::min<std::size_t>(count_, recent_.size());
+  if (kept == 0) return WallTime{0};
+  std::vector<WallTime> sorted(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(kept));
+  const std::size_t rank = std::min(kept - 1, kept * static_cast<std::size_t>(percent) / 100);
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank), sorted.end());
+  return sorted[rank];
+}
+
+SimTime Pacer::target(WallTime wall) const {
+  if (standing()) return anchor_sim_;
+  const WallTime passed = wall - anchor_wall_;
+  if (speed_.rate() == 1.0) return std::min(anchor_sim_ + passed, kHorizon);
+  const double ahead_ns = static_cast<double>(passed.count()) * speed_.rate();
+  if (ahead_ns >= static_cast<double>((kHorizon - anchor_sim_).count())) return kHorizon;
+  return anchor_sim_ + SimTime{std::llround(ahead_ns)};
+}
+
+std::optional<WallTime> Pacer::wall_time_of(SimTime time) const {
+  if (standing() || time > kHorizon) return std::nullopt;
+  const SimTime ahead = time - anchor_sim_;
+  if (speed_.rate() == 1.0) return anchor_wall_ + ahead;
+  const double wall_ns = std::ceil(static_cast<double>(ahead.count()) / speed_.rate());
+  if (wall_ns > 1e18) return WallTime::max() / 2;  // thirty years on: beyond what the clock counts
+  // Rounded up: waking a nanosecond early would find nothing due.
+  return anchor_wall_ + WallTime{static_cast<std::int64_t>(wall_ns) + 1};
+}
+
+WallTime Pacer::woke(WallTime planned, WallTime wall) {
+  const WallTime late = wall - planned;
+  if (late < WallTime{0}) return WallTime{0};  // woken by something else, in time
+  lateness_.record(late);
+  if (late <= kLongestStall || standing() || speed_.kind == Speed::Kind::free) return WallTime{0};
+  const WallTime left_out = late - kLongestStall;
+  anchor_wall_ += left_out;
+  ++slips_;
+  return left_out;
+}
+
+void Pacer::pause(WallTime wall) {
+  if (paused_) return;
+  moved_to(target(wall), wall);
+  paused_ = true;
+}
+
+void Pacer::resume(WallTime wall) {
+  if (!paused_) return;
+  paused_ = false;
+  anchor_wall_ = wall;
+}
+
+void Pacer::moved_to(SimTime time, WallTime wall) {
+  anchor_sim_ = time;
+  anchor_wall_ = wall;
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,45 @@
+#include "emulator/serve/loop/parent_signals.h"
+
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace understudy::emulator::serve {
+
+ParentSignals::ParentSignals() {
+  sigset_t told;
+  sigemptyset(&told);
+  for (const int signal_number : {SIGTERM, SIGINT, SIGHUP, SIGCHLD}) sigaddset(&told, signal_number);
+  descriptor_ = signalfd(-1, &told, SFD_NONBLOCK | SFD_CLOEXEC);
+  if (descriptor_ < 0) throw std::system_error(errno, std::generic_category(), "signalfd");
+  sigset_t blocked = told;
+  sigaddset(&blocked, SIGTTOU);  // or giving the terminal back would stop us
+  sigprocmask(SIG_BLOCK, &blocked, &mask_before_);
+  pipe_before_ = signal(SIGPIPE, SIG_IGN);
+  size_before_ = signal(SIGXFSZ, SIG_IGN);
+}
+
+ParentSignals::~ParentSignals() {
+  restore();
+  close(descriptor_);
+}
+
+void ParentSignals::watch(EventLoop& loop, std::function<void(int)> on_signal) {
+  loop.watch(descriptor_, EventLoop::readable, [this, on_signal = std::move(on_signal)](std::uint32_t) {
+    signalfd_siginfo told;
+    while (read(descriptor_, &told, sizeof told) == static_cast<ssize_t>(sizeof told)) {
+      on_signal(static_cast<int>(told.ssi_signo));
+    }
+  });
+}
+
+void ParentSignals::restore() const {
+  signal(SIGPIPE, pipe_before_);
+  signal(SIGXFSZ, size_before_);
+  sigprocmask(SIG_SETMASK, &mask_before_, nullptr);
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,202 @@
+#include "emulator/serve/ports/port.h"
+
+#include <algorithm>
+#include <array>
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+// The kernel tells that a host closes a moment before it has; so much later it has.
+constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
+
+// A lost terminal is tried again after so long.
+constexpr WallTime kRecovery = std::chrono::milliseconds(100);
+
+// As much as the kernel holds (20,480 bytes) and one reading more: a host that goes loses nothing. Hosts that
+// write and go faster than the wire carries lose what is beyond that.
+constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
+
+}  // namespace
+
+Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const std::string& link_path,
+           std::function<void()> catch_up, std::function<void(const std::string&)> log)
+    : loop_(loop),
+      world_(world),
+      line_number_(line_number),
+      catch_up_(std::move(catch_up)),
+      log_(std::move(log)),
+      terminal_(link_path) {
+  watch();
+}
+
+void Port::watch() {
+  loop_.watch(terminal_.presence_descriptor(), EventLoop::readable, [this](std::uint32_t) {
+    on_presence({});
+    keep_watch();
+  });
+  loop_.watch(terminal_.data_descriptor(), EventLoop::readable, [this](std::uint32_t ready) {
+    on_data(ready);
+    keep_watch();
+  });
+  is_watching_ = true;
+}
+
+/// A lost terminal would tell of its hang-up without end.
+void Port::keep_watch() {
+  if (!terminal_.is_lost()) {
+    if (!is_watching_) watch();
+    return;
+  }
+  if (is_watching_) {
+    loop_.unwatch(terminal_.data_descriptor());
+    loop_.unwatch(terminal_.presence_descriptor());
+    is_watching_ = false;
+  }
+  const std::string path_before = terminal_.path();
+  if (!terminal_.recover()) {
+    next_recovery_ = wall_now() + kRecovery;
+    return;
+  }
+  next_recovery_ = WallTime{0};
+  watch();
+  if (terminal_.path() != path_before) {
+    log_("line " + line().name() + ": a host that has gone left " + path_before +
+         " claimed (TIOCEXCL), so nobody can open it; the port is " + terminal_.path() + " now");
+  }
+}
+
+Port::~Port() {
+  loop_.unwatch(terminal_.data_descriptor());
+  loop_.unwatch(terminal_.presence_descriptor());
+}
+
+/// Tells the line who came and went; `bytes` were read just before.
+void Port::on_presence(std::span<const std::uint8_t> bytes) {
+  const pty::PseudoTerminal::Presence presence = terminal_.poll_presence();
+  if (!presence.opened && !presence.closed) return receive(bytes);
+  catch_up_();
+  // Both at once: one went and another came, or one came and has gone again.
+  if (presence.closed && terminal_.host_present()) line().host_closed();
+  if (presence.opened) line().host_opened();
+  if (presence.closed && !terminal_.host_present()) {
+    line().host_settings(terminal_.poll_host_settings());
+    line().host_closed();
+    leave_behind(bytes);
+    keep_what_was_left_behind();
+  } else {
+    receive(bytes);
+  }
+}
+
+/// What a host has written before it closed is still served, but must not be taken for the next one's.
+void Port::keep_what_was_left_behind() {
+  std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
+  while (!terminal_.host_present()) {
+    const std::size_t count = terminal_.read(bytes);
+    if (terminal_.host_present()) {
+      // The next host came while we read: these may be its bytes, and it must get its reply. Where they
+      // have to wait behind what was left they are served in their order, without one.
+      pass_on_what_was_left_behind();
+      const auto read = std::span(bytes).first(count);
+      if (left_behind_.empty() && count <= line().room()) return on_presence(read);
+      leave_behind(read);
+      return on_presence({});
+    }
+    if (count == 0) break;
+    leave_behind(std::span(bytes).first(count));
+  }
+  pass_on_what_was_left_behind();
+}
+
+void Port::leave_behind(std::span<const std::uint8_t> bytes) {
+  const auto taken = bytes.first(std::min(bytes.size(), kLeftBehindCapacity - left_behind_.size()));
+  left_behind_.insert(left_behind_.end(), taken.begin(), taken.end());
+}
+
+/// It stays ahead of what the next host writes, as on a wire. With instant timing the line has room again at
+/// once, and nothing would be due that could wake us for the rest.
+void Port::pass_on_what_was_left_behind() {
+  while (const std::size_t count = std::min(left_behind_.size(), line().room())) {
+    catch_up_();
+    line().receive_departed(std::span(left_behind_).first(count), world_.now());
+    left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
+    world_.advance_to(world_.now());
+  }
+}
+
+void Port::on_data(std::uint32_t ready) {
+  if (!terminal_.holds_slave()) on_presence({});  // perhaps it is a hang-up that we are told of
+  if ((ready & EventLoop::readable) != 0 && left_behind_.empty()) {
+    std::array<std::uint8_t, pty::Line::kInputCapacity> bytes;
+    const std::size_t count = terminal_.read(std::span(bytes).first(line().room()));
+    if (terminal_.has_presence_news()) {
+      on_presence(std::span(bytes).first(count));
+    } else {
+      receive(std::span(bytes).first(count));
+    }
+  }
+  flush();
+}
+
+void Port::receive(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return;
+  catch_up_();
+  if (terminal_.host_present()) line().host_settings(terminal_.poll_host_settings());
+  line().receive(bytes, world_.now());
+  world_.advance_to(world_.now());
+  last_bytes_ = wall_now();
+}
+
+std::optional<WallTime> Port::next_look(bool clock_stands) {
+  if (next_recovery_ > WallTime{0}) return next_recovery_;
+  if (!terminal_.is_in_doubt()) {
+    second_look_ = WallTime{0};
+  } else {
+    if (second_look_ == WallTime{0}) second_look_ = wall_now() + kSecondLook;
+    return second_look_;
+  }
+  // Where the clock stands, patience with an incomplete frame would never end.
+  if (clock_stands && last_bytes_ > WallTime{0} && line().due()) return last_bytes_ + world::kFramePatience;
+  return std::nullopt;
+}
+
+void Port::look(WallTime now, bool clock_stands) {
+  if (next_recovery_ > WallTime{0} && now >= next_recovery_) keep_watch();
+  if (second_look_ > WallTime{0} && now >= second_look_) {
+    second_look_ = WallTime{0};
+    on_presence({});
+    keep_watch();
+  }
+  if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + world::kFramePatience) {
+    last_bytes_ = WallTime{0};
+    line().nothing_more(world_.now());
+  }
+}
+
+void Port::world_restored() {
+  if (line().is_host_open() != terminal_.host_present()) {
+    if (terminal_.host_present()) {
+      line().host_opened();
+    } else {
+      line().host_closed();
+    }
+  }
+  line().host_settings(terminal_.poll_host_settings());
+  last_bytes_ = wall_now();  // of a frame that is half heard
+  flush();
+}
+
+void Port::flush() {
+  if (!left_behind_.empty()) pass_on_what_was_left_behind();
+  while (!line().output().empty()) {
+    const std::size_t taken = terminal_.write(line().output());
+    if (taken == 0) break;  // nobody reads
+    line().take_output(taken);
+  }
+  const std::uint32_t interest = (line().room() > 0 && left_behind_.empty() ? EventLoop::readable : 0U) |
+                                 (line().output().empty() ? 0U : EventLoop::writable);
+  loop_.change_interest(terminal_.data_descriptor(), interest);
+}
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,65 @@
+// A port: one line of the world joined to one pseudo-terminal. Bytes cross here, nothing else does; what
+// happens at this edge (a slow host, a full buffer) never reaches into the model.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/world.h"
+#include "pty/pseudo_terminal.h"
+
+namespace understudy::emulator::serve {
+
+class Port {
+ public:
+  /// `catch_up` brings the world to the present moment; `log` gets what the user should know. Throws
+  /// pty::PortError.
+  Port(EventLoop& loop, world::World& world, std::size_t line_number, const std::string& link_path,
+       std::function<void()> catch_up, std::function<void(const std::string&)> log);
+  ~Port();
+  Port(const Port&) = delete;
+  Port& operator=(const Port&) = delete;
+
+  /// Hands over what the wire has brought, and takes bytes again where the line has room.
+  void flush();
+  /// When look() should be called, though nothing is readable: a host's going is in doubt, a frame is
+  /// incomplete while the clock stands, or the pseudo-terminal was lost and could not be had again yet.
+  std::optional<WallTime> next_look(bool clock_stands);
+  void look(WallTime now, bool clock_stands);
+  /// The world has another state: its line gets the host that is there now, and what it was saying is said.
+  void world_restored();
+
+  const pty::PseudoTerminal& terminal() const { return terminal_; }
+  std::size_t line_number() const { return line_number_; }
+  bool host_present() const { return terminal_.host_present(); }
+  std::optional<pty::HostSettings> host_settings() const { return terminal_.poll_host_settings(); }
+
+ private:
+  const pty::Line& line() const { return world_.line(line_number_).line; }
+  pty::Line& line() { return world_.line(line_number_).line; }
+  void on_data(std::uint32_t ready);
+  void watch();
+  void keep_watch();
+  void on_presence(std::span<const std::uint8_t> bytes);
+  void keep_what_was_left_behind();
+  void leave_behind(std::span<const std::uint8_t> bytes);
+  void pass_on_what_was_left_behind();
+  void receive(std::span<const std::uint8_t> bytes);
+
+  EventLoop& loop_;
+  world::World& world_;
+  std::size_t line_number_;
+  std::function<void()> catch_up_;
+  std::function<void(const std::string&)> log_;
+  pty::PseudoTerminal terminal_;
+  std::vector<std::uint8_t> left_behind_;  // by hosts that have closed; at most kLeftBehindCapacity
+  WallTime second_look_{0};                // when a doubtful going is looked at again; 0: there is none
+  bool is_watching_ = false;               // the terminal's descriptors
+  WallTime next_recovery_{0};              // of a lost terminal, when it is tried again; 0: it is not lost
+  WallTime last_bytes_{0};                 // when the host's last bytes came; 0: nothing is waited for
+};
+
+}  // namespace understudy::emulator::serve

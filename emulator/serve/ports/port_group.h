@@ -1,0 +1,18 @@
+// A pty belongs to whoever made it, and nobody else may open it. A group such as dialout, which may open
+// the serial ports of a machine, may be given ours as well.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+
+namespace understudy::emulator::serve {
+
+/// By name or number; nothing if there is no such group.
+std::optional<gid_t> find_group(const std::string& name);
+
+/// Lets the group read and write the pty at `path`. Throws pty::PortError, also where we are no member.
+void share_port(const std::string& path, gid_t group);
+
+}  // namespace understudy::emulator::serve

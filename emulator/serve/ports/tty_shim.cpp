@@ -1,0 +1,32 @@
+#include "emulator/serve/ports/tty_shim.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace understudy::emulator::serve {
+
+namespace fs = std::filesystem;
+
+std::string tty_shim_path() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& beside :
+       {folder, folder.parent_path()}) {  // where it was built, where it was installed
+    const fs::path path = beside / "lib/understudy/tty_shim.so";
+    if (fs::exists(path, error)) return path.string();
+  }
+  throw NoTtyShim(
+      folder.string() +
+      ": the library tty_shim.so is not there; expected it in lib/understudy or ../lib/understudy");
+}
+
+std::string preload_with_tty_shim() {
+  const std::string path = tty_shim_path();
+  if (path.find_first_of(" :") != std::string::npos) {
+    throw NoTtyShim(path + ": LD_PRELOAD takes no spaces or colons; expected the program elsewhere");
+  }
+  const char* const others = std::getenv("LD_PRELOAD");
+  return others == nullptr || *others == '\0' ? path : path + ":" + others;
+}
+
+}  // namespace understudy::emulator::serve

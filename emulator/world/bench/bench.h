@@ -1,0 +1,77 @@
+// A bench: what a user describes in one file (docs/bench.md). Checked when it is made, so that whatever
+// is built from it can rely on every name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files/file_claims.h"
+#include "emulator/device/model.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/plant/plant.h"
+#include "pty/line.h"
+
+namespace understudy::emulator::world {
+
+struct LineSetup {
+  std::string name;
+  std::string link;  // path of the link to its pty; empty: none
+  int baud = 0;      // 0: the first station's factory speed
+  pty::Timing timing = pty::Timing::wire;
+  std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
+  std::vector<std::size_t> stations;                              // devices, in the order written
+};
+
+struct DeviceSetup {
+  const Model* model = nullptr;
+  DeviceSettings settings;
+  std::string nv_path{};  // the file of its memory; empty: it lives in memory only
+};
+
+struct MachineSetup {
+  std::size_t device = 0;
+  int axis = 0;
+  PlantSetup plant;
+};
+
+/// An output of one device, or a contact of the machine on one of its axes, joined to an input of another; by
+/// numbers of terminals.
+struct WireSetup {
+  std::size_t from_device = 0;
+  int from_terminal = 0;
+  int from_axis = -1;  // the machine's contact instead
+  Contact from_contact = Contact::home;
+  std::size_t to_device = 0;
+  int to_terminal = 0;
+};
+
+/// What an input is given from outside when the world begins, in the terminal's unit.
+struct InputSetup {
+  std::size_t device = 0;
+  int terminal = 0;
+  std::int32_t level = 0;
+};
+
+struct Bench {
+  std::vector<LineSetup> lines;
+  std::vector<DeviceSetup> devices;
+  std::vector<MachineSetup> machines;
+  std::vector<WireSetup> wires;
+  std::vector<InputSetup> inputs;
+  std::vector<Fault> faults;       // those there are from the beginning
+  std::uint64_t seed = 0;          // where randomness begins
+  std::vector<FileClaim> files{};  // that it was read from, but for memories
+};
+
+/// "2%", "0.5%", 0% to 10% in millionths; nothing if it is no such share.
+std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);
+inline constexpr std::string_view kBaudToleranceExpected = "expected 0% to 10%, as in 2%";
+
+/// The input that a contact of the machine on an axis is wired to; -1 if it is wired to none.
+int input_of(const AxisRow& axis, const PlantAxis& machine, Contact contact);
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,142 @@
+#include "emulator/world/bench/bench_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include "emulator/world/faults/fault.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+KnownDevices known_devices(const Bench& bench) {
+  KnownDevices known;
+  for (const DeviceSetup& device : bench.devices) {
+    known.push_back({device.settings.name, device.model, device.settings.firmware});
+  }
+  for (const LineSetup& line : bench.lines) {
+    for (const std::size_t device : line.stations) known[device].line = line.name;
+  }
+  return known;
+}
+
+Json device_text(const DeviceSetup& device) {
+  const DeviceSettings& settings = device.settings;
+  Json text{{"model", device.model->name}};
+  if (settings.firmware != 0) text["firmware"] = version_text(settings.firmware);
+  if (settings.modules != 0) text["modules"] = settings.modules;
+  for (const auto& [name, on] : settings.dip) text["dip"][name] = on ? "on" : "off";
+  if (settings.nv) {
+    text["nv"] = Json::object();
+    for (const auto& [name, value] : settings.nv->registers) text["nv"][name] = value;
+    for (const auto& [name, value] : settings.nv->reals) text["nv"][name] = value;
+    std::string program;
+    for (const std::string& line : settings.nv->program) program += line + "\n";
+    if (!program.empty()) text["nv"]["program"] = program;
+  }
+  if (!settings.program.empty()) {
+    // With a line's end it is known for a text and not a path.
+    const bool has_lines = settings.program.find('\n') != std::string::npos;
+    text["program"] = has_lines ? settings.program : settings.program + "\n";
+  }
+  for (const auto& [id, option] : settings.choices) text["choices"][id] = option;
+  for (const auto& [name, value] : settings.set) text["set"][name] = value;
+  for (const auto& [name, value] : settings.assignments) text["set"][name] = value;
+  return text;
+}
+
+Json line_text(const Bench& bench, const LineSetup& line) {
+  Json text{{"timing", line.timing == pty::Timing::wire ? "wire" : "instant"}, {"stations", Json::array()}};
+  if (line.baud != 0) text["baud"] = line.baud;
+  if (line.baud_tolerance_ppm != pty::kUsualBaudTolerancePpm) {
+    const std::string part = std::to_string(10'000 + line.baud_tolerance_ppm % 10'000).substr(1);
+    text["baud_tolerance"] = std::to_string(line.baud_tolerance_ppm / 10'000) + "." + part + "%";
+  }
+  for (const std::size_t device : line.stations) {
+    const DeviceSettings& settings = bench.devices[device].settings;
+    Json station{{"device", settings.name}};
+    if (bench.devices[device].model->protocol() == Protocol::modbus_rtu)
+      station["address"] = settings.address;
+    text["stations"].push_back(std::move(station));
+  }
+  return text;
+}
+
+Json machine_text(const PlantSetup& plant, const Model& model) {
+  Json text = Json::object();
+  const auto input = [&](int terminal) { return model.terminals[static_cast<std::size_t>(terminal)].name; };
+  if (plant.position_pulses != 0) text["position"] = plant.position_pulses;
+  if (plant.travel) text["travel"] = {plant.travel->first, plant.travel->last};
+  if (plant.home) {
+    text["home"] = Json{{"at", plant.home->first},
+                        {"width", plant.home->last - plant.home->first + 1},
+                        {"hysteresis", plant.home_hysteresis_pulses}};
+  }
+  if (plant.home_opens) text["home"]["contact"] = "opens";
+  if (plant.home_input >= 0) text["home"]["input"] = input(plant.home_input);
+  if (plant.lower_limit) text["limits"]["lower"] = *plant.lower_limit;
+  if (plant.upper_limit) text["limits"]["upper"] = *plant.upper_limit;
+  if (plant.limit_hysteresis_pulses != 0) text["limits"]["hysteresis"] = plant.limit_hysteresis_pulses;
+  if (plant.limits_open) text["limits"]["contact"] = "opens";
+  if (plant.lower_limit_input >= 0) text["limits"]["lower_input"] = input(plant.lower_limit_input);
+  if (plant.upper_limit_input >= 0) text["limits"]["upper_input"] = input(plant.upper_limit_input);
+  if (plant.encoder_counts_per_revolution != 0) {
+    text["encoder"] = Json{{"per_revolution", plant.encoder_counts_per_revolution},
+                           {"motor_pulses_per_revolution", plant.pulses_per_revolution},
+                           {"reversed", plant.encoder_reversed}};
+    if (plant.has_wheel) text["encoder"]["on"] = "wheel";
+  }
+  if (plant.drive) {
+    text["drive"] = Json{{"ready_after", std::to_string(plant.drive->ready_after) + "ms"},
+                         {"enabled_by", plant.drive->enabled_by ? "on" : "off"},
+                         {"alarm_contact", plant.drive->alarm_opens ? "opens" : "closes"}};
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Bench& bench) {
+  const KnownDevices known = known_devices(bench);
+  const auto terminal = [&](std::size_t device, int number) {
+    return known[device].name + "." +
+           std::string(known[device].model->terminals[static_cast<std::size_t>(number)].name);
+  };
+  Json text{{"understudy", 1}};
+  text["lines"] = Json::object();
+  for (const LineSetup& line : bench.lines) text["lines"][line.name] = line_text(bench, line);
+  text["devices"] = Json::object();
+  for (const DeviceSetup& device : bench.devices) text["devices"][device.settings.name] = device_text(device);
+  for (const MachineSetup& machine : bench.machines) {
+    const auto& axes = bench.devices[machine.device].model->axes;
+    const std::string_view axis = axes[static_cast<std::size_t>(machine.axis)].name;
+    text["plant"][known[machine.device].name + "." + std::string(axis)] =
+        machine_text(machine.plant, *bench.devices[machine.device].model);
+  }
+  for (const WireSetup& wire : bench.wires) {
+    std::string from;
+    if (wire.from_axis < 0) {
+      from = terminal(wire.from_device, wire.from_terminal);
+    } else {
+      const auto& axes = bench.devices[wire.from_device].model->axes;
+      from = known[wire.from_device].name + "." +
+             std::string(axes[static_cast<std::size_t>(wire.from_axis)].name) + "." +
+             std::string(kContactNames[static_cast<std::size_t>(wire.from_contact)]);
+    }
+    text["wires"].push_back(from + " -> " + terminal(wire.to_device, wire.to_terminal));
+  }
+  for (const InputSetup& input : bench.inputs) {
+    text["inputs"][terminal(input.device, input.terminal)] = input.level;
+  }
+  for (const Fault& fault : bench.faults) {
+    const FaultText parts = fault_text(known, fault);
+    Json entry{{parts.kind, parts.place}};
+    for (const auto& [name, value] : parts.fields) entry[name] = value;
+    text["faults"].push_back(entry);
+  }
+  if (bench.seed != 0) text["seed"] = bench.seed;
+  return text.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace understudy::emulator::world

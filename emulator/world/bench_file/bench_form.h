@@ -1,0 +1,150 @@
+// What a bench file may say (docs/bench.md): its keys, and the forms of their values.
+#pragma once
+
+#include <array>
+
+#include "emulator/world/bench_file/fault_form.h"
+#include "emulator/world/bench_file/form.h"
+
+namespace understudy::emulator::world {
+
+inline constexpr std::int64_t kFarthestPulse = 1'000'000'000'000;  // farther than any counter
+
+inline constexpr Form kVersionForm = integer_form(1, 1);
+inline constexpr KeyRow kVersionKey{"understudy", "The version of the format.", &kVersionForm, true};
+
+// --- devices -------------------------------------------------------------------------------------
+inline constexpr Form kRegisterValueForm = integer_form(INT32_MIN, UINT32_MAX);
+inline constexpr std::array<const Form*, 2> kNvValueWays{&kRegisterValueForm, &kText};
+inline constexpr Form kNvValueForm = either_form(kNvValueWays);  // text: a real number, or the program
+inline constexpr Form kNvValuesForm = names_form(kNvValueForm);
+inline constexpr std::array<const Form*, 2> kNvWays{&kText, &kNvValuesForm};
+inline constexpr Form kNvForm = either_form(kNvWays);
+inline constexpr Form kAddressForm = integer_form(0, 255);
+
+inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, digits, _ and -.", &kText,
+                                 true};
+inline constexpr KeyRow kModelKey{"model", "A model, as `understudy models` lists them.", &kText, true};
+inline constexpr KeyRow kAddressKey{"address", "The station number (1 without it).", &kAddressForm};
+inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version; the newest without it.", &kText};
+inline constexpr Form kModulesForm = integer_form(1, 255);
+inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, where it is a chain.",
+                                    &kModulesForm};
+inline constexpr std::array<const Form*, 2> kSetValueWays{&kRegisterValueForm, &kText};
+inline constexpr Form kSetValueForm = either_form(kSetValueWays);  // text: a real number
+inline constexpr Form kSetForm = names_form(kSetValueForm);
+inline constexpr KeyRow kSetKey{"set", "Registers (or values, by name) written at power-up, in this order.",
+                                &kSetForm};
+inline constexpr KeyRow kChoicesKey{"choices", "What to do where the manual leaves it open.", &kTextByName};
+inline constexpr KeyRow kDipKey{"dip", "The switches on its housing.", &kLevelByName};
+inline constexpr KeyRow kProgramKey{"program", "The path of a listing, or the listing itself.", &kText};
+inline constexpr KeyRow kNvKey{"nv", "The file of its non-volatile memory, or what it holds at first.",
+                               &kNvForm};
+
+inline constexpr std::array kDeviceKeys{kModelKey,   kFirmwareKey, kModulesKey, kSetKey,
+                                        kChoicesKey, kDipKey,      kProgramKey, kNvKey};
+inline constexpr std::array kStationKeys{kNameKey, kModelKey,   kAddressKey, kFirmwareKey, kModulesKey,
+                                         kSetKey,  kChoicesKey, kDipKey,     kProgramKey,  kNvKey};
+inline constexpr std::array kPlacedStationKeys{
+    KeyRow{"device", "The name of a device declared under `devices`.", &kText, true}, kAddressKey};
+
+// --- lines ---------------------------------------------------------------------------------------
+inline constexpr Form kStationForm = keys_form(kStationKeys);
+inline constexpr Form kPlacedStationForm = keys_form(kPlacedStationKeys);
+inline constexpr std::array<const Form*, 2> kStationWays{&kStationForm, &kPlacedStationForm};
+inline constexpr Form kAnyStationForm = either_form(kStationWays);
+inline constexpr Form kStationsForm = list_form(kAnyStationForm);
+inline constexpr Form kBaudForm = integer_form(1, 4'000'000);
+inline constexpr std::array<std::string_view, 2> kTimings{"wire", "instant"};
+inline constexpr Form kTimingForm = words_form(kTimings);
+inline constexpr std::array kLineKeys{
+    KeyRow{"link", "Where hosts open it; relative to this file.", &kText},
+    KeyRow{"baud", "The speed that the devices are set to; the factory's without it.", &kBaudForm},
+    KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard: 2% without it.",
+           &kText},
+    KeyRow{"timing", "Whether bytes take their time.", &kTimingForm},
+    KeyRow{"stations", "The devices on the line.", &kStationsForm, true}};
+
+// --- the machine ---------------------------------------------------------------------------------
+inline constexpr Form kPositionForm = integer_form(-kFarthestPulse, kFarthestPulse);
+inline constexpr Form kTravelForm = list_form(kPositionForm, 2);
+inline constexpr Form kWidthForm = integer_form(1, kFarthestPulse);
+inline constexpr Form kHysteresisForm = integer_form(0, kFarthestPulse);
+inline constexpr Form kPerRevolutionForm = integer_form(1, 10'000'000);
+inline constexpr KeyRow kHysteresisKey{"hysteresis", "Pulses between on and off.", &kHysteresisForm};
+inline constexpr std::array<std::string_view, 2> kContacts{"opens", "closes"};
+inline constexpr Form kContactForm = words_form(kContacts);
+inline constexpr KeyRow kContactKey{"contact", "What it does where it is on: closes (without it), or opens.",
+                                    &kContactForm};
+inline constexpr std::array kHomeKeys{
+    KeyRow{"at", "The first position where the switch is on.", &kPositionForm, true},
+    KeyRow{"width", "How many positions it is on for.", &kWidthForm, true}, kHysteresisKey, kContactKey,
+    KeyRow{"input", "The input that it is wired to; the controller's own without it.", &kText}};
+inline constexpr std::array kLimitKeys{
+    KeyRow{"lower", "The lower switch is on there and below.", &kPositionForm},
+    KeyRow{"upper", "The upper switch is on there and above.", &kPositionForm},
+    kHysteresisKey,
+    kContactKey,
+    KeyRow{"lower_input", "The input that the lower one is wired to; the controller's own without it.",
+           &kText},
+    KeyRow{"upper_input", "The input that the upper one is wired to; the controller's own without it.",
+           &kText}};
+inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
+inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
+inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
+inline constexpr Form kEncoderPlaceForm = words_form(kEncoderPlaces);
+inline constexpr std::array kEncoderKeys{
+    KeyRow{"per_revolution", "Its counts for a revolution.", &kPerRevolutionForm, true},
+    KeyRow{"motor_pulses_per_revolution", "The motor's pulses for one.", &kPerRevolutionForm},
+    KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
+    KeyRow{"on", "What turns it: the machine (without it), or a hand wheel.", &kEncoderPlaceForm}};
+inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
+inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
+inline constexpr std::array kDriveKeys{
+    KeyRow{"ready_after", "From its enabling to `ready`.", &kDuration},
+    KeyRow{"enabled_by", "The servo output's level that enables it.", &kOnOrOffForm},
+    KeyRow{"alarm_contact", "What its alarm contact does in an alarm.", &kContactForm}};
+inline constexpr Form kHomeForm = keys_form(kHomeKeys);
+inline constexpr Form kLimitsForm = keys_form(kLimitKeys);
+inline constexpr Form kEncoderForm = keys_form(kEncoderKeys);
+inline constexpr Form kDriveForm = keys_form(kDriveKeys);
+inline constexpr std::array kMachineKeys{
+    KeyRow{"position", "Where the machine stands at first (0).", &kPositionForm},
+    KeyRow{"travel", "The hard stops; pulses beyond are lost.", &kTravelForm},
+    KeyRow{"home", "The home switch.", &kHomeForm},
+    KeyRow{"limits", "The limit switches.", &kLimitsForm},
+    KeyRow{"encoder", "The encoder.", &kEncoderForm},
+    KeyRow{"drive", "The servo drive.", &kDriveForm}};
+
+// --- the whole -----------------------------------------------------------------------------------
+inline constexpr Form kLineForm = keys_form(kLineKeys);
+inline constexpr Form kLinesForm = names_form(kLineForm);
+inline constexpr Form kDeviceForm = keys_form(kDeviceKeys);
+inline constexpr Form kDevicesForm = names_form(kDeviceForm);
+inline constexpr Form kMachineForm = keys_form(kMachineKeys);
+inline constexpr Form kPlantForm = names_form(kMachineForm);
+inline constexpr Form kFaultForm = keys_form(kFaultKeys);
+inline constexpr Form kFaultsForm = list_form(kFaultForm);
+inline constexpr Form kSeedForm = integer_form(0, INT64_MAX);
+
+inline constexpr KeyRow kLinesKey{"lines", "The serial lines, by names of yours.", &kLinesForm, true};
+inline constexpr KeyRow kDevicesKey{"devices", "Devices with more to say, by names of yours.", &kDevicesForm};
+inline constexpr KeyRow kPlantKey{"plant", "The machine on each axis: feeder.A and what it is like.",
+                                  &kPlantForm};
+inline constexpr KeyRow kWiresKey{
+    "wires", "From an output, or a machine's switch, to an input: feeder.DOUT_4 -> turner.DIN_10.",
+    &kTextList};
+inline constexpr KeyRow kInputsKey{"inputs", "What inputs are given at first.", &kTextByName};
+inline constexpr KeyRow kFaultsKey{"faults", "What is broken at first: { stall: feeder.A }.", &kFaultsForm};
+
+inline constexpr KeyRow kSeedKey{"seed", "Where randomness begins.", &kSeedForm};
+
+inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
+                                       kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};
+/// A bench inside another file needs no version of its own.
+inline constexpr std::array kInlineBenchKeys{kLinesKey,  kDevicesKey, kPlantKey, kWiresKey,
+                                             kInputsKey, kFaultsKey,  kSeedKey};
+inline constexpr Form kBenchForm = keys_form(kBenchKeys);
+inline constexpr Form kInlineBenchForm = keys_form(kInlineBenchKeys);
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,38 @@
+#include "emulator/world/bench_file/complaints.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace understudy::emulator::world {
+
+void Complaints::add(const FileError& error, const std::string& behind) {
+  for (FileError::Complaint complaint : error.complaints()) {
+    if (!told_.insert(complaint.text).second) continue;
+    complaint.text += behind;
+    complaints_.push_back(std::move(complaint));
+  }
+  if (complaints_.size() >= kMostKept) throw LastError(std::vector<FileError::Complaint>());
+}
+
+void Complaints::throw_if_any() const {
+  if (complaints_.empty()) return;
+  std::map<std::string, std::size_t> files;  // in the order in which they came
+  for (const FileError::Complaint& complaint : complaints_) files.emplace(complaint.place.file, files.size());
+  const auto place = [&](const FileError::Complaint& complaint) {
+    return std::tuple(files[complaint.place.file], complaint.place.line, complaint.place.column);
+  };
+  std::vector<FileError::Complaint> sorted = complaints_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto& left, const auto& right) { return place(left) < place(right); });
+  if (sorted.size() > kMostTold) {
+    const std::size_t more = sorted.size() - kMostTold;
+    sorted.resize(kMostTold);
+    const FileError rest("and " + std::to_string(more) + " more; the first " + std::to_string(kMostTold) +
+                         " are told");
+    sorted.push_back(rest.complaints().front());
+  }
+  throw FileError(std::move(sorted));
+}
+
+}  // namespace understudy::emulator::world

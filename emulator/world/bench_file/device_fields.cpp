@@ -1,0 +1,219 @@
+#include "emulator/world/bench_file/device_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "base/files/text_file.h"
+#include "base/text/one_line.h"
+#include "base/text/parse_real.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/device.h"
+#include "emulator/device/setting_entry.h"
+#include "emulator/world/bench_file/bench_form.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+// Ports and memories are files that are named after lines and devices.
+constexpr std::size_t kLongestName = 100;
+
+double demand_real(const YamlFields& field) {
+  if (const auto value = parse_real(field.text())) return *value;
+  field.fail(understudy::quoted(field.text()) + " is not a number; expected one");
+}
+
+/// The path of a listing, or the listing itself if it has several lines.
+void read_program(const YamlFields& field, const std::optional<std::string>& folder, Bench& bench,
+                  DeviceSettings& settings) {
+  if (field.text().find('\n') != std::string::npos) {
+    settings.program = field.text();
+    settings.program_name = settings.name + ".program";
+    return;
+  }
+  const std::string path = path_in(folder, field);
+  const auto text = read_text_file(path);
+  if (!text) field.fail(path + " " + text.why + "; expected a listing");
+  settings.program = *text;
+  settings.program_name = path;
+  bench.files.push_back({path, "the program of " + understudy::quoted(settings.name)});
+}
+
+/// Of a model without registers: a whole number, a real one (it has a point), or the program.
+void read_value_of_memory(const std::string& name, const YamlFields& value, NvImage& image) {
+  const std::string text = value.text();
+  if (name == "program") {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) image.program.push_back(line);
+  } else if (text.find_first_of(".eE") == std::string::npos) {
+    image.registers.emplace_back(name, value.integer(kRegisterValueForm));
+  } else {
+    image.reals.emplace_back(name, demand_real(value));
+  }
+}
+
+/// The registers of a memory, given in the bench: they have no file, so what changes lasts as long as the
+/// run.
+NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
+  NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
+  complaints.attempt([&] { field.demand_map(); });
+  for (const auto& [register_name, value] : field.entries()) {
+    complaints.attempt([&, &name = register_name, &number = value] {
+      if (model.protocol() == Protocol::text) return read_value_of_memory(name, number, image);
+      image.registers.emplace_back(name, number.integer(kRegisterValueForm));
+    });
+  }
+  return image;
+}
+
+/// The path of an image.
+void read_nv_path(const YamlFields& field, const std::optional<std::string>& folder, const Bench& bench,
+                  DeviceSetup& device) {
+  device.nv_path = path_in(folder, field);
+  for (const DeviceSetup& other : bench.devices) {
+    if (other.nv_path == device.nv_path) {
+      field.fail("device " + understudy::quoted(other.settings.name) +
+                 " has the same file; expected another");
+    }
+  }
+}
+
+const Model& demand_model(ModelList models, const YamlFields& field) {
+  if (const Model* const model = find_model(models, field.text())) return *model;
+  std::vector<std::string> names;
+  for (const Model* known : models) names.emplace_back(known->name);
+  field.fail(understudy::quoted(field.text()) + " is not a model" + suggestion(field.text(), names));
+}
+
+/// Without a model they are numbers at least.
+void read_set(const YamlFields& field, const Model* model, DeviceSettings& settings, Complaints& complaints) {
+  complaints.attempt([&] { field.demand_map(); });
+  for (const auto& [register_name, value] : field.entries()) {
+    complaints.attempt([&, &name = register_name, &number = value] {
+      if (model == nullptr) {
+        demand_real(number);
+      } else if (model->protocol() == Protocol::text) {
+        settings.assignments.emplace_back(name, demand_real(number));
+      } else {
+        settings.set.emplace_back(name, number.integer(kRegisterValueForm));
+      }
+    });
+  }
+}
+
+/// Takes away what the model has refused. Whether it was there.
+bool take_away(const SettingError& error, DeviceSettings& settings, const Model& model) {
+  const std::string& setting = error.setting;
+  if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
+    const auto is_it = [&](const auto& pair) { return pair.first == of_entry->entry; };
+    if (setting == "choices") return std::erase_if(settings.choices, is_it) > 0;
+    if (setting == "dip") return std::erase_if(settings.dip, is_it) > 0;
+    return std::erase_if(settings.set, is_it) + std::erase_if(settings.assignments, is_it) > 0;
+  }
+  if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
+  if (setting == "modules") {  // those that there may be, for what is said of them
+    return std::exchange(settings.modules, model.most_modules) != model.most_modules;
+  }
+  if (setting == "address") return std::exchange(settings.address, model.rtu.lowest_address) != 0;
+  return std::exchange(settings.baud, 0) != 0;  // or switches that say another one
+}
+
+/// Where the setting is, or the device.
+[[noreturn]] void complain(const YamlFields& device, const SettingError& error) {
+  const auto field = device.find(error.setting);
+  if (!field) device.fail(error.what());
+  if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
+    if (const auto entry = field->find(of_entry->entry)) entry->fail(of_entry->complaint);
+  }
+  field->fail(std::string(error.what()).substr(error.setting.size() + 2));
+}
+
+}  // namespace
+
+void demand_name(const YamlFields& field, const std::string& name) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  });
+  if (!plain) field.fail(understudy::quoted(name) + " is not a name; expected letters, digits, _ and -");
+  if (name.size() > kLongestName) {
+    field.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
+               std::to_string(kLongestName));
+  }
+}
+
+std::string path_in(const std::optional<std::string>& folder, const YamlFields& field) {
+  if (!folder) field.fail("is a path; expected none in a recording, which has everything in itself");
+  if (field.text().empty()) field.fail("is empty; expected a path");
+  return (std::filesystem::path(*folder) / field.text()).lexically_normal().string();
+}
+
+DeviceSetup read_device(const YamlFields& fields, const std::string& name,
+                        const std::optional<std::string>& folder, ModelList models, Bench& bench,
+                        Complaints& complaints) {
+  DeviceSetup device;
+  DeviceSettings& settings = device.settings;
+  settings.name = name;
+  complaints.attempt([&] { device.model = &demand_model(models, fields.at("model")); });
+  const auto read = [&](const char* key, const auto& how) {
+    return complaints.attempt([&] {
+      if (const auto field = fields.find(key)) how(*field);
+    });
+  };
+  read("firmware", [&](const YamlFields& field) {
+    settings.firmware = parse_firmware(field.text());
+    if (settings.firmware == 0)
+      field.fail(understudy::quoted(field.text()) + " is not a version; expected one like \"1.52\"");
+  });
+  const bool knows_modules = read("modules", [&](const YamlFields& field) {
+    settings.modules = static_cast<int>(field.integer(kModulesForm));
+  });
+  if (!knows_modules && device.model != nullptr) settings.modules = device.model->most_modules;
+  read("set", [&](const YamlFields& field) { read_set(field, device.model, settings, complaints); });
+  read("dip", [&](const YamlFields& field) {
+    complaints.attempt([&] { field.demand_map(); });
+    for (const auto& [dip, level] : field.entries()) {
+      complaints.attempt([&, &of = dip, &is = level] { settings.dip[of] = is.on_or_off(); });
+    }
+  });
+  read("program", [&](const YamlFields& field) { read_program(field, folder, bench, settings); });
+  read("nv", [&](const YamlFields& field) {
+    if (!field.is_map()) return read_nv_path(field, folder, bench, device);
+    if (device.model != nullptr) settings.nv = read_memory(field, *device.model, complaints);
+  });
+  read("choices", [&](const YamlFields& field) {
+    complaints.attempt([&] { field.demand_map(); });
+    for (const auto& [id, option] : field.entries()) {
+      complaints.attempt([&, &of = id, &is = option] { settings.choices[of] = is.text(); });
+    }
+  });
+  return device;
+}
+
+void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& complaints) {
+  DeviceSettings& settings = device.settings;
+  bool is_asked = true;
+  while (is_asked) {
+    is_asked = false;
+    complaints.attempt([&] {
+      try {
+        make_device(*device.model, settings);
+      } catch (const SettingError& error) {
+        is_asked = take_away(error, settings, *device.model);
+        complain(fields, error);
+      } catch (const NvError& error) {
+        is_asked = std::exchange(settings.nv, std::nullopt).has_value();
+        if (const auto nv = fields.find("nv")) nv->fail(error.what());
+        fields.fail(std::string("nv: ") + error.what());
+      } catch (const ProgramError& error) {
+        is_asked = !std::exchange(settings.program, "").empty();
+        throw FileError(settings.program_name + ":" + std::to_string(error.line) + ": " + error.what());
+      }
+    });
+  }
+}
+
+}  // namespace understudy::emulator::world

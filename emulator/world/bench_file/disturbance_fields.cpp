@@ -1,0 +1,100 @@
+#include "emulator/world/bench_file/disturbance_fields.h"
+
+#include <algorithm>
+
+#include "base/text/one_line.h"
+#include "emulator/world/check_fault.h"
+#include "emulator/world/faults/trigger_text.h"
+#include "emulator/world/names/level.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+FaultText text_of_fault(const YamlFields& fields, std::string_view other_key) {
+  fields.demand_map();
+  FaultText text{};
+  bool is_first = true;
+  for (const auto& [key, value] : fields.entries()) {
+    if (!other_key.empty() && key == other_key) continue;
+    if (is_first) {
+      is_first = false;
+      text.kind = key;
+      text.place = value.text();
+      continue;
+    }
+    text.fields.emplace_back(key, value.text());
+  }
+  if (is_first) fields.fail("is empty; expected a fault, as in `{ stall: feeder.A }`");
+  return text;
+}
+
+/// Of a fault that could not be read.
+void check_condition_of(const YamlFields& when, const World& world) {
+  if (!when.is_scalar()) return;
+  FaultTrigger trigger;
+  try {
+    set_trigger_field(trigger, "when", when.text());
+  } catch (const NameError&) {
+    throw Untold();  // with the fault
+  }
+  try {
+    check_condition(world, trigger.when);
+  } catch (const NameError& error) {
+    when.fail(error.what());
+  }
+}
+
+}  // namespace
+
+InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices) {
+  try {
+    const InputName input = find_input(devices, name);
+    const TerminalRow& row = input.row(devices);
+    const auto level = parse_level(field.text(), row.kind);
+    if (!level)
+      field.fail(quoted(field.text()) + " is not a level; expected " + std::string(level_example(row.kind)));
+    demand_level(row, name, *level);
+    return {.device = input.device, .terminal = input.terminal, .level = static_cast<std::int32_t>(*level)};
+  } catch (const NameError& error) {
+    field.fail(error.what());
+  }
+}
+
+std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices, Complaints& complaints,
+                                std::string_view other_key) {
+  FaultText text{};
+  if (!complaints.attempt([&] { text = text_of_fault(fields, other_key); })) return std::nullopt;
+  // A field that is wrong is taken away, to judge the others. What the fault lacks then has been given.
+  bool is_whole = true;
+  while (true) {
+    try {
+      const Fault fault = find_fault(devices, text);
+      return is_whole ? std::optional(fault) : std::nullopt;
+    } catch (const FaultFieldError& error) {
+      is_whole = false;
+      complaints.attempt([&] { fields.at(error.field).fail(error.complaint); });
+      const auto is_it = [&](const auto& field) { return one_line(field.first) == error.field; };
+      if (std::erase_if(text.fields, is_it) == 0) return std::nullopt;
+    } catch (const NameError& error) {
+      if (is_whole) complaints.attempt([&] { fields.fail(error.what()); });
+      return std::nullopt;
+    }
+  }
+}
+
+void demand_possible(const YamlFields& fields, const World& world, const std::optional<Fault>& fault,
+                     Complaints& complaints) {
+  complaints.attempt([&] {
+    try {
+      if (fault) return check_fault(world, *fault);
+      if (const auto when = fields.find("when")) check_condition_of(*when, world);
+    } catch (const FaultFieldError& error) {
+      fields.at(error.field).fail(error.complaint);
+    } catch (const NameError& error) {
+      fields.fail(error.what());
+    }
+  });
+}
+
+}  // namespace understudy::emulator::world

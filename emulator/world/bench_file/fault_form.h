@@ -1,0 +1,73 @@
+// What a fault looks like in a file, for editors: one kind with its place, the kind's fields, the trigger's.
+// The readers know more (find_fault).
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "emulator/world/bench_file/form.h"
+
+namespace understudy::emulator::world {
+
+inline constexpr std::array kFaultKeys{
+    // Kinds, in the order of Fault::Kind.
+    KeyRow{"stall", "The motor of this axis is blocked.", &kText},
+    KeyRow{"lost_steps", "One pulse in so many on this axis is lost: `one_in`.", &kText},
+    KeyRow{"slip", "The machine on this axis is pushed.", &kText},
+    KeyRow{"alarm", "The drive of this axis has an alarm.", &kText},
+    KeyRow{"stuck", "This input stays as it is.", &kText},
+    KeyRow{"encoder_noise", "The encoder on this axis counts wrongly.", &kText},
+    KeyRow{"turn", "The hand wheel with the encoder of this axis is turned.", &kText},
+    KeyRow{"power_cut", "This device has no power.", &kText},
+    KeyRow{"slow", "This device carries out requests late.", &kText},
+    KeyRow{"busy", "This device, or all on this line, refuse requests as busy.", &kText},
+    KeyRow{"exception", "This device, or all on this line, refuse requests.", &kText},
+    KeyRow{"early_reply", "This device, or all on this line, reply without the silence.", &kText},
+    KeyRow{"drop", "Replies (or requests) of this device or line are lost.", &kText},
+    KeyRow{"delay", "Replies (or requests) of this device or line are late.", &kText},
+    KeyRow{"corrupt_checksum", "The last byte of replies (or requests) is inverted.", &kText},
+    KeyRow{"truncate", "Only the first bytes of replies (or requests) are there.", &kText},
+    KeyRow{"duplicate", "Replies (or requests) come twice.", &kText},
+    KeyRow{"noise", "Bytes come before and after replies (or requests).", &kText},
+    KeyRow{"collision", "Somebody talks at the same time.", &kText},
+    // Their fields.
+    KeyRow{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
+    KeyRow{"pulses", "slip: how far.", &kText},
+    KeyRow{"level", "stuck: on or off.", &kText},
+    KeyRow{"counts", "turn: how far; encoder_noise: so many too many.", &kText},
+    KeyRow{"in", "turn: how long it takes; at once without it.", &kText},
+    KeyRow{"period", "encoder_noise: too few for the second half of it.", &kText},
+    KeyRow{"by", "slow, delay: how late.", &kText},
+    KeyRow{"code", "exception: which.", &kText},
+    KeyRow{"keep", "truncate: how many bytes are left.", &kText},
+    KeyRow{"after", "duplicate: how much later; noise: the bytes behind.", &kText},
+    KeyRow{"before", "noise: the bytes in front.", &kText},
+    KeyRow{"with", "collision: what the other one says.", &kText},
+    KeyRow{"of", "reply (without it), request or both.", &kText},
+    // The trigger.
+    KeyRow{"function", "Requests with this function.", &kText},
+    KeyRow{"station", "Requests for this station.", &kText},
+    KeyRow{"address", "Requests about this register, or one of 0x1000..0x1010.", &kText},
+    KeyRow{"nth", "The third of those that match: 3; 3..7, 3..", &kText},
+    KeyRow{"every", "One in this many of those that match.", &kText},
+    KeyRow{"at", "The first from then on.", &kText},
+    KeyRow{"from", "From then on.", &kText},
+    KeyRow{"to", "Before then.", &kText},
+    KeyRow{"for", "For so long, once it strikes.", &kText},
+    KeyRow{"when", "While this condition holds.", &kText},
+    KeyRow{"chance", "By chance: 5%.", &kText},
+    KeyRow{"seed", "Of its own randomness.", &kText},
+    KeyRow{"times", "So often at most.", &kText},
+};
+
+namespace fault_form {
+constexpr auto with_name() {
+  std::array<KeyRow, kFaultKeys.size() + 1> keys{};
+  std::copy(kFaultKeys.begin(), kFaultKeys.end(), keys.begin());
+  keys.back() = KeyRow{"name", "What `clear` calls it; the fault itself without it.", &kText};
+  return keys;
+}
+}  // namespace fault_form
+inline constexpr auto kInjectKeys = fault_form::with_name();
+
+}  // namespace understudy::emulator::world

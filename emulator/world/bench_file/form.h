@@ -1,0 +1,67 @@
+// The vocabulary that a file format is declared in: which keys there are, and what their values look like.
+// The readers take from it which keys they know, `understudy schema` makes a JSON Schema of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace understudy::emulator::world {
+
+struct KeyRow;
+
+/// What a value looks like.
+struct Form {
+  enum class Kind : std::uint8_t {
+    text,      // a word, a number, a sentence: the reader knows more
+    integer,   // from `lowest` to `highest`, decimal or 0x...
+    level,     // on or off
+    duration,  // 250ms
+    words,     // one of `words`
+    list,      // of `of`, `count` of them (0: one or more)
+    names,     // a map from names of the user's, or of the bench's, to `of`
+    keys,      // a map with the keys of `keys`
+    either,    // one of `ways`
+    steps,     // the steps of a scenario
+  } kind = Kind::text;
+  std::int64_t lowest = INT64_MIN;
+  std::int64_t highest = INT64_MAX;
+  std::span<const std::string_view> words{};
+  const Form* of = nullptr;
+  int count = 0;
+  std::span<const KeyRow> keys{};
+  std::span<const Form* const> ways{};
+};
+
+struct KeyRow {
+  std::string_view key;
+  std::string_view doc;  // a sentence for whoever writes the file
+  const Form* form = nullptr;
+  bool required = false;
+};
+
+constexpr Form integer_form(std::int64_t lowest, std::int64_t highest) {
+  return {.kind = Form::Kind::integer, .lowest = lowest, .highest = highest};
+}
+constexpr Form words_form(std::span<const std::string_view> words) {
+  return {.kind = Form::Kind::words, .words = words};
+}
+/// The referred must outlive the form: all of them are constants.
+constexpr Form list_form(const Form& of, int count = 0) {
+  return {.kind = Form::Kind::list, .of = &of, .count = count};
+}
+constexpr Form names_form(const Form& of) { return {.kind = Form::Kind::names, .of = &of}; }
+constexpr Form keys_form(std::span<const KeyRow> keys) { return {.kind = Form::Kind::keys, .keys = keys}; }
+constexpr Form either_form(std::span<const Form* const> ways) {
+  return {.kind = Form::Kind::either, .ways = ways};
+}
+
+inline constexpr Form kText{};
+inline constexpr Form kLevel{.kind = Form::Kind::level};
+inline constexpr Form kDuration{.kind = Form::Kind::duration};
+inline constexpr Form kSteps{.kind = Form::Kind::steps};
+inline constexpr Form kTextByName = names_form(kText);
+inline constexpr Form kLevelByName = names_form(kLevel);
+inline constexpr Form kTextList = list_form(kText);
+
+}  // namespace understudy::emulator::world

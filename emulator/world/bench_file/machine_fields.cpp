@@ -1,0 +1,160 @@
+#include "emulator/world/bench_file/machine_fields.h"
+
+#include <span>
+#include <string>
+
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/world/bench_file/bench_form.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+/// The keys of a map, each read for itself: what is wrong with one hides nothing of the next.
+class Keys {
+ public:
+  Keys(const YamlFields& fields, std::span<const KeyRow> known, Complaints& complaints)
+      : fields_(fields), complaints_(complaints) {
+    complaints_.attempt([&] { fields_.demand_keys(known); });
+  }
+  /// Calls `how` with the field if it is there. Whether nothing is wrong with it.
+  template <typename How>
+  bool read(const std::string& key, const How& how) const {
+    return complaints_.attempt([&] {
+      if (const auto field = fields_.find(key)) how(*field);
+    });
+  }
+  /// Demands that it is there.
+  template <typename How>
+  bool demand(const std::string& key, const How& how) const {
+    return complaints_.attempt([&] { how(fields_.at(key)); });
+  }
+
+ private:
+  const YamlFields& fields_;
+  Complaints& complaints_;
+};
+
+PulseSpan read_span(const YamlFields& field, Complaints& complaints) {
+  const auto ends = field.elements();
+  if (ends.size() != 2) field.fail("expected two positions, as in `[ -20000, 20000 ]`");
+  PulseSpan span{};
+  const bool has_first = complaints.attempt([&] { span.first = ends[0].integer(kPositionForm); });
+  const bool has_last = complaints.attempt([&] { span.last = ends[1].integer(kPositionForm); });
+  if (!has_first || !has_last) throw Untold();
+  if (span.first > span.last) field.fail("ends before it begins; expected the lower position first");
+  return span;
+}
+
+/// One of two words; true for the first.
+bool read_word(const YamlFields& field, std::string_view first, std::string_view second) {
+  const std::string word = field.text();
+  if (word != first && word != second) {
+    field.fail(quoted(word) + " is unknown; expected " + std::string(first) + " or " + std::string(second));
+  }
+  return word == first;
+}
+
+DriveSetup read_drive(const YamlFields& drive, Complaints& complaints) {
+  const Keys keys(drive, kDriveKeys, complaints);
+  DriveSetup setup;
+  keys.read("ready_after", [&](const YamlFields& field) { setup.ready_after = field.ticks(); });
+  keys.read("enabled_by", [&](const YamlFields& field) { setup.enabled_by = read_word(field, "on", "off"); });
+  keys.read("alarm_contact",
+            [&](const YamlFields& field) { setup.alarm_opens = read_word(field, "opens", "closes"); });
+  return setup;
+}
+
+void read_encoder(const YamlFields& encoder, PlantSetup& setup, Complaints& complaints) {
+  const Keys keys(encoder, kEncoderKeys, complaints);
+  const auto per_revolution = [](const YamlFields& field) {
+    return static_cast<int>(field.integer(kPerRevolutionForm));
+  };
+  keys.demand("per_revolution",
+              [&](const YamlFields& field) { setup.encoder_counts_per_revolution = per_revolution(field); });
+  keys.read("motor_pulses_per_revolution",
+            [&](const YamlFields& field) { setup.pulses_per_revolution = per_revolution(field); });
+  keys.read("on", [&](const YamlFields& field) { setup.has_wheel = read_word(field, "wheel", "machine"); });
+  keys.read("reversed",
+            [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });
+}
+
+void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, Complaints& complaints) {
+  const PulseSpan span = read_span(travel, complaints);
+  if (span.first == span.last) travel.fail("has no length; expected two positions that differ");
+  const std::int64_t start = setup.position_pulses;
+  if (knows_start && (span.first > start || span.last < start)) {
+    travel.fail("does not hold position " + std::to_string(start) +
+                ", where the machine starts; expected it inside");
+  }
+  setup.travel = span;
+}
+
+/// A digital input of the machine's own controller. (A wire goes to another's.)
+int read_own_input(const YamlFields& field, const Model& model) {
+  const std::string name = field.text();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    if (model.terminals[i].kind != TerminalRow::Kind::digital_in) continue;
+    if (model.terminals[i].name == name) return static_cast<int>(i);
+    names.emplace_back(model.terminals[i].name);
+  }
+  field.fail(quoted(name) + " is not an input of " + std::string(model.name) + suggestion(name, names));
+}
+
+void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Complaints& complaints) {
+  const Keys keys(home, kHomeKeys, complaints);
+  std::int64_t at = 0;
+  std::int64_t width = 1;
+  keys.demand("at", [&](const YamlFields& field) { at = field.integer(kPositionForm); });
+  keys.demand("width", [&](const YamlFields& field) { width = field.integer(kWidthForm); });
+  setup.home = PulseSpan{at, at + width - 1};
+  keys.read("hysteresis",
+            [&](const YamlFields& field) { setup.home_hysteresis_pulses = field.integer(kHysteresisForm); });
+  keys.read("contact",
+            [&](const YamlFields& field) { setup.home_opens = read_word(field, "opens", "closes"); });
+  keys.read("input", [&](const YamlFields& field) { setup.home_input = read_own_input(field, model); });
+}
+
+void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Complaints& complaints) {
+  const Keys keys(limits, kLimitKeys, complaints);
+  const auto read = [&](const std::string& side, std::optional<std::int64_t>& position, int& input) {
+    keys.read(side, [&](const YamlFields& field) { position = field.integer(kPositionForm); });
+    keys.read(side + "_input", [&](const YamlFields& field) {
+      if (!limits.has(side)) {
+        field.fail("there is no " + side + " limit switch; expected `" + side + "` as well");
+      }
+      input = read_own_input(field, model);
+    });
+  };
+  read("lower", setup.lower_limit, setup.lower_limit_input);
+  read("upper", setup.upper_limit, setup.upper_limit_input);
+  complaints.attempt([&] {
+    if (setup.lower_limit && setup.upper_limit && *setup.lower_limit >= *setup.upper_limit) {
+      limits.fail("the lower limit is not below the upper one; expected it below");
+    }
+  });
+  keys.read("hysteresis",
+            [&](const YamlFields& field) { setup.limit_hysteresis_pulses = field.integer(kHysteresisForm); });
+  keys.read("contact",
+            [&](const YamlFields& field) { setup.limits_open = read_word(field, "opens", "closes"); });
+}
+
+}  // namespace
+
+PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, Complaints& complaints) {
+  PlantSetup setup;
+  setup.pulses_per_revolution = model.axes[static_cast<std::size_t>(axis)].pulses_per_revolution;
+  const Keys keys(fields, kMachineKeys, complaints);
+  const bool knows_start = keys.read(
+      "position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionForm); });
+  keys.read("travel", [&](const YamlFields& field) { read_travel(field, knows_start, setup, complaints); });
+  keys.read("home", [&](const YamlFields& field) { read_home(field, model, setup, complaints); });
+  keys.read("limits", [&](const YamlFields& field) { read_limits(field, model, setup, complaints); });
+  keys.read("encoder", [&](const YamlFields& field) { read_encoder(field, setup, complaints); });
+  keys.read("drive", [&](const YamlFields& field) { setup.drive = read_drive(field, complaints); });
+  return setup;
+}
+
+}  // namespace understudy::emulator::world

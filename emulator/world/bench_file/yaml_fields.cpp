@@ -1,0 +1,198 @@
+#include "emulator/world/bench_file/yaml_fields.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_document.h"
+
+namespace understudy::emulator::world {
+
+YamlFields YamlFields::parse(const std::string& text, const std::string& file, const std::string& what,
+                             const std::string& expected) {
+  std::shared_ptr<const YamlNode> document = parse_yaml(text, file, what);
+  if (document->kind != YamlNode::Kind::map)
+    throw FileError({file, 1, 1}, what + ": the file is not a map; expected " + expected);
+  YamlFields root(std::make_shared<const std::string>(file), std::move(document), what);
+  root.is_root_ = true;
+  return root;
+}
+
+YamlFields::YamlFields(std::shared_ptr<const std::string> file, std::shared_ptr<const YamlNode> node,
+                       std::string field)
+    : file_(std::move(file)), node_(std::move(node)), field_(std::move(field)) {}
+
+YamlFields YamlFields::part(const YamlNode& node, std::string field) const {
+  YamlFields part(file_, {node_, &node}, std::move(field));
+  part.rule_ = rule_;
+  return part;
+}
+
+int YamlFields::line() const { return node_->line + 1; }
+
+FilePlace YamlFields::place() const { return {*file_, line(), node_->column + 1}; }
+
+std::string YamlFields::folder() const { return std::filesystem::path(*file_).parent_path().string(); }
+
+void YamlFields::fail(const std::string& what) const { throw FileError(place(), field_ + ": " + what); }
+
+YamlFields YamlFields::with_rule(const ScalarRule* rule) const {
+  YamlFields same = *this;
+  same.rule_ = rule;
+  return same;
+}
+
+bool YamlFields::is_map() const { return node_->kind == YamlNode::Kind::map; }
+bool YamlFields::is_list() const { return node_->kind == YamlNode::Kind::list; }
+bool YamlFields::is_scalar() const { return node_->kind == YamlNode::Kind::scalar; }
+
+std::string YamlFields::read_scalar(const YamlNode& node) const {
+  const std::string& written = node.scalar;
+  if (rule_ == nullptr || written.find("${") == std::string::npos) return written;
+  try {
+    return rule_->apply(written);
+  } catch (const FileError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    part(node, field_).fail(error.what());
+  }
+}
+
+template <typename Take>
+void YamlFields::for_each_entry(Take take) const {
+  if (!is_map()) fail("expected a map, as in `key: value`");
+  for (std::size_t i = 0; i + 1 < node_->parts.size(); i += 2) {
+    const YamlNode& key = *node_->parts[i];
+    if (key.kind != YamlNode::Kind::scalar) fail("a key is not a word; expected `key: value`");
+    take(read_scalar(key), *node_->parts[i + 1]);
+  }
+}
+
+void YamlFields::demand_map() const { demand_keys_of(nullptr); }
+
+void YamlFields::demand_keys(std::span<const KeyRow> known) const { demand_keys_of(&known); }
+
+void YamlFields::demand_keys_of(const std::span<const KeyRow>* known) const {
+  Complaints complaints;
+  std::set<std::string> seen;
+  const auto is_known = [&](const std::string& key) {
+    return known == nullptr ||
+           std::any_of(known->begin(), known->end(), [&](const KeyRow& row) { return row.key == key; });
+  };
+  complaints.demand([&] {
+    for_each_entry([&](const std::string& key, const YamlNode& value) {
+      if (!seen.insert(key).second) {
+        complaints.attempt([&] { part(value, field_of(key)).fail("is given twice; expected it once"); });
+      } else if (!is_known(key)) {
+        complaints.attempt([&] { part(value, field_of(key)).refuse_key(key, *known); });
+      }
+    });
+  });
+}
+
+void YamlFields::refuse_key(const std::string& key, std::span<const KeyRow> known) const {
+  std::vector<std::string> names;
+  std::string list;
+  for (const KeyRow& row : known) {
+    names.emplace_back(row.key);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  const std::string name = key.substr(0, key.find(':'));
+  if (name != key && std::find(names.begin(), names.end(), name) != names.end()) {
+    fail("has no space after its ':'; expected `" + name + ": " + one_line(key.substr(name.size() + 1)) +
+         "`");
+  }
+  const auto nearest = near_word(key, names);
+  fail("is not a key here; expected one of " + list +
+       (nearest ? " (the nearest is '" + *nearest + "')" : ""));
+}
+
+std::optional<YamlFields> YamlFields::find(std::string_view key) const {
+  if (!is_map()) return std::nullopt;
+  for (std::size_t i = 0; i + 1 < node_->parts.size(); i += 2) {
+    const YamlNode& name = *node_->parts[i];
+    if (name.kind == YamlNode::Kind::scalar && read_scalar(name) == key) {
+      return part(*node_->parts[i + 1], field_of(std::string(key)));
+    }
+  }
+  return std::nullopt;
+}
+
+YamlFields YamlFields::at(std::string_view key) const {
+  if (!is_map()) fail("expected a map, as in `key: value`");
+  auto value = find(key);
+  if (!value) fail(understudy::quoted(key) + " is missing; expected it here");
+  return *std::move(value);
+}
+
+std::vector<std::pair<std::string, YamlFields>> YamlFields::entries() const {
+  std::vector<std::pair<std::string, YamlFields>> all;
+  for_each_entry([&](const std::string& key, const YamlNode& value) {
+    all.emplace_back(key, part(value, field_of(key)));
+  });
+  return all;
+}
+
+std::vector<YamlFields> YamlFields::elements() const {
+  if (!is_list()) fail("expected a list, as in `[ a, b ]`");
+  std::vector<YamlFields> all;
+  for (std::size_t i = 0; i < node_->parts.size(); ++i) {
+    all.push_back(part(*node_->parts[i], field_ + "[" + std::to_string(i) + "]"));
+  }
+  return all;
+}
+
+std::string YamlFields::text() const {
+  const bool is_glued = node_->kind == YamlNode::Kind::nothing && field_.find(':') != std::string::npos;
+  if (is_glued) fail("has no space after its ':'; expected `key: value`");
+  if (!is_scalar()) fail("expected a word or a number");
+  return read_scalar(*node_);
+}
+
+std::string YamlFields::path() const {
+  const std::string written = text();
+  if (written.empty()) fail("is empty; expected a path");
+  return (std::filesystem::path(folder()) / written).lexically_normal().string();
+}
+
+std::int64_t YamlFields::integer(std::int64_t lowest, std::int64_t highest) const {
+  const std::string digits = text();
+  const auto value = parse_integer(digits);
+  if (!value || *value < lowest || *value > highest) {
+    fail(understudy::quoted(digits) + " is not possible; expected a whole number from " +
+         std::to_string(lowest) + " to " + std::to_string(highest));
+  }
+  return *value;
+}
+
+bool YamlFields::on_or_off() const {
+  const std::string word = text();
+  const bool on = word == "on" || word == "true" || word == "1";
+  if (!on && word != "off" && word != "false" && word != "0")
+    fail(understudy::quoted(word) + " is neither; expected on or off");
+  return on;
+}
+
+SimTime YamlFields::duration() const {
+  const std::string written = text();
+  const auto duration = parse_duration(written);
+  if (!duration) fail(understudy::quoted(written) + " is not a duration; expected one such as 250ms");
+  return *duration;
+}
+
+Tick YamlFields::ticks() const {
+  const std::string written = text();
+  const auto duration = parse_duration(written);
+  if (!duration || *duration % kTickLength != SimTime{0}) {
+    fail(understudy::quoted(written) +
+         " is not a duration of whole milliseconds; expected one such as 120ms");
+  }
+  return *duration / kTickLength;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,58 @@
+// From text to an Expression, in one pass: each rule of the grammar is a function that writes the code of
+// what it read. Precedence is C's. Where C's precedence is known for surprising people (`a & 4 == 4`, `a < b
+// < c`, `not a == b`), parentheses are demanded.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "emulator/world/expression/code_writer.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/term.h"
+#include "emulator/world/expression/tokens.h"
+
+namespace understudy::emulator::world {
+
+/// All members throw ExpressionError. `text` and `names` must outlive the parser.
+class ExpressionParser {
+ public:
+  ExpressionParser(std::string_view text, const NameResolver& names);
+
+  /// Reads as much as is an expression.
+  Term expression();
+  /// Steps over `sign` if that is next.
+  bool skip(std::string_view sign);
+  /// "1%", "0.5%" in millionths of a percent; reads nothing if it is not that.
+  bool percentage(std::int64_t& millionths);
+  bool at_end() const { return token_.kind == Token::Kind::end; }
+  void expect_end() const;
+  /// Where the next word begins.
+  std::size_t offset() const { return token_.begin; }
+  /// Gives away the code of what was read since the last time.
+  Expression take() { return code_.take(); }
+
+ private:
+  Term level(Level level);
+  Term logical(const BinaryRow& row, std::size_t offset);
+  Term comparison(const BinaryRow& row, std::size_t offset, const Term& left);
+  Term unary();
+  Term primary();
+  Term name();
+  Term call(const std::string& function, std::size_t offset);
+  bool is_next(std::string_view sign) const {
+    return token_.kind == Token::Kind::sign && token_.sign == sign;
+  }
+  void expect(std::string_view sign);
+  void nest();
+  [[noreturn]] void fail_here(const std::string& expected) const;
+  [[noreturn]] void fail(std::size_t offset, const std::string& what_is_wrong) const;
+
+  std::string_view text_;
+  const NameResolver& names_;
+  Lexer lexer_;
+  Token token_;  // the next one
+  CodeWriter code_;
+  int nesting_ = 0;  // of parentheses, signs and choices
+};
+
+}  // namespace understudy::emulator::world

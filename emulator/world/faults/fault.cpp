@@ -1,0 +1,224 @@
+#include "emulator/world/faults/fault.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/world/faults/field_values.h"
+#include "emulator/world/faults/kinds.h"
+#include "emulator/world/faults/trigger_text.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using Form = FaultFieldRow::Form;
+using At = FaultKindRow::Place;
+
+constexpr std::array<std::string_view, 3> kSides{"reply", "request", "both"};  // in the order of Fault::Side
+
+const FaultKindRow& row_of(const std::string& name) {
+  std::vector<std::string> names;
+  for (const FaultKindRow& row : fault_kinds()) {
+    if (row.name == name) return row;
+    names.emplace_back(row.name);
+  }
+  throw NameError(quoted(name) + " is not a fault" + suggestion(name, names));
+}
+
+/// The first device of a line; devices.size() if there is no such line.
+std::size_t find_line(const KnownDevices& devices, const std::string& name) {
+  const auto stands_there = [&](const KnownDevice& device) { return !name.empty() && device.line == name; };
+  return static_cast<std::size_t>(std::find_if(devices.begin(), devices.end(), stands_there) -
+                                  devices.begin());
+}
+
+void set_device_or_line(const KnownDevices& devices, const std::string& place, Fault& fault) {
+  const auto has_name = [&](const KnownDevice& device) { return device.name == place; };
+  const std::size_t line = find_line(devices, place);
+  if (std::none_of(devices.begin(), devices.end(), has_name) && line < devices.size()) {
+    fault.device = line;
+    fault.on_line = true;
+    return;
+  }
+  fault.device = find_device(devices, place);
+}
+
+void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::string& place, Fault& fault) {
+  switch (row.place) {
+    case At::device: fault.device = find_device(devices, place); return;
+    case At::device_or_line: set_device_or_line(devices, place, fault); return;
+    case At::axis: {
+      const AxisName axis = find_axis(devices, place);
+      fault.device = axis.device;
+      fault.place = axis.axis;
+      return;
+    }
+    case At::input: {
+      const InputName input = find_input(devices, place);
+      if (input.row(devices).kind != TerminalRow::Kind::digital_in) {
+        throw NameError(quoted(place) + " cannot be stuck; expected a digital input");
+      }
+      fault.device = input.device;
+      fault.place = input.terminal;
+      return;
+    }
+  }
+}
+
+void set_field(const FaultFieldRow& row, const std::string& text, Fault& fault) {
+  switch (row.form) {
+    case Form::number: fault.*row.number = field_number(row.name, text, row.lowest, row.highest); break;
+    case Form::level: fault.*row.number = field_level(row.name, text); break;
+    case Form::duration: fault.*row.number = field_duration(row.name, text, SimTime{0}).count(); break;
+    case Form::ticks:
+    case Form::even_ticks: {
+      const SimTime time = field_duration(row.name, text, row.lowest * kTickLength);
+      const bool is_even = row.form == Form::even_ticks;
+      if (time % ((is_even ? 2 : 1) * kTickLength) != SimTime{0}) {
+        throw NameError(std::string(row.name) + ": " + quoted(text) + " is not possible; expected " +
+                        (is_even ? "an even number of milliseconds" : "whole milliseconds"));
+      }
+      fault.*row.number = time / kTickLength;
+      break;
+    }
+    case Form::bytes: fault.*row.bytes = field_bytes(row.name, text); break;
+    case Form::side: fault.side = static_cast<Fault::Side>(field_word(row.name, text, kSides)); break;
+  }
+}
+
+std::string expected_of(const FaultFieldRow& row) {
+  switch (row.form) {
+    case Form::level: return "on or off";
+    case Form::duration:
+    case Form::ticks:
+    case Form::even_ticks: return "a duration such as 250ms";
+    default: return std::to_string(row.lowest) + " to " + std::to_string(row.highest);
+  }
+}
+
+/// Empty if it is as without it.
+std::string text_of(const FaultFieldRow& row, const Fault& fault) {
+  switch (row.form) {
+    case Form::number:
+    case Form::level: return std::to_string(fault.*row.number);
+    case Form::duration:
+      return row.required || fault.*row.number != 0 ? format_duration(SimTime{fault.*row.number}) : "";
+    case Form::ticks:
+    case Form::even_ticks: return fault.*row.number != 0 ? format_duration(time_of(fault.*row.number)) : "";
+    case Form::bytes: return hex_text(fault.*row.bytes);
+    case Form::side: {
+      const auto side = static_cast<std::size_t>(fault.side);
+      return fault.side == Fault::Side::reply ? "" : std::string(kSides[side]);
+    }
+  }
+  return {};
+}
+
+/// `address` may be the name of a register: then it is that of its words.
+void set_address(const KnownDevices& devices, const std::string& name, Fault& fault) {
+  const RegisterName found =
+      fault.on_line ? find_register(devices, name) : find_register({devices[fault.device]}, name);
+  const Place& place = found.place.place;
+  const bool is_wide = place.row->type == Type::u32 || place.row->type == Type::s32;
+  using Part = Place::Part;
+  fault.trigger.first_address = place.address();
+  fault.trigger.last_address = place.address() + (is_wide ? 1 : 0);
+  if (place.part == Part::whole) return;
+  const KnownDevice& device = devices[fault.on_line ? found.device : fault.device];
+  const bool is_first = (place.part == Part::low) == device.model->registers.policy().low_word_first;
+  (is_first ? fault.trigger.last_address : fault.trigger.first_address) =
+      place.address() + (is_first ? 0 : 1);
+}
+
+bool is_number(const std::string& text) { return !text.empty() && text[0] >= '0' && text[0] <= '9'; }
+
+void set_fields(const KnownDevices& devices, const FaultKindRow& kind, const FaultText& text, Fault& fault) {
+  std::vector<std::string> given;
+  for (const auto& [name, value] : text.fields) {
+    if (std::find(given.begin(), given.end(), name) != given.end()) {
+      throw NameError(name + ": is given twice; expected it once");
+    }
+    given.push_back(name);
+    const auto is_it = [&field = name](const FaultFieldRow& row) { return row.name == field; };
+    const auto row = std::find_if(kind.fields.begin(), kind.fields.end(), is_it);
+    if (row != kind.fields.end()) {
+      set_field(*row, value, fault);
+    } else if (name == "address" && !is_number(value)) {
+      try {
+        set_address(devices, value, fault);
+      } catch (const NameError& error) {
+        throw NameError("address: " + std::string(error.what()));
+      }
+    } else if (!set_trigger_field(fault.trigger, name, value)) {
+      std::vector<std::string> known = trigger_fields();
+      for (const FaultFieldRow& field : kind.fields) known.emplace_back(field.name);
+      throw NameError(one_line(name) + ": is nothing it has" + suggestion(name, known));
+    }
+  }
+  for (const FaultFieldRow& row : kind.fields) {
+    if (row.required && std::find(given.begin(), given.end(), row.name) == given.end()) {
+      throw NameError(std::string(row.name) + " is missing; expected " + expected_of(row));
+    }
+  }
+}
+
+}  // namespace
+
+bool waits(const Fault& fault) { return is_of_frames(fault.kind) || fault.trigger != FaultTrigger{}; }
+
+Fault find_fault(const KnownDevices& devices, const FaultText& text) {
+  const FaultKindRow& row = row_of(text.kind);
+  Fault fault{.kind = row.kind};
+  set_place(devices, row, text.place, fault);
+  try {
+    set_fields(devices, row, text, fault);
+    demand_sense(fault.trigger);
+    if (fault.kind == Fault::Kind::noise && fault.before.empty() && fault.after.empty()) {
+      throw NameError("before and after are missing; expected one of them");
+    }
+    if (is_done_at_once(fault.kind) && fault.trigger.lasts != SimTime{0}) {
+      throw NameError("for: it is over at once; expected none");
+    }
+  } catch (const NameError& error) {
+    // "field: what is wrong" where it is about one that was given.
+    const std::string what = error.what();
+    const std::size_t colon = what.find(": ");
+    const auto is_it = [&](const auto& field) { return one_line(field.first) == what.substr(0, colon); };
+    if (colon != std::string::npos && std::any_of(text.fields.begin(), text.fields.end(), is_it)) {
+      throw FaultFieldError(text.kind, what.substr(0, colon), what.substr(colon + 2));
+    }
+    throw NameError(text.kind + ": " + what);
+  }
+  return fault;
+}
+
+FaultText fault_text(const KnownDevices& devices, const Fault& fault) {
+  const FaultKindRow& row = fault_kind(fault.kind);
+  const KnownDevice& device = devices[fault.device];
+  const auto place = static_cast<std::size_t>(fault.place);
+  FaultText text{
+      .kind = std::string(row.name), .place = fault.on_line ? device.line : device.name, .fields = {}};
+  if (row.place == At::axis) text.place += "." + std::string(device.model->axes[place].name);
+  if (row.place == At::input) text.place += "." + std::string(device.model->terminals[place].name);
+  for (const FaultFieldRow& field : row.fields) {
+    const std::string value = text_of(field, fault);
+    if (!value.empty()) text.fields.emplace_back(field.name, value);
+  }
+  const auto of_trigger = fields_of(fault.trigger);
+  text.fields.insert(text.fields.end(), of_trigger.begin(), of_trigger.end());
+  return text;
+}
+
+std::string to_text(const KnownDevices& devices, const Fault& fault) {
+  const FaultText parts = fault_text(devices, fault);
+  std::string text = parts.kind + " " + parts.place;
+  for (const auto& [name, value] : parts.fields) {
+    text += " " + name + "=" + (name == "when" ? "\"" + one_line(value) + "\"" : value);
+  }
+  return text;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,99 @@
+// What a user breaks to see how a host copes: the machine and its wiring, devices, and what goes over the
+// line; and when (trigger.h). docs/faults.md explains each kind.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/world/faults/trigger.h"
+#include "emulator/world/names/names.h"
+
+namespace understudy::emulator::world {
+
+struct Fault {
+  enum class Kind : std::uint8_t {
+    // of the machine, at an axis or (stuck) an input
+    stall,       // the motor is blocked, every pulse is lost
+    lost_steps,  // every `amount`th pulse is lost
+    slip,        // the machine is moved by `amount` pulses by force; over at once
+    alarm,       // the drive is in alarm; with a drive it stays so until the controller clears it afterwards
+    stuck,       // an input stays at the level `amount`, whatever drives it
+    encoder_noise,  // the encoder counts `amount` too many, then too few, half a `period_ticks` each
+    turn,           // the wheel of an encoder of its own is turned by `amount` counts, over `over_ticks`
+    // of a device
+    power_cut,  // it has no power
+    slow,       // it carries out each request `amount` ns late
+    // of what a device, or all on a line, make of requests
+    busy,         // they are refused as a busy device does it
+    exception,    // they are refused with exception `amount`
+    early_reply,  // they are taken for over with their last character, without the device's silence
+    // of a message on the wire (pty/wire_fault.h)
+    drop,
+    delay,             // by `amount` ns
+    corrupt_checksum,  //
+    truncate,          // to `amount` bytes
+    duplicate,         // the second `amount` ns after the first
+    noise,             // `before` and `after`
+    collision,         // with `before`
+  } kind = Kind::stall;
+  std::size_t device = 0;  // of a line: its first device
+  int place = 0;           // an axis, or for `stuck` a terminal
+  std::int64_t amount = 0;
+  std::int64_t period_ticks = 0;
+  std::int64_t over_ticks = 0;
+  bool on_line = false;  // all of its line is meant
+  enum class Side : std::uint8_t { reply, request, both } side = Side::reply;
+  std::vector<std::uint8_t> before{};
+  std::vector<std::uint8_t> after{};
+  FaultTrigger trigger{};
+
+  bool operator==(const Fault&) const = default;
+};
+
+/// What is done to a message on the wire.
+constexpr bool is_of_wire(Fault::Kind kind) { return kind >= Fault::Kind::drop || kind == Fault::Kind::slow; }
+/// What is done to a request or its reply: it needs frames, whatever its trigger says.
+constexpr bool is_of_frames(Fault::Kind kind) { return kind >= Fault::Kind::slow; }
+/// What is done to the machine and not wrong with it: it cannot be cleared.
+constexpr bool is_done_at_once(Fault::Kind kind) {
+  return kind == Fault::Kind::slip || kind == Fault::Kind::turn;
+}
+/// Whether something must happen before it strikes: a frame, a time, a condition.
+bool waits(const Fault& fault);
+
+/// A fault as text has it: `stall feeder.A`, `lost_steps feeder.A one_in=50`, `drop feeder nth=3`.
+struct FaultText {
+  std::string kind;
+  std::string place;
+  std::vector<std::pair<std::string, std::string>> fields;  // by their names
+};
+
+/// Of one field of a fault.
+struct FaultFieldError : NameError {
+  FaultFieldError(const std::string& kind, std::string field_name, std::string what_is_wrong)
+      : NameError(kind + ": " + field_name + ": " + what_is_wrong),
+        field(std::move(field_name)),
+        complaint(std::move(what_is_wrong)) {}
+  std::string field;
+  std::string complaint;
+};
+
+/// Throws NameError for what the bench does not have. What `when` names only the world knows (World::check).
+Fault find_fault(const KnownDevices& devices, const FaultText& text);
+/// As find_fault() takes it, and the same on one line.
+FaultText fault_text(const KnownDevices& devices, const Fault& fault);
+std::string to_text(const KnownDevices& devices, const Fault& fault);
+
+/// A fault with all that has come of it.
+struct ArmedFault {
+  Fault fault;
+  FaultCourse course{};
+
+  bool operator==(const ArmedFault&) const = default;
+};
+
+}  // namespace understudy::emulator::world

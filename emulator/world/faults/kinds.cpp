@@ -1,0 +1,73 @@
+#include "emulator/world/faults/kinds.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using Form = FaultFieldRow::Form;
+using Kind = Fault::Kind;
+using Place = FaultKindRow::Place;
+
+constexpr std::int64_t kFar = 1'000'000'000'000;       // pulses; farther than any counter
+constexpr std::int64_t kFarthestSlip = 1'000'000'000;  // pulses; many of them in one tick still add up
+constexpr std::int64_t kMostCounts = 1'000'000;
+constexpr std::int64_t kLongestMessage = 256;
+
+constexpr FaultFieldRow bytes_row(std::string_view name, std::vector<std::uint8_t> Fault::*bytes) {
+  return {.name = name, .form = Form::bytes, .required = false, .bytes = bytes};
+}
+
+constexpr FaultFieldRow kOf{.name = "of", .form = Form::side, .required = false};
+constexpr FaultFieldRow kBy{.name = "by", .form = Form::duration};
+constexpr std::array kLostSteps{FaultFieldRow{.name = "one_in", .lowest = 1, .highest = kFar}};
+constexpr std::array kSlip{
+    FaultFieldRow{.name = "pulses", .lowest = -kFarthestSlip, .highest = kFarthestSlip}};
+constexpr std::array kTurn{
+    FaultFieldRow{.name = "counts", .lowest = -kFarthestSlip, .highest = kFarthestSlip},
+    FaultFieldRow{
+        .name = "in", .form = Form::ticks, .required = false, .lowest = 1, .number = &Fault::over_ticks}};
+constexpr std::array kStuck{FaultFieldRow{.name = "level", .form = Form::level, .highest = 1}};
+constexpr std::array kEncoderNoise{
+    FaultFieldRow{.name = "counts", .lowest = -kMostCounts, .highest = kMostCounts},
+    FaultFieldRow{.name = "period",
+                  .form = Form::even_ticks,
+                  .required = false,
+                  .lowest = 2,
+                  .number = &Fault::period_ticks}};
+constexpr std::array kSlow{kBy};
+constexpr std::array kException{FaultFieldRow{.name = "code", .lowest = 1, .highest = 255}};
+constexpr std::array kSided{kOf};
+constexpr std::array kDelay{kBy, kOf};
+constexpr std::array kTruncate{FaultFieldRow{.name = "keep", .highest = kLongestMessage}, kOf};
+constexpr std::array kDuplicate{FaultFieldRow{.name = "after", .form = Form::duration, .required = false},
+                                kOf};
+constexpr std::array kNoise{bytes_row("before", &Fault::before), bytes_row("after", &Fault::after), kOf};
+constexpr std::array kCollision{bytes_row("with", &Fault::before), kOf};
+
+constexpr std::array<FaultKindRow, 19> kKinds{{
+    {"stall", Kind::stall, Place::axis, {}, "begins"},
+    {"lost_steps", Kind::lost_steps, Place::axis, kLostSteps, "begins"},
+    {"slip", Kind::slip, Place::axis, kSlip, "pushed"},
+    {"alarm", Kind::alarm, Place::axis, {}, "begins"},
+    {"stuck", Kind::stuck, Place::input, kStuck, "begins"},
+    {"encoder_noise", Kind::encoder_noise, Place::axis, kEncoderNoise, "begins"},
+    {"turn", Kind::turn, Place::axis, kTurn, "turned"},
+    {"power_cut", Kind::power_cut, Place::device, {}, "begins"},
+    {"slow", Kind::slow, Place::device, kSlow, "carried out later"},
+    {"busy", Kind::busy, Place::device_or_line, {}, "refused"},
+    {"exception", Kind::exception, Place::device_or_line, kException, "refused"},
+    {"early_reply", Kind::early_reply, Place::device_or_line, {}, "taken for over at once"},
+    {"drop", Kind::drop, Place::device_or_line, kSided, "not said", "not heard"},
+    {"delay", Kind::delay, Place::device_or_line, kDelay, "said later", "heard later"},
+    {"corrupt_checksum", Kind::corrupt_checksum, Place::device_or_line, kSided, "last byte inverted"},
+    {"truncate", Kind::truncate, Place::device_or_line, kTruncate, "cut"},
+    {"duplicate", Kind::duplicate, Place::device_or_line, kDuplicate, "said twice", "heard twice"},
+    {"noise", Kind::noise, Place::device_or_line, kNoise, "noise around it"},
+    {"collision", Kind::collision, Place::device_or_line, kCollision, "somebody else talked"},
+}};
+
+}  // namespace
+
+std::span<const FaultKindRow> fault_kinds() { return kKinds; }
+
+}  // namespace understudy::emulator::world

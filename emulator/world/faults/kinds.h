@@ -1,0 +1,47 @@
+// The kinds of faults and their fields, as text has them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "emulator/world/faults/fault.h"
+
+namespace understudy::emulator::world {
+
+/// A field that a kind has besides its trigger, and what it sets.
+struct FaultFieldRow {
+  enum class Form : std::uint8_t { number, level, duration, ticks, even_ticks, bytes, side };
+  std::string_view name;
+  Form form = Form::number;
+  bool required = true;
+  std::int64_t lowest = 0;
+  std::int64_t highest = 0;
+  std::int64_t Fault::*number = &Fault::amount;
+  std::vector<std::uint8_t> Fault::*bytes = nullptr;
+};
+
+struct FaultKindRow {
+  enum class Place : std::uint8_t {
+    axis,
+    input,
+    device,
+    device_or_line,
+  };
+  std::string_view name;
+  Fault::Kind kind;
+  Place place;
+  std::span<const FaultFieldRow> fields;
+  std::string_view effect;               // on a message, or with one: what onlookers are told
+  std::string_view effect_on_request{};  // where it is another; empty: the same
+};
+
+/// In the order of Fault::Kind.
+std::span<const FaultKindRow> fault_kinds();
+inline const FaultKindRow& fault_kind(Fault::Kind kind) {
+  return fault_kinds()[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace understudy::emulator::world

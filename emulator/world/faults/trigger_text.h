@@ -1,0 +1,23 @@
+// Triggers as text: nth=3 function=6 when="feeder.A.position >= 12000" (docs/faults.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/world/faults/trigger.h"
+
+namespace understudy::emulator::world {
+
+/// The names that set_trigger_field() knows.
+std::vector<std::string> trigger_fields();
+/// False if there is no such field; NameError for what the field cannot be. An address is a number here, and
+/// names in `when` are not looked up.
+bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::string& text);
+/// NameError for fields that contradict each other.
+void demand_sense(const FaultTrigger& trigger);
+/// Those that are set.
+std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger);
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,98 @@
+#include "emulator/world/frames/frame_log.h"
+
+#include <algorithm>
+
+#include "emulator/world/frames/frame_text.h"
+
+namespace understudy::emulator::world {
+
+FrameLog::FrameLog(World& world, std::size_t kept) : world_(world), kept_(kept) { watch(); }
+
+FrameLog::~FrameLog() { ignore(); }
+
+void FrameLog::watch() {
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    framers_.push_back(std::make_unique<pty::CaptureFrames>(
+        i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); },
+        world_.line(i).protocol == Protocol::text));
+    world_.line(i).line.add_observer(*framers_.back());
+  }
+}
+
+void FrameLog::ignore() {
+  for (std::size_t i = 0; i < framers_.size(); ++i) world_.line(i).line.remove_observer(*framers_[i]);
+  framers_.clear();
+}
+
+void FrameLog::begin_anew() {
+  ignore();
+  frames_.clear();
+  watch();
+}
+
+void FrameLog::add(const pty::CapturedPacket& packet) {
+  // The oldest one's room is used again: this is done for every frame of a run.
+  Frame frame;
+  if (frames_.size() == kept_) {
+    frame = std::move(frames_.front());
+    frames_.pop_front();
+  }
+  frame.line = packet.line;
+  frame.way = packet.way;
+  frame.time = packet.time;
+  frame.bytes.assign(packet.bytes.begin(), packet.bytes.end());
+  frame.comment = pty::comment_of(packet);
+  frames_.push_back(std::move(frame));
+  ++next_number_;
+}
+
+const FrameLog::Frame* FrameLog::request_before(std::size_t reply) const {
+  for (std::size_t i = reply; i-- > 0;) {
+    if (frames_[i].line != frames_[reply].line || frames_[i].bytes.empty()) continue;
+    return frames_[i].way == pty::Way::from_host ? &frames_[i] : nullptr;
+  }
+  return nullptr;
+}
+
+FrameLog::Told FrameLog::told(std::size_t place) const {
+  const Frame& frame = frames_[place];
+  Told told{.number = next_number_ - frames_.size() + place,
+            .time = frame.time,
+            .line = world_.line(frame.line).line.name(),
+            .way = frame.way,
+            .text = {},
+            .remark = frame.comment};
+  if (frame.bytes.empty()) return told;  // only what a fault has done
+  if (frame.way == pty::Way::from_host) {
+    told.text = request_text(world_, frame.line, frame.bytes);
+    return told;
+  }
+  const Frame* const request = request_before(place);
+  const auto bytes = request == nullptr ? std::span<const std::uint8_t>() : request->bytes;
+  told.text = reply_text(world_, frame.line, bytes, frame.bytes);
+  return told;
+}
+
+std::vector<FrameLog::Told> FrameLog::since(std::uint64_t number, std::size_t most) const {
+  const std::uint64_t first = next_number_ - frames_.size();
+  std::vector<Told> all;
+  for (std::uint64_t next = std::max(number, first); next < next_number_ && all.size() < most; ++next) {
+    all.push_back(told(next - first));
+  }
+  return all;
+}
+
+std::vector<std::string> FrameLog::last(std::size_t most) {
+  for (const auto& framer : framers_) framer->finish();
+  std::vector<std::string> texts;
+  for (std::size_t i = frames_.size() - std::min(most, frames_.size()); i < frames_.size(); ++i) {
+    const Told frame = told(i);
+    std::string text = format_duration(frame.time) + " " + frame.line +
+                       (frame.way == pty::Way::from_host ? " -> " : " <- ") + frame.text;
+    if (!frame.remark.empty()) text += (frame.text.empty() ? "(" : "  (") + frame.remark + ")";
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,67 @@
+// Remembers the last frames that went over the lines of a world, to be told when something has failed, or
+// when somebody wants to look. They are read into words only when they are told.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/world/world.h"
+#include "pty/capture_frames.h"
+
+namespace understudy::emulator::world {
+
+class FrameLog {
+ public:
+  /// As many as `kept` are remembered. The world must outlive it.
+  explicit FrameLog(World& world, std::size_t kept = kKept);
+  ~FrameLog();
+  FrameLog(const FrameLog&) = delete;
+  FrameLog& operator=(const FrameLog&) = delete;
+
+  /// The last `most`, the oldest first: "3.0512s rs485 <- feeder.Cord_A = 32000".
+  std::vector<std::string> last(std::size_t most);
+
+  /// A frame in words. Frames are numbered in their order, from 1 on.
+  struct Told {
+    std::uint64_t number = 0;
+    SimTime time{0};
+    std::string line;
+    pty::Way way = pty::Way::from_host;
+    std::string text;
+    std::string remark;  // why it was dropped, and the like
+  };
+  /// At most `most` of those that are remembered, from that number on.
+  std::vector<Told> since(std::uint64_t number, std::size_t most) const;
+  /// Of the frame that comes next.
+  std::uint64_t next_number() const { return next_number_; }
+
+  /// The lines were put into another state: what they were just hearing is forgotten.
+  void begin_anew();
+
+ private:
+  // A reply is read by its request, which several other stations' frames may have followed.
+  static constexpr std::size_t kKept = 32;
+
+  struct Frame {
+    std::size_t line = 0;
+    pty::Way way = pty::Way::from_host;
+    SimTime time{0};
+    std::vector<std::uint8_t> bytes;
+    std::string comment{};
+  };
+  void watch();
+  void ignore();
+  void add(const pty::CapturedPacket& packet);
+  const Frame* request_before(std::size_t reply) const;
+  Told told(std::size_t place) const;
+
+  World& world_;
+  std::size_t kept_;
+  std::uint64_t next_number_ = 1;
+  std::deque<Frame> frames_;
+  std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line
+};
+
+}  // namespace understudy::emulator::world

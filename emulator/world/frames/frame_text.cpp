@@ -1,0 +1,163 @@
+#include "emulator/world/frames/frame_text.h"
+
+#include <array>
+#include <cstdio>
+#include <optional>
+
+#include "emulator/world/frames/text_lines_heard.h"
+#include "pty/rtu_crc.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+constexpr std::size_t kMostBytes = 32;
+constexpr std::size_t kMostRegisters = 8;
+constexpr std::uint8_t kException = 0x80;
+
+int word_at(std::span<const std::uint8_t> frame, std::size_t at) { return frame[at] << 8 | frame[at + 1]; }
+
+std::string number_of(int address) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "0x%04X", static_cast<unsigned>(address) & 0xFFFFU);
+  return text.data();
+}
+
+/// Null if no device on the line listens to that address.
+const Device* device_at(const World& world, std::size_t line, std::uint8_t address) {
+  for (const auto& station : world.line(line).stations) {
+    if (station->device().addressing(address) != Addressing::ignore) return &station->device();
+  }
+  return nullptr;
+}
+
+/// Consecutive words by the names of their registers, with what they hold where that is known.
+class WordsText {
+ public:
+  WordsText(const Device* device, int first, int count, std::span<const std::uint8_t> values)
+      : device_(device), first_(first), count_(count), values_(values) {}
+
+  std::string text() const {
+    std::string text;
+    std::size_t named = 0;
+    for (int i = 0; i < count_; ++named) {
+      if (named == kMostRegisters) return text + ", and " + std::to_string(count_ - i) + " words more";
+      text += (named == 0 ? "" : ", ") + next(i, named == 0);
+    }
+    return text;
+  }
+
+ private:
+  bool has_values() const { return !values_.empty(); }
+  int value_at(int i) const { return word_at(values_, 2 * static_cast<std::size_t>(i)); }
+
+  /// Of the register at word `i`, which is moved behind it. The first one says whose it is.
+  std::string next(int& i, bool is_first) const {
+    const int word = i++;
+    const Place place = device_ == nullptr ? Place{}
+                                           : device_->registers().at(
+                                                 Table::holding, static_cast<std::uint16_t>(first_ + word),
+                                                 device_->firmware(), device_->low_word_first());
+    if (!place) {
+      return number_of(first_ + word) + (has_values() ? " = " + std::to_string(value_at(word)) : "");
+    }
+    const RegisterRow& row = *place.row;
+    std::string name = (is_first ? device_->name() + "." : "") + RegisterMap::name_of(row, place.index);
+    const bool is_first_word = place.address() == first_ + word;
+    if (is_32_bit(row.type) && is_first_word && word + 1 < count_) {
+      ++i;
+      if (!has_values()) return name;
+      const auto first = static_cast<std::uint32_t>(value_at(word));
+      const auto second = static_cast<std::uint32_t>(value_at(word + 1));
+      const std::uint32_t bits = device_->low_word_first() ? first | second << 16 : second | first << 16;
+      return name + " = " + std::to_string(value_of(bits, row.type));
+    }
+    if (place.part != Place::Part::whole) {
+      name += place.part == Place::Part::low ? row.low_half : row.high_half;
+    }
+    if (!has_values()) return name;
+    const auto bits = static_cast<std::uint32_t>(value_at(word));
+    const Value value = place.part == Place::Part::whole ? value_of(bits, row.type) : Value{bits};
+    return name + " = " + std::to_string(value);
+  }
+
+  const Device* device_;
+  int first_;
+  int count_;
+  std::span<const std::uint8_t> values_;
+};
+
+/// Lines of text side by side, each in quotes.
+std::string quoted_text(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kMostCharacters = 200;
+  std::string text(bytes.begin(), bytes.end());
+  const bool is_cut = text.size() > kMostCharacters;
+  if (is_cut) text.resize(kMostCharacters);
+  if (text.starts_with('\n')) text.erase(0, 1);
+  return lines_text(lines_in(text).lines) + (is_cut ? " ..." : "");
+}
+
+bool is_read(std::uint8_t function) { return function == 0x03 || function == 0x04; }
+
+}  // namespace
+
+std::string hex_text(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size() && i < kMostBytes; ++i) {
+    std::array<char, 4> byte{};
+    std::snprintf(byte.data(), byte.size(), i == 0 ? "%02X" : " %02X", bytes[i]);
+    text += byte.data();
+  }
+  if (bytes.size() > kMostBytes) text += " ... (" + std::to_string(bytes.size()) + " bytes)";
+  return text;
+}
+
+std::string exception_text(int exception) {
+  constexpr std::array<const char*, 7> kNames{"",
+                                              "illegal function",
+                                              "illegal data address",
+                                              "illegal data value",
+                                              "device failure",
+                                              "acknowledge",
+                                              "device busy"};
+  const bool is_named = exception > 0 && exception < static_cast<int>(kNames.size());
+  return std::to_string(exception) +
+         (is_named ? std::string(" (") + kNames[static_cast<std::size_t>(exception)] + ")" : std::string());
+}
+
+std::string request_text(const World& world, std::size_t line, std::span<const std::uint8_t> request) {
+  if (world.line(line).protocol == Protocol::text) return quoted_text(request);
+  if (request.size() < 8 || !pty::rtu_crc_ok(request)) return hex_text(request);
+  const Device* const device = device_at(world, line, request[0]);
+  const std::string whom =
+      device == nullptr || request[0] == 0 ? "station " + std::to_string(request[0]) + ": " : std::string();
+  const int first = word_at(request, 2);
+  const std::size_t size = request.size();
+  if (is_read(request[1]) && size == 8) {
+    return whom + "read " + number_of(first) + " " + WordsText(device, first, word_at(request, 4), {}).text();
+  }
+  const bool is_single = request[1] == 0x06 && size == 8;
+  const bool is_several =
+      request[1] == 0x10 && size == 9U + request[6] && request[6] == 2 * word_at(request, 4);
+  if (!is_single && !is_several) return whom + hex_text(request);
+  const auto values = is_single ? request.subspan(4, 2) : request.subspan(7, request[6]);
+  return whom + "write " + number_of(first) + " " +
+         WordsText(device, first, static_cast<int>(values.size() / 2), values).text();
+}
+
+std::string reply_text(const World& world, std::size_t line, std::span<const std::uint8_t> request,
+                       std::span<const std::uint8_t> reply) {
+  if (world.line(line).protocol == Protocol::text) return quoted_text(reply);
+  if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
+  if ((reply[1] & kException) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
+  const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
+  if (is_read(reply[1]) && is_asked && reply[2] == 2 * word_at(request, 4) && reply.size() == 5U + reply[2]) {
+    return WordsText(device_at(world, line, reply[0]), word_at(request, 2), word_at(request, 4),
+                     reply.subspan(3, reply[2]))
+        .text();
+  }
+  if ((reply[1] == 0x06 || reply[1] == 0x10) && reply.size() == 8) return "done";
+  return hex_text(reply);
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,49 @@
+#include "emulator/world/names/level.h"
+
+#include "base/text/parse_integer.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+/// "2.5" volts as 2500: at most three digits behind the point.
+std::optional<std::int64_t> parse_volts(std::string_view text) {
+  const std::size_t point = text.find('.');
+  if (point == std::string_view::npos) {
+    const auto volts = parse_integer(text);
+    return volts && *volts >= 0 && *volts < 1'000'000 ? std::optional(*volts * 1000) : std::nullopt;
+  }
+  const std::string_view whole = text.substr(0, point);
+  const std::string_view part = text.substr(point + 1);
+  if (whole.empty() || part.empty() || part.size() > 3) return std::nullopt;
+  if (text.find_first_not_of("0123456789.") != std::string_view::npos) return std::nullopt;
+  const auto volts = parse_volts(whole);
+  if (!volts || part.find('.') != std::string_view::npos) return std::nullopt;
+  std::int64_t millivolts = 0;
+  for (std::size_t i = 0; i < 3; ++i) millivolts = millivolts * 10 + (i < part.size() ? part[i] - '0' : 0);
+  return *volts + millivolts;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind kind) {
+  if (kind == TerminalRow::Kind::analog_in) {
+    if (text.ends_with("mV")) return parse_integer(text.substr(0, text.size() - 2));
+    if (text.ends_with("V")) return parse_volts(text.substr(0, text.size() - 1));
+    return parse_integer(text);
+  }
+  if (kind == TerminalRow::Kind::analog_number) return parse_integer(text);
+  if (text == "on" || text == "true") return 1;
+  if (text == "off" || text == "false") return 0;
+  return parse_integer(text);
+}
+
+std::string_view level_example(TerminalRow::Kind kind) {
+  switch (kind) {
+    case TerminalRow::Kind::analog_in: return "a voltage such as 2.5V";
+    case TerminalRow::Kind::analog_number: return "a number";
+    default: return "on or off";
+  }
+}
+
+}  // namespace understudy::emulator::world

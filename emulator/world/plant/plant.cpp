@@ -1,0 +1,219 @@
+#include "emulator/world/plant/plant.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "base/state/state_error.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+/// Farther than the pulses of a century reach: where a machine without stops ends.
+constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
+
+/// How much of its turn the wheel has made: even over all of its ticks, however few the counts are.
+std::int64_t turned(const PlantAxis::State& state) {
+  __extension__ using Wide = __int128;
+  if (state.turn_ticks == 0) return 0;
+  const Wide gone = state.turn_ticks - state.ticks_to_turn;
+  return static_cast<std::int64_t>(Wide{state.turn_counts} * gone / state.turn_ticks);
+}
+
+}  // namespace
+
+void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
+  if (state_.faults.slipped_pulses != 0) {
+    shift(state_.faults.slipped_pulses);
+    state_.faults.slipped_pulses = 0;
+  }
+  turn_wheel();
+  // What moves in this tick is decided by the drive as it was at its beginning.
+  const std::int64_t steps = pulses_that_step(pulses);
+  state_.lost_pulses += std::abs(pulses - steps);
+  if (steps != 0) move(steps);
+  step_drive(tick, inputs);
+  find_quiet_places();
+}
+
+void PlantAxis::find_quiet_places() {
+  disturb();
+  const bool steps_all = state_.faults == MachineFaults{} && state_.loses_one_in == 0 && !in_alarm();
+  if (setup_.drive || setup_.has_wheel || state_.ticks_to_turn != 0 || !steps_all) return;
+  const std::int64_t at = state_.position_pulses;
+  const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
+  std::int64_t from = stops.first;
+  std::int64_t to = stops.last;
+  // Where a switch that is on stays on, or one that is off stays off.
+  const auto stay = [&](bool is_on, PulseSpan on) {
+    if (is_on) {
+      from = std::max(from, on.first);
+      to = std::min(to, on.last);
+    } else if (at < on.first) {
+      to = std::min(to, on.first - 1);
+    } else {
+      from = std::max(from, on.last + 1);
+    }
+  };
+  if (setup_.home) stay(state_.at_home, home_span());
+  if (setup_.lower_limit) stay(state_.at_lower_limit, {-kFarthest_pulses, lower_limit_end()});
+  if (setup_.upper_limit) stay(state_.at_upper_limit, {upper_limit_end(), kFarthest_pulses});
+  quiet_from_ = from;
+  quiet_to_ = to;
+}
+
+std::int64_t PlantAxis::pulses_that_step(std::int64_t pulses) {
+  if (state_.loses_one_in != state_.faults.loses_one_in) {
+    state_.loses_one_in = state_.faults.loses_one_in;
+    state_.pulses_to_lose = 0;
+  }
+  if (pulses == 0) return 0;
+  if (state_.faults.stalled || in_alarm()) return 0;
+  if (setup_.drive && !state_.ready) return 0;
+  const std::int64_t one_in = state_.faults.loses_one_in;
+  if (one_in == 0) return pulses;
+  const std::int64_t made = state_.pulses_to_lose + std::abs(pulses);
+  state_.pulses_to_lose = made % one_in;
+  const std::int64_t left = std::abs(pulses) - made / one_in;
+  return pulses < 0 ? -left : left;
+}
+
+void PlantAxis::step_drive(Tick tick, DriveInputs inputs) {
+  if (!setup_.drive) return;
+  state_.alarm_latched = state_.faults.alarm || (state_.alarm_latched && !inputs.alarm_clear);
+  const bool enabled = inputs.servo == setup_.drive->enabled_by && !in_alarm();
+  if (!enabled) {
+    state_.enabled_at = kNever;
+  } else if (state_.enabled_at == kNever) {
+    state_.enabled_at = tick;
+  }
+  state_.ready = enabled && tick - state_.enabled_at >= setup_.drive->ready_after;
+}
+
+Tick PlantAxis::next_active_tick(Tick done) const {
+  if (state_.faults.slipped_pulses != 0 || state_.ticks_to_turn != 0) return done + 1;
+  if (setup_.drive && state_.enabled_at != kNever && !state_.ready) {
+    return std::max(done + 1, state_.enabled_at + setup_.drive->ready_after);
+  }
+  return kNever;
+}
+
+void PlantAxis::turn(std::int64_t counts, Tick ticks) {
+  disturb();
+  // What is left of the turn before goes with the new one.
+  state_.turn_counts = state_.turn_counts - turned(state_) + counts;
+  state_.turn_ticks = state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
+}
+
+void PlantAxis::turn_wheel() {
+  if (state_.ticks_to_turn == 0) return;
+  const std::int64_t before = turned(state_);
+  --state_.ticks_to_turn;
+  state_.wheel_counts += turned(state_) - before;
+  if (state_.ticks_to_turn == 0) state_.turn_counts = state_.turn_ticks = 0;
+}
+
+bool PlantAxis::has_contact(Contact which) const {
+  switch (which) {
+    case Contact::home: return setup_.home.has_value();
+    case Contact::lower_limit: return setup_.lower_limit.has_value();
+    case Contact::upper_limit: return setup_.upper_limit.has_value();
+    case Contact::alarm:
+    case Contact::ready: return setup_.drive.has_value();
+  }
+  return false;
+}
+
+bool PlantAxis::contact(Contact which) const {
+  if (which == Contact::alarm) return in_alarm() != (setup_.drive && setup_.drive->alarm_opens);
+  if (!has_contact(which)) return false;
+  switch (which) {
+    case Contact::home: return at_home() != setup_.home_opens;
+    case Contact::lower_limit: return at_lower_limit() != setup_.limits_open;
+    case Contact::upper_limit: return at_upper_limit() != setup_.limits_open;
+    default: return ready();
+  }
+}
+
+void PlantAxis::move(std::int64_t steps) {
+  disturb();
+  state_.lost_pulses += std::abs(steps - shift(steps));
+}
+
+std::int64_t PlantAxis::shift(std::int64_t steps) {
+  const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
+  const std::int64_t before = state_.position_pulses;
+  state_.position_pulses = std::clamp(before + steps, stops.first, stops.last);
+  move_switches();
+  return state_.position_pulses - before;
+}
+
+void PlantAxis::move_switches() {
+  const std::int64_t at = state_.position_pulses;
+  if (setup_.home) {
+    const PulseSpan on = home_span();
+    state_.at_home = at >= on.first && at <= on.last;
+  }
+  if (setup_.lower_limit) state_.at_lower_limit = at <= lower_limit_end();
+  if (setup_.upper_limit) state_.at_upper_limit = at >= upper_limit_end();
+}
+
+PulseSpan PlantAxis::home_span() const {
+  const std::int64_t wider = state_.at_home ? setup_.home_hysteresis_pulses : 0;
+  return {setup_.home->first - wider, setup_.home->last + wider};
+}
+
+std::int64_t PlantAxis::lower_limit_end() const {
+  return *setup_.lower_limit + (state_.at_lower_limit ? setup_.limit_hysteresis_pulses : 0);
+}
+
+std::int64_t PlantAxis::upper_limit_end() const {
+  return *setup_.upper_limit - (state_.at_upper_limit ? setup_.limit_hysteresis_pulses : 0);
+}
+
+void PlantAxis::check(const State& state) {
+  demand_within(state.position_pulses, -kFarthest_pulses, kFarthest_pulses);
+  for (const std::int64_t pulses :
+       {state.lost_pulses, state.pulses_to_lose, state.loses_one_in, state.faults.loses_one_in}) {
+    demand_state(pulses >= 0, "a machine cannot lose less than nothing");
+    demand_reach(pulses);
+  }
+  demand_reach(state.faults.slipped_pulses);
+  demand_reach(state.wheel_counts);
+  demand_reach(state.turn_counts);
+  demand_reach(state.turn_ticks);
+  demand_state(state.ticks_to_turn >= 0, "a wheel has less than no time to turn");
+  demand_state(state.ticks_to_turn <= state.turn_ticks, "a wheel has more time to turn than its turn takes");
+  demand_reach(state.faults.encoder_noise_counts);
+  if (state.enabled_at != kNever) demand_reach(state.enabled_at);
+}
+
+void PlantAxis::restore(const State& state) {
+  check(state);
+  state_ = state;
+  disturb();
+}
+
+std::uint64_t PlantAxis::Encoder::wide_counts_at(std::int64_t position_pulses) const {
+  // Whole revolutions and the rest of one, so that nothing overflows but the count itself.
+  const std::int64_t at = position_pulses - pulses_at_0;
+  const std::int64_t per_revolution = pulses_per_revolution;
+  const std::int64_t revolutions = at / per_revolution - (at % per_revolution < 0 ? 1 : 0);
+  const std::int64_t rest = at - revolutions * per_revolution;
+  const auto counts_each = static_cast<std::uint64_t>(counts_per_revolution);
+  const std::uint64_t counts =
+      static_cast<std::uint64_t>(revolutions) * counts_each +
+      static_cast<std::uint64_t>(rest) * counts_each / static_cast<std::uint64_t>(per_revolution);
+  return reversed ? 0 - counts : counts;
+}
+
+std::int64_t PlantAxis::encoder_counts() const {
+  std::uint64_t counts = encoder_.wide_counts_at(state_.position_pulses);
+  if (setup_.has_wheel) {
+    counts = static_cast<std::uint64_t>(state_.wheel_counts);
+    if (encoder_.reversed) counts = 0 - counts;
+  }
+  return Encoder::in_62_bits(counts + static_cast<std::uint64_t>(state_.faults.encoder_noise_counts));
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,70 @@
+#include "emulator/world/recording/event_text.h"
+
+#include <array>
+#include <cstdio>
+
+#include "base/text/one_line.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using What = RecordedEvent::What;
+
+/// "Aaxis_Speed=200"
+std::string write_text(const PreparedWrite& write, const Device& device) {
+  const bool low_word_first = device.low_word_first();
+  const Place place = device.registers().at(write.table, write.first, device.firmware(), low_word_first);
+  std::uint32_t bits = write.words[0];
+  if (write.count == 2) {
+    bits = low_word_first ? bits | std::uint32_t{write.words[1]} << 16 : bits << 16 | write.words[1];
+  }
+  if (place && (write.count == 2 || place.part == Place::Part::whole)) {
+    return RegisterMap::name_of(*place.row, place.index) + "=" +
+           std::to_string(value_of(bits, place.row->type));
+  }
+  std::array<char, 8> address{};
+  std::snprintf(address.data(), address.size(), "0x%04X", write.first);
+  return address.data() + ("=" + std::to_string(bits));
+}
+
+std::string settings_text(const std::optional<pty::HostSettings>& settings) {
+  if (!settings) return "as the line has it";
+  return std::to_string(settings->baud) + " baud, " + std::to_string(settings->stop_bits) + " stop bit" +
+         (settings->stop_bits == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string text_of(const RecordedEvent& event, const World& world) {
+  const auto line = [&] { return world.line(event.where).line.name(); };
+  const auto device = [&] { return world.known()[event.where].name; };
+  switch (event.what) {
+    case What::opened: return "a host opens " + line();
+    case What::closed: return "the host closes " + line();
+    case What::settings: return "the host sets " + line() + ": " + settings_text(event.host);
+    case What::input: {
+      const auto& terminals = world.known()[event.where].model->terminals;
+      const auto& terminal = terminals[static_cast<std::size_t>(event.place)];
+      return "input " + device() + "." + std::string(terminal.name) + "=" + std::to_string(event.value);
+    }
+    case What::power: return "power " + device() + (event.value != 0 ? " on" : " off");
+    case What::inject: return "inject " + to_text(world.known(), event.fault);
+    case What::clear: return "clear " + std::to_string(event.value);
+    case What::write: return "set " + device() + "." + write_text(event.write, world.device(event.where));
+    case What::assign: {
+      std::array<char, 32> value{};
+      std::snprintf(value.data(), value.size(), "%.9g", event.real);
+      return "set " + device() + "." + one_line(event.text) + "=" + value.data();
+    }
+    case What::program: return "program " + device();
+    case What::bytes:
+    case What::departed:
+    case What::nothing_more:
+    case What::said:
+    case What::end: break;
+  }
+  return "";
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,108 @@
+#include "emulator/world/recording/recorder.h"
+
+#include "pty/line_observer.h"
+
+namespace understudy::emulator::world {
+
+using What = RecordedEvent::What;
+
+/// Hears one line.
+class Recorder::LineEar final : public pty::LineObserver {
+ public:
+  LineEar(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
+    line().add_observer(*this);
+  }
+  ~LineEar() override { line().remove_observer(*this); }
+  LineEar(const LineEar&) = delete;
+  LineEar& operator=(const LineEar&) = delete;
+
+  void on_start_bit(SimTime) override {}
+  void on_character(const pty::TimedByte&, bool) override {}
+  void on_nothing_more() override { note(What::nothing_more); }
+  void on_receive(std::span<const std::uint8_t> bytes, bool is_departed) override {
+    if (!bytes.empty()) note(is_departed ? What::departed : What::bytes, bytes);
+  }
+  void on_host_opened() override {
+    settings_.reset();
+    are_settings_known_ = false;
+    note(What::opened);
+  }
+  void on_host_closed() override { note(What::closed); }
+  void on_host_settings(const std::optional<pty::HostSettings>& settings) override {
+    // Told again with every lump of bytes.
+    if (are_settings_known_ && settings == settings_) return;
+    are_settings_known_ = true;
+    settings_ = settings;
+    RecordedEvent event{.what = What::settings, .where = number_};
+    event.host = settings;
+    recorder_.take(std::move(event));
+  }
+  void on_speech(const pty::Speech& speech) override { note(What::said, speech.bytes); }
+  std::optional<SimTime> due() const override { return std::nullopt; }
+  void run(SimTime) override {}
+
+ private:
+  pty::Line& line() { return recorder_.world_.line(number_).line; }
+  void note(What what, std::span<const std::uint8_t> bytes = {}) {
+    RecordedEvent event{.what = what, .where = number_};
+    event.bytes.assign(bytes.begin(), bytes.end());
+    recorder_.take(std::move(event));
+  }
+
+  Recorder& recorder_;
+  std::size_t number_;
+  std::optional<pty::HostSettings> settings_;
+  bool are_settings_known_ = false;
+};
+
+Recorder::Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view)> take)
+    : world_(world), take_(std::move(take)) {
+  take_(to_line(header) + "\n");
+  for (std::size_t i = 0; i < world.line_count(); ++i) ears_.push_back(std::make_unique<LineEar>(*this, i));
+  world_.set_listener(this);
+}
+
+Recorder::~Recorder() {
+  finish();
+  world_.set_listener(nullptr);
+}
+
+void Recorder::finish() {
+  if (is_finished_) return;
+  take({.what = What::end});
+  is_finished_ = true;
+}
+
+void Recorder::take(RecordedEvent event) {
+  if (is_finished_) return;
+  event.at = world_.now();
+  take_(to_line(event, world_.known()) + "\n");
+}
+
+void Recorder::on_input(std::size_t device, int terminal, std::int32_t level) {
+  take({.what = What::input, .where = device, .place = terminal, .value = level});
+}
+
+void Recorder::on_power(std::size_t device, bool on) {
+  take({.what = What::power, .where = device, .value = on ? 1 : 0});
+}
+
+void Recorder::on_inject(const Fault& fault) { take({.what = What::inject, .fault = fault}); }
+
+void Recorder::on_clear_fault(std::size_t number) {
+  take({.what = What::clear, .value = static_cast<std::int64_t>(number)});
+}
+
+void Recorder::on_write(std::size_t device, const PreparedWrite& write) {
+  take({.what = What::write, .where = device, .write = write});
+}
+
+void Recorder::on_assign(std::size_t device, std::string_view name, double value) {
+  take({.what = What::assign, .where = device, .text = std::string(name), .real = value});
+}
+
+void Recorder::on_program(std::size_t device, std::string_view text) {
+  take({.what = What::program, .where = device, .text = std::string(text)});
+}
+
+}  // namespace understudy::emulator::world

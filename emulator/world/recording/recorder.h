@@ -1,0 +1,43 @@
+// Writes down what reaches a world from outside and what its stations say.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/world/recording/recording.h"
+
+namespace understudy::emulator::world {
+
+class Recorder final : private OutsideListener {
+ public:
+  /// Begins now: `take` gets the header's line, then one for each event, each with its end. The world must
+  /// outlive it.
+  Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Writes that the recording ends at this moment, once.
+  void finish();
+
+ private:
+  class LineEar;
+  void take(RecordedEvent event);
+
+  void on_input(std::size_t device, int terminal, std::int32_t level) override;
+  void on_power(std::size_t device, bool on) override;
+  void on_inject(const Fault& fault) override;
+  void on_clear_fault(std::size_t number) override;
+  void on_write(std::size_t device, const PreparedWrite& write) override;
+  void on_assign(std::size_t device, std::string_view name, double value) override;
+  void on_program(std::size_t device, std::string_view text) override;
+
+  World& world_;
+  std::function<void(std::string_view)> take_;
+  std::vector<std::unique_ptr<LineEar>> ears_;
+  bool is_finished_ = false;
+};
+
+}  // namespace understudy::emulator::world

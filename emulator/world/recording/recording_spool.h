@@ -1,0 +1,45 @@
+// The recording of a daemon that may run for months: a file that grows, and begins again from a snapshot when
+// it has grown too large. The one before it stays beside it as FILE.1, so the last `cap_bytes` of history are
+// always there.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "base/files/growing_file.h"
+#include "emulator/world/recording/recorder.h"
+
+namespace understudy::emulator::world {
+
+inline constexpr std::size_t kRecordingCapBytes = std::size_t{64} << 20;
+/// What the name of the one before it ends in.
+inline constexpr const char* kOlderPart = ".1";
+
+class RecordingSpool {
+ public:
+  /// Begins the file. The world must outlive it. Throws GrowingFileError.
+  RecordingSpool(World& world, RecordingHeader header, std::unique_ptr<GrowingFile> file,
+                 std::size_t cap_bytes, std::function<void(const std::string&)> log);
+  ~RecordingSpool();
+  RecordingSpool(const RecordingSpool&) = delete;
+  RecordingSpool& operator=(const RecordingSpool&) = delete;
+
+  /// Begins again if it is time to. Between two looks at the world, not from within World::advance_to().
+  void look();
+
+ private:
+  void begin();
+  void put_aside();
+
+  World& world_;
+  RecordingHeader header_;
+  std::size_t cap_bytes_;
+  std::function<void(const std::string&)> log_;
+  std::size_t bytes_ = 0;
+  std::unique_ptr<GrowingFile> before_;  // its thread may still be writing
+  std::unique_ptr<GrowingFile> file_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,185 @@
+#include "emulator/world/recording/replay.h"
+
+#include <deque>
+#include <memory>
+
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/snapshot_file.h"
+#include "pty/line_observer.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using What = RecordedEvent::What;
+
+/// What stations say again, until it is compared.
+class Speeches {
+ public:
+  struct Speech {
+    std::size_t line = 0;
+    SimTime at{0};
+    std::vector<std::uint8_t> bytes;
+  };
+
+  explicit Speeches(World& world) : world_(world) {
+    for (std::size_t i = 0; i < world.line_count(); ++i) {
+      ears_.push_back(std::make_unique<Ear>(*this, i));
+      world.line(i).line.add_observer(*ears_.back());
+    }
+  }
+  ~Speeches() {
+    for (std::size_t i = 0; i < ears_.size(); ++i) world_.line(i).line.remove_observer(*ears_[i]);
+  }
+  Speeches(const Speeches&) = delete;
+  Speeches& operator=(const Speeches&) = delete;
+
+  std::deque<Speech>& waiting() { return waiting_; }
+
+ private:
+  class Ear final : public pty::LineObserver {
+   public:
+    Ear(Speeches& all, std::size_t line) : all_(all), line_(line) {}
+    void on_start_bit(SimTime) override {}
+    void on_character(const pty::TimedByte&, bool) override {}
+    void on_nothing_more() override {}
+    void on_speech(const pty::Speech& speech) override {
+      all_.waiting_.push_back(
+          {.line = line_, .at = all_.world_.now(), .bytes = {speech.bytes.begin(), speech.bytes.end()}});
+    }
+    std::optional<SimTime> due() const override { return std::nullopt; }
+    void run(SimTime) override {}
+
+   private:
+    Speeches& all_;
+    std::size_t line_;
+  };
+
+  World& world_;
+  std::vector<std::unique_ptr<Ear>> ears_;
+  std::deque<Speech> waiting_;
+};
+
+std::string hex_of(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string text;
+  for (const std::uint8_t byte : bytes) {
+    if (!text.empty()) text += ' ';
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
+std::string text_of(const World& world, std::size_t line, SimTime at,
+                    const std::vector<std::uint8_t>& bytes) {
+  return hex_of(bytes) + " on " + world.line(line).line.name() + " at " + format_duration(at);
+}
+
+/// Empty if it is as recorded; else which byte differs first.
+std::string compare(const World& world, Speeches& speeches, const RecordedEvent& recorded,
+                    std::uint64_t bytes_before) {
+  const std::string expected = text_of(world, recorded.where, recorded.at, recorded.bytes);
+  if (speeches.waiting().empty()) return "expected " + expected + "; nothing was said";
+  const Speeches::Speech said = speeches.waiting().front();
+  speeches.waiting().pop_front();
+  const std::string came = text_of(world, said.line, said.at, said.bytes);
+  std::size_t same = 0;
+  while (same < said.bytes.size() && same < recorded.bytes.size() &&
+         said.bytes[same] == recorded.bytes[same]) {
+    ++same;
+  }
+  if (said.bytes != recorded.bytes) {
+    return "byte " + std::to_string(bytes_before + same + 1) + ": expected " + expected + "; said was " +
+           came;
+  }
+  if (said.line != recorded.where || said.at != recorded.at) {
+    return "expected " + expected + "; said was " + came;
+  }
+  return {};
+}
+
+}  // namespace
+
+Replayed replay(ModelList models, std::istream& recording, const std::string& name,
+                std::optional<SimTime> until, const ReplayWatcherMaker& watch,
+                const std::function<void(World&)>& done) {
+  std::size_t line_number = 1;
+  const auto fail = [&](const std::string& what) {
+    return RecordingError(name + ":" + std::to_string(line_number) + ": " + what);
+  };
+  std::string line;
+  if (!std::getline(recording, line)) throw fail("recording: is empty or cannot be read; expected a header");
+  Replayed replayed;
+  ReplayResult& result = replayed.result;
+  try {
+    replayed.header = parse_header(line);
+    replayed.bench = parse_recorded_bench(models, replayed.header.bench);
+  } catch (const RecordingError& error) {
+    throw fail(error.what());
+  } catch (const BenchError& error) {
+    throw fail("bench: " + error.complaints().front().text);
+  }
+  World world(replayed.bench, replayed.header.options, {});
+  if (!replayed.header.snapshot.empty()) {
+    try {
+      restore(world, parse_snapshot(replayed.header.snapshot, bench_hash(replayed.bench)));
+    } catch (const SnapshotError& error) {
+      throw fail(std::string("snapshot: ") + error.what());
+    } catch (const StateError& error) {
+      throw fail(std::string("snapshot: ") + error.what());
+    }
+  }
+  const std::unique_ptr<ReplayWatcher> watcher = watch ? watch(world) : nullptr;
+  Speeches speeches(world);
+  const auto expect_silence = [&] {
+    if (speeches.waiting().empty()) return;
+    const Speeches::Speech& said = speeches.waiting().front();
+    result.difference = "said was " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
+  };
+  while (result.difference.empty() && !result.has_end && std::getline(recording, line)) {
+    ++line_number;
+    if (recording.eof()) break;  // torn: without its end, as the writer was killed in it
+    RecordedEvent event;
+    try {
+      event = parse_event(line, world.known(), world.line_count());
+    } catch (const RecordingError& error) {
+      throw fail(error.what());
+    }
+    if (event.at < world.now()) throw fail("t: goes back in time; expected the events in their order");
+    if (until && event.at > *until) break;
+    world.advance_to(event.at);
+    ++result.events;
+    if (event.what == What::said) {
+      result.difference = compare(world, speeches, event, result.bytes_said);
+      result.bytes_said += event.bytes.size();
+      continue;
+    }
+    // All that was due was said before the next thing came from outside.
+    expect_silence();
+    result.has_end = event.what == What::end;
+    if (watcher && result.difference.empty()) watcher->happened(event, line_number);
+    try {
+      if (result.difference.empty()) apply(world, event);
+    } catch (const std::runtime_error& error) {
+      throw fail(error.what());
+    }
+  }
+  if (result.has_end && std::getline(recording, line)) {
+    ++line_number;
+    throw fail("line: stands behind the end; expected nothing more");
+  }
+  const bool is_stopped = until && result.difference.empty();
+  if (is_stopped && !result.has_end) world.advance_to(*until);
+  result.reached = world.now();
+  if (!result.difference.empty()) {
+    result.verdict = ReplayResult::Verdict::different;
+  } else if (is_stopped) {
+    result.verdict = ReplayResult::Verdict::stopped;
+  }
+  if (watcher) watcher->ended();
+  if (done) done(world);
+  return replayed;
+}
+
+}  // namespace understudy::emulator::world

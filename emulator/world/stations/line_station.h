@@ -1,0 +1,56 @@
+// A device's presence on a line, whatever is spoken there: what a world does with it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "emulator/device/device.h"
+#include "emulator/world/stations/frame_faults.h"
+#include "pty/station.h"
+
+namespace understudy::emulator::world {
+
+struct StationCounters {
+  std::uint64_t requests = 0;  // for this station: frames, broadcasts included, or lines
+  std::uint64_t replies = 0;
+  std::uint64_t exceptions = 0;  // of the replies
+};
+
+class LineStation : public pty::Station {
+ public:
+  pty::LineSettings settings() const final { return device_.line_settings(); }
+
+  /// What it was hearing, and what it has still to say, is forgotten.
+  virtual void reset() = 0;
+
+  /// Where something is broken that frames meet; null: nothing is. The device's number is told with each
+  /// frame.
+  void set_faults(FrameFaults* faults, std::size_t device) {
+    faults_ = faults;
+    device_number_ = device;
+  }
+
+  /// The device may have come to speak unasked. True if it has something to say: then due() has changed.
+  virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
+
+  const Device& device() const { return device_; }
+  const StationCounters& counters() const { return counters_; }
+  /// Those that were heard and made nothing of.
+  virtual std::uint64_t dropped_bytes() const = 0;
+
+  // --- its state: what it hears and has counted; the device's is its own ---------------------------
+  virtual void write_state(StateWriter& writer) const = 0;
+  /// Reads it, and gives what puts it in force, which throws nothing. Throws StateError or
+  /// std::invalid_argument for what this station cannot be.
+  virtual std::function<void()> read_state(StateReader& reader) = 0;
+
+ protected:
+  explicit LineStation(Device& device) : device_(device) {}
+
+  Device& device_;
+  StationCounters counters_;
+  FrameFaults* faults_ = nullptr;
+  std::size_t device_number_ = 0;
+};
+
+}  // namespace understudy::emulator::world

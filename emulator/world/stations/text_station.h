@@ -1,0 +1,103 @@
+// A device that is spoken to in lines of text, on its line: makes lines of characters, hands them to the
+// device, and sends what it has said: an answer to a line, or something unasked.
+//
+// A device with flow control is held by the host's XOFF until its XON comes, or the power goes: it hears, but
+// what it has said waits, and what it says unasked stays with it. It sends none of its own.
+//
+// Long texts go out in pieces, as fast as the wire carries them, so that no line's buffer overflows. While
+// the wire is busy with its text, what the device says unasked stays with the device.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/device/text/text_speaker.h"
+#include "emulator/world/stations/line_station.h"
+#include "pty/text_lines.h"
+
+namespace understudy::emulator::world {
+
+class TextStation final : public LineStation {
+ public:
+  /// Characters that are given to the line at once.
+  static constexpr std::size_t kPiece = 1024;
+  /// The same where the host may hold it: what has been given cannot be held any more.
+  static constexpr std::size_t kPieceThatCanBeHeld = 1;
+  /// Beyond that many characters it takes no more from the device, until some have gone.
+  static constexpr std::size_t kMostOutgoing = 64 * 1024;
+  /// Lines and answers that are late; what is more is lost.
+  static constexpr std::size_t kMostLate = 256;
+
+  /// `is_instant`: the line's characters take no time. The device must have a speaker.
+  TextStation(Device& device, bool is_instant);
+
+  void hear(const pty::TimedByte& byte) override;
+  void hear_other_station() override {}  // there is none
+  std::optional<pty::SimTime> due() const override;
+  void run(pty::SimTime now, pty::Transmitter& out) override;
+
+  void reset() override;
+  bool look_for_speech(pty::SimTime now) override;
+  std::uint64_t dropped_bytes() const override { return lines_.dropped_bytes(); }
+  void write_state(StateWriter& writer) const override;
+  std::function<void()> read_state(StateReader& reader) override;
+
+  /// What has been heard and is still to be carried out: at its time, within the event that brought it.
+  struct Waiting {
+    bool has_heard = false;  // false: the character is only echoed
+    pty::HeardText heard;
+    std::string echo{};
+  };
+  /// What a fault has made late.
+  struct Late {
+    pty::SimTime at{0};
+    bool is_reply = false;  // else characters to the device
+    std::uint64_t last_character = 0;
+    std::string text{};
+  };
+  struct Outgoing {
+    std::uint64_t last_character = 0;  // of the line that it answers; 0: it is said unasked
+    std::string text{};
+  };
+  struct State {
+    pty::TextLines::State lines;
+    StationCounters counters;
+    std::vector<Waiting> waiting{};  // one at most
+    std::vector<Late> late{};        // in the order of time
+    std::vector<Outgoing> outgoing{};
+    pty::SimTime free_at{0};                  // the wire has carried what it was given
+    std::optional<pty::SimTime> speaks_at{};  // what the device says unasked is taken
+    bool is_held = false;                     // by the host's XOFF
+  };
+  State save() const;
+  /// Throws std::invalid_argument for what this station cannot be.
+  void check(const State& state) const;
+  /// The same, and nothing has changed then.
+  void restore(const State& state);
+
+ private:
+  void echo(const Waiting& waiting, pty::Transmitter& out);
+  void carry_out(const pty::HeardText& heard, pty::SimTime now);
+  void serve(const pty::HeardText& heard, pty::SimTime now);
+  void answer(std::string text, const pty::HeardText& heard, pty::SimTime now);
+  void serve_garbled(const std::string& text, std::uint64_t last_character, pty::SimTime now);
+  void keep_late(Late message);
+  void run_late(pty::SimTime now);
+  void send(pty::SimTime now, pty::Transmitter& out);
+  std::size_t outgoing_size() const;
+  HeardFrame frame_of(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                      pty::SimTime now) const;
+
+  TextSpeaker& speaker_;
+  bool is_instant_;
+  pty::TextLines lines_;
+  std::vector<Waiting> waiting_;
+  std::vector<Late> late_;
+  std::vector<Outgoing> outgoing_;
+  pty::SimTime free_at_{0};
+  std::optional<pty::SimTime> speaks_at_;
+  bool is_held_ = false;
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,39 @@
+// JSON without what its library lets pass: of two equal keys it keeps the last, without a word, and it
+// follows brackets as deep as there is memory. Only files that read JSON include this: the library is slow to
+// compile.
+#pragma once
+
+#include <climits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace understudy::emulator::world {
+
+/// Text that is nested deeper than anything we write.
+struct TooDeepJson : std::runtime_error {
+  TooDeepJson() : std::runtime_error("is nested deeper than anything that is written") {}
+};
+
+/// Throws what `twice` makes of a key that is there twice in one object, TooDeepJson where more than
+/// `deepest` objects and lists are open, and nlohmann's own exceptions for what is no JSON.
+template <typename Json, typename Twice>
+Json parse_strict_json(std::string_view text, const Twice& twice, int deepest = INT_MAX) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  return Json::parse(text, [&](int depth, typename Json::parse_event_t event, Json& parsed) {
+    const bool opens =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if (opens && depth >= deepest) throw TooDeepJson();
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event != Json::parse_event_t::key) return true;
+    const auto& key = parsed.template get_ref<const std::string&>();
+    if (!keys.back().insert(key).second) throw twice(key);
+    return true;
+  });
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,95 @@
+#include "emulator/world/trace/trace.h"
+
+#include <algorithm>
+#include <array>
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using Kind = TraceSignal::Kind;
+
+void add_axis(const std::string& axis, bool has_duty, std::vector<TraceSignal>& signals) {
+  for (const auto& [word, kind] :
+       {std::pair{"pulses", Kind::whole}, std::pair{"speed", Kind::real}, std::pair{"position", Kind::whole},
+        std::pair{"home", Kind::bit}, std::pair{"lower_limit", Kind::bit},
+        std::pair{"upper_limit", Kind::bit}}) {
+    signals.push_back({.name = axis + "." + word, .kind = kind});
+  }
+  if (has_duty) signals.push_back({.name = axis + ".pwm", .kind = Kind::whole});
+}
+
+}  // namespace
+
+std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also) {
+  std::vector<TraceSignal> signals;
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    const KnownDevice& device = world.known()[d];
+    for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
+      if (!world.device(d).has_axis(static_cast<int>(a))) continue;
+      add_axis(device.name + "." + std::string(device.model->axes[a].name),
+               world.device(d).duty_percent(static_cast<int>(a)).has_value(), signals);
+    }
+    for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
+      const TerminalRow& row = device.model->terminals[t];
+      if (row.kind == TerminalRow::Kind::dip_switch) continue;
+      if (!world.device(d).has_terminal(static_cast<int>(t))) continue;
+      const bool is_bit = !is_analog(row.kind);
+      signals.push_back(
+          {.name = device.name + "." + std::string(row.name), .kind = is_bit ? Kind::bit : Kind::whole});
+    }
+    const Kind kind = device.model->protocol() == Protocol::text ? Kind::real : Kind::whole;
+    for (const std::string_view name : device.model->state_registers) {
+      signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
+    }
+    if (!world.device(d).pulse_formats().empty())
+      signals.push_back({.name = device.name + ".pulse_format", .kind = Kind::whole});
+    signals.push_back({.name = device.name + ".power", .kind = Kind::bit});
+  }
+  const Probes probes(world);
+  for (const std::string& name : also) {
+    const NamedNumber number = probes.resolve(name);
+    const bool is_there = std::any_of(signals.begin(), signals.end(),
+                                      [&](const TraceSignal& signal) { return signal.name == name; });
+    if (is_there) continue;
+    signals.push_back(
+        {.name = name, .kind = probes.value(number.handle).is_whole() ? Kind::whole : Kind::real});
+  }
+  return signals;
+}
+
+Trace::Trace(World& world, std::vector<TraceSignal> signals, std::unique_ptr<TraceFormat> format)
+    : world_(world),
+      probes_(world),
+      values_(signals.size()),
+      is_new_(signals.size()),
+      format_(std::move(format)) {
+  for (const TraceSignal& signal : signals) handles_.push_back(probes_.resolve(signal.name).handle);
+  format_->begin(signals);
+  look(world_.now());
+  world_.add_watcher(*this);
+}
+
+Trace::~Trace() {
+  world_.remove_watcher(*this);
+  if (tick_at(world_.now()) > last_row_) format_->end(world_.now(), values_);
+}
+
+void Trace::on_tick(Tick tick) { look(time_of(tick)); }
+
+void Trace::look(SimTime at) {
+  bool anything = false;
+  for (std::size_t i = 0; i < handles_.size(); ++i) {
+    const Number value = probes_.value(handles_[i]);
+    is_new_[i] = !has_begun_ || value != values_[i];
+    if (!is_new_[i]) continue;
+    values_[i] = value;
+    anything = true;
+  }
+  has_begun_ = true;
+  if (!anything) return;
+  format_->row(at, values_, is_new_);
+  last_row_ = tick_at(at);
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,66 @@
+// Traces: what can be seen of a world, at every tick at which something of it changed. As CSV for
+// spreadsheets and `understudy plot`, as VCD for GTKWave.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+/// One column.
+struct TraceSignal {
+  std::string name;  // as probes.h has it: "feeder.A.position"
+  enum class Kind : std::uint8_t { whole, real, bit } kind = Kind::whole;
+};
+
+/// Where the lines of a format go.
+using TakeLine = std::function<void(std::string_view lines)>;
+
+class TraceFormat {
+ public:
+  virtual ~TraceFormat() = default;
+  virtual void begin(const std::vector<TraceSignal>& signals) = 0;
+  /// Values in the order of the signals; `is_new[i]` where one has changed since the last call, and all at
+  /// first.
+  virtual void row(SimTime at, const std::vector<Number>& values, const std::vector<bool>& is_new) = 0;
+  /// Nothing has changed since the last row, and nothing more will come.
+  virtual void end(SimTime at, const std::vector<Number>& values) = 0;
+};
+
+std::unique_ptr<TraceFormat> csv_format(TakeLine take);
+std::unique_ptr<TraceFormat> vcd_format(TakeLine take);
+
+/// Of each device: for each axis its pulses, planned speed, the machine's position and switches, its duty;
+/// inputs, outputs, and the registers that show its state. Then what else is asked for, as probes.h names it
+/// (NameError).
+std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also);
+
+/// Watches the world for as long as it lives.
+class Trace final : private TickWatcher {
+ public:
+  Trace(World& world, std::vector<TraceSignal> signals, std::unique_ptr<TraceFormat> format);
+  ~Trace();
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+
+ private:
+  void on_tick(Tick tick) override;
+  void look(SimTime at);
+
+  World& world_;
+  Probes probes_;
+  std::vector<std::int32_t> handles_;
+  std::vector<Number> values_;
+  std::vector<bool> is_new_;
+  bool has_begun_ = false;
+  Tick last_row_ = 0;
+  std::unique_ptr<TraceFormat> format_;
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,52 @@
+// What can be looked at in a world: devices, lines, machines, time. Whoever looks (probes, peaks) knows no
+// more of a world than this; looking changes nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/stations/line_station.h"
+#include "pty/line.h"
+#include "pty/rtu_framer.h"
+
+namespace understudy::emulator::world {
+
+/// A line with those who stand on it.
+struct WorldLine {
+  pty::Line line;
+  std::vector<std::unique_ptr<LineStation>> stations;
+  pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
+  Protocol protocol = Protocol::modbus_rtu;
+};
+
+class WorldView {
+ public:
+  virtual SimTime now() const = 0;
+  virtual std::size_t line_count() const = 0;
+  virtual const WorldLine& line(std::size_t number) const = 0;
+  virtual std::size_t device_count() const = 0;
+  virtual const Device& device(std::size_t number) const = 0;
+  /// For finding things by name.
+  virtual const KnownDevices& known() const = 0;
+  virtual const PlantAxis& plant(std::size_t device, int axis) const = 0;
+  /// All pulses since the world began, in the motor's sense.
+  virtual std::int64_t sent_pulses(std::size_t device, int axis) const = 0;
+
+ protected:
+  ~WorldView() = default;
+};
+
+/// Sees every tick, quiet or not, when all of it is over. May act on the world as the outside does.
+class TickWatcher {
+ public:
+  virtual ~TickWatcher() = default;
+  virtual void on_tick(Tick tick) = 0;
+};
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,165 @@
+// Requests of several words, effects, and the policies that models differ in.
+#include <gtest/gtest.h>
+
+#include "emulator/world/stations/server.h"
+#include "tests/emulator/device/register_map/toy_device.h"
+#include "tests/emulator/world/stations/pdus.h"
+
+namespace understudy::emulator {
+namespace {
+
+using Events = std::vector<std::string>;
+
+Refusal write(Toy& toy, std::uint16_t first, const world::Words& words) {
+  return write_words(toy.device, Table::holding, first, words);
+}
+
+std::vector<std::uint32_t> image_of(const Toy& toy) {
+  const auto image = toy.device.image();
+  return {image.begin(), image.end()};
+}
+
+TEST(WriteWords, StoresAllThenAppliesEffectsInAscendingOrder) {
+  const RegisterRow rows[] = {
+      reg(0x0012, "Late", Type::u16, Access::read_write).does(note, 3),
+      reg(0x0010, "Early", Type::u16, Access::read_write).does(note, 1),
+      reg(0x0011, "Middle", Type::u16, Access::read_write).does(note, 2),
+  };
+  Toy toy(rows);
+  EXPECT_EQ(write(toy, 0x0010, {10, 20, 30}), Refusal::none);
+  EXPECT_EQ(toy.device.events,
+            (Events{"1[0]=10 first=30", "2[0]=20 first=30", "3[0]=30 first=30", "written"}));
+}
+
+TEST(WriteWords, ATriggerIgnoresAZeroAndAnEffectDoesNot) {
+  Toy toy(kToyRows);
+  EXPECT_EQ(write(toy, 0x0016, {0}), Refusal::none);
+  EXPECT_EQ(toy.device.events, Events{"written"});
+  EXPECT_EQ(write(toy, 0x0016, {1}), Refusal::none);
+  EXPECT_EQ(write(toy, 0x0024, {0}), Refusal::none);
+  EXPECT_EQ(toy.device.events, (Events{"written", "7[0]=1 first=5", "written", "1[1]=0 first=5", "written"}));
+}
+
+TEST(WriteWords, AnEffectHearsTheWholeValueAndWhichHalfCame) {
+  Toy toy(kToyRows);
+  toy.device.image()[static_cast<std::size_t>(toy.named("Far2").place.slot)] = 0x00020001;
+  EXPECT_EQ(write(toy, 0x0025, {7}), Refusal::none);
+  EXPECT_EQ(write(toy, 0x0026, {0xFFFF}), Refusal::none);
+  EXPECT_EQ(write(toy, 0x0025, {0, 1}), Refusal::none);
+  EXPECT_EQ(toy.device.events, (Events{"2[1]=131079 first=5 low", "written", "2[1]=-65529 first=5", "written",
+                                       "2[1]=65536 first=5", "written"}));
+}
+
+TEST(WriteWords, ARefusedRequestChangesNothingHoweverMuchOfItIsGood) {
+  struct Case {
+    std::uint16_t first;
+    world::Words words;
+    Refusal refusal;
+  };
+  const std::vector<Case> cases = {
+      {0x0010, {7, 5, 1, 0, 1, 1, 1, 1}, Refusal::no_register},  // ends on what can only be read
+      {0x0010, {0, 5}, Refusal::bad_value},
+      {0x0010, {7, 1001}, Refusal::bad_value},
+      {0x0010, {7, 1, 0xFFFF, 0xFFF0}, Refusal::bad_value},      // a whole 32-bit value
+      {0x0010, {0, 0, 0, 0, 0, 0, 0, 0}, Refusal::no_register},  // addresses come before values
+      {0x0016, {5, 1}, Refusal::no_register},
+      {0x0019, {1, 1, 1}, Refusal::no_register},
+      {0x0020, {1, 2, 3, 4}, Refusal::no_register},  // a hole at its end
+      {0xFFFF, {1, 2}, Refusal::no_register},
+      {0x0018, {1}, Refusal::no_register},
+  };
+  for (const Case& c : cases) {
+    Toy toy(kToyRows);
+    const auto before = image_of(toy);
+    EXPECT_EQ(write(toy, c.first, c.words), c.refusal) << std::hex << c.first << ", " << c.words.size();
+    EXPECT_EQ(image_of(toy), before);
+    EXPECT_TRUE(toy.device.events.empty());
+  }
+}
+
+TEST(Policy, WhereNothingIsMayReadAsZeroAndSwallowWrites) {
+  Toy toy(kToyRows, {.unmapped = MapPolicy::Unmapped::reads_zero});
+  EXPECT_EQ(world::read(toy.device, 0x0017, 3), (world::Words{0x8421, 0, 0}));
+  EXPECT_EQ(world::read(toy.device, 0x8000, 2), (world::Words{0, 0}));
+  EXPECT_EQ(write(toy, 0x0018, {1, 2}), Refusal::none);
+  EXPECT_EQ(toy.value("Trim"), 2);
+  EXPECT_EQ(write(toy, 0x8000, {1, 2}), Refusal::none);
+  EXPECT_EQ(write(toy, 0x0022, {1, 2, 3}), Refusal::none);  // a half, a hole, a cell
+  EXPECT_EQ(toy.value("Far1"), 65536);
+  EXPECT_EQ(toy.value("Cell2"), 3);
+  EXPECT_EQ(world::answer(toy.device, world::read_request(3, 0xFFFF, 2)), "83 02")
+      << "past the last address is not a hole";
+  EXPECT_EQ(world::answer(toy.device, world::write_request(0xFFFF, world::Words{1, 2})), "90 02");
+}
+
+TEST(Policy, WhatCanOnlyBeWrittenMayRefuseToBeRead) {
+  Toy open(kToyRows);
+  EXPECT_EQ(world::read(open.device, 0x0015, 3), (world::Words{0, 0, 0x8421}));
+  Toy strict(kToyRows, {.write_only = MapPolicy::WriteOnly::refused});
+  EXPECT_EQ(world::answer(strict.device, world::read_request(3, 0x0016, 1)), "83 02");
+  EXPECT_EQ(world::answer(strict.device, world::read_request(3, 0x0015, 3)), "83 02");
+  EXPECT_EQ(world::read(strict.device, 0x0017, 1), world::Words{0x8421});
+  EXPECT_EQ(write(strict, 0x0016, {1}), Refusal::none);
+}
+
+TEST(Policy, WhatCanOnlyBeReadMayIgnoreWrites) {
+  Toy toy(kToyRows, {.read_only = MapPolicy::ReadOnly::ignores_writes});
+  EXPECT_EQ(world::answer(toy.device, world::write_request(0x0017, 9)), "06 00 17 00 09");
+  EXPECT_EQ(toy.value("State"), 0x8421);
+  EXPECT_EQ(write(toy, 0x0016, {1, 9}), Refusal::none);
+  EXPECT_EQ(toy.value("State"), 0x8421);
+  EXPECT_EQ(toy.device.events, (Events{"written", "7[0]=1 first=5", "written"}));
+}
+
+TEST(Policy, A32BitRegisterMayHaveToComeWhole) {
+  Toy toy(kToyRows, {.halves = MapPolicy::Halves::come_whole});
+  EXPECT_EQ(write(toy, 0x0014, {1}), Refusal::no_register);
+  EXPECT_EQ(write(toy, 0x0015, {1}), Refusal::no_register);
+  EXPECT_EQ(write(toy, 0x0013, {1, 2, 3}), Refusal::no_register);
+  EXPECT_EQ(write(toy, 0x0012, {1, 0, 3}), Refusal::no_register);
+  EXPECT_EQ(toy.value("Target"), 0);
+  EXPECT_EQ(toy.value("Count"), 0);
+  EXPECT_EQ(write(toy, 0x0012, {1, 0, 3, 4}), Refusal::none);
+  EXPECT_EQ(toy.value("Target"), 1);
+  EXPECT_EQ(toy.value("Count"), 0x40003);
+  EXPECT_EQ(toy.write("Count", 77), Refusal::none);
+  EXPECT_EQ(toy.write("Count_L", 1), Refusal::no_register);
+  EXPECT_EQ(toy.write("Count.0", 0), Refusal::none) << "a bit travels with its whole register";
+  EXPECT_EQ(toy.value("Count"), 76);
+}
+
+TEST(Policy, TheHighWordMayComeFirst) {
+  Toy toy(kToyRows, {.low_word_first = false});
+  EXPECT_EQ(write(toy, 0x0012, {0xFFFF, 0xFFFE}), Refusal::none);
+  EXPECT_EQ(toy.value("Target"), -2);
+  EXPECT_EQ(world::read(toy.device, 0x0012, 1), world::Words{0xFFFF});
+  EXPECT_EQ(toy.write("Target_L", 0x1234), Refusal::none);
+  EXPECT_EQ(world::read(toy.device, 0x0012, 2), (world::Words{0xFFFF, 0x1234}));
+  EXPECT_EQ(toy.write("Target_H", 0), Refusal::none);
+  EXPECT_EQ(world::read(toy.device, 0x0012, 2), (world::Words{0, 0x1234}));
+  EXPECT_EQ(write(toy, 0x0012, {2, 0}), Refusal::bad_value) << "131072 is beyond 100000";
+  // The half that comes in the second word is the low one.
+  EXPECT_EQ(write(toy, 0x0022, {9}), Refusal::none);
+  EXPECT_EQ(toy.device.events.at(toy.device.events.size() - 2), "2[0]=9 first=5 low");
+}
+
+TEST(Unmodelled, IsMentionedOnceForEachRow) {
+  const RegisterRow rows[] = {
+      reg(0x10, "Gone{}", Type::u16, Access::read_write).times(2, 1, 0).not_modelled("it only stores"),
+      reg(0x12, "Fine", Type::u16, Access::read_write),
+  };
+  Toy toy(rows);
+  Events log;
+  toy.device.set_log([&](const std::string& line) { log.push_back(line); });
+  world::read(toy.device, 0x12, 1);
+  EXPECT_TRUE(log.empty());
+  write(toy, 0x10, {1, 2});
+  world::read(toy.device, 0x10, 2);
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_NE(log[0].find("toy"), std::string::npos);
+  EXPECT_NE(log[0].find("it only stores"), std::string::npos);
+  EXPECT_EQ(world::read(toy.device, 0x10, 2), (world::Words{1, 2}));
+}
+
+}  // namespace
+}  // namespace understudy::emulator

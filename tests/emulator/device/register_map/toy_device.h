@@ -1,0 +1,135 @@
+// A device with a register map of the test's own, to look at the vocabulary without any real model.
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/device/device.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+
+namespace understudy::emulator {
+
+using Words16 = std::vector<std::uint16_t>;
+
+inline void PrintTo(Refusal refusal, std::ostream* out) {
+  *out << (refusal == Refusal::none ? "none" : refusal == Refusal::no_register ? "no_register" : "bad_value");
+}
+
+inline constexpr std::uint8_t kToyFunctions[] = {0x03, 0x04, 0x06, 0x10};
+inline constexpr int kToyBauds[] = {9600};
+inline constexpr Firmware kToyFirmwares[] = {100, 200};
+
+class ToyDevice final : public Device {
+ public:
+  ToyDevice(const Model& model, DeviceSettings settings) : Device(model, std::move(settings)) {
+    for (const RegisterRow& row : model.registers.rows()) {
+      for (int i = 0; i < row.count; ++i) image_.push_back(static_cast<std::uint32_t>(row.factory));
+    }
+  }
+  std::span<std::uint32_t> image() override { return image_; }
+  std::span<const std::uint32_t> image() const override { return image_; }
+  bool low_word_first() const override { return is_low_word_first; }
+  void register_written(const RegisterRow&, std::size_t) override {}
+  void registers_written() override { events.push_back("written"); }
+  std::span<const std::uint32_t> kept_image() const override { return image_; }
+  std::uint64_t kept_revision() const override { return 0; }
+  void settle_memory() override {}
+  Addressing addressing(std::uint8_t) const override { return Addressing::obey_and_reply; }
+  pty::LineSettings line_settings() const override { return {}; }
+  void sample_inputs(Tick) override {}
+  void run_interpreters(Tick) override {}
+  void step_motion(Tick) override {}
+  void update_outputs(Tick) override {}
+  Tick next_active_tick(Tick) const override { return kNever; }
+  bool same_state(const Device&) const override { return false; }
+  bool output(int) const override { return false; }
+  std::int64_t pulses_this_tick(int) const override { return 0; }
+  double speed_pps(int) const override { return 0; }
+  void set_encoder(int, std::int64_t) override {}
+
+  bool is_low_word_first = true;
+  std::vector<std::string> events;  // effects in the order in which they came
+
+ protected:
+  void power_up() override {}
+  void power_down() override {}
+  void put_kept(std::size_t slot, std::uint32_t bits) override { image_[slot] = bits; }
+  void write_own_state(StateWriter&) const override {}
+  std::function<void()> read_own_state(StateReader&) override {
+    return [] {};
+  }
+
+ private:
+  std::vector<std::uint32_t> image_;
+};
+
+/// An effect: notes argument, index, value, the present content of the device's first register, and
+/// whether only a low half came.
+inline void note(Device& device, Cell cell, Value value) {
+  auto& toy = static_cast<ToyDevice&>(device);
+  toy.events.push_back(std::to_string(cell.argument) + "[" + std::to_string(cell.index) +
+                       "]=" + std::to_string(value) + " first=" + std::to_string(toy.image()[0]) +
+                       (cell.high_half ? "" : " low"));
+}
+
+/// A map, its model and one device.
+struct Toy {
+  explicit Toy(std::span<const RegisterRow> rows, MapPolicy policy = {}, Firmware firmware = 200)
+      : map(rows, policy),
+        model{.name = "toy",
+              .title = "",
+              .firmwares = kToyFirmwares,
+              .registers = map,
+              .parameters = {},
+              .instructions = {},
+              .choices = {},
+              .terminals = {},
+              .axes = {},
+              .state_registers = {},
+              .gaps = {},
+              .rtu = {.bauds = kToyBauds, .settings = {}, .functions = kToyFunctions},
+              .make = nullptr},
+        device(model, settings(firmware)) {
+    device.is_low_word_first = policy.low_word_first;
+  }
+
+  static DeviceSettings settings(Firmware firmware) {
+    DeviceSettings made;
+    made.name = "toy";
+    made.firmware = firmware;
+    return made;
+  }
+
+  NamedPlace named(std::string_view name) const {
+    const auto found = map.find(name, device.firmware());
+    if (!found) throw std::out_of_range(std::string(name));
+    return *found;
+  }
+  Value value(std::string_view name) const { return read_value(device, named(name)); }
+  Refusal write(std::string_view name, Value value) { return write_value(device, named(name), value); }
+
+  RegisterMap map;
+  Model model;
+  ToyDevice device;
+};
+
+// Fourteen words from 0x0010 on, with a hole at 0x0018 and at 0x001B.
+inline constexpr RegisterRow kToyRows[] = {
+    reg(0x0010, "Speed", Type::u16, Access::read_write).range(1, 3000).from_factory(5),
+    reg(0x0011, "Angle", Type::s16, Access::read_write).range(-1000, 1000),
+    reg(0x0012, "Target", Type::s32, Access::read_write).range(-100000, 100000).also("Goal"),
+    reg(0x0014, "Count", Type::u32, Access::read_write),
+    reg(0x0016, "Start", Type::u16, Access::write).range(0, 1).triggers(note, 7),
+    reg(0x0017, "State", Type::u16, Access::read).from_factory(0x8421),
+    reg(0x0019, "Trim", Type::s16, Access::read_write),
+    reg(0x001A, "Bits", Type::u16, Access::read_write).holding_bits(0x00FF),
+    reg(0x0020, "Cell{}", Type::u16, Access::read_write).times(3, 4, 1).does(note, 1),
+    reg(0x0021, "Far{}", Type::s32, Access::read_write).times(3, 4, 1).halves("_RegL", "_RegH").does(note, 2),
+    reg(0x0040, "New", Type::u16, Access::read_write).since_firmware(200),
+};
+
+}  // namespace understudy::emulator

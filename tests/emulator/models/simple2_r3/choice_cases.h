@@ -1,0 +1,67 @@
+// For tests of choices: what each option of a row is expected to do, none left out.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/models/simple2_r3/choices.h"
+#include "tests/emulator/models/simple2_r3/one_simple2.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+template <typename Expected>
+using OptionCases = std::vector<std::pair<std::string, Expected>>;
+
+/// The cases as they are given; fails if they are not the row's options, ours first.
+template <typename Expected = Value>
+OptionCases<Expected> each_option(std::string_view id, const OptionCases<Expected>& cases) {
+  std::vector<std::string_view> named;
+  for (const auto& [option, expected] : cases) named.push_back(option);
+  std::vector<std::string_view> options;
+  for (const ChoiceRow& row : kChoices) {
+    if (row.id == id) options = options_of(row);
+  }
+  EXPECT_EQ(named, options) << id;
+  return cases;
+}
+
+inline Given with(const std::string& choice, const std::string& option) {
+  return {.choices = {{choice, option}}};
+}
+
+/// The device's reply to a frame on its line, at once; no bytes if it is silent.
+inline std::vector<std::uint8_t> ask(OneSimple2& feeder, const std::vector<std::uint8_t>& frame) {
+  pty::Line& line = feeder.world().line(0).line;
+  line.receive(frame, feeder.world().now());
+  feeder.run(20);
+  const std::vector<std::uint8_t> reply(line.output().begin(), line.output().end());
+  line.take_output(reply.size());
+  return reply;
+}
+
+/// A line of a program: CMD, DATA1, DATA2, JMP.
+using ProgramLine = std::array<std::uint16_t, 4>;
+
+inline void write_program(OneSimple2& feeder, const std::vector<ProgramLine>& lines) {
+  std::uint16_t address = 0x4000;
+  for (const ProgramLine& line : lines) {
+    feeder.write(address, {line[0], line[1], line[2], line[3]});
+    address = static_cast<std::uint16_t>(address + 4);
+  }
+}
+
+/// Writes it and starts it at tick 10, so that its lines run at 12, 14 and so on.
+inline void start_program(OneSimple2& feeder, const std::vector<ProgramLine>& lines) {
+  write_program(feeder, lines);
+  feeder.run_to(10);
+  feeder.set("PROG_MAIN_RunTime_START", 0);
+}
+
+inline void switch_off_and_on(OneSimple2& feeder) {
+  feeder.world().switch_power(0, false);
+  feeder.world().switch_power(0, true);
+}
+
+}  // namespace understudy::emulator::models::simple2_r3

@@ -1,0 +1,196 @@
+// Every cell of meetings.h, brought about from the host, from a program's own line and from an event's
+// routine.
+#include "emulator/models/slim/meetings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/emulator/models/slim/dialogue_script.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+const std::string kNames[kDoings] = {"line",      "move",       "homing",   "jog",     "thrust",
+                                     "a program", "GETI waits", "WT waits", "DN waits"};
+const std::string kCommands[kMeetings] = {"TAPZ", "TAREDO", "TAUPZ", "TASTOP", "PZ", "REDO"};
+
+bool is_of_program(Doing doing) { return doing >= Doing::program_runs; }
+
+/// What is typed for a motion to run for long.
+Lines motion_of(Doing doing) {
+  switch (doing) {
+    case Doing::line: return {"TX=0", "TY=1", "2MR 3000,4000"};
+    case Doing::move: return {"MR 5000000"};
+    case Doing::homing: return {"H"};
+    case Doing::jog: return {"JGF"};
+    case Doing::thrust: return {"FT 500"};
+    default: return {};
+  }
+}
+
+/// Lines of a program that come to it, and go on with saying B.
+Lines lines_of(Doing doing) {
+  const Lines loop{"OUT \"B\"", "$L CHG P1", "JP $L"};
+  Lines lines;
+  switch (doing) {
+    case Doing::program_waits_for_number: lines = {"N0=GETI"}; break;
+    case Doing::program_waits_for_time: lines = {"WT 5000"}; break;
+    case Doing::program_waits_for_motion: lines = {"MR 5000000", "DN"}; break;
+    default: break;
+  }
+  const bool waits = is_of_program(doing) && doing != Doing::program_runs;
+  lines.insert(lines.end(), loop.begin() + (waits ? 0 : 1), loop.end());
+  return lines;
+}
+
+/// The pause that a command ends; empty for others.
+std::string pause_before(Meeting meeting) {
+  switch (meeting) {
+    case Meeting::go_on:
+    case Meeting::give_up: return "TAPZ";
+    case Meeting::go_on_q: return "PZ";
+    default: return "";
+  }
+}
+
+class Cell {
+ public:
+  Cell(const MeetingRow& row, From from)
+      : row_(row), from_(from), command_(kCommands[static_cast<std::size_t>(row.meeting)]) {}
+
+  void check() {
+    const Outcome expected = row_.outcomes[static_cast<std::size_t>(from_)];
+    type_all(motion_of(row_.doing));
+    script_.pass(400);
+    const Mode mode = chain().status(0).mode;
+    const double speed_pps = chain().speed_pps(0);
+    enter_program();
+    if (from_ == From::event_routine || (is_of_program(row_.doing) && from_ == From::host)) go();
+    if (!pause_before(row_.meeting).empty()) {
+      script_.type(pause_before(row_.meeting));
+      script_.pass(400);
+    }
+    const std::int64_t travel = chain().travel(0);
+    bring_about();
+    script_.pass(400);
+    EXPECT_EQ(script_.next(), from_ == From::event_routine ? "R" : said_by(expected));
+    if (is_of_program(row_.doing)) return check_program(expected);
+    switch (expected) {
+      case Outcome::comes_to_a_stand:
+        EXPECT_EQ(chain().speed_pps(0), 0);
+        EXPECT_TRUE(chain().busy(0));
+        break;
+      case Outcome::does_as_before:
+        EXPECT_EQ(chain().status(0).mode, mode);
+        EXPECT_DOUBLE_EQ(chain().speed_pps(0), speed_pps);
+        break;
+      case Outcome::is_forgotten:
+        EXPECT_EQ(chain().status(0).mode, Mode::idle);
+        EXPECT_FALSE(chain().busy(0));
+        break;
+      default:
+        EXPECT_EQ(expected, Outcome::stops_at_once);
+        EXPECT_EQ(chain().travel(0), travel);
+        EXPECT_EQ(chain().status(0).mode, Mode::idle);
+        EXPECT_FALSE(chain().busy(0));
+        break;
+    }
+  }
+
+ private:
+  const Chain& chain() { return script_.device().state().chain; }
+  const lang::Execution& execution() { return script_.device().state().execution; }
+
+  void type_all(const Lines& lines) {
+    for (const std::string& line : lines) {
+      script_.type(line);
+      EXPECT_EQ(script_.next(), "(nothing)") << line;
+    }
+  }
+
+  void enter_program() {
+    Lines lines{"PG"};
+    const auto add = [&](const Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); };
+    if (from_ == From::event_routine) add({"SET EV1 I,8", "ON EV1,$E"});
+    if (from_ == From::program) add({command_});
+    add(lines_of(row_.doing));
+    if (from_ == From::event_routine) add({"RET", "$E " + command_, "OUT \"R\"", "RET"});
+    add({"EXIT"});
+    type_all(lines);
+  }
+  void go() {
+    type_all({"G"});
+    script_.pass(20);
+    if (row_.doing == Doing::program_runs || !is_of_program(row_.doing)) return;
+    const lang::Hold holds[] = {lang::Hold::number, lang::Hold::timer, lang::Hold::machine};
+    EXPECT_EQ(execution().hold, holds[static_cast<std::size_t>(row_.doing) -
+                                      static_cast<std::size_t>(Doing::program_waits_for_number)]);
+  }
+
+  void bring_about() {
+    switch (from_) {
+      case From::host: script_.type(command_); break;
+      case From::program: script_.type("G"); break;
+      case From::event_routine: script_.play("IN8 = 1"); break;
+    }
+  }
+
+  /// Only where the motion that DN waits for is given up the program has something to say.
+  std::string said_by(Outcome expected) const {
+    const bool is_over = row_.doing == Doing::program_waits_for_motion && row_.meeting == Meeting::give_up;
+    return is_over && expected == Outcome::goes_on ? "B" : "(nothing)";
+  }
+
+  void check_program(Outcome expected) {
+    if (from_ == From::event_routine) {
+      EXPECT_EQ(script_.next(), said_by(expected));
+    }
+    EXPECT_EQ(script_.next(), "(nothing)");
+    EXPECT_EQ(execution().running, expected == Outcome::goes_on);
+    if (row_.doing != Doing::program_runs || expected != Outcome::goes_on) return;
+    const auto level = [&] { return script_.device().output(terminal(0, kFirstOutput)); };
+    const bool before = level();
+    script_.pass(2);  // CHG and JP
+    EXPECT_NE(level(), before);
+  }
+
+  const MeetingRow& row_;
+  From from_;
+  std::string command_;
+  DialogueScript script_{2};
+};
+
+TEST(SlimMeetings, ComeOutAsTheTableSays) {
+  int cells = 0;
+  for (const MeetingRow& row : kMeetingTable) {
+    for (const From from : {From::host, From::program, From::event_routine}) {
+      if (row.outcomes[static_cast<std::size_t>(from)] == Outcome::cannot_be) continue;
+      SCOPED_TRACE(kNames[static_cast<std::size_t>(row.doing)] + ", " +
+                   kCommands[static_cast<std::size_t>(row.meeting)] + " from " +
+                   (from == From::host      ? "the host"
+                    : from == From::program ? "a program"
+                                            : "an event"));
+      Cell(row, from).check();
+      ++cells;
+    }
+  }
+  // A program that waits says nothing itself.
+  EXPECT_EQ(cells, static_cast<int>(kDoings * kMeetings * kSources - 3 * kMeetings));
+}
+
+TEST(SlimMeetings, NameTheListOrARowOfTheChoices) {
+  for (const MeetingRow& row : kMeetingTable) {
+    const bool is_row = std::ranges::any_of(kChoices, [&](const ChoiceRow& c) { return c.id == row.by; });
+    EXPECT_TRUE(is_row || row.by.starts_with("list, ")) << row.by;
+  }
+}
+
+}  // namespace
+
+}  // namespace understudy::emulator::models::slim

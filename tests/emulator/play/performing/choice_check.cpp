@@ -1,0 +1,210 @@
+#include "tests/emulator/play/performing/choice_check.h"
+#include "emulator/models/models.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "emulator/play/performing/runner.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/results/result_text.h"
+
+namespace understudy::emulator::play {
+
+namespace {
+
+constexpr std::size_t kLeastExplanation = 30;  // letters behind the question
+
+Steps without_expectations(const Steps& steps);
+
+/// A step as somebody makes it who wants to know nothing: what he does then is the same whatever comes.
+struct Unasking {
+  const Step& step;
+  Steps& made;
+
+  template <typename What>
+  void add(What what) const {
+    made.push_back({.file = step.file, .line = step.line, .text = step.text, .what = std::move(what)});
+  }
+
+  void operator()(ExpectStep expect) const {
+    for (ExpectStep::Entry& entry : expect.entries) entry.value = {};
+    add(std::move(expect));
+  }
+  void operator()(WaitStep wait) const {
+    wait.takes.reset();
+    add(std::move(wait));
+  }
+  void operator()(SendStep send) const {
+    send.reply.reset();
+    add(std::move(send));
+  }
+  /// Lines that would be waited for are given their time.
+  void operator()(TextStep text) const {
+    const bool waits = text.lines.has_value();
+    const SimTime within = text.within;
+    text.lines.reset();
+    if (text.text) add(std::move(text));
+    if (waits) add(AdvanceStep{within});
+  }
+  void operator()(ForkStep fork) const {
+    for (ForkStep::Branch& branch : fork.branches) branch.steps = without_expectations(branch.steps);
+    add(std::move(fork));
+  }
+  void operator()(const MemoryStep& memory) const {
+    if (memory.what == MemoryStep::What::save) add(memory);
+  }
+  void operator()(const AssertStep&) const {}
+  void operator()(const SpanStep&) const {}
+  void operator()(const EndSpanStep&) const {}
+  template <typename Other>
+  void operator()(const Other& other) const {
+    add(other);
+  }
+};
+
+Steps without_expectations(const Steps& steps) {
+  Steps made;
+  for (const Step& step : steps) std::visit(Unasking{step, made}, step.what);
+  return made;
+}
+
+Scenario without_expectations(Scenario scenario) {
+  scenario.steps = without_expectations(scenario.steps);
+  return scenario;
+}
+
+/// The options that its devices were given for a row.
+std::set<std::string> chosen_in(const Scenario& scenario, const std::string& id) {
+  std::set<std::string> chosen;
+  for (const world::DeviceSetup& device : scenario.bench.devices) {
+    const auto it = device.settings.choices.find(id);
+    if (it != device.settings.choices.end()) chosen.insert(it->second);
+  }
+  return chosen;
+}
+
+Scenario choosing(Scenario scenario, const std::string& id, const std::string& option) {
+  for (world::DeviceSetup& device : scenario.bench.devices) {
+    const auto it = device.settings.choices.find(id);
+    if (it != device.settings.choices.end()) it->second = option;
+  }
+  return scenario;
+}
+
+/// Of the scenario and each of its branches.
+using Outcome = std::vector<std::uint64_t>;
+
+Outcome outcome_of(const std::vector<ScenarioResult>& results) {
+  Outcome outcome;
+  for (const ScenarioResult& result : results) outcome.push_back(result.outcome_hash);
+  return outcome;
+}
+
+std::vector<ScenarioResult> played_with_hash(const Scenario& scenario) {
+  PlayOptions options;
+  options.with_hash = true;
+  return play(scenario, options);
+}
+
+class ChoiceCheck {
+ public:
+  ChoiceCheck(const ChoiceRow& row, std::string path) : id_(row.id), path_(std::move(path)) {
+    for (const std::string_view option : options_of(row)) options_.emplace_back(option);
+  }
+
+  std::vector<std::string> complaints(const std::string& text) {
+    look_at_comment(text);
+    std::vector<Scenario> cases;
+    try {
+      cases = parse_scenarios(models::all_models(), text, path_);
+    } catch (const FileError& error) {
+      complain(error.what());
+      return complaints_;
+    }
+    if (look_at_options(cases)) {
+      look_at_cases(cases);
+      look_at_causes(cases);
+    }
+    return complaints_;
+  }
+
+ private:
+  void complain(const std::string& what) { complaints_.push_back(id_ + ": " + what); }
+
+  void look_at_comment(const std::string& text) {
+    std::istringstream lines(text);
+    std::string comment;
+    for (std::string line; std::getline(lines, line) && line.starts_with("#");) comment += line;
+    const std::size_t question = comment.find('?');
+    if (question == std::string::npos) return complain(path_ + " asks nothing in a comment at its top");
+    if (comment.size() < question + kLeastExplanation) complain(path_ + " explains nothing");
+  }
+
+  bool look_at_options(const std::vector<Scenario>& cases) {
+    std::vector<std::string> named;
+    for (const Scenario& scenario : cases) {
+      const std::set<std::string> chosen = chosen_in(scenario, id_);
+      named.push_back(chosen.size() == 1 ? *chosen.begin() : "?");
+    }
+    if (named == options_) return true;
+    complain("the cases choose " + joined(named) +
+             "; expected each option once, ours first: " + joined(options_));
+    return false;
+  }
+
+  void look_at_cases(const std::vector<Scenario>& cases) {
+    std::vector<Outcome> outcomes;
+    for (const Scenario& scenario : cases) {
+      const auto results = played_with_hash(scenario);
+      for (const ScenarioResult& result : results) {
+        for (const std::string& line : failure_lines(result)) complain(result.name + ": " + line);
+      }
+      outcomes.push_back(outcome_of(results));
+    }
+    demand_different(outcomes, "what comes out");
+  }
+
+  void look_at_causes(const std::vector<Scenario>& cases) {
+    const Scenario deeds = without_expectations(cases.front());
+    std::vector<Outcome> outcomes;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      outcomes.push_back(outcome_of(played_with_hash(choosing(deeds, id_, options_[i]))));
+      if (outcome_of(played_with_hash(without_expectations(cases[i]))) != outcomes.back()) {
+        complain("the case of " + options_[i] +
+                 " does something else than the first one; expected only its option and its expectations to "
+                 "differ");
+      }
+    }
+    demand_different(outcomes, "what comes out by the choice alone");
+  }
+
+  void demand_different(const std::vector<Outcome>& outcomes, const std::string& what) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (outcomes[i] != outcomes[k]) continue;
+        complain(what + " is the same for " + options_[k] + " and " + options_[i]);
+      }
+    }
+  }
+
+  static std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text.empty() ? "none" : text;
+  }
+
+  std::string id_;
+  std::vector<std::string> options_;
+  std::string path_;
+  std::vector<std::string> complaints_;
+};
+
+}  // namespace
+
+std::vector<std::string> complaints_of_choice(const ChoiceRow& row, const std::string& text,
+                                              const std::string& path) {
+  return ChoiceCheck(row, path).complaints(text);
+}
+
+}  // namespace understudy::emulator::play

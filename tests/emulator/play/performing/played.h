@@ -1,0 +1,76 @@
+// Scenarios as texts, played in tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "emulator/models/models.h"
+#include "emulator/play/performing/runner.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/results/result_text.h"
+#include "emulator/play/stages/free_stage.h"
+
+namespace understudy::emulator::play {
+
+/// One Simple2-R3 at 19200 baud, and the steps, one a line.
+inline std::string scenario_text(const std::string& steps, const std::string& more = "") {
+  return "understudy: 1\n"
+         "name: test\n"
+         "bench: { lines: { rs485: { baud: 19200, stations: "
+         "[ { name: feeder, model: simple2-r3, address: 1 } ] } } }\n" +
+         more + "steps:\n" + steps;
+}
+
+inline Scenario scenario_of(const std::string& steps, const std::string& more = "") {
+  return parse_scenarios(models::all_models(), scenario_text(steps, more), "test.yaml").front();
+}
+
+/// The result of a scenario without branches.
+inline ScenarioResult played(const std::string& steps, const std::string& more = "",
+                             const PlayOptions& options = {}) {
+  const Scenario scenario = scenario_of(steps, more);
+  return play(scenario, options).front();
+}
+
+inline std::string why(const ScenarioResult& result) {
+  std::string text;
+  for (const std::string& line : failure_lines(result)) text += line + "\n";
+  return text;
+}
+
+inline bool has_passed(const ScenarioResult& result) {
+  return result.verdict == ScenarioResult::Verdict::passed && !result.failure;
+}
+
+/// Plays, and expects it to pass.
+inline ScenarioResult passing(const std::string& steps, const std::string& more = "") {
+  ScenarioResult result = played(steps, more);
+  EXPECT_TRUE(has_passed(result)) << steps << why(result);
+  return result;
+}
+
+/// Plays, and expects it to fail at its last step that was played.
+inline Failure failing(const std::string& steps, const std::string& more = "") {
+  const ScenarioResult result = played(steps, more);
+  EXPECT_EQ(result.verdict, ScenarioResult::Verdict::failed) << steps;
+  if (!result.failure || result.steps.empty()) {
+    ADD_FAILURE() << "did not fail: " << steps;
+    return {};
+  }
+  EXPECT_TRUE(result.steps.back().has_failed);
+  return *result.failure;
+}
+
+// The manual's example: 32000 pulses at 200 RPM (10,666.67 pulses a second), ramps of 50 ms, 3050 ms in all.
+inline const std::string kServoOn = "  - write: { feeder.Aaxis_SVON: 1 }\n";
+inline const std::string kExampleMove =
+    "  - write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Speed: 200, feeder.Aaxis_AccTime: 5, "
+    "feeder.Aaxis_DecTime: 5, feeder.Aaxis_Move_INC: 1 }\n";
+// Both begin with nothing on the line. The first request is carried out at 5.333 ms, its reply is over at
+// 9,916,666 ns. The second one begins 2,005,209 ns later, has 21 characters (12,031,250 ns) and is carried
+// out 750 us after them, at 24,703,125 ns: the move begins with tick 25. Its reply is over at 29,286,458 ns.
+inline constexpr Tick kExampleBegins = 25;
+
+}  // namespace understudy::emulator::play

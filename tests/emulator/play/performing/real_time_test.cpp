@@ -1,0 +1,52 @@
+// What a scenario in real time hears and sees: the host's replies, and when a write was carried out.
+#include "emulator/play/stages/real_stage.h"
+#include "emulator/play/stages/write_clock.h"
+#include "tests/emulator/play/performing/played.h"
+
+namespace understudy::emulator::play {
+namespace {
+
+ScenarioResult played_in_real_time(const std::string& steps) {
+  PlayOptions options;
+  options.make_stage = make_real_stage;
+  return played(steps, "", options);
+}
+
+TEST(RealTime, BringsWhatIsReadAndWhatIsRefused) {
+  const std::string write = "  - write: { feeder.Aaxis_Pulse: -70000, feeder.Aaxis_Speed: 200 }\n";
+  const ScenarioResult good = played_in_real_time(
+      write + "  - expect: { feeder.Aaxis_Pulse: -70000, feeder.Aaxis_Speed: 200, feeder.HW_Code: 49153 }\n" +
+      "  - write: { feeder.Aaxis_Speed: 65535 }\n    exception: 3\n");
+  EXPECT_TRUE(has_passed(good)) << why(good);
+  const ScenarioResult bad = played_in_real_time(write + "  - expect: { feeder.Aaxis_Speed: 201 }\n");
+  ASSERT_TRUE(bad.failure);
+  EXPECT_EQ(bad.failure->what, "feeder.Aaxis_Speed is 200; expected 201");
+}
+
+/// When the clock says the last write was carried out, once a frame is over and answered.
+class WriteClockTest : public testing::Test {
+ protected:
+  Tick after(const std::vector<std::uint8_t>& frame) {
+    world_.line(0).line.receive(frame, world_.now());
+    world_.advance_to(world_.now() + std::chrono::milliseconds(50));
+    world_.line(0).line.take_output(world_.line(0).line.output().size());
+    return clock_.tick_of_last_write();
+  }
+  world::World world_{scenario_of("  - advance: 1ms\n").bench, {}, {}};
+  WriteClock clock_{world_};
+};
+
+TEST_F(WriteClockTest, TellsTheTickThatAWriteActsFrom) {
+  EXPECT_EQ(clock_.tick_of_last_write(), 0);
+  // Aaxis_Speed = 200 at 0: 8 characters of 11 bits at 19200 baud (4.58 ms) and 750 us of silence.
+  EXPECT_EQ(after({0x01, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x5C}), 6);
+  // Neither a read, nor a write to somebody else, nor one that is refused (HW_Code) is one.
+  EXPECT_EQ(after({0x01, 0x03, 0x00, 0x01, 0x00, 0x01, 0xD5, 0xCA}), 6);
+  EXPECT_EQ(after({0x02, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x6F}), 6);
+  EXPECT_EQ(after({0x01, 0x06, 0x00, 0x01, 0x00, 0x01, 0x19, 0xCA}), 6);
+  // The next one at 200 ms is.
+  EXPECT_EQ(after({0x01, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x5C}), 206);
+}
+
+}  // namespace
+}  // namespace understudy::emulator::play

@@ -1,0 +1,137 @@
+// The schemas suit what the readers take, and refuse what they refuse for its form.
+#include "emulator/play/schema/json_schema.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "emulator/play/reading/step_rows.h"
+#include "tests/emulator/play/performing/scenario_folder.h"
+#include "tests/emulator/play/schema/schema_check.h"
+#include "tests/emulator/world/bench_file/bench_texts.h"
+
+namespace understudy::emulator::play {
+namespace {
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string of_bench(const std::string& text) { return schema_complaint(bench_schema(), text); }
+std::string of_scenario(const std::string& text) { return schema_complaint(scenario_schema(), text); }
+
+std::vector<std::string> examples_of(const std::string& page) {
+  const std::string text = contents(std::string(PROJECT_FOLDER) + "/docs/" + page);
+  std::vector<std::string> blocks;
+  const std::string begin = "```yaml\n";
+  for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    blocks.push_back(text.substr(at, text.find("```\n", at) - at));
+  }
+  return blocks;
+}
+
+TEST(JsonSchema, SuitsEveryShippedFile) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(PROJECT_FOLDER "/scenarios")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string path = entry.path().string();
+    const FileKind kind = kind_of_file(path);
+    if (kind == FileKind::steps) continue;
+    EXPECT_EQ(kind == FileKind::bench ? of_bench(contents(path)) : of_scenario(contents(path)), "") << path;
+  }
+}
+
+TEST(JsonSchema, SuitsEveryExampleOfTheDocumentation) {
+  EXPECT_EQ(of_bench(world::kFullBench), "");
+  for (const std::string& example : examples_of("bench.md")) EXPECT_EQ(of_bench(example), "") << example;
+  for (const std::string& example : examples_of("scenarios.md")) {
+    const bool is_whole = example.starts_with("understudy: 1");
+    EXPECT_EQ(of_scenario(is_whole ? example : ScenarioFolder::scenario_of(example)), "") << example;
+  }
+}
+
+/// What readers refuse because of its form, the schema refuses.
+TEST(JsonSchema, RefusesBenchesOfAnotherForm) {
+  const std::string station = "stations: [ { name: x, model: simple2-r3 } ]";
+  const auto with_line = [](const std::string& line) {
+    return "understudy: 1\nlines: { a: { " + line + " } }\n";
+  };
+  EXPECT_EQ(of_bench(with_line(station)), "");
+  for (const std::string& bad :
+       {std::string("lines: { a: { " + station + " } }\n"), std::string("understudy: 1\n"),
+        std::string("understudy: 2\nlines: { a: { " + station + " } }\n"),
+        std::string("understudy: 1\nlines: [ a ]\n"), with_line("link: x"), with_line(station + ", speed: 5"),
+        with_line(station + ", baud: 0"), with_line(station + ", baud: fast"),
+        with_line(station + ", timing: slow"), with_line("stations: []"),
+        with_line("stations: [ { name: x } ]"), with_line("stations: [ { device: x, model: simple2-r3 } ]"),
+        with_line(station) + "plant: { x.A: { travel: [ 1 ] } }\n",
+        with_line(station) + "plant: { x.A: { travels: [ 1, 2 ] } }\n",
+        with_line(station) + "plant: { x.A: { home: { at: 0 } } }\n", with_line(station) + "wires: x\n",
+        with_line(station) + "faults: [ stall ]\n"}) {
+    EXPECT_NE(of_bench(bad), "") << bad;
+    EXPECT_THROW(world::parse(bad), FileError) << bad;
+  }
+}
+
+TEST(JsonSchema, RefusesScenariosOfAnotherForm) {
+  const ScenarioFolder folder;
+  for (const std::string step : {"- advance",
+                                 "- {}",
+                                 "- { advance: 1 }",
+                                 "- { advanc: 1ms }",
+                                 "- { advance: 1ms, say: x }",
+                                 "- { advance: 1ms, exception: 3 }",
+                                 "- write: [ 1 ]",
+                                 "- wait: { until: time > 1s }",
+                                 "- wait: { within: 1s }",
+                                 "- wait: { until: time > 1s, within: 1s, poll: 5 }",
+                                 "- assert: { what: time > 1s }",
+                                 "- never: { name: x }",
+                                 "- send: { reply: 01 }",
+                                 "- power: { feeder: down }",
+                                 "- reset: all",
+                                 "- repeat: { times: 2 }",
+                                 "- repeat: { times: 0, steps: [ advance: 1ms ] }",
+                                 "- repeat: { times: 2, steps: [ advance: 1 ] }",
+                                 "- fork: { a: [] }",
+                                 "- for: { each: [], as: i, steps: [] }",
+                                 "- include: [ a ]",
+                                 "- { write: { feeder.Aaxis_SVON: 1 }, exception: 0 }"}) {
+    const std::string text = ScenarioFolder::scenario_of(step + "\n");
+    EXPECT_NE(of_scenario(text), "") << step;
+    EXPECT_NE(folder.complaint(text), "") << step;
+  }
+  const std::string good = ScenarioFolder::scenario_of("- advance: 1ms\n");
+  EXPECT_EQ(of_scenario(good), "");
+  for (const std::string more :
+       {"nam: x\n", "gap: 5\n", "seed: -1\n", "cases: {}\n", "parameters: [ a ]\n"}) {
+    EXPECT_NE(of_scenario(good + more), "") << more;
+    EXPECT_NE(folder.complaint(good + more), "") << more;
+  }
+}
+
+TEST(JsonSchema, ParametersMayStandForAnyValueOfAScenario) {
+  EXPECT_EQ(of_scenario(ScenarioFolder::scenario_of("- advance: ${t}\n"
+                                                    "- repeat: { times: \"${n}\", steps: [ say: x ] }\n"
+                                                    "- power: { feeder: \"${to}\" }\n"
+                                                    "- { write: { a: 1 }, exception: \"${e}\" }\n")),
+            "");
+  EXPECT_NE(
+      of_bench("understudy: 1\nlines: { a: { baud: \"${b}\", stations: [ { name: x, model: m } ] } }\n"), "");
+}
+
+TEST(JsonSchema, DescribesEveryKindOfStep) {
+  const std::string schema = scenario_schema();
+  for (const StepRow& row : step_rows()) {
+    EXPECT_NE(schema.find("\"" + std::string(row.key.doc) + "\""), std::string::npos) << row.key.key;
+    EXPECT_TRUE(row.key.doc.ends_with('.')) << row.key.key;
+  }
+}
+
+}  // namespace
+}  // namespace understudy::emulator::play

@@ -1,0 +1,236 @@
+// Waiting for descriptors and moments.
+#include "emulator/serve/loop/event_loop.h"
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+
+namespace understudy::emulator::serve {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Two joined sockets: what is written to one is read from the other.
+struct Pair {
+  Pair() { EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, ends.data()), 0); }
+  ~Pair() {
+    for (const int end : ends) close(end);
+  }
+  void poke() const { EXPECT_EQ(write(ends[1], "x", 1), 1); }
+  void drain() const {
+    char byte = 0;
+    EXPECT_EQ(::read(ends[0], &byte, 1), 1);
+  }
+  int near() const { return ends[0]; }
+  std::array<int, 2> ends{-1, -1};
+};
+
+TEST(EventLoop, CallsWhatIsReadableAndNothingElse) {
+  EventLoop loop;
+  const Pair talking;
+  const Pair silent;
+  int calls = 0;
+  loop.watch(talking.near(), EventLoop::readable, [&](std::uint32_t ready) {
+    EXPECT_EQ(ready, EventLoop::readable);
+    talking.drain();
+    ++calls;
+  });
+  loop.watch(silent.near(), EventLoop::readable, [](std::uint32_t) { ADD_FAILURE() << "nothing was sent"; });
+  loop.wait(wall_now());
+  EXPECT_EQ(calls, 0);
+  talking.poke();
+  loop.wait(std::nullopt);
+  EXPECT_EQ(calls, 1);
+  loop.wait(wall_now());
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, WaitsNoShorterThanUntilTheMoment) {
+  EventLoop loop;
+  const WallTime until = wall_now() + 20ms;
+  loop.wait(until);
+  EXPECT_GE(wall_now(), until);
+}
+
+TEST(EventLoop, AMomentInThePastOnlyLooks) {
+  EventLoop loop;
+  const WallTime before = wall_now();
+  loop.wait(before - 1h);
+  loop.wait(WallTime{0});
+  loop.wait(WallTime{-1});
+  EXPECT_LT(wall_now() - before, 5s);
+}
+
+TEST(EventLoop, InterestMayChange) {
+  EventLoop loop;
+  const Pair pair;
+  std::uint32_t seen = 0;
+  loop.watch(pair.near(), EventLoop::readable, [&](std::uint32_t ready) { seen = ready; });
+  loop.wait(wall_now());
+  EXPECT_EQ(seen, 0u);
+  loop.change_interest(pair.near(), EventLoop::readable | EventLoop::writable);
+  loop.wait(wall_now());
+  EXPECT_EQ(seen, EventLoop::writable);
+  seen = 0;
+  loop.change_interest(pair.near(), 0);
+  pair.poke();
+  loop.wait(wall_now());
+  EXPECT_EQ(seen, 0u);
+  loop.change_interest(pair.near(), EventLoop::readable);
+  loop.wait(wall_now());
+  EXPECT_EQ(seen, EventLoop::readable);
+  loop.change_interest(12345, EventLoop::readable);  // not watched: nothing happens
+}
+
+TEST(EventLoop, AHangUpIsReadable) {
+  EventLoop loop;
+  Pair pair;
+  std::uint32_t seen = 0;
+  loop.watch(pair.near(), EventLoop::readable, [&](std::uint32_t ready) { seen = ready; });
+  close(pair.ends[1]);
+  pair.ends[1] = -1;
+  loop.wait(wall_now());
+  EXPECT_NE(seen & EventLoop::readable, 0u);
+}
+
+TEST(EventLoop, ACallMayUnwatchItselfAndGoOn) {
+  EventLoop loop;
+  const Pair pair;
+  std::string kept_by_the_call = "still here";
+  int calls = 0;
+  loop.watch(pair.near(), EventLoop::readable, [&loop, &pair, &calls, kept_by_the_call](std::uint32_t) {
+    loop.unwatch(pair.near());
+    EXPECT_EQ(kept_by_the_call, "still here");  // the function outlives its watch
+    ++calls;
+  });
+  pair.poke();
+  loop.wait(wall_now());
+  loop.wait(wall_now());
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, ACallMayUnwatchWhatIsReadyAtTheSameMoment) {
+  EventLoop loop;
+  const Pair first;
+  const Pair second;
+  int calls = 0;
+  const auto only_one = [&](const Pair& other) {
+    return [&loop, &calls, &other](std::uint32_t) {
+      ++calls;
+      loop.unwatch(other.near());
+    };
+  };
+  loop.watch(first.near(), EventLoop::readable, only_one(second));
+  loop.watch(second.near(), EventLoop::readable, only_one(first));
+  first.poke();
+  second.poke();
+  loop.wait(wall_now());
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, ACallMayWatchSomethingNew) {
+  EventLoop loop;
+  const Pair first;
+  const Pair second;
+  int calls = 0;
+  second.poke();
+  loop.watch(first.near(), EventLoop::readable, [&](std::uint32_t) {
+    first.drain();
+    loop.watch(second.near(), EventLoop::readable, [&](std::uint32_t) { ++calls; });
+  });
+  first.poke();
+  loop.wait(wall_now());
+  loop.wait(wall_now());
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(EventLoop, ServesMoreDescriptorsThanOneLookBringsIn) {
+  EventLoop loop;
+  std::vector<Pair> pairs(100);
+  std::vector<int> calls(pairs.size(), 0);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    loop.watch(pairs[i].near(), EventLoop::readable, [&, i](std::uint32_t) {
+      pairs[i].drain();
+      ++calls[i];
+    });
+    pairs[i].poke();
+  }
+  for (int look = 0; look < 10; ++look) loop.wait(wall_now());
+  EXPECT_EQ(calls, std::vector<int>(pairs.size(), 1));
+}
+
+TEST(EventLoop, RefusesWhatCannotBeWatchedAndForgetsIt) {
+  EventLoop loop;
+  EXPECT_THROW(loop.watch(-1, EventLoop::readable, [](std::uint32_t) {}), std::system_error);
+  loop.unwatch(-1);
+  loop.wait(wall_now());
+}
+
+TEST(EventLoop, WhatMayWaitComesLastHoweverManyThereAre) {
+  EventLoop loop;
+  const Pair port;
+  std::array<Pair, 40> clients;
+  std::string order;
+  for (const Pair& client : clients) {
+    loop.watch(
+        client.near(), EventLoop::readable,
+        [&](std::uint32_t) {
+          order += 'c';
+          client.drain();
+        },
+        EventLoop::Rank::later);
+    client.poke();
+  }
+  loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) {
+    order += 'p';
+    port.drain();
+  });
+  port.poke();
+  loop.wait(wall_now());
+  EXPECT_TRUE(order.starts_with("pc")) << order;
+}
+
+TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
+  EventLoop loop;
+  const Pair port;
+  std::array<Pair, 10> clients;
+  std::array<int, 10> calls{};
+  int turns_of_port = 0;
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    loop.watch(
+        clients[i].near(), EventLoop::readable,
+        [&calls, i](std::uint32_t) {
+          ++calls[i];  // and is ready again at once
+          const WallTime until = wall_now() + EventLoop::kLaterSlice / 2;
+          while (wall_now() < until) {
+          }
+        },
+        EventLoop::Rank::later);
+    clients[i].poke();
+  }
+  loop.watch(port.near(), EventLoop::readable, [&](std::uint32_t) { ++turns_of_port; });
+  port.poke();
+  int most_of_one_turn = 0;
+  const auto all = [&] {
+    int sum = 0;
+    for (const int count : calls) sum += count;
+    return sum;
+  };
+  while (all() < 100) {
+    const int before = all();
+    loop.wait(wall_now());
+    most_of_one_turn = std::max(most_of_one_turn, all() - before);
+  }
+  EXPECT_GE(turns_of_port, 25) << "it is looked at before each slice";
+  EXPECT_LE(most_of_one_turn, 3);
+  EXPECT_LE(*std::max_element(calls.begin(), calls.end()) - *std::min_element(calls.begin(), calls.end()), 1)
+      << "they take turns";
+}
+
+}  // namespace
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,124 @@
+// A port whose pseudo-terminal was lost: nobody spins, and it is tried again after a while.
+#include "emulator/serve/ports/port.h"
+#include "emulator/models/models.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "tests/emulator/serve/control/daemon_rig.h"
+#include "tests/ordinary_user.h"
+
+namespace understudy::emulator::serve {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// No further file can be opened while it lives.
+class NoDescriptors {
+ public:
+  NoDescriptors() {
+    EXPECT_EQ(getrlimit(RLIMIT_NOFILE, &before_), 0);
+    rlimit none = before_;
+    none.rlim_cur = 3;  // standard input, output and errors are open
+    EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  }
+  ~NoDescriptors() { EXPECT_EQ(setrlimit(RLIMIT_NOFILE, &before_), 0); }
+  NoDescriptors(const NoDescriptors&) = delete;
+  NoDescriptors& operator=(const NoDescriptors&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+class LostPort : public testing::Test {
+ protected:
+  /// Lets the port live until something holds.
+  bool eventually(const std::function<bool()>& holds) {
+    const WallTime until = wall_now() + 10s;
+    while (!holds()) {
+      if (wall_now() > until) return false;
+      loop.wait(wall_now() + 1ms);
+      port.look(wall_now(), false);
+    }
+    return true;
+  }
+  int open_host() const { return open(link.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK); }
+  bool is_lost() const { return port.terminal().is_lost(); }
+
+  TestFolder folder;
+  const std::string link = folder.path + "/port";
+  world::World world{
+      world::parse_bench(models::all_models(),
+                         "understudy: 1\nlines: { a: { stations: [ { name: x, model: simple2-r3 } ] } }\n",
+                         "bench.yaml", folder.path),
+      {},
+      {}};
+  EventLoop loop;
+  std::vector<std::string> log;
+  Port port{loop, world, 0, link, [] {}, [this](const std::string& line) { log.push_back(line); }};
+};
+
+// It lets go of the line to see who is there, and cannot have it back: its kernel has no descriptor left.
+TEST_F(LostPort, IsTriedAgainEveryTenthOfASecond) {
+  const int host = open_host();
+  ASSERT_GE(host, 0);
+  ASSERT_TRUE(eventually([&] { return port.host_present(); }));
+  std::optional<WallTime> next;
+  {
+    const NoDescriptors none;
+    const WallTime before = wall_now();
+    close(host);
+    ASSERT_TRUE(eventually([&] { return is_lost() && port.next_look(false) > before + 99ms; }));
+    next = port.next_look(false);
+    EXPECT_GE(*next, before + 100ms);
+    EXPECT_LE(*next, wall_now() + 100ms);
+    // Until then nothing wakes it: its descriptors are not watched, though they tell of a hang-up without
+    // end.
+    port.look(*next - 1ns, false);
+    EXPECT_EQ(port.next_look(false), next);
+    port.look(*next, false);
+    EXPECT_TRUE(is_lost());
+    EXPECT_GT(port.next_look(false), next);
+    next = port.next_look(false);
+  }
+  port.look(*next - 1ns, false);
+  EXPECT_TRUE(is_lost()) << "not before its time";
+  port.look(*next, false);
+  EXPECT_FALSE(is_lost());
+  EXPECT_EQ(port.next_look(false), std::nullopt);
+  EXPECT_EQ(log, std::vector<std::string>()) << "it is the same pseudo-terminal";
+  const int another = open_host();
+  ASSERT_GE(another, 0);
+  EXPECT_TRUE(eventually([&] { return port.host_present(); }));
+  close(another);
+  EXPECT_TRUE(eventually([&] { return !port.host_present(); }));
+}
+
+TEST(PortOfADaemon, InAFolderThatCannotBeWrittenTellsOfLinks) {
+  const TestFolder folder;
+  std::filesystem::create_directory(folder.path + "/read-only");
+  std::filesystem::permissions(folder.path + "/read-only", std::filesystem::perms(0555));
+  const OrdinaryUser user(folder.path);
+  const auto message = [&](const std::string& link) {
+    const world::Bench bench = world::parse_bench(
+        models::all_models(),
+        "understudy: 1\nlines: { a: { link: " + link + ", stations: [ { name: x, model: simple2-r3 } ] } }\n",
+        "bench.yaml", folder.path);
+    DaemonOptions options;
+    try {
+      const Daemon daemon(bench, options, [](const std::string&) {});
+      return std::string();
+    } catch (const pty::PortError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string refused = message("read-only/port");
+  EXPECT_NE(refused.find("Permission denied"), std::string::npos) << refused;
+  EXPECT_TRUE(refused.ends_with(" (--links FOLDER puts the links elsewhere)")) << refused;
+  EXPECT_EQ(message("port"), "");
+  EXPECT_EQ(message("none/port").find("--links"), std::string::npos) << "that is another trouble";
+}
+
+}  // namespace
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,273 @@
+// All that is wrong with a file is told at once, in the file's order, and nothing twice.
+#include <gtest/gtest.h>
+
+#include "emulator/world/bench_file/complaints.h"
+#include "tests/emulator/play/performing/scenario_folder.h"
+#include "tests/emulator/world/bench_file/bench_texts.h"
+
+namespace understudy::emulator::world {
+namespace {
+
+FileError error_at(int line, int column, const std::string& text) {
+  return {FilePlace{"a.yaml", line, column}, text};
+}
+
+TEST(Complaints, AreToldInTheFilesOrderAndOnce) {
+  Complaints all;
+  EXPECT_FALSE(all.attempt([] { throw error_at(7, 1, "late"); }));
+  EXPECT_FALSE(all.attempt([] { throw error_at(2, 9, "right"); }));
+  EXPECT_FALSE(all.attempt([] { throw error_at(2, 3, "left"); }));
+  EXPECT_FALSE(all.attempt([] { throw error_at(7, 1, "late"); }));
+  EXPECT_FALSE(all.attempt([] { throw Untold(); }));
+  EXPECT_TRUE(all.attempt([] {}));
+  try {
+    all.throw_if_any();
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "a.yaml:2:3: left\na.yaml:2:9: right\na.yaml:7:1: late");
+  }
+}
+
+TEST(Complaints, AreTwentyAtMost) {
+  Complaints all;
+  for (int line = 1; line <= 25; ++line) all.add(error_at(line, 1, "wrong"));
+  try {
+    all.throw_if_any();
+    FAIL();
+  } catch (const FileError& error) {
+    ASSERT_EQ(error.complaints().size(), 21U);
+    EXPECT_EQ(error.complaints()[19].text, "a.yaml:20:1: wrong");
+    EXPECT_EQ(error.complaints()[20].text, "and 5 more; the first 20 are told");
+  }
+}
+
+TEST(Complaints, EndTheReadingWhereTheyAreTooMany) {
+  Complaints all;
+  int tried = 0;
+  EXPECT_THROW(all.demand([&] {
+    for (; tried < 100'000; ++tried) all.attempt([&] { throw error_at(tried + 1, 1, "wrong"); });
+  }),
+               FileError);
+  EXPECT_LE(tried, 1000);
+}
+
+TEST(AllComplaints, OfABench) {
+  EXPECT_EQ(complaint(R"(understudy: 2
+lines:
+  a:
+    bud: 9600
+    baud: fast
+    link: tcp://:1502
+    stations:
+      - { name: x, model: simple2-r3, adress: 1, firmware: new, set: { Aaxis_Speed: fast, Aaxis_Pulse: 1 } }
+      - { name: y, model: simple2-r4, address: 2 }
+      - { name: z, model: simple2-r3, address: 1 }
+plant:
+  x.A: { travel: [ 5, 10 ], home: { at: 0 }, limit: { lower: 1 } }
+  x.Q: {}
+  y.A: { nonsense: 1 }
+wires: [ x.DOUT_1 -> z.DIN_1, x.DOUT_1 -> y.DIN_99, x.DOUT_99 -> x.DIN_1 ]
+seed: -1
+)"),
+            R"(bench.yaml:1: understudy: '2' is not possible; expected a whole number from 1 to 1
+bench.yaml:4: lines.a.bud: is not a key here; expected one of link, baud, baud_tolerance, timing, stations (the nearest is 'baud')
+bench.yaml:5: lines.a.baud: 'fast' is not possible; expected a whole number from 1 to 4000000
+bench.yaml:6: lines.a.link: 'tcp://:1502' is an address of a network; expected a path, for a serial port
+bench.yaml:8: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, firmware, modules, set, choices, dip, program, nv (the nearest is 'address')
+bench.yaml:8: lines.a.stations[0].firmware: 'new' is not a version; expected one like "1.52"
+bench.yaml:8: lines.a.stations[0].set.Aaxis_Speed: 'fast' is not possible; expected a whole number from -2147483648 to 4294967295
+bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
+bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
+bench.yaml:12: plant.x.A.travel: does not hold position 0, where the machine starts; expected it inside
+bench.yaml:12: plant.x.A.home: 'width' is missing; expected it here
+bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, travel, home, limits, encoder, drive (the nearest is 'limits')
+bench.yaml:13: plant.x.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
+bench.yaml:15: wires[2]: 'DOUT_99' is not an output of simple2-r3; the nearest is 'DOUT_0'
+bench.yaml:16: seed: '-1' is not possible; expected a whole number from 0 to 9223372036854775807)");
+}
+
+/// With columns.
+std::string all_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const BenchError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AllComplaints, OfWhatOneDeviceIsGiven) {
+  EXPECT_EQ(
+      all_of(R"(understudy: 1
+lines:
+  a:
+    stations:
+      - name: x
+        model: simple2-r3
+        firmware: "1.43"
+        modules: 3
+        set:
+          Aaxis_AccTime: 3001
+          Aaxis_DecTime: 5
+          HW_Code: 1
+          Aaxis_Sped: 2
+        choices: { stopp: x, servo_at_power_up: maybe }
+        dip: { DIP9: on, DIP1: perhaps, DIP8: off }
+        program: "END\nNONSENSE\n"
+)"),
+      R"(bench.yaml:7:19: lines.a.stations[0].firmware: '1.43' is unknown for simple2-r3; expected one of 1.39, 1.40, 1.41, 1.42, 1.50, 1.51, 1.52
+bench.yaml:8:18: lines.a.stations[0].modules: 3 is not possible: simple2-r3 has no modules; expected none
+bench.yaml:10:26: lines.a.stations[0].set.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000
+bench.yaml:12:20: lines.a.stations[0].set.HW_Code: cannot be written; it is read-only
+bench.yaml:13:23: lines.a.stations[0].set.Aaxis_Sped: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'
+bench.yaml:14:27: lines.a.stations[0].choices.stopp: no choice is called 'stopp'; the nearest is 'stop'
+bench.yaml:14:49: lines.a.stations[0].choices.servo_at_power_up: choice 'servo_at_power_up' has no option 'maybe'; expected one of off|on
+bench.yaml:15:22: lines.a.stations[0].dip.DIP9: 'DIP9' is not a switch of simple2-r3; the nearest is 'DIP1'
+bench.yaml:15:32: lines.a.stations[0].dip.DIP1: 'perhaps' is neither; expected on or off
+bench.yaml:15:47: lines.a.stations[0].dip.DIP8: 'DIP8' is not a switch of simple2-r3; the nearest is 'DIP1'
+x.program:2: mnemonic: no instruction is called 'NONSENSE'; expected an instruction (nearest: 'NOP'))");
+}
+
+TEST(AllComplaints, OfAChainWhateverItsLengthIs) {
+  const std::string bench =
+      "understudy: 1\nlines: { a: { stations: [ { device: r } ] } }\ndevices:\n"
+      "  r: { model: slim, modules: ";
+  const std::string more = ", set: { T7VM: 100, NOTHING: 1 } }\n";
+  const std::string nothing =
+      ".set.NOTHING: is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
+  EXPECT_EQ(complaint(bench + "8" + more), "bench.yaml:4: devices.r" + nothing);
+  EXPECT_EQ(complaint(bench + "9" + more),
+            "bench.yaml:4: devices.r.modules: 9 is not possible: slim has 1 to 8 of them\n"
+            "bench.yaml:4: devices.r" +
+                nothing);
+  EXPECT_EQ(complaint(bench + "many" + more),
+            "bench.yaml:4: devices.r.modules: 'many' is not possible; expected a whole number from 1 to 255\n"
+            "bench.yaml:4: devices.r" +
+                nothing);
+}
+
+TEST(AllComplaints, OfADeviceWhoseModelIsWrong) {
+  EXPECT_EQ(complaint(R"(understudy: 1
+lines:
+  a:
+    stations:
+      - { name: x, model: simple2-r3, address: 2 }
+      - { name: y, model: simple2-r4, address: 2, firmware: new, modules: many, nv: "",
+          set: { P: fast }, dip: { D: perhaps }, choices: { c: [ 1 ] }, program: /nowhere/x.lst }
+      - { name: z, address: far }
+plant: { y.A: { travel: x }, x.A: { travel: [ x, y ] } }
+inputs: { y.DIN_1: maybe, x.DIN_1: maybe }
+faults:
+  - { stall: y.A, when: "y.A.pulses ==" }
+  - { stall: x.B, when: "x.B.pulses ==" }
+)"),
+            R"(bench.yaml:6: lines.a.stations[1]: address 2 is taken on this line; expected another
+bench.yaml:6: lines.a.stations[1].model: 'simple2-r4' is not a model; the nearest is 'simple2-r3'
+bench.yaml:6: lines.a.stations[1].firmware: 'new' is not a version; expected one like "1.52"
+bench.yaml:6: lines.a.stations[1].modules: 'many' is not possible; expected a whole number from 1 to 255
+bench.yaml:6: lines.a.stations[1].nv: is empty; expected a path
+bench.yaml:7: lines.a.stations[1].set.P: 'fast' is not a number; expected one
+bench.yaml:7: lines.a.stations[1].dip.D: 'perhaps' is neither; expected on or off
+bench.yaml:7: lines.a.stations[1].choices.c: expected a word or a number
+bench.yaml:7: lines.a.stations[1].program: /nowhere/x.lst cannot be read (No such file or directory); expected a listing
+bench.yaml:8: lines.a.stations[2]: 'model' is missing; expected it here
+bench.yaml:8: lines.a.stations[2].address: 'far' is not possible; expected a whole number from 0 to 255
+bench.yaml:9: plant.x.A.travel[0]: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:9: plant.x.A.travel[1]: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:10: inputs.x.DIN_1: 'maybe' is not a level; expected on or off
+bench.yaml:13: faults[1].when: column 14 of 'x.B.pulses ==': unexpected end; expected a name, a number or '(')");
+}
+
+TEST(AllComplaints, OfAMachine) {
+  EXPECT_EQ(
+      complaint(R"(understudy: 1
+lines: { a: { stations: [ { name: x, model: simple2-r3 }, { name: y, model: simple2-r3, address: 2 } ] } }
+plant:
+  x.A:
+    position: here
+    travel: [ 5, 9 ]
+    home: { at: x, width: -2, hysteresis: -1, contact: maybe, input: DIN_99, with: 1 }
+    limits: { lower: x, upper: y, upper_input: DIN_99, lower_input: DIN_99 }
+    encoder: { per_revolution: 0, on: moon, reversed: maybe }
+    drive: { ready_after: soon, enabled_by: maybe, alarm_contact: maybe }
+wires: [ x.A.home -> y.DIN_1 ]
+faults:
+  - { lost_steps: x.B, one_in: none, nth: some, when: "x.A.home ==" }
+  - { lost_steps: y.B, one_in: none, nth: some, when: "y.A.homes" }
+)"),
+      R"(bench.yaml:5: plant.x.A.position: 'here' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:7: plant.x.A.home.at: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:7: plant.x.A.home.width: '-2' is not possible; expected a whole number from 1 to 1000000000000
+bench.yaml:7: plant.x.A.home.hysteresis: '-1' is not possible; expected a whole number from 0 to 1000000000000
+bench.yaml:7: plant.x.A.home.contact: 'maybe' is unknown; expected opens or closes
+bench.yaml:7: plant.x.A.home.input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
+bench.yaml:7: plant.x.A.home.with: is not a key here; expected one of at, width, hysteresis, contact, input (the nearest is 'width')
+bench.yaml:8: plant.x.A.limits.lower: 'x' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:8: plant.x.A.limits.upper: 'y' is not possible; expected a whole number from -1000000000000 to 1000000000000
+bench.yaml:8: plant.x.A.limits.upper_input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
+bench.yaml:8: plant.x.A.limits.lower_input: 'DIN_99' is not an input of simple2-r3; the nearest is 'DIN_9'
+bench.yaml:9: plant.x.A.encoder.per_revolution: '0' is not possible; expected a whole number from 1 to 10000000
+bench.yaml:9: plant.x.A.encoder.on: 'moon' is unknown; expected wheel or machine
+bench.yaml:9: plant.x.A.encoder.reversed: 'maybe' is unknown; expected true or false
+bench.yaml:10: plant.x.A.drive.ready_after: 'soon' is not a duration of whole milliseconds; expected one such as 120ms
+bench.yaml:10: plant.x.A.drive.enabled_by: 'maybe' is unknown; expected on or off
+bench.yaml:10: plant.x.A.drive.alarm_contact: 'maybe' is unknown; expected opens or closes
+bench.yaml:14: faults[1].one_in: 'none' is not possible; expected a whole number
+bench.yaml:14: faults[1].nth: 'some' is not possible; expected a whole number, or a range such as 3..7
+bench.yaml:14: faults[1].when: column 1 of 'y.A.homes': axis A has no 'homes'; the nearest is 'home')");
+}
+
+TEST(AllComplaints, OfAScenario) {
+  const play::ScenarioFolder folder;
+  EXPECT_EQ(
+      folder.complaint(R"(understudy: 1
+bench: feeder.yaml
+gap: soon
+seeed: 1
+steps:
+  - write: { feeder.Aaxis_SVN: 1 }
+  - inject: { stal: feeder.A, name: jam }
+  - clear: jam
+  - repeat: { times: 3, steps: [ advance: 1, fork: { a: [ wirte: 1 ], b: [ advance: 2 ] } ] }
+  - advance: 1ms
+  - expect: { feeder.Cord_A: x }
+)"),
+      R"(scenario.yaml:3: gap: 'soon' is not a duration; expected one such as 250ms
+scenario.yaml:4: seeed: is not a key here; expected one of understudy, name, bench, nv, firmware, gap, seed, parameters, cases, steps (the nearest is 'seed')
+scenario.yaml:6: steps[0].write.feeder.Aaxis_SVN: feeder: no register is called 'Aaxis_SVN'; the nearest is 'Aaxis_SVON'
+scenario.yaml:7: steps[1].inject: )" +
+          folder.complaint(play::ScenarioFolder::scenario_of("  - inject: { stal: feeder.A, name: jam }\n"))
+              .substr(std::string("scenario.yaml:4: steps[0].inject: ").size()) +
+          R"(
+scenario.yaml:9: steps[3].repeat.steps[0].advance: '1' is not a duration; expected one such as 250ms
+scenario.yaml:9: steps[3].repeat.steps[1].fork.a[0].wirte: is not a step; the nearest is 'write'
+scenario.yaml:9: steps[3].repeat.steps[1].fork.b[0].advance: '2' is not a duration; expected one such as 250ms
+scenario.yaml:11: steps[5].expect.feeder.Cord_A: )" +
+          folder.complaint(play::ScenarioFolder::scenario_of("  - expect: { feeder.Cord_A: x }\n"))
+              .substr(std::string("scenario.yaml:4: steps[0].expect.feeder.Cord_A: ").size()));
+}
+
+TEST(AllComplaints, OfAFaultInAScenario) {
+  const play::ScenarioFolder folder;
+  const std::string told = folder.complaint(play::ScenarioFolder::scenario_of(
+      "  - inject: { lost_steps: feeder.A, one_in: none, when: \"feeder.A.homes\" }\n"));
+  EXPECT_EQ(told,
+            "scenario.yaml:4: steps[0].inject.one_in: 'none' is not possible; expected a whole number\n"
+            "scenario.yaml:4: steps[0].inject.when: column 1 of 'feeder.A.homes': axis A has no 'homes'; the "
+            "nearest is 'home'");
+}
+
+TEST(AllComplaints, OfCasesAreToldForTheFirstOne) {
+  const play::ScenarioFolder folder;
+  EXPECT_EQ(
+      folder.complaint("understudy: 1\nbench: feeder.yaml\ncases: [ { a: 1 }, { a: x }, { a: y } ]\nsteps:\n"
+                       "  - advance: 1\n  - write: { feeder.Aaxis_Speed: \"${a}\" }\n"),
+      "scenario.yaml:5: steps[0].advance: '1' is not a duration; expected one such as 250ms  (a=1)\n"
+      "scenario.yaml:6: steps[1].write.feeder.Aaxis_Speed: column 1 of 'x': no device is called 'x'; "
+      "expected one of feeder, turner  (a=x)\n"
+      "scenario.yaml:6: steps[1].write.feeder.Aaxis_Speed: column 1 of 'y': no device is called 'y'; "
+      "expected one of feeder, turner  (a=y)");
+}
+
+}  // namespace
+}  // namespace understudy::emulator::world

@@ -1,0 +1,15 @@
+// Complaints about files without the columns that they tell, for tests of what they say.
+#pragma once
+
+#include <regex>
+#include <string>
+
+namespace understudy::emulator::world {
+
+/// "a.yaml:3:12: lines: ..." as "a.yaml:3: lines: ...", in every line.
+inline std::string without_columns(const std::string& complaint) {
+  static const std::regex with_column("(^|\n)([^:\n]*:[0-9]+):[0-9]+: ");
+  return std::regex_replace(complaint, with_column, "$1$2: ");
+}
+
+}  // namespace understudy::emulator::world

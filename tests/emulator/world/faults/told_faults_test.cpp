@@ -1,0 +1,184 @@
+// What onlookers are told of faults that act on messages: each kind, on replies and on requests, as a capture
+// has it.
+#include "emulator/models/models.h"
+#include "emulator/world/faults/kinds.h"
+#include "pty/capture_frames.h"
+#include "pty/capture_text.h"
+#include "tests/emulator/world/faults/faulty_line.h"
+
+namespace understudy::emulator::world {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// What a capture of the one line says, without times.
+class Captured {
+ public:
+  explicit Captured(FaultyLine& line)
+      : line_(line.world().line(0)), frames_(0, line_.framing, [this](const pty::CapturedPacket& packet) {
+          std::string text;
+          pty::append_text_packet(text, std::vector<pty::CapturedLine>{{"L", 19200}}, packet, 0);
+          lines_.push_back(text.substr(text.find(' ') + 1, text.size() - text.find(' ') - 2));
+        }) {
+    line_.line.add_observer(frames_);
+  }
+  ~Captured() { line_.line.remove_observer(frames_); }
+  Captured(const Captured&) = delete;
+  Captured& operator=(const Captured&) = delete;
+
+  Lines lines() {
+    frames_.finish();
+    return std::exchange(lines_, {});
+  }
+
+ private:
+  WorldLine& line_;
+  Lines lines_;
+  pty::CaptureFrames frames_;
+};
+
+const std::string kAsked = "in  L 01 03 00 01 00 01 D5 CA";
+const std::string kSaid = "out L 01 03 02 C0 01 29 84";
+
+struct Told {
+  std::string fault;
+  Lines lines;
+};
+
+const std::vector<Told>& cells() {
+  static const std::vector<Told> all{
+      // On the reply.
+      {"drop feeder", {kAsked, "out L  # fault 1 drop: not said"}},
+      {"delay feeder by=20ms", {kAsked, "out L  # fault 1 delay: said later", kSaid}},
+      {"corrupt_checksum feeder",
+       {kAsked, "out L 01 03 02 C0 01 29 7B  # fault 1 corrupt_checksum: last byte inverted"}},
+      {"truncate feeder keep=3", {kAsked, "out L 01 03 02  # fault 1 truncate: cut"}},
+      {"truncate feeder keep=0", {kAsked, "out L  # fault 1 truncate: cut"}},
+      {"duplicate feeder", {kAsked, kSaid + "  # fault 1 duplicate: said twice", kSaid}},
+      {"duplicate feeder after=20ms", {kAsked, kSaid + "  # fault 1 duplicate: said twice", kSaid}},
+      {"noise feeder before=FF", {kAsked, "out L FF 01 03 02 C0 01 29 84  # fault 1 noise: noise around it"}},
+      {"collision feeder with=00",
+       {kAsked, "out L 00 03 02 C0 01 29 84  # fault 1 collision: somebody else talked"}},
+      {"drop rs485", {kAsked, "out L  # fault 1 drop: not said"}},
+      // On the request. The host's own bytes stay what they were.
+      {"drop feeder of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
+      {"drop rs485 of=request", {kAsked, "in  L  # fault 1 drop: not heard"}},
+      {"delay feeder by=20ms of=request", {kAsked, "in  L  # fault 1 delay: heard later", kSaid}},
+      {"corrupt_checksum rs485 of=request",
+       {kAsked, "in  L  # fault 1 corrupt_checksum: last byte inverted"}},
+      {"truncate feeder keep=3 of=request", {kAsked, "in  L  # fault 1 truncate: cut"}},
+      {"duplicate feeder of=request", {kAsked, "in  L  # fault 1 duplicate: heard twice", kSaid, kSaid}},
+      {"noise feeder before=FF of=request", {kAsked, "in  L  # fault 1 noise: noise around it", kSaid}},
+      {"collision feeder with=00 of=request", {kAsked, "in  L  # fault 1 collision: somebody else talked"}},
+      {"drop feeder of=both", {kAsked, "in  L  # fault 1 drop: not heard"}},
+      // On what the device makes of it.
+      {"slow feeder by=20ms", {kAsked, "in  L  # fault 1 slow: carried out later", kSaid}},
+      {"busy feeder", {kAsked, "in  L  # fault 1 busy: refused", "out L 01 83 06 C1 32"}},
+      {"exception rs485 code=4", {kAsked, "in  L  # fault 1 exception: refused", "out L 01 83 04 40 F3"}},
+      {"early_reply feeder", {"in  L  # fault 1 early_reply: taken for over at once", kSaid, kAsked}},
+      {"power_cut feeder nth=1", {kAsked, "in  L  # fault 1 power_cut: begins"}},
+      // On the machine, struck by a request.
+      {"stall feeder.A nth=1", {kAsked, "in  L  # fault 1 stall: begins", kSaid}},
+      {"lost_steps feeder.A one_in=5 nth=1", {kAsked, "in  L  # fault 1 lost_steps: begins", kSaid}},
+      {"slip feeder.A pulses=5 nth=1", {kAsked, "in  L  # fault 1 slip: pushed", kSaid}},
+      {"alarm feeder.A nth=1", {kAsked, "in  L  # fault 1 alarm: begins", kSaid}},
+      {"stuck feeder.DIN_2 level=1 nth=1", {kAsked, "in  L  # fault 1 stuck: begins", kSaid}},
+      {"encoder_noise feeder.A counts=5 nth=1", {kAsked, "in  L  # fault 1 encoder_noise: begins", kSaid}},
+      {"turn feeder.B counts=400 nth=1", {kAsked, "in  L  # fault 1 turn: turned", kSaid}},
+  };
+  return all;
+}
+
+TEST(ToldFaults, EachKindIsToldOfWhereItActs) {
+  for (const Told& cell : cells()) {
+    FaultyLine line(
+        "plant: { feeder.A: { encoder: { per_revolution: 4000 } }, feeder.B: { encoder: { on: wheel, "
+        "per_revolution: 4000 } } }\n");
+    Captured captured(line);
+    line.inject(cell.fault);
+    line.ask(kAskFeeder);
+    EXPECT_EQ(captured.lines(), cell.lines) << cell.fault;
+  }
+}
+
+TEST(ToldFaults, NoKindIsForgottenHere) {
+  for (const FaultKindRow& row : fault_kinds()) {
+    const auto is_of_kind = [&](const Told& cell) {
+      return cell.fault.starts_with(std::string(row.name) + " ");
+    };
+    EXPECT_TRUE(std::any_of(cells().begin(), cells().end(), is_of_kind)) << row.name;
+  }
+}
+
+TEST(ToldFaults, SeveralOnOneMessageAreToldTogether) {
+  FaultyLine line;
+  Captured captured(line);
+  line.inject("corrupt_checksum feeder");
+  line.inject("truncate feeder keep=3");
+  line.ask(kAskFeeder);
+  EXPECT_EQ(captured.lines(),
+            (Lines{kAsked,
+                   "out L 01 03 02  # fault 1 corrupt_checksum: last byte inverted; fault 2 truncate: cut"}));
+  line.inject("drop feeder");
+  line.inject("delay feeder by=20ms");  // never sees it
+  line.ask(kAskFeeder);
+  EXPECT_EQ(captured.lines(), (Lines{kAsked,
+                                     "out L  # fault 1 corrupt_checksum: last byte inverted; "
+                                     "fault 2 truncate: cut; fault 3 drop: not said"}));
+}
+
+TEST(ToldFaults, OnlyWhatIsHitIsTold) {
+  FaultyLine line;
+  Captured captured(line);
+  line.inject("drop feeder function=6");
+  line.inject("drop feeder nth=2");
+  line.ask_all({kAskFeeder, kAskTurner, kAskFeeder});
+  EXPECT_EQ(captured.lines(),
+            (Lines{kAsked, kSaid, "in  L 02 03 00 01 00 01 D5 F9", "out L 02 03 02 C0 01 6D 84", kAsked,
+                   "out L  # fault 2 drop: not said"}));
+}
+
+TEST(ToldFaults, AReplyToNobodySaysBoth) {
+  FaultyLine line;
+  Captured captured(line);
+  line.inject("corrupt_checksum feeder");
+  line.world().line(0).line.receive(kAskFeeder, line.world().now());
+  line.world().line(0).line.host_closed();
+  line.world().advance_to(std::chrono::milliseconds(50));
+  EXPECT_EQ(captured.lines().back(),
+            "out L 01 03 02 C0 01 29 7B  # to nobody: no host has the line open; "
+            "fault 1 corrupt_checksum: last byte inverted");
+}
+
+TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
+  World world(parse_bench(models::all_models(),
+                          "understudy: 1\nlines: { t: { stations: [ { name: chain, model: slim } ] } }\n",
+                          "t.yaml", "."),
+              {}, {});
+  Lines lines;
+  pty::CaptureFrames frames(
+      0, world.line(0).framing,
+      [&](const pty::CapturedPacket& packet) {
+        lines.push_back((packet.way == pty::Way::from_host ? "in " : "out ") +
+                        std::string(packet.bytes.begin(), packet.bytes.end()) + pty::comment_of(packet));
+      },
+      true);
+  world.line(0).line.add_observer(frames);
+  world.inject(find_fault(world.known(), fault_words("drop chain nth=1")));
+  world.inject(find_fault(world.known(), fault_words("delay chain of=request by=20ms nth=2")));
+  for (const int ms : {100, 200}) {
+    world.advance_to(std::chrono::milliseconds(ms));
+    world.line(0).line.receive(Bytes{'?', 'P', 'E', '\r'}, world.now());
+  }
+  world.advance_to(std::chrono::milliseconds(300));
+  world.line(0).line.remove_observer(frames);
+  ASSERT_GE(lines.size(), 4u);
+  EXPECT_EQ(lines[0], "in ?PE\r");
+  EXPECT_EQ(lines[1], "out fault 1 drop: not said");
+  EXPECT_EQ(lines[2], "in ?PE\r");
+  EXPECT_EQ(lines[3], "in fault 2 delay: heard later");
+  EXPECT_GT(lines.size(), 4u) << "the second answer comes";
+}
+
+}  // namespace
+}  // namespace understudy::emulator::world

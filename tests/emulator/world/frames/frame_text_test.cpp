@@ -1,0 +1,88 @@
+// Frames in words.
+#include "emulator/world/frames/frame_text.h"
+#include "emulator/models/models.h"
+
+#include <gtest/gtest.h>
+
+#include "emulator/world/bench_file/bench_file.h"
+#include "pty/rtu_crc.h"
+
+namespace understudy::emulator::world {
+namespace {
+
+class FrameText : public testing::Test {
+ protected:
+  using Bytes = std::vector<std::uint8_t>;
+  static Bytes framed(Bytes bytes) {
+    pty::append_rtu_crc(bytes);
+    return bytes;
+  }
+  World world_{parse_bench(models::all_models(),
+                           "understudy: 1\n"
+                           "lines:\n"
+                           "  rs485:\n"
+                           "    stations:\n"
+                           "      - { name: feeder, model: simple2-r3, address: 1 }\n"
+                           "      - { name: turner, model: simple2-r3, address: 2 }\n",
+                           "bench.yaml", "."),
+               WorldOptions{},
+               {}};
+};
+
+TEST_F(FrameText, RequestsNameTheirRegisters) {
+  struct Case {
+    Bytes request;
+    std::string text;
+  };
+  const std::vector<Case> cases = {
+      {framed({1, 6, 0x10, 0x05, 0, 1}), "write 0x1005 feeder.Aaxis_Move_INC = 1"},
+      {framed({2, 6, 0x10, 0x05, 0, 1}), "write 0x1005 turner.Aaxis_Move_INC = 1"},
+      {framed({1, 3, 0x0E, 0x04, 0, 2}), "read 0x0E04 feeder.Cord_A"},
+      {framed({1, 3, 0x0E, 0x04, 0, 1}), "read 0x0E04 feeder.Cord_A_L"},
+      {framed({1, 3, 0x0E, 0x05, 0, 2}), "read 0x0E05 feeder.Cord_A_H, Cord_B_L"},
+      {framed({1, 3, 0x00, 0x02, 0, 3}), "read 0x0002 feeder.Version, 0x0003, Aaxis_Mode"},
+      {framed({1, 16, 0x10, 0x00, 0, 3, 6, 0x86, 0xA0, 0, 1, 0, 200}),
+       "write 0x1000 feeder.Aaxis_Pulse = 100000, Aaxis_Speed = 200"},
+      {framed({1, 16, 0x10, 0x00, 0, 2, 4, 0xFF, 0xFF, 0xFF, 0xFF}), "write 0x1000 feeder.Aaxis_Pulse = -1"},
+      {framed({1, 16, 0x40, 0x00, 0, 10, 20, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0}),
+       "write 0x4000 feeder.MAIN_LINE0_CMD = 256, MAIN_LINE0_DATA1 = 256, MAIN_LINE0_DATA2 = 256, "
+       "MAIN_LINE0_JMP = 256, MAIN_LINE1_CMD = 256, MAIN_LINE1_DATA1 = 256, MAIN_LINE1_DATA2 = 256, "
+       "MAIN_LINE1_JMP = 256, and 2 words more"},
+      {framed({9, 3, 0x00, 0x01, 0, 1}), "station 9: read 0x0001 0x0001"},
+      {framed({0, 6, 0x10, 0x13, 0, 1}), "station 0: write 0x1013 feeder.ALL_SVON = 1"},
+      {framed({1, 5, 0x00, 0x01, 0, 1}), "01 05 00 01 00 01 5D CA"},
+      {{1, 3, 0, 1, 0, 1, 0xD5, 0xCB}, "01 03 00 01 00 01 D5 CB"},
+      {{0xFF}, "FF"},
+      {{}, ""},
+  };
+  for (const Case& c : cases) EXPECT_EQ(request_text(world_, 0, c.request), c.text);
+}
+
+TEST_F(FrameText, RepliesSayWhatTheRequestAskedFor) {
+  const Bytes read = framed({1, 3, 0x0E, 0x04, 0, 2});
+  const Bytes write = framed({1, 6, 0x10, 0x05, 0, 1});
+  struct Case {
+    Bytes request;
+    Bytes reply;
+    std::string text;
+  };
+  const std::vector<Case> cases = {
+      {read, framed({1, 3, 4, 0x7D, 0, 0, 0}), "feeder.Cord_A = 32000"},
+      {read, framed({1, 0x83, 2}), "exception 2 (illegal data address)"},
+      {read, framed({1, 0x83, 99}), "exception 99"},
+      {read, framed({2, 3, 4, 0x7D, 0, 0, 0}), "02 03 04 7D 00 00 00 "},  // another station's
+      {{}, framed({1, 3, 2, 0xC0, 1}), "01 03 02 C0 01 29 84"},
+      {read, framed({1, 3, 2, 0xC0, 1}), "01 03 02 C0 01 29 84"},
+      {write, write, "done"},
+      {read, {1, 3, 4}, "01 03 04"},
+  };
+  for (const Case& c : cases)
+    EXPECT_EQ(reply_text(world_, 0, c.request, c.reply).substr(0, c.text.size()), c.text);
+}
+
+TEST_F(FrameText, LongNoiseIsCut) {
+  EXPECT_EQ(hex_text(Bytes(300, 0x55)).substr(90), "55 55 ... (300 bytes)");
+}
+
+}  // namespace
+}  // namespace understudy::emulator::world

@@ -1,0 +1,71 @@
+// One scenario, one outcome: every byte, pulse and output at its time.
+#include <set>
+
+#include "tests/emulator/play/performing/played.h"
+
+namespace understudy::emulator::world {
+namespace {
+
+const std::string kDay = play::kServoOn + play::kExampleMove +
+                         "  - wait: { until: feeder.A.pulses > 1000, within: 1s }\n"
+                         "  - inject: { lost_steps: feeder.A, one_in: 7 }\n"
+                         "  - write: { feeder.DOUT_4: 1 }\n"
+                         "  - expect: { feeder.STATUS.4: 1, feeder.DOUT_4: 1 }\n"
+                         "  - wait: { until: feeder.STATUS.4 == 0, within: 4s, poll: 37ms }\n"
+                         "  - power: { feeder: cycle }\n"
+                         "  - send: { bytes: 01 03 00 01 00 01 D5 CB, reply: nothing, within: 30ms }\n"
+                         "  - input: { feeder.DIN_10: on }\n"
+                         "  - expect: { feeder.DIN_10: 1 }\n";
+
+std::uint64_t outcome(const std::string& steps, bool bulk_ticks = true, const std::string& more = "") {
+  const play::PlayOptions options{
+      .make_stage =
+          [&](const play::Scenario& scenario) {
+            auto stage = play::make_free_stage(scenario);
+            stage->with_world([&](World& world) { world.set_bulk_ticks(bulk_ticks); });
+            return stage;
+          },
+      .with_hash = true};
+  const play::ScenarioResult result = play::played(steps, more, options);
+  EXPECT_TRUE(play::has_passed(result)) << play::why(result);
+  return result.outcome_hash;
+}
+
+TEST(OutcomeHash, IsTheSameInTwentyRuns) {
+  std::set<std::uint64_t> outcomes;
+  for (int i = 0; i < 20; ++i) outcomes.insert(outcome(kDay));
+  EXPECT_EQ(outcomes.size(), 1U);
+}
+
+TEST(OutcomeHash, IsTheSameWhetherQuietTicksAreLeftOutOrNot) {
+  EXPECT_EQ(outcome(kDay, true), outcome(kDay, false));
+}
+
+TEST(OutcomeHash, DoesNotHingeOnWhoLooksOn) {
+  EXPECT_EQ(outcome(kDay), outcome("  - never: feeder.A.pulses > 99999\n"
+                                   "  - always: feeder.A.greatest_speed < 20000\n" +
+                                   kDay));
+}
+
+TEST(OutcomeHash, DiffersWithWhateverComesOut) {
+  // The same request, whoever puts it together; it takes as long as the reply does.
+  const std::string servo_on_in_bytes = "  - send: { bytes: 01 06 10 14 00 01 +crc, within: 5.333333ms }\n";
+  EXPECT_EQ(outcome(play::kServoOn), outcome(servo_on_in_bytes));
+  const std::set<std::uint64_t> outcomes = {
+      outcome(play::kServoOn),
+      outcome("  - write: { feeder.Baxis_SVON: 1 }\n"),  // another byte
+      outcome(play::kServoOn + "  - advance: 1ms\n"),    // a tick more
+      outcome("  - advance: 1us\n" + play::kServoOn),    // a microsecond later
+      outcome(play::kServoOn + "  - advance: 1s\n"),
+      outcome("  - power: { feeder: off }\n" + servo_on_in_bytes),  // not answered
+      outcome(play::kServoOn + play::kExampleMove + "  - advance: 100ms\n"),
+      outcome(play::kServoOn + "  - inject: { alarm: feeder.A }\n" + play::kExampleMove +
+              "  - advance: 101ms\n"),
+      outcome(play::kServoOn + play::kServoOn),
+      outcome(play::kServoOn + play::kServoOn, true, "gap: 1ms\n"),
+  };
+  EXPECT_EQ(outcomes.size(), 10U);
+}
+
+}  // namespace
+}  // namespace understudy::emulator::world

@@ -1,0 +1,231 @@
+// A recording played again says every byte again, or tells the first that differs.
+#include "emulator/world/recording/replay.h"
+#include "emulator/models/models.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "emulator/world/snapshot.h"
+#include "tests/emulator/world/recording/busy_world.h"
+
+namespace understudy::emulator::world {
+namespace {
+
+using Verdict = ReplayResult::Verdict;
+
+Replayed play(const std::string& text, std::optional<SimTime> until = {},
+              const std::function<void(World&)>& done = {}) {
+  std::istringstream file(text);
+  return replay(models::all_models(), file, "a.jsonl", until, {}, done);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    play(text);
+  } catch (const RecordingError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream file(text);
+  for (std::string line; std::getline(file, line);) lines.push_back(line + "\n");
+  return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+TEST(Replay, SaysEveryByteOfABusyWorldAgainAndEndsInItsState) {
+  std::uint64_t bytes = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    BusyWorld busy(seed, seed % 3 == 0 ? "instant" : "wire");
+    busy.play(300);
+    const std::string text = busy.finish();
+    bool is_same = false;
+    const Replayed again = play(text, {}, [&](World& world) {
+      is_same = world.device(0).same_state(busy.world().device(0)) &&
+                world.device(1).same_state(busy.world().device(1)) &&
+                world.plant(0, 0).same_state(busy.world().plant(0, 0)) && world.now() == busy.world().now();
+    });
+    EXPECT_EQ(again.result.verdict, Verdict::same) << again.result.difference;
+    EXPECT_TRUE(again.result.has_end);
+    EXPECT_TRUE(is_same);
+    EXPECT_EQ(again.header.version, "1.2.3");
+    EXPECT_EQ(again.header.seed, seed);
+    bytes += again.result.bytes_said;
+  }
+  EXPECT_GT(bytes, 3000U) << "or little was compared";
+}
+
+TEST(Replay, TellsTheFirstByteThatDiffers) {
+  BusyWorld busy(4);
+  busy.play(300);
+  const std::vector<std::string> lines = lines_of(busy.finish());
+  std::uint64_t before = 0;
+  int changed = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t at = lines[i].find("\"do\":\"out\"");
+    if (at == std::string::npos) continue;
+    const std::size_t bytes = lines[i].find("\"bytes\":\"") + 9;
+    std::vector<std::string> other = lines;
+    other[i][bytes + 3] = other[i][bytes + 3] == '0' ? '1' : '0';  // the second byte
+    const ReplayResult result = play(joined(other)).result;
+    EXPECT_EQ(result.verdict, Verdict::different);
+    EXPECT_TRUE(result.difference.starts_with("byte " + std::to_string(before + 2) + ": expected "))
+        << result.difference;
+    before += (lines[i].find('"', bytes) - bytes) / 2;
+    if (++changed == 20) break;
+  }
+  EXPECT_EQ(changed, 20);
+}
+
+TEST(Replay, ReportsWhatIsMissingOrExtraOrAtAnotherTime) {
+  const std::string bench =
+      to_text(parse_bench(models::all_models(), two_devices("wire", 19200), "two.yaml", "."));
+  const std::string header =
+      to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) + "\n";
+  // Aaxis_SVON = 1: eight characters of 11 bits at 19200 baud are 4583333 ns, the END time 750000 ns.
+  const std::string request = R"({"t":0,"do":"in","line":0,"bytes":"0106101400010cce"})"
+                              "\n";
+  const auto reply = [](const std::string& t) {
+    return R"({"t":)" + t +
+           R"(,"do":"out","line":0,"bytes":"0106101400010cce"})"
+           "\n";
+  };
+  const std::string end = R"({"t":20000000,"do":"end"})"
+                          "\n";
+  EXPECT_EQ(play(header + request + reply("5333333") + end).result.verdict, Verdict::same);
+  const std::string text = "01 06 10 14 00 01 0C CE on rs485 at ";
+  EXPECT_EQ(play(header + request + end).result.difference,
+            "said was " + text + "5.333333ms; expected nothing");
+  EXPECT_EQ(play(header + request + reply("5333333") + reply("6000000") + end).result.difference,
+            "expected " + text + "6ms; nothing was said");
+  EXPECT_EQ(play(header + request + reply("5333334") + end).result.difference,
+            "expected " + text + "5.333334ms; said was " + text + "5.333333ms");
+}
+
+TEST(Replay, ARecordingMayBeginInTheMiddleWithASnapshot) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    BusyWorld busy(seed, seed % 3 == 0 ? "instant" : "wire");
+    busy.play(100);
+    busy.begin_again();
+    busy.play(100);
+    const std::string text = busy.finish();
+    EXPECT_NE(text.find("\"snapshot\""), std::string::npos);
+    std::uint64_t end = 0;
+    const Replayed again = play(text, {}, [&](const World& world) { end = hash(world); });
+    EXPECT_EQ(again.result.verdict, Verdict::same) << again.result.difference;
+    EXPECT_TRUE(again.result.has_end);
+    EXPECT_EQ(end, hash(busy.world()));
+  }
+}
+
+TEST(Replay, ASnapshotThatDoesNotBelongToTheBenchIsRefused) {
+  BusyWorld busy(1);
+  busy.play(20);
+  busy.begin_again();
+  busy.play(20);
+  std::string text = busy.finish();
+  const std::size_t at = text.find("rs485");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 5, "rs486");
+  const std::string why = refusal(text);
+  EXPECT_TRUE(why.starts_with("a.jsonl:1: snapshot: bench: ")) << why;
+}
+
+TEST(Replay, StopsWhereItIsTold) {
+  BusyWorld busy(5);
+  busy.play(100);
+  const std::string text = busy.finish();
+  const SimTime middle = busy.world().now() / 2;
+  SimTime reached{0};
+  const Replayed half = play(text, middle, [&](World& world) { reached = world.now(); });
+  EXPECT_EQ(half.result.verdict, Verdict::stopped);
+  EXPECT_EQ(half.result.reached, middle);
+  EXPECT_EQ(reached, middle);
+}
+
+TEST(Replay, ATruncatedRecordingIsPlayedAsFarAsItGoes) {
+  BusyWorld busy(6);
+  busy.play(40);
+  const std::string text = busy.finish();
+  const std::size_t header = text.find('\n') + 1;
+  for (std::size_t size = header; size < text.size(); size += 7) {
+    const Replayed again = play(text.substr(0, size));
+    EXPECT_EQ(again.result.verdict, Verdict::same) << size << ": " << again.result.difference;
+    EXPECT_FALSE(again.result.has_end) << size;
+  }
+}
+
+TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
+  const std::string bench =
+      to_text(parse_bench(models::all_models(), two_devices("wire", 19200), "two.yaml", "."));
+  const std::string header =
+      to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) + "\n";
+  const auto event = [&](const std::string& line) { return refusal(header + line + "\n"); };
+  EXPECT_EQ(refusal(""), "a.jsonl:1: recording: is empty or cannot be read; expected a header");
+  EXPECT_EQ(refusal("{\n"), "a.jsonl:1: line: is torn or no JSON; expected one object");
+  EXPECT_EQ(refusal("[]\n"), "a.jsonl:1: line: is not an object; expected one");
+  EXPECT_EQ(refusal("{\"understudy\":1,\"kind\":\"nv-image\"}\n"),
+            "a.jsonl:1: kind: is missing or another; expected a recording");
+  EXPECT_EQ(refusal(to_line(RecordingHeader{
+                        .version = "1", .bench = "understudy: 1", .options = {}, .snapshot = {}}) +
+                    "\n"),
+            "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
+  EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': is there twice; expected it once");
+  EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
+            "a.jsonl:3: line: stands behind the end; expected nothing more");
+  EXPECT_EQ(event("{}"), "a.jsonl:2: do: is missing; expected one");
+  EXPECT_EQ(event(R"({"t":1,"do":"dance"})"),
+            "a.jsonl:2: do: 'dance' is not an event; expected one of a recording");
+  EXPECT_EQ(event(R"({"t":-1,"do":"end"})"),
+            "a.jsonl:2: t: is not a number that can be; expected 0 to 3153600000000000000");
+  EXPECT_EQ(event(R"({"t":1,"do":"in","line":1,"bytes":"00"})"),
+            "a.jsonl:2: line: is not a number that can be; expected 0 to 0");
+  EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0"})"),
+            "a.jsonl:2: bytes: ends in half a byte; expected two digits");
+  EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0G"})"),
+            "a.jsonl:2: bytes: is not a row of bytes; expected two digits for each");
+  EXPECT_EQ(event(R"({"t":1,"do":"input","device":0,"terminal":99,"level":0})").substr(0, 22),
+            "a.jsonl:2: terminal: i");
+  EXPECT_EQ(event(R"({"t":1,"do":"power","device":0,"on":1})"),
+            "a.jsonl:2: on: is neither; expected true or false");
+  EXPECT_EQ(event(R"({"t":1,"do":"program","device":0,"text":"Fly"})").substr(0, 20), "a.jsonl:2: mnemonic:");
+  EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"open\",\"line\":0}\n{\"t\":4,\"do\":\"end\"}\n"),
+            "a.jsonl:3: t: goes back in time; expected the events in their order");
+}
+
+TEST(Replay, ARecordingNamesNoPaths) {
+  // It may come from anybody: what it could have read or written is refused before anything is.
+  for (const auto& [key, path] : {std::pair<std::string, std::string>{"nv", "/tmp/precious"},
+                                  {"nv", "feeder.json"},
+                                  {"program", "/etc/passwd"}}) {
+    const std::string bench = R"({"understudy":1,"lines":{"l":{"stations":[{"name":"d","model":"simple2-r3",)"
+                              R"("address":1,")" +
+                              key + R"(":")" + path + R"("}]}}})";
+    EXPECT_EQ(
+        refusal(to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) +
+                "\n"),
+        "a.jsonl:1: bench: bench:1:" + std::to_string(bench.find("\"" + path) + 1) +
+            ": lines.l.stations[0]." + key +
+            ": is a path; expected none in a recording, which has everything in itself");
+  }
+  const std::string linked =
+      R"({"understudy":1,"lines":{"l":{"link":"/tmp/p","stations":[{"name":"d","model":"simple2-r3"}]}}})";
+  EXPECT_NE(
+      refusal(to_line(RecordingHeader{.version = "1", .bench = linked, .options = {}, .snapshot = {}}) + "\n")
+          .find("lines.l.link: is a path"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace understudy::emulator::world

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""What ./test looks at before it builds anything: formatting, and a few rules of style that a script can judge.
+
+usage: house_style.py [PROJECT]
+
+Prints a line for each fault, "file:line: what is wrong; what was expected", and exits 1 if there is any.
+"""
+import concurrent.futures
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+LONGEST_FILE = 500  # lines; about 400 is the aim
+LONGEST_TEST_NAME = 50
+TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P)\((\w+), *(\w+)\)")
+FOREIGN = re.compile(r'"[^"]*(?<!here )\bis no (?!longer|more|other|less|better|such)\w')  # "X is no Y" for "X is not a Y"
+
+
+def tracked(project):
+    said = subprocess.run(["git", "ls-files", "*.h", "*.cpp"], cwd=project, capture_output=True, text=True)
+    if said.returncode == 0:
+        return [name for name in said.stdout.split("\n") if name]
+    found = []
+    for folder, folders, names in os.walk(project):
+        folders[:] = [name for name in folders if name not in ("build", ".git")]
+        found += [os.path.relpath(os.path.join(folder, n), project) for n in names if n.endswith((".h", ".cpp"))]
+    return found
+
+
+def faults_of_text(path, lines):
+    if path.endswith(".h") and "#pragma once" not in lines:
+        yield 1, "has no `#pragma once`; expected it behind the comment that begins the file"
+    if len(lines) > LONGEST_FILE and not path.startswith(("tests/", "scenarios/", "docs/")):
+        yield LONGEST_FILE, f"is {len(lines)} lines long; expected at most {LONGEST_FILE}, and one idea a file"
+    for number, line in enumerate(lines, 1):
+        test = TEST.match(line)
+        if test and len(test.group(2)) > LONGEST_TEST_NAME:
+            yield number, f"the test's name has {len(test.group(2))} letters; expected at most {LONGEST_TEST_NAME}"
+        if test and not re.fullmatch(r"[A-Z0-9][A-Za-z0-9]*", test.group(2)):
+            yield number, "the test's name is not in CamelCase; expected it to be"
+        if path.endswith(".h") and line.startswith("using namespace"):
+            yield number, "a header opens a namespace to whoever includes it; expected names in full"
+        if FOREIGN.search(line) and not path.startswith("tests/"):
+            yield number, 'says "X is no Y"; expected "X is not a Y"'
+
+
+def badly_formatted(project, paths):
+    program = shutil.which("clang-format")
+    if program is None:
+        return ["clang-format: is not installed; expected it (apt-get install clang-format)"]
+
+    def look(some):
+        said = subprocess.run([program, "--dry-run", "-Werror", *some], cwd=project, capture_output=True, text=True)
+        found = re.findall(r"^(\S+?:\d+):\d+: error:", said.stderr, re.MULTILINE)
+        return [f"{place}: is not formatted; expected what `clang-format -i` makes of it" for place in found]
+
+    share = max(1, len(paths) // (4 * (os.cpu_count() or 1)))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        told = [line for lines in pool.map(look, [paths[i:i + share] for i in range(0, len(paths), share)]) for line in lines]
+    first = {}
+    for line in told:  # one a file is enough
+        first.setdefault(line.split(":")[0], line)
+    return list(first.values())
+
+
+def main(project):
+    paths = tracked(project)
+    faults = badly_formatted(project, paths)
+    for path in paths:
+        with open(os.path.join(project, path), encoding="utf-8") as file:
+            faults += [f"{path}:{number}: {what}" for number, what in faults_of_text(path, file.read().split("\n"))]
+    print("\n".join(faults) or f"{len(paths)} files: formatted, and as the house has it")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))

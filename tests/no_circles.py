@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Refuses circles of includes between the folders of the house, and so between its rooms.
+
+usage: no_circles.py PROJECT [EXTRA_EDGE...]      an edge is FOLDER:FOLDER, as if one file included another
+
+Which room may know which is checked when the build is configured (cmake/rooms.cmake); that the folders inside
+a room form no circle is checked here. Exit 1, with a line for each circle.
+"""
+import collections
+import os
+import re
+import sys
+
+HOUSE = ("base", "motion", "interpreter", "pty", "emulator")
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+
+
+def files_of(project):
+    for room in HOUSE:
+        for folder, _, names in os.walk(os.path.join(project, room)):
+            for name in sorted(names):
+                if name.endswith((".h", ".cpp")):
+                    yield os.path.relpath(os.path.join(folder, name), project)
+
+
+def edges_of(project):
+    known = set(files_of(project))
+    edges = collections.defaultdict(dict)  # folder -> folder -> the include that shows it
+    for path in sorted(known):
+        with open(os.path.join(project, path), encoding="utf-8") as file:
+            for included in INCLUDE.findall(file.read()):
+                here, there = os.path.dirname(path), os.path.dirname(included)
+                if included in known and here != there:
+                    edges[here].setdefault(there, f"{path} includes {included}")
+    return edges
+
+
+def circles_of(edges):
+    """Groups of folders that reach each other (Tarjan)."""
+    order, lowest, waiting, circles = {}, {}, [], []
+
+    def visit(folder):
+        order[folder] = lowest[folder] = len(order)
+        waiting.append(folder)
+        for other in sorted(edges.get(folder, {})):
+            if other not in order:
+                visit(other)
+                lowest[folder] = min(lowest[folder], lowest[other])
+            elif other in waiting:
+                lowest[folder] = min(lowest[folder], order[other])
+        if lowest[folder] == order[folder]:
+            circle = []
+            while not circle or circle[-1] != folder:
+                circle.append(waiting.pop())
+            if len(circle) > 1:
+                circles.append(sorted(circle))
+
+    for folder in sorted(edges):
+        if folder not in order:
+            visit(folder)
+    return circles
+
+
+def main(project, extra):
+    edges = edges_of(project)
+    if len(edges) < 10:
+        print(f"{project}: found no house; expected the project's root")
+        return 1
+    for edge in extra:
+        here, there = edge.split(":")
+        edges[here].setdefault(there, f"{here} includes {there}, as asked")
+    circles = circles_of(edges)
+    for circle in circles:
+        print(f"a circle of {len(circle)} folders: {' '.join(circle)}")
+        for here in circle:
+            for there, shown_by in sorted(edges[here].items()):
+                if there in circle:
+                    print(f"  {shown_by}")
+    return 1 if circles else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2:]))

@@ -1,0 +1,32 @@
+# A file that includes what its room may not know is refused by cmake/rooms.cmake; without it nothing is.
+# Run as a script: cmake -DPROJECT=... -P stray_include.cmake
+string(RANDOM LENGTH 12 name)
+set(house /tmp/understudy-stray-${name})
+file(WRITE ${house}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(house LANGUAGES CXX)
+include(${PROJECT}/cmake/rooms.cmake)
+add_subdirectory(base)
+add_subdirectory(motion)
+")
+file(WRITE ${house}/base/CMakeLists.txt "understudy_room(base)\n")
+file(WRITE ${house}/base/time.h "")
+file(WRITE ${house}/motion/CMakeLists.txt "understudy_room(motion KNOWS base)\n")
+file(WRITE ${house}/motion/axis.h "#include \"base/time.h\"\n")
+
+function(configure outcome_of said_of)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${house} -B ${house}/build
+    RESULT_VARIABLE outcome OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  set(${outcome_of} ${outcome} PARENT_SCOPE)
+  set(${said_of} "${said}" PARENT_SCOPE)
+endfunction()
+
+configure(clean said_of_clean)
+file(WRITE ${house}/motion/stray.cpp "#include \"pty/line.h\"\n")
+configure(stray said_of_stray)
+file(REMOVE_RECURSE ${house})
+if(NOT clean EQUAL 0)
+  message(FATAL_ERROR "a house without stray includes was refused: ${said_of_clean}")
+endif()
+if(stray EQUAL 0 OR NOT said_of_stray MATCHES "stray.cpp")
+  message(FATAL_ERROR "a stray include was not refused by name: ${said_of_stray}")
+endif()
