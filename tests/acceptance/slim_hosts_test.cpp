@@ -106,7 +106,7 @@ TEST(SlimCommandLine, ShowsItsStateAndTakesValues) {
   for (const auto& [value, told] : {Refused{"N3=1.5", "whole number"},
                                     {"N3=40000", "N3: is out of range"},
                                     {"N3=1e300", "N3: is out of range"},
-                                    {"PE=1", "no parameter or variable"}}) {
+                                    {"PE=1", "not a parameter or variable"}}) {
     const Finished refused = daemon->ctl({"set", value});
     EXPECT_EQ(refused.exit_code, 2) << value;
     EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
