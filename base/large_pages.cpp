@@ -12,7 +12,7 @@ void ask_for_large_pages(const void* first, const void* last) {
   const auto begin = (reinterpret_cast<std::uintptr_t>(first) + kLargePage - 1) / kLargePage * kLargePage;
   const auto end = reinterpret_cast<std::uintptr_t>(last) / kLargePage * kLargePage;
   if (begin >= end) return;
-  auto* const pages = reinterpret_cast<void*>(begin);
+  auto* const pages = reinterpret_cast<void*>(begin);  // NOLINT(performance-no-int-to-ptr): rounded
   if (::madvise(pages, end - begin, MADV_HUGEPAGE) == 0) ::madvise(pages, end - begin, kCollapse);
 }
 

@@ -1,11 +1,12 @@
 #include "benchmarks/busy_bench.h"
-#include "emulator/models/models.h"
 
 #include <string>
 #include <vector>
 
 #include "benchmarks/process.h"
+#include "emulator/device/axes.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/models/models.h"
 #include "interpreter/simple2/listing.h"
 
 namespace understudy::benchmarks {
@@ -131,8 +132,8 @@ emulator::world::Bench bench_of(std::size_t devices, Activity activity) {
 }
 
 void set(emulator::Device& device, std::string_view name, emulator::Value value) {
-  const auto found = device.registers().find(name, device.firmware());
-  if (!found || emulator::write_value(device, *found, value) != emulator::Refusal::none) {
+  const auto found = device.register_bank()->find(name);
+  if (!found || emulator::write_value(*device.register_bank(), *found, value) != emulator::Refusal::none) {
     throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
   }
 }
@@ -146,7 +147,7 @@ void load(emulator::Device& device, const std::string& text) {
   }
   for (std::size_t first = 0; first < cells.size(); first += kWordsARequest) {
     const std::size_t count = std::min(kWordsARequest, cells.size() - first);
-    if (emulator::write_words(device, emulator::Table::holding,
+    if (emulator::write_words(*device.register_bank(), emulator::Table::holding,
                               static_cast<std::uint16_t>(kFirstCell + first),
                               std::span(cells).subspan(first, count)) != emulator::Refusal::none) {
       throw CannotRun("the device does not take its program");
@@ -185,7 +186,7 @@ void turn_encoders(emulator::world::World& world, Tick tick) {
   const Tick phase = tick % (2 * kThere);
   const std::int64_t counts = 16 * (phase < kThere ? phase : 2 * kThere - phase);
   for (std::size_t d = 0; d < world.device_count(); ++d) {
-    for (int axis = 0; axis < 2; ++axis) world.device(d).set_encoder(axis, counts);
+    for (int axis = 0; axis < 2; ++axis) world.device(d).axes()->set_encoder(axis, counts);
   }
 }
 

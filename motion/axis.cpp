@@ -11,12 +11,12 @@ namespace understudy::motion {
 namespace {
 
 /// Farther than this a coordinate in double would no longer hold every pulse.
-constexpr std::int64_t kFarthest = std::int64_t{1} << 53;
+constexpr std::int64_t kFarthestMove = std::int64_t{1} << 53;
 
 std::int64_t size_of(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
 
-void demand_reach(std::int64_t distance_pulses) {
-  if (distance_pulses < -kFarthest || distance_pulses > kFarthest) {
+void demand_distance(std::int64_t distance_pulses) {
+  if (distance_pulses < -kFarthestMove || distance_pulses > kFarthestMove) {
     throw BadMotion(Refusal::out_of_range, "move", "distance must be within 2^53 pulses");
   }
 }
@@ -145,7 +145,7 @@ void Axis::drop() {
 }
 
 Cause Axis::move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now) {
-  demand_reach(distance_pulses);
+  demand_distance(distance_pulses);
   check(speed);
   if (distance_pulses == 0) {
     homing.phase = -1;
@@ -159,7 +159,7 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   if (speed_pps == 0 || distance_pulses == 0) return move(distance_pulses, speed, now);
   const int way = speed_pps < 0 ? -1 : +1;
   const std::int64_t target = distance_pulses * way;
-  demand_reach(distance_pulses);
+  demand_distance(distance_pulses);
   check(speed);
   const Sample here{.speed_u_s = std::abs(speed_pps)};
   const Profile to_stop = slow_to_stop(here, speed);
@@ -274,7 +274,7 @@ void Axis::go_on_by(const SpeedLaw& speed, Instant at) {
 }
 
 void Axis::change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now) {
-  demand_reach(distance_pulses);
+  demand_distance(distance_pulses);
   if (task != Task::move || (slowing && !comes_back) || settling || homing.active()) return;
   const Instant at{.tick = now};
   if (in_backlash || not_begun(drive, at)) {

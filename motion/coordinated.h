@@ -53,7 +53,7 @@ struct Coordinated {
   /// The signed speed of that axis after tick `now`; 0 for one that takes no part.
   double speed_pps(std::size_t axis, Tick now) const;
   /// The travel of the axis of coordinate `i` at a place: round half away from zero.
-  std::int64_t travel_at(std::size_t coordinate, double place_u) const;
+  std::int64_t travel_at(std::size_t i, double place_u) const;
 };
 
 }  // namespace understudy::motion

@@ -60,7 +60,7 @@ void append_move(Profile& profile, const Profile& move, double sign) {
   for (std::int32_t i = 0; i < move.segment_count; ++i) {
     const Segment& s = move.segments[static_cast<std::size_t>(i)];
     const bool last = i + 1 == move.segment_count;
-    const double end_s = last ? move.duration_s : move.segments[static_cast<std::size_t>(i + 1)].begin_s;
+    const double end_s = last ? move.duration_s : move.segments[static_cast<std::size_t>(i) + 1].begin_s;
     profile.append(end_s - s.begin_s, sign * s.speed_u_s, sign * s.acceleration_u_s2, sign * s.jerk_u_s3);
   }
 }
@@ -174,44 +174,44 @@ double speed_without_acceleration(const Sample& now, const SpeedLaw& law) {
 
 }  // namespace
 
-Profile change_speed(const Sample& state, double speed, const SpeedLaw& law) {
+Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law) {
   check(law);
-  check_state(state);
-  demand_not_negative(speed, "change of speed", "speed");
-  if (speed == 0) return slow_to_stop(state, law);
-  Profile profile = Profile::from(state.position_u);
-  if (speed > law.start_speed_u_s) {
-    append_change(profile, without_jump(state, law), speed, law);
-  } else if (state.speed_u_s > law.start_speed_u_s) {
-    append_change(profile, state, law.start_speed_u_s, law);
+  check_state(now);
+  demand_not_negative(speed_u_s, "change of speed", "speed");
+  if (speed_u_s == 0) return slow_to_stop(now, law);
+  Profile profile = Profile::from(now.position_u);
+  if (speed_u_s > law.start_speed_u_s) {
+    append_change(profile, without_jump(now, law), speed_u_s, law);
+  } else if (now.speed_u_s > law.start_speed_u_s) {
+    append_change(profile, now, law.start_speed_u_s, law);
   }
-  profile.append(kForEver, speed, 0, 0);
+  profile.append(kForEver, speed_u_s, 0, 0);
   demand_doubles_hold(profile, true);
   return profile;
 }
 
-Profile slow_to_stop(const Sample& state, const SpeedLaw& law) {
+Profile slow_to_stop(const Sample& now, const SpeedLaw& law) {
   check(law);
-  check_state(state);
-  Profile profile = Profile::from(state.position_u);
+  check_state(now);
+  Profile profile = Profile::from(now.position_u);
   const double start = start_speed(law);
-  if (state.speed_u_s > start) append_change(profile, state, start, law);
+  if (now.speed_u_s > start) append_change(profile, now, start, law);
   demand_doubles_hold(profile);
   return profile;
 }
 
-Profile change_target(const Sample& state, double target, const SpeedLaw& law) {
+Profile change_target(const Sample& state, double target_u, const SpeedLaw& law) {
   check(law);
   check_state(state);
-  demand_finite(target, "change of target", "target");
+  demand_finite(target_u, "change of target", "target");
   if (state.speed_u_s == 0) {
     // At rest: a move of its own, forwards or back.
     Profile profile = Profile::from(state.position_u);
-    const double distance = std::abs(target - state.position_u);
-    if (distance > rounding_of(target)) {
-      append_move(profile, plan(distance, law), target < state.position_u ? -1 : 1);
+    const double distance = std::abs(target_u - state.position_u);
+    if (distance > rounding_of(target_u)) {
+      append_move(profile, plan(distance, law), target_u < state.position_u ? -1 : 1);
     }
-    profile.end_exactly_at(target);
+    profile.end_exactly_at(target_u);
     demand_doubles_hold(profile);
     return profile;
   }
@@ -225,18 +225,18 @@ Profile change_target(const Sample& state, double target, const SpeedLaw& law) {
     append_change(change, now, peak, law);
     return change.end_position_u + slow_down_distance(law, peak);
   };
-  const double room = target - now.position_u;
+  const double room = target_u - now.position_u;
   // What acceleration there is brings the speed here whatever is done.
   const double faded = speed_without_acceleration(now, law);
   Profile stop = slow_to_stop(now, law);
-  if (std::abs(stop.end_position_u - target) <= rounding_of(target)) {
-    stop.end_exactly_at(target);
+  if (std::abs(stop.end_position_u - target_u) <= rounding_of(target_u)) {
+    stop.end_exactly_at(target_u);
     return stop;
   }
   // A law that reckons with too short a ramp passes no target ahead: it is cut off there.
-  if (stop.end_position_u > target && (room < 0 || needed(faded) > room)) {
-    append_move(stop, plan(stop.end_position_u - target, law), -1);
-    stop.end_exactly_at(target);
+  if (stop.end_position_u > target_u && (room < 0 || needed(faded) > room)) {
+    append_move(stop, plan(stop.end_position_u - target_u, law), -1);
+    stop.end_exactly_at(target_u);
     demand_doubles_hold(stop);
     return stop;
   }
@@ -249,10 +249,10 @@ Profile change_target(const Sample& state, double target, const SpeedLaw& law) {
   }
   Profile profile = Profile::from(now.position_u);
   append_change(profile, now, peak, law);
-  const double cruise = target - profile.end_position_u - slow_down_distance(law, peak);
+  const double cruise = target_u - profile.end_position_u - slow_down_distance(law, peak);
   // What roundings leave would take long at a crawl.
-  if (cruise > rounding_of(target) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
-  finish(profile, law, peak, target);
+  if (cruise > rounding_of(target_u) && peak > 0) profile.append(cruise / peak, peak, 0, 0);
+  finish(profile, law, peak, target_u);
   demand_doubles_hold(profile);
   return profile;
 }

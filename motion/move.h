@@ -67,6 +67,6 @@ Profile slow_to_stop(const Sample& now, const SpeedLaw& law);
 /// for moves from rest. With the law and the target of a move it goes on as that would have, but for ramps by
 /// time, which begin anew, and for moves that are cut off, which come back once they slow down. Less than
 /// about 1e-9 is not a distance.
-Profile change_target(const Sample& now, double target_u, const SpeedLaw& law);
+Profile change_target(const Sample& state, double target_u, const SpeedLaw& law);
 
 }  // namespace understudy::motion

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 
+#include "base/state/fields.h"
 #include "motion/move.h"
 #include "motion/path.h"
 #include "motion/pulse_drive.h"
@@ -99,7 +100,7 @@ class PathRun {
   void check_queue() const;
 
  private:
-  friend struct StateFields;
+  friend struct StateOf<PathRun>;  // state_fields.h
 
   struct Piece {
     Path path;
@@ -107,6 +108,7 @@ class PathRun {
     bool joined = false;  // to the one before
     bool operator==(const Piece&) const = default;
   };
+  friend struct StateOf<Piece>;
 
   Piece& piece(std::size_t number) { return pieces_[(head_ + number) % kMaxPaths]; }
   const Path& path_before(std::size_t number);

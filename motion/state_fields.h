@@ -1,125 +1,364 @@
-// What each value of motion consists of, for state.cpp: all fields, in order. A field that is added and not
-// listed here is a compile error, because a structured binding names every field.
+// What each value of motion consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
-#include <concepts>
-#include <type_traits>
+#include <tuple>
 
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
 #include "motion/external_drive.h"
 #include "motion/following.h"
 #include "motion/homing.h"
 #include "motion/path_run.h"
+#include "motion/state_checks.h"
+#include "motion/state_enumerations.h"
 #include "motion/synchronous.h"
 
-namespace understudy::motion {
+namespace understudy {
 
-template <class T, class Wanted>
-concept Like = std::same_as<std::remove_const_t<T>, Wanted>;  // the type, const or not
-
-/// `of(value, visit)` calls visit(field...) once, with all fields in order.
-struct StateFields {
-  // clang-format off
-  static void of(Like<Segment> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<Profile> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<RampLaw> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<SpeedLaw> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h] = v; visit(a, b, c, d, e, f, g, h);
+template <>
+struct StateOf<motion::Point> {
+  static void write(const motion::Point& point, StateWriter& writer) {
+    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) writer.put_value(point[i]);
   }
-  static void of(Like<TickSegment> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<Instant> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<PulseDrive> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
+  static void read(motion::Point& point, StateReader& reader) {
+    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) reader.take_value(point[i]);
   }
-  static void of(Like<Counter> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<Comparator> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
-  }
-  static void of(Like<Surroundings::Zone> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<Surroundings> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
-  }
-  static void of(Like<Follower> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l);
-  }
-  static void of(Like<ExternalDrive> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<HomingPhase> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
-  }
-  static void of(Like<HomingProgram> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<Homing> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h] = v; visit(a, b, c, d, e, f, g, h);
-  }
-  static void of(Like<AxisSettings> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
-  }
-  static void of(Like<Axis> auto& v, auto visit) {
-    // As they lie in memory; in the bytes settings follow the drive.
-    auto& [a, b, c, d, e, f, g, h, signals, events_between, task, cause, last_direction, servo_on,
-           i, j, k, l, m, n, o, event_at, in_backlash, x, y, z, aa, ab, ac, ad, ae] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, signals, events_between, event_at, cause, last_direction,
-          servo_on, task, in_backlash, x, y, z, aa, ab, ac, ad, ae);
-  }
-  static void of(Like<SyncAction> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
-  }
-  static void of(Like<SyncTable::Trigger> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<SyncTable::Latch> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<SyncTable> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<Path> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m);
-  }
-  static void of(Like<PathRun::Piece> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<PathRun> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
-  }
-  static void of(Like<Coordinated> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g] = v; visit(a, b, c, d, e, f, g);
-  }
-  // clang-format on
 };
 
-/// The values that an enumeration of the state may have: up to and with this one.
-template <class E>
-inline constexpr E kLastOf = [] { static_assert(sizeof(E) == 0, "say its last value below"); }();
 template <>
-inline constexpr Drive kLastOf<Drive> = Drive::hanging;
-template <>
-inline constexpr RampLaw::Kind kLastOf<RampLaw::Kind> = RampLaw::Kind::sections;
-template <>
-inline constexpr Short kLastOf<Short> = Short::cut_ramp;
-template <>
-inline constexpr Counter::Range kLastOf<Counter::Range> = Counter::Range::ring;
-template <>
-inline constexpr Comparator::Relation kLastOf<Comparator::Relation> = Comparator::Relation::equal;
-template <>
-inline constexpr Count kLastOf<Count> = Count::encoder;
-template <>
-inline constexpr Reaction kLastOf<Reaction> = Reaction::slow_down;
-template <>
-inline constexpr Signal kLastOf<Signal> = Signal::emergency;
-template <>
-inline constexpr Cause kLastOf<Cause> = Cause::homing_failed;
-template <>
-inline constexpr Task kLastOf<Task> = Task::coordinated;
-template <>
-inline constexpr ExternalDrive::Mode kLastOf<ExternalDrive::Mode> = ExternalDrive::Mode::continuous;
-template <>
-inline constexpr HomingPhase::Does kLastOf<HomingPhase::Does> = HomingPhase::Does::hang;
-template <>
-inline constexpr HomingPhase::Then kLastOf<HomingPhase::Then> = HomingPhase::Then::run_on;
-template <>
-inline constexpr SyncAction::Drive kLastOf<SyncAction::Drive> = SyncAction::Drive::stop_at_once;
-template <>
-inline constexpr SyncAction::Preset kLastOf<SyncAction::Preset> = SyncAction::Preset::speed;
-template <>
-inline constexpr Path::Kind kLastOf<Path::Kind> = Path::Kind::arc;
-template <>
-inline constexpr Measure kLastOf<Measure> = Measure::longest_axis;
-template <>
-inline constexpr PathRun::LateJoint kLastOf<PathRun::LateJoint> = PathRun::LateJoint::from_rest;
+struct StateOf<motion::Segment> {
+  static constexpr auto fields = std::tuple{field("begin_s", &motion::Segment::begin_s),
+                                            field("position_u", &motion::Segment::position_u),
+                                            field("speed_u_s", &motion::Segment::speed_u_s),
+                                            field("acceleration_u_s2", &motion::Segment::acceleration_u_s2),
+                                            field("jerk_u_s3", &motion::Segment::jerk_u_s3)};
+  static void check(const motion::Segment& value) { motion::check_restored(value); }
+};
 
-}  // namespace understudy::motion
+template <>
+struct StateOf<motion::Profile> {
+  static constexpr auto fields = std::tuple{field("segments", &motion::Profile::segments),
+                                            field("segment_count", &motion::Profile::segment_count),
+                                            field("duration_s", &motion::Profile::duration_s),
+                                            field("end_position_u", &motion::Profile::end_position_u),
+                                            field("end_speed_u_s", &motion::Profile::end_speed_u_s)};
+  static void check(const motion::Profile& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::RampLaw> {
+  static constexpr auto fields = std::tuple{
+      field("kind", &motion::RampLaw::kind), field("acceleration_u_s2", &motion::RampLaw::acceleration_u_s2),
+      field("jerk_u_s3", &motion::RampLaw::jerk_u_s3), field("section_u_s", &motion::RampLaw::section_u_s),
+      field("duration_s", &motion::RampLaw::duration_s)};
+  static void check(const motion::RampLaw& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::SpeedLaw> {
+  static constexpr auto fields =
+      std::tuple{field("start_speed_u_s", &motion::SpeedLaw::start_speed_u_s),
+                 field("top_speed_u_s", &motion::SpeedLaw::top_speed_u_s),
+                 field("up", &motion::SpeedLaw::up),
+                 field("down", &motion::SpeedLaw::down),
+                 field("when_short", &motion::SpeedLaw::when_short),
+                 field("slow_down_reckoned_by", &motion::SpeedLaw::slow_down_reckoned_by),
+                 field("slow_down_at_u", &motion::SpeedLaw::slow_down_at_u),
+                 field("slow_down_offset_u", &motion::SpeedLaw::slow_down_offset_u)};
+  static void check(const motion::SpeedLaw& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::TickSegment> {
+  static constexpr auto fields =
+      std::tuple{field("begin_ticks", &motion::TickSegment::begin_ticks),
+                 field("place", &motion::TickSegment::place), field("first", &motion::TickSegment::first),
+                 field("second", &motion::TickSegment::second), field("third", &motion::TickSegment::third)};
+  static void check(const motion::TickSegment& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Instant> {
+  static constexpr auto fields =
+      std::tuple{field("tick", &motion::Instant::tick), field("after_s", &motion::Instant::after_s)};
+  static void check(const motion::Instant& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::PulseDrive> {
+  static constexpr auto fields = std::tuple{field("now", &motion::PulseDrive::now),
+                                            field("begin_tick", &motion::PulseDrive::begin_tick),
+                                            field("next_look", &motion::PulseDrive::next_look),
+                                            field("sent_pulses", &motion::PulseDrive::sent_pulses),
+                                            field("direction", &motion::PulseDrive::direction),
+                                            field("drive", &motion::PulseDrive::drive),
+                                            field("begin_after_s", &motion::PulseDrive::begin_after_s),
+                                            field("tolerance", &motion::PulseDrive::tolerance),
+                                            field("profile", &motion::PulseDrive::profile)};
+  static void check(const motion::PulseDrive& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Counter> {
+  static constexpr auto fields =
+      std::tuple{field("range", &motion::Counter::range), field("ring_top", &motion::Counter::ring_top),
+                 field("offset", &motion::Counter::offset)};
+  static void check(const motion::Counter& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::UnitScale> {
+  static constexpr auto fields = std::tuple{field("multiplier", &motion::UnitScale::multiplier),
+                                            field("divider", &motion::UnitScale::divider)};
+  static void check(const motion::UnitScale& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Comparator> {
+  static constexpr auto fields = std::tuple{
+      field("relation", &motion::Comparator::relation), field("count", &motion::Comparator::count),
+      field("reaction", &motion::Comparator::reaction), field("was_true", &motion::Comparator::was_true),
+      field("counter", &motion::Comparator::counter),   field("value", &motion::Comparator::value)};
+  static void check(const motion::Comparator& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Surroundings::Zone> {
+  static constexpr auto fields = std::tuple{field("signal", &motion::Surroundings::Zone::signal),
+                                            field("from", &motion::Surroundings::Zone::from),
+                                            field("to", &motion::Surroundings::Zone::to)};
+  static void check(const motion::Surroundings::Zone& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Surroundings> {
+  static constexpr auto fields = std::tuple{field("version", &motion::Surroundings::version),
+                                            field("steady", &motion::Surroundings::steady),
+                                            field("zone_count", &motion::Surroundings::zone_count),
+                                            field("zones", &motion::Surroundings::zones),
+                                            field("index_period", &motion::Surroundings::index_period),
+                                            field("index_at", &motion::Surroundings::index_at),
+                                            field("index_width", &motion::Surroundings::index_width)};
+  static void check(const motion::Surroundings& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Follower> {
+  static constexpr auto fields = std::tuple{field("numerator", &motion::Follower::numerator),
+                                            field("denominator", &motion::Follower::denominator),
+                                            field("period_ticks", &motion::Follower::period_ticks),
+                                            field("top_speed_pps", &motion::Follower::top_speed_pps),
+                                            field("slope_pps", &motion::Follower::slope_pps),
+                                            field("catches_up", &motion::Follower::catches_up),
+                                            field("gathered", &motion::Follower::gathered),
+                                            field("left_over", &motion::Follower::left_over),
+                                            field("behind_pulses", &motion::Follower::behind_pulses),
+                                            field("period_pulses", &motion::Follower::period_pulses),
+                                            field("phase", &motion::Follower::phase),
+                                            field("speed_left_over", &motion::Follower::speed_left_over)};
+  static void check(const motion::Follower& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::ExternalDrive> {
+  static constexpr auto fields =
+      std::tuple{field("mode", &motion::ExternalDrive::mode), field("pulses", &motion::ExternalDrive::pulses),
+                 field("plus_high", &motion::ExternalDrive::plus_high),
+                 field("minus_high", &motion::ExternalDrive::minus_high),
+                 field("running", &motion::ExternalDrive::running)};
+  static void check(const motion::ExternalDrive& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::HomingPhase> {
+  static constexpr auto fields = std::tuple{field("does", &motion::HomingPhase::does),
+                                            field("way", &motion::HomingPhase::way),
+                                            field("speed", &motion::HomingPhase::speed),
+                                            field("until", &motion::HomingPhase::until),
+                                            field("until_on", &motion::HomingPhase::until_on),
+                                            field("then", &motion::HomingPhase::then),
+                                            field("marks", &motion::HomingPhase::marks),
+                                            field("code", &motion::HomingPhase::code),
+                                            field("count", &motion::HomingPhase::count),
+                                            field("again_while", &motion::HomingPhase::again_while),
+                                            field("distance_pulses", &motion::HomingPhase::distance_pulses),
+                                            field("next", &motion::HomingPhase::next),
+                                            field("if_already", &motion::HomingPhase::if_already),
+                                            field("if_gone", &motion::HomingPhase::if_gone),
+                                            field("if_limit", &motion::HomingPhase::if_limit)};
+  static void check(const motion::HomingPhase& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::HomingProgram> {
+  static constexpr auto fields = std::tuple{field("phases", &motion::HomingProgram::phases),
+                                            field("phase_count", &motion::HomingProgram::phase_count),
+                                            field("speeds", &motion::HomingProgram::speeds)};
+  static void check(const motion::HomingProgram& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Homing> {
+  static constexpr auto fields = std::tuple{field("program", &motion::Homing::program),
+                                            field("phase", &motion::Homing::phase),
+                                            field("ended_in", &motion::Homing::ended_in),
+                                            field("ended_by", &motion::Homing::ended_by),
+                                            field("met", &motion::Homing::met),
+                                            field("counted", &motion::Homing::counted),
+                                            field("reference_known", &motion::Homing::reference_known),
+                                            field("reference_pulses", &motion::Homing::reference_pulses)};
+  static void check(const motion::Homing& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::AxisSettings> {
+  static constexpr auto fields =
+      std::tuple{field("at_limit_plus", &motion::AxisSettings::at_limit_plus),
+                 field("at_limit_minus", &motion::AxisSettings::at_limit_minus),
+                 field("at_soft_limit", &motion::AxisSettings::at_soft_limit),
+                 field("at_alarm", &motion::AxisSettings::at_alarm),
+                 field("at_emergency", &motion::AxisSettings::at_emergency),
+                 field("needs_servo", &motion::AxisSettings::needs_servo),
+                 field("waits_for_in_position", &motion::AxisSettings::waits_for_in_position),
+                 field("soft_limit_plus", &motion::AxisSettings::soft_limit_plus),
+                 field("soft_limit_minus", &motion::AxisSettings::soft_limit_minus),
+                 field("backlash_pulses", &motion::AxisSettings::backlash_pulses),
+                 field("backlash_speed_pps", &motion::AxisSettings::backlash_speed_pps)};
+  static void check(const motion::AxisSettings& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Axis> {
+  // As the bytes have them; in memory those that a tick needs come first.
+  static constexpr auto fields = std::tuple{field("travel_pulses", &motion::Axis::travel_pulses),
+                                            field("watch_low", &motion::Axis::watch_low),
+                                            field("watch_high", &motion::Axis::watch_high),
+                                            field("base_pulses", &motion::Axis::base_pulses),
+                                            field("seen_version", &motion::Axis::seen_version),
+                                            field("events", &motion::Axis::events),
+                                            field("attentive", &motion::Axis::attentive),
+                                            field("inverted", &motion::Axis::inverted),
+                                            field("drive", &motion::Axis::drive),
+                                            field("settings", &motion::Axis::settings),
+                                            field("comparators", &motion::Axis::comparators),
+                                            field("encoder_pulses", &motion::Axis::encoder_pulses),
+                                            field("encoder_seen", &motion::Axis::encoder_seen),
+                                            field("backlash_sent", &motion::Axis::backlash_sent),
+                                            field("play_pulses", &motion::Axis::play_pulses),
+                                            field("signals", &motion::Axis::signals),
+                                            field("events_between", &motion::Axis::events_between),
+                                            field("event_at", &motion::Axis::event_at),
+                                            field("cause", &motion::Axis::cause),
+                                            field("last_direction", &motion::Axis::last_direction),
+                                            field("servo_on", &motion::Axis::servo_on),
+                                            field("task", &motion::Axis::task),
+                                            field("in_backlash", &motion::Axis::in_backlash),
+                                            field("slowing", &motion::Axis::slowing),
+                                            field("comes_back", &motion::Axis::comes_back),
+                                            field("settling", &motion::Axis::settling),
+                                            field("target_pulses", &motion::Axis::target_pulses),
+                                            field("carried_pulses", &motion::Axis::carried_pulses),
+                                            field("law", &motion::Axis::law),
+                                            field("follower", &motion::Axis::follower),
+                                            field("homing", &motion::Axis::homing)};
+  static void check(const motion::Axis& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::SyncAction> {
+  static constexpr auto fields = std::tuple{field("drive", &motion::SyncAction::drive),
+                                            field("latch_command", &motion::SyncAction::latch_command),
+                                            field("latch_encoder", &motion::SyncAction::latch_encoder),
+                                            field("preset", &motion::SyncAction::preset),
+                                            field("preset_value", &motion::SyncAction::preset_value),
+                                            field("output", &motion::SyncAction::output),
+                                            field("interrupt", &motion::SyncAction::interrupt)};
+  static void check(const motion::SyncAction& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::SyncTable::Trigger> {
+  static constexpr auto fields = std::tuple{field("factors", &motion::SyncTable::Trigger::factors),
+                                            field("activates", &motion::SyncTable::Trigger::activates)};
+  static void check(const motion::SyncTable::Trigger& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::SyncTable::Latch> {
+  static constexpr auto fields =
+      std::tuple{field("taken", &motion::SyncTable::Latch::taken),
+                 field("travel_pulses", &motion::SyncTable::Latch::travel_pulses),
+                 field("encoder_pulses", &motion::SyncTable::Latch::encoder_pulses)};
+  static void check(const motion::SyncTable::Latch& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::SyncTable> {
+  static constexpr auto fields =
+      std::tuple{field("triggers", &motion::SyncTable::triggers),
+                 field("actions", &motion::SyncTable::actions), field("latches", &motion::SyncTable::latches),
+                 field("distance_pulses", &motion::SyncTable::distance_pulses),
+                 field("speeds", &motion::SyncTable::speeds)};
+  static void check(const motion::SyncTable& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Path> {
+  static constexpr auto fields = std::tuple{field("kind", &motion::Path::kind),
+                                            field("measure", &motion::Path::measure),
+                                            field("begin", &motion::Path::begin),
+                                            field("end", &motion::Path::end),
+                                            field("length_u", &motion::Path::length_u),
+                                            field("centre", &motion::Path::centre),
+                                            field("abscissa", &motion::Path::abscissa),
+                                            field("ordinate", &motion::Path::ordinate),
+                                            field("rise", &motion::Path::rise),
+                                            field("begin_angle_rad", &motion::Path::begin_angle_rad),
+                                            field("sweep_rad", &motion::Path::sweep_rad),
+                                            field("begin_radius_u", &motion::Path::begin_radius_u),
+                                            field("radius_slope_u_rad", &motion::Path::radius_slope_u_rad)};
+  static void check(const motion::Path& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::PathRun::Piece> {
+  static constexpr auto fields = std::tuple{field("path", &motion::PathRun::Piece::path),
+                                            field("begin_u", &motion::PathRun::Piece::begin_u),
+                                            field("joined", &motion::PathRun::Piece::joined)};
+  static void check(const motion::PathRun::Piece& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::PathRun> {
+  static constexpr auto fields = std::tuple{field("pieces", &motion::PathRun::pieces_),
+                                            field("head", &motion::PathRun::head_),
+                                            field("count", &motion::PathRun::count_),
+                                            field("chain_count", &motion::PathRun::chain_count_),
+                                            field("chain_end_u", &motion::PathRun::chain_end_u_),
+                                            field("profile", &motion::PathRun::profile_),
+                                            field("begin_tick", &motion::PathRun::begin_tick_),
+                                            field("law", &motion::PathRun::law_),
+                                            field("override", &motion::PathRun::override_),
+                                            field("late_joint", &motion::PathRun::late_joint_),
+                                            field("running", &motion::PathRun::running_),
+                                            field("paused", &motion::PathRun::paused_),
+                                            field("completed", &motion::PathRun::completed_),
+                                            field("last_place", &motion::PathRun::last_place_)};
+  static void check(const motion::PathRun& value) { motion::check_restored(value); }
+};
+
+template <>
+struct StateOf<motion::Coordinated> {
+  static constexpr auto fields = std::tuple{field("run", &motion::Coordinated::run),
+                                            field("axis_of", &motion::Coordinated::axis_of),
+                                            field("scale", &motion::Coordinated::scale),
+                                            field("zero_pulses", &motion::Coordinated::zero_pulses),
+                                            field("engaged", &motion::Coordinated::engaged),
+                                            field("cause", &motion::Coordinated::cause),
+                                            field("slowing_for", &motion::Coordinated::slowing_for)};
+  static void check(const motion::Coordinated& value) { motion::check_restored(value); }
+};
+
+}  // namespace understudy

@@ -5,6 +5,7 @@ build_packages=(g++ cmake ninja-build ccache pkg-config libcli11-dev libmodbus-d
 host_packages=(mbpoll python3-serial expect)
 plot_packages=(gnuplot-nox)
 test_packages=(python3                                   # counts the results
+               clang-format                              # looks at the formatting of all files
                clang                                     # reads the product as well
                dpkg-dev file man-db                      # for the package and its man page
                tshark gtkwave                            # read the captures and traces

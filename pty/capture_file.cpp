@@ -12,8 +12,6 @@ namespace {
 constexpr std::size_t kMostWaiting = 4
                                      << 20;  // bytes; over a minute of a line at 115200 baud that never rests
 
-std::string error_text(int error) { return std::generic_category().message(error); }
-
 [[noreturn]] void refuse(const std::string& path, const OutputError& error) {
   throw CaptureError(path + ": the capture cannot be written: " + error.what());
 }
@@ -76,7 +74,7 @@ void CaptureFile::add(const CapturedPacket& packet) {
 void CaptureFile::tell_failure() {
   const int error = writer_->failure().error;
   if (error == 0 || std::exchange(has_told_failure_, true)) return;
-  log_(path_ + ": the capture has ended early: " + error_text(error));
+  log_(path_ + ": the capture has ended early: " + std::generic_category().message(error));
 }
 
 void CaptureFile::finish() {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kLongestNoise = kRtuMaxFrame;
 // More than a framer can hold, so all of them are dropped: strict framing has so many open in a lump that is
 // too long for a frame.
-constexpr std::size_t kMostWaiting = 5 * kRtuMaxFrame;
+constexpr std::size_t kMostBytesWaiting = 5 * kRtuMaxFrame;
 
 Remark why_dropped(std::span<const std::uint8_t> bytes) {
   const auto size = rtu_request_size(bytes);
@@ -125,7 +125,7 @@ void CaptureFrames::give_what_was_dropped() {
            : waiting_.end();
   const auto dropped = static_cast<std::size_t>(first_open - waiting_.begin());
   if (!open || dropped >= kLongestNoise) give_dropped(dropped);
-  if (waiting_.size() >= kMostWaiting) give_dropped(waiting_.size());
+  if (waiting_.size() >= kMostBytesWaiting) give_dropped(waiting_.size());
 }
 
 void CaptureFrames::give_dropped(std::size_t count) {

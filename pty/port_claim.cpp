@@ -23,11 +23,12 @@ std::string lock_of(const std::filesystem::path& link) {
 
 /// The lock file, made if there is none.
 Descriptor open_lock(const std::string& path) {
-  constexpr int kFlags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  constexpr int kClaimFlags = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   while (true) {
     // Not in one call: in /tmp that would be refused for a file that root may well lock.
-    Descriptor lock(::open(path.c_str(), kFlags));
-    if (!lock && errno == ENOENT) lock = Descriptor(::open(path.c_str(), kFlags | O_CREAT | O_EXCL, 0600));
+    Descriptor lock(::open(path.c_str(), kClaimFlags));
+    if (!lock && errno == ENOENT)
+      lock = Descriptor(::open(path.c_str(), kClaimFlags | O_CREAT | O_EXCL, 0600));
     if (!lock && errno == EEXIST) continue;
     if (!lock) fail(errno, path);
     struct stat status = {};

@@ -9,6 +9,7 @@ files it read. Exit 0: it took them all; 77: there is no clang here.
 import concurrent.futures
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -16,6 +17,15 @@ import sys
 
 ONLY_GCC = ("-Wno-restrict", "-Wno-maybe-uninitialized", "-fpch-preprocess", "-Wno-array-bounds",
             "-Wno-stringop-overflow")
+
+
+def each_alone(entry):
+    """A file that the build compiles together with others is read alone: it has to include what it needs."""
+    if "/Unity/" not in entry["file"]:
+        return [entry]
+    with open(entry["file"], encoding="utf-8") as file:
+        parts = re.findall(r'^#include "(.+)"', file.read(), re.MULTILINE)
+    return [entry | {"file": part, "command": entry["command"].replace(entry["file"], part)} for part in parts]
 
 
 def reading(entry, clang):
@@ -38,7 +48,8 @@ def main():
         return 77
     with open(commands, encoding="utf-8") as file:
         entries = json.load(file)
-    rooms = ("motion", "interpreter", "pty", "emulator", "tests/fuzz")
+    rooms = ("base", "motion", "interpreter", "pty", "emulator", "tests/fuzz")
+    entries = [alone for entry in entries for alone in each_alone(entry)]
     entries = {e["file"]: e for e in entries if os.path.relpath(e["file"], folder).startswith(tuple(r + "/" for r in rooms))}
 
     def read(entry):

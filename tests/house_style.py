@@ -18,10 +18,12 @@ TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P)\((\w+), *(\w+)\)")
 FOREIGN = re.compile(r'"[^"]*(?<!here )\bis no (?!longer|more|other|less|better|such)\w')  # "X is no Y" for "X is not a Y"
 
 
-def tracked(project):
-    said = subprocess.run(["git", "ls-files", "*.h", "*.cpp"], cwd=project, capture_output=True, text=True)
+def files_of(project):
+    """What git tracks, or would: what is new counts, what is ignored or deleted does not."""
+    said = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.h", "*.cpp"], cwd=project,
+                          capture_output=True, text=True)
     if said.returncode == 0:
-        return [name for name in said.stdout.split("\n") if name]
+        return [name for name in said.stdout.split("\n") if name and os.path.exists(os.path.join(project, name))]
     found = []
     for folder, folders, names in os.walk(project):
         folders[:] = [name for name in folders if name not in ("build", ".git")]
@@ -66,7 +68,7 @@ def badly_formatted(project, paths):
 
 
 def main(project):
-    paths = tracked(project)
+    paths = files_of(project)
     faults = badly_formatted(project, paths)
     for path in paths:
         with open(os.path.join(project, path), encoding="utf-8") as file:

@@ -12,13 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // that lead to one another, as Linux has it
+constexpr int kMostLinksFollowed = 40;  // that lead to one another, as Linux has it
 
 /// The file that is made or written when the path is opened.
 std::string target_of(const std::string& path) {
   std::error_code error;
   fs::path target = fs::absolute(path, error);
-  for (int i = 0; i < kMostLinks && fs::is_symlink(target, error); ++i) {
+  for (int i = 0; i < kMostLinksFollowed && fs::is_symlink(target, error); ++i) {
     target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
   }
   const fs::path canonical = fs::weakly_canonical(target, error);

@@ -1,18 +1,10 @@
 // State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding.
-// What a value consists of is written down once, in a list of fields (a type `Fields`), from which it is
-// saved, restored and hashed:
+// What a value consists of is said by its StateOf (fields.h), by which it is saved, restored and hashed.
 //
-//   struct Fields {
-//     static void of(Like<Timer> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-//     static constexpr Mode last(Mode) { return Mode::sync; }  // enumerations: their last value
-//     static void check(const Timer& timer);                   // throws StateError for what no timer can be
-//     static void check(const auto&) {}
-//   };
-//
-// The structured binding names every field, so one that is added and not listed does not compile. A class
-// with private fields has a list of its own, `static void fields(auto& self, auto visit)`. What another room
-// saves by itself has a pair of functions in Fields: `write(const T&, StateWriter&)` and `read(T&,
-// StateReader&)`.
+// Older lists are being replaced by it: a type `Fields` with `of(value, visit)`, where a structured binding
+// names every field, `last(Enumeration)`, `check(value)`, and for what another room saves by itself a pair
+// `write(const T&, StateWriter&)` and `read(T&, StateReader&)`; a class with private fields has a list of its
+// own, `static void fields(auto& self, auto visit)`.
 #pragma once
 
 #include <array>
@@ -29,6 +21,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/state/fields.h"
 #include "base/state/state_error.h"
 
 namespace understudy {
@@ -78,7 +71,8 @@ concept Listed = requires(T& value) {
 
 /// Is saved by functions of its own.
 template <class T, class Fields>
-concept Foreign = requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
+concept Foreign = !std::is_void_v<Fields> &&
+                  requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
   Fields::write(value, writer);
   Fields::read(restored, reader);
 };
@@ -136,6 +130,10 @@ class StateWriter {
       }
     } else if constexpr (kIsArray<T>) {
       write_all<Fields>(value);
+    } else if constexpr (HasFields<T>) {
+      for_each_field(value, [&](const auto& part) { write<Fields>(part); });
+    } else if constexpr (Foreign<T, StateOf<T>>) {
+      StateOf<T>::write(value, *this);
     } else if constexpr (Foreign<T, Fields>) {
       Fields::write(value, *this);
     } else if constexpr (Listed<T>) {
@@ -143,6 +141,11 @@ class StateWriter {
     } else {
       Fields::of(value, [&](const auto&... field) { (write<Fields>(field), ...); });
     }
+  }
+  /// Of a type whose parts all have a StateOf.
+  template <class T>
+  void put_value(const T& value) {
+    write<void>(value);
   }
   /// What has been saved already.
   void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
@@ -226,6 +229,11 @@ class StateReader {
       }
     } else if constexpr (kIsArray<T>) {
       read_all<Fields>(value);
+    } else if constexpr (HasFields<T>) {
+      for_each_field(value, [&](auto& part) { read<Fields>(part); });
+      if constexpr (requires { StateOf<T>::check(value); }) StateOf<T>::check(value);
+    } else if constexpr (Foreign<T, StateOf<T>>) {
+      StateOf<T>::read(value, *this);
     } else if constexpr (Foreign<T, Fields>) {
       Fields::read(value, *this);
     } else {
@@ -237,6 +245,12 @@ class StateReader {
       }
       Fields::check(value);
     }
+  }
+
+  /// Of a type whose parts all have a StateOf.
+  template <class T>
+  void take_value(T& value) {
+    read<void>(value);
   }
 
   std::span<const std::byte> rest() const { return rest_; }
@@ -267,7 +281,11 @@ class StateReader {
     } else if constexpr (std::is_same_v<T, bool>) {
       demand_state(bits <= 1, "a yes or no must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {
-      demand_state(bits <= as_bits(Fields::last(T{})), "an enumeration has no such value");
+      if constexpr (requires { StateOf<T>::last; }) {
+        demand_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
+      } else {
+        demand_state(bits <= as_bits(Fields::last(T{})), "an enumeration has no such value");
+      }
     }
     return static_cast<T>(bits);
   }

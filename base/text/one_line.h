@@ -11,5 +11,9 @@ std::string one_line(std::string_view text);
 
 /// The same for something that is quoted, cut if it is long.
 std::string quoted(std::string_view text);
+// Where <iomanip> is known, std::quoted would suit a std::string better.
+inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }
+inline std::string quoted(std::string& text) { return quoted(std::string_view(text)); }
+inline std::string quoted(const char* text) { return quoted(std::string_view(text)); }
 
 }  // namespace understudy

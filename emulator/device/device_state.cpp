@@ -10,7 +10,7 @@ namespace understudy::emulator {
 struct Device::CommonFields {
   /// Model, settings and choices are what it was made from; the log is its user's.
   static auto of(Like<Device> auto& device, auto visit) {
-    auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned, names] = device;
+    auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned] = device;
     return visit(inputs, powered, now);
   }
 };

@@ -5,6 +5,8 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/setting_entry.h"
 
@@ -103,11 +105,12 @@ void demand_choices(const Model& model, const DeviceSettings& settings) {
 }
 
 void set_registers(Device& device, const DeviceSettings& settings) {
-  const RegisterMap& registers = device.registers();
   for (const auto& [name, value] : settings.set) {
-    const auto place = registers.find(name, settings.firmware);
-    if (!place) throw SettingEntryError("set", name, registers.why_not(name, settings.firmware));
-    switch (write_value(device, *place, value)) {
+    RegisterBank* const bank = device.register_bank();
+    const auto place = device.model().registers.find(name, settings.firmware);
+    if (bank == nullptr || !place)
+      throw SettingEntryError("set", name, device.model().registers.why_not(name, settings.firmware));
+    switch (write_value(*bank, *place, value)) {
       case Refusal::none: break;
       case Refusal::no_register:
         throw SettingEntryError("set", name, "cannot be written; it is read-only",
@@ -120,9 +123,29 @@ void set_registers(Device& device, const DeviceSettings& settings) {
     }
   }
   for (const auto& [name, value] : settings.assignments) {
-    if (const auto complaint = device.assign(name, value))
+    if (device.named_values() == nullptr) {
+      const std::string complaint = why_no_value(device, name);
+      throw SettingEntryError("set", name, complaint, complaint);
+    }
+    if (const auto complaint = device.named_values()->assign(name, value))
       throw SettingEntryError("set", name, *complaint, name + ": " + *complaint);
   }
+}
+
+void load_memory(Device& device, const NvImage& image) {
+  if (device.memory() == nullptr)
+    throw NvError(std::string(device.model().name) + " keeps nothing; expected no memory");
+  device.memory()->load_nv(image);
+}
+
+/// What its model's tables list can be reached.
+void demand_facets(const Device& device) {
+  const Model& model = device.model();
+  const bool is_whole =
+      (model.registers.rows().empty() || device.register_bank() != nullptr) &&
+      (model.axes.empty() || device.axes() != nullptr) &&
+      (model.protocol() == Protocol::text ? device.speaker() != nullptr : device.modbus() != nullptr);
+  if (!is_whole) throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
 }
 
 }  // namespace
@@ -136,17 +159,18 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
 
   demand_choices(model, settings);
   std::unique_ptr<Device> device = model.make(settings);
+  demand_facets(*device);
   device->set_log(std::move(log));
   for (const auto& [name, on] : settings.dip) device->set_input(demand_switch(model, name), on ? 1 : 0);
-  if (settings.nv) device->load_nv(*settings.nv);
+  if (settings.nv) load_memory(*device, *settings.nv);
   device->switch_power(true);
   if (const int baud = device->line_settings().baud; given.baud != 0 && baud != given.baud) {
     throw SettingError("dip", "the switches say " + std::to_string(baud) + " baud, the line " +
                                   std::to_string(given.baud) + "; expected the same");
   }
-  if (!settings.program.empty()) device->load_program(settings.program);
+  if (!settings.program.empty()) load_program(*device, settings.program);
   set_registers(*device, settings);
-  device->settle_memory();
+  if (KeptMemory* const memory = device->memory()) memory->settle_memory();
   return device;
 }
 

@@ -187,7 +187,7 @@ struct ProgramError : std::runtime_error {
 /// Checks the settings against the model, makes the device, gives it its memory, its power, its program and
 /// the registers of `set` their values; what of that is persistent is kept at once. Throws SettingError,
 /// NvError, ProgramError. `log` gets what the device has to tell, from its settings on.
-std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& settings,
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
                                     std::function<void(const std::string&)> log = {});
 
 /// "1.52" as 152; 0 if it is not a version.

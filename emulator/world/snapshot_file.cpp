@@ -19,8 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kKind = "snapshot";
-constexpr int kFormat = 1;
+constexpr const char* kSnapshotKind = "snapshot";
+constexpr int kSnapshotFormat = 1;
 constexpr int kDeepest = 2;  // the object of the parts in that of the file
 
 std::string hex(std::uint64_t number) {
@@ -40,14 +40,14 @@ std::uint64_t checksum(const WorldState& state) {
   return sum;
 }
 
-const Json& demand(const Json& object, const char* key) {
+const Json& demand_key(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) throw SnapshotError(std::string(key) + ": is missing; expected a snapshot");
   return *found;
 }
 
 std::string text_of(const Json& object, const char* key) {
-  const Json& text = demand(object, key);
+  const Json& text = demand_key(object, key);
   if (!text.is_string()) throw SnapshotError(std::string(key) + ": is not text; expected a snapshot");
   return text.get<std::string>();
 }
@@ -88,8 +88,8 @@ std::uint64_t bench_hash(const Bench& bench) {
 std::string to_text(const WorldState& state, std::uint64_t bench) {
   Json parts = Json::object();
   for (const WorldState::Part& part : state.parts) parts[part.name] = to_base64(part.bytes);
-  const Json file{{"understudy", kFormat},
-                  {"kind", kKind},
+  const Json file{{"understudy", kSnapshotFormat},
+                  {"kind", kSnapshotKind},
                   {"version", program_version()},
                   {"bench", hex(bench)},
                   {"simulated_time_ns", state.time.count()},
@@ -103,11 +103,12 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
   if (!file.is_object() || !file.contains("understudy")) {
     throw SnapshotError("understudy: is missing; expected a snapshot");
   }
-  if (!file["understudy"].is_number_integer() || file["understudy"] != kFormat) {
-    throw SnapshotError("understudy: is of another format; expected " + std::to_string(kFormat));
+  if (!file["understudy"].is_number_integer() || file["understudy"] != kSnapshotFormat) {
+    throw SnapshotError("understudy: is of another format; expected " + std::to_string(kSnapshotFormat));
   }
-  if (text_of(file, "kind") != kKind) {
-    throw SnapshotError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " + kKind);
+  if (text_of(file, "kind") != kSnapshotKind) {
+    throw SnapshotError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " +
+                        kSnapshotKind);
   }
   if (text_of(file, "version") != program_version()) {
     throw SnapshotError("version: was written by " + understudy::quoted(text_of(file, "version")) +
@@ -117,13 +118,13 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
     throw SnapshotError("bench: is of another bench; expected the one that it was taken from");
   }
   WorldState state;
-  const Json& time = demand(file, "simulated_time_ns");
+  const Json& time = demand_key(file, "simulated_time_ns");
   if (!time.is_number_unsigned() ||
       time.get<std::uint64_t>() > static_cast<std::uint64_t>(kHorizon.count())) {
     throw SnapshotError("simulated_time_ns: is not a time; expected a whole number");
   }
   state.time = SimTime{time.get<std::int64_t>()};
-  const Json& parts = demand(file, "state");
+  const Json& parts = demand_key(file, "state");
   if (!parts.is_object()) throw SnapshotError("state: is not an object; expected the parts of a world");
   for (const auto& [name, bytes] : parts.items()) {
     const auto decoded = bytes.is_string() ? from_base64(bytes.get_ref<const std::string&>()) : std::nullopt;

@@ -12,7 +12,7 @@ struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
     // What it is made of, and who looks at it, is not a state. Devices, machines and lines are parts of their
     // own, how often ticks were run is of the edge.
-    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
+    auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
            watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
            ticks_crossed, bulk_ticks] = world;
     return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
@@ -64,7 +64,7 @@ struct WorldFields {
 /// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
-    auto& [known, devices, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
+    auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
            watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
            ticks_crossed, bulk_ticks] = world;
     return visit(ticks_run, ticks_crossed);

@@ -5,6 +5,9 @@
 
 #include "base/large_pages.h"
 #include "base/prefetch.h"
+#include "emulator/device/axes.h"
+#include "emulator/device/named_values.h"
+#include "emulator/device/register_map/access.h"
 #include "emulator/world/fault_watch.h"
 #include "emulator/world/stations/rtu_station.h"
 #include "emulator/world/stations/text_station.h"
@@ -33,6 +36,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     : supplies_(bench.devices.size()), wires_(bench.wires), seed_(bench.seed) {
   for (const DeviceSetup& setup : bench.devices) {
     devices_.push_back(make_device(*setup.model, setup.settings, log));
+    axes_.push_back(devices_.back()->axes());
     known_.push_back({setup.settings.name, setup.model, devices_.back()->firmware()});
     plants_.emplace_back(setup.model->axes.size());
     sent_pulses_.emplace_back(setup.model->axes.size(), 0);
@@ -239,17 +243,19 @@ void World::run_device(std::size_t number) {
 }
 
 void World::step_plant(std::size_t number) {
+  if (plants_[number].empty()) return;
   Device& device = *devices_[number];
+  Axes& driven_axes = *axes_[number];
   const auto axes = device.model().axes;
   bool all_quiet = true;
   for (std::size_t a = 0; a < axes.size(); ++a) {
     PlantAxis& plant = plants_[number][a];
     const AxisRow& axis = axes[a];
-    const std::int64_t pulses = device.pulses_this_tick(static_cast<int>(a));
+    const std::int64_t pulses = driven_axes.pulses_this_tick(static_cast<int>(a));
     sent_pulses_[number][a] += pulses;
     if (plant.step_quietly(pulses)) {
       const bool has_turned = pulses != 0 && plant.has_encoder();
-      if (has_turned) device.set_encoder(static_cast<int>(a), plant.quiet_encoder_counts());
+      if (has_turned) driven_axes.set_encoder(static_cast<int>(a), plant.quiet_encoder_counts());
       continue;
     }
     all_quiet = false;
@@ -262,7 +268,7 @@ void World::step_plant(std::size_t number) {
     const std::pair before(state.position_pulses, state.wheel_counts);
     plant.step(done_, pulses, outputs);
     if (plant.has_encoder() && std::pair(state.position_pulses, state.wheel_counts) != before) {
-      device.set_encoder(static_cast<int>(a), plant.encoder_counts());
+      driven_axes.set_encoder(static_cast<int>(a), plant.encoder_counts());
     }
   }
   if (all_quiet) return;  // no contact has changed
@@ -318,12 +324,14 @@ void World::begin_act() {
 Refusal World::write(std::size_t device, const PreparedWrite& write) {
   begin_act();
   if (listener_ != nullptr) listener_->on_write(device, write);
-  return write_prepared(*devices_[device], write);
+  return write_prepared(*devices_[device]->register_bank(), write);
 }
 
 std::optional<std::string> World::assign(std::size_t device, const std::string& name, double value) {
   begin_act();
-  if (auto complaint = devices_[device]->assign(name, value)) return complaint;
+  NamedValues* const values = devices_[device]->named_values();
+  if (values == nullptr) return "cannot be set; expected a name of the device";
+  if (auto complaint = values->assign(name, value)) return complaint;
   if (listener_ != nullptr) listener_->on_assign(device, name, value);
   look_for_speech(now_);
   return std::nullopt;
@@ -331,7 +339,7 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
-  devices_[device]->load_program(text);  // throws before anything has changed
+  emulator::load_program(*devices_[device], text);  // throws before anything has changed
   if (listener_ != nullptr) listener_->on_program(device, text);
   look_for_speech(now_);
 }

@@ -148,6 +148,7 @@ class World final : public WorldView {
 
   KnownDevices known_;
   std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<Axes*> axes_;  // of each device
   std::vector<std::unique_ptr<WorldLine>> lines_;
   std::vector<WorldLine*> text_lines_;              // those of them whose devices may speak unasked
   std::vector<std::vector<PlantAxis>> plants_;      // [device][axis]

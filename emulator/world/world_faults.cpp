@@ -1,6 +1,7 @@
 // What is wrong in a world: faults that are injected, wait for their moment, begin, end and are cleared.
 #include <algorithm>
 
+#include "emulator/device/axes.h"
 #include "emulator/world/check_fault.h"
 #include "emulator/world/fault_watch.h"
 #include "emulator/world/world.h"
@@ -130,7 +131,8 @@ void World::apply_faults(std::size_t device) {
   }
   for (std::size_t a = 0; a < plants_[device].size(); ++a) {
     const PlantAxis& plant = plants_[device][a];
-    if (plant.has_encoder()) devices_[device]->set_encoder(static_cast<int>(a), plant.encoder_counts());
+    if (plant.has_encoder())
+      devices_[device]->axes()->set_encoder(static_cast<int>(a), plant.encoder_counts());
   }
   for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
 }

@@ -40,8 +40,6 @@ std::string lower_case(std::string_view name) {
   return text;
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
-
 /// "JMP7" and "@7" name a cell's value themselves.
 std::string_view digits_of_flag(std::string_view text) {
   if (text.starts_with('@')) return text.substr(1);

@@ -256,8 +256,19 @@ constexpr bool is_defined(Operand operand, std::uint8_t value) {
     case Operand::status_bit: return value < kStatusBitCount;
     case Operand::counter:
     case Operand::timer: return value == 1 || value == 2;
-    default: return true;
+    case Operand::none:
+    case Operand::flag:
+    case Operand::parameter:
+    case Operand::immediate:
+    case Operand::output_bits:
+    case Operand::output_mask:
+    case Operand::logic:
+    case Operand::amount_low:
+    case Operand::amount_high:
+    case Operand::percent:
+    case Operand::loop_count: return true;
   }
+  return true;
 }
 
 /// Which operand names a parameter that the instruction writes.

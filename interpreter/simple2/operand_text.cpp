@@ -37,8 +37,6 @@ const NumberKind* number_kind(Operand kind) {
   return nullptr;
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
-
 std::string binary(std::uint8_t value) {
   std::string text = "0b";
   for (int bit = 6; bit >= 0; --bit) text += (value >> bit & 1) != 0 ? '1' : '0';

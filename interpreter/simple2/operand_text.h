@@ -35,6 +35,9 @@ ParsedOperand parse_amount(bool is_signed, std::string_view text);
 /// A whole number, decimal or 0x or 0b, within limits.
 ParsedOperand parse_number(std::string_view text, int min, int max);
 
+/// A word of a listing as messages have it.
+inline std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
 /// What an operand may be, for people: "ON or OFF".
 std::string expected_operand(Operand kind);
 std::string expected_amount(bool is_signed);

@@ -2,63 +2,37 @@
 
 #include <cstddef>
 
+#include "interpreter/slim/verbs.h"
+
 namespace understudy::interpreter::slim {
 namespace {
 
-/// For rows without columns: what makes sense in a program only, and what makes sense typed only.
-bool is_for_programs(Verb verb) {
-  switch (verb) {
-    case Verb::jump:
-    case Verb::jump_if:
-    case Verb::jump_if_within:
-    case Verb::call:
-    case Verb::return_:
-    case Verb::wait_input:
-    case Verb::wait_time:
-    case Verb::wait_done: return true;
-    default: return false;
-  }
-}
+// For rows without columns: what makes sense in a program only, and what makes sense typed only.
+constexpr Verb kForPrograms[] = {
+    Verb::jump,    Verb::jump_if,    Verb::jump_if_within, Verb::call,
+    Verb::return_, Verb::wait_input, Verb::wait_time,      Verb::wait_done,
+};
+constexpr Verb kForHosts[] = {
+    Verb::run,          Verb::program_new,    Verb::program_append,  Verb::program_list,
+    Verb::program_edit, Verb::program_insert, Verb::program_delete,  Verb::upload,
+    Verb::download,     Verb::exit,           Verb::list_parameters, Verb::reboot,
+};
 
 /// What a host does to a memory; some machines have their programs do it, too.
-bool is_save(Verb verb) {
-  return verb == Verb::save_data || verb == Verb::save_parameters || verb == Verb::save_program ||
-         verb == Verb::default_parameters;
-}
-
-bool is_for_hosts(const CommandRow& row) {
-  switch (row.verb) {
-    case Verb::run:
-    case Verb::program_new:
-    case Verb::program_append:
-    case Verb::program_list:
-    case Verb::program_edit:
-    case Verb::program_insert:
-    case Verb::program_delete:
-    case Verb::upload:
-    case Verb::download:
-    case Verb::exit:
-    case Verb::list_parameters:
-    case Verb::reboot: return true;
-    default: return row.is_query() || is_save(row.verb);
-  }
-}
+constexpr Verb kSaves[] = {Verb::save_data, Verb::save_parameters, Verb::save_program,
+                           Verb::default_parameters};
 
 /// What a host needs although the column 外部 does not print it: to look, and to get out of a pause.
-bool is_let_through(const CommandRow& row) {
-  switch (row.verb) {
-    case Verb::resume_all:
-    case Verb::abandon_all:
-    case Verb::pause:
-    case Verb::redo:
-    case Verb::clear_buffer:
-    case Verb::set_port_now:
-    case Verb::clear_port_now:
-    case Verb::servo_on_now:
-    case Verb::servo_off_now: return true;
-    default: return row.is_query();
-  }
+constexpr Verb kLetThrough[] = {
+    Verb::resume_all,   Verb::abandon_all,    Verb::pause,        Verb::redo,          Verb::clear_buffer,
+    Verb::set_port_now, Verb::clear_port_now, Verb::servo_on_now, Verb::servo_off_now,
+};
+
+bool is_save(Verb verb) { return is_one_of(kSaves, verb); }
+bool is_for_hosts(const CommandRow& row) {
+  return is_one_of(kForHosts, row.verb) || row.is_query() || is_save(row.verb);
 }
+bool is_let_through(const CommandRow& row) { return is_one_of(kLetThrough, row.verb) || row.is_query(); }
 
 bool is_variable_form(const CommandRow& row) { return row.slots[0] == Slot::real_variable; }
 
@@ -73,7 +47,7 @@ bool is_allowed(const Command& command, Place place, const Columns& columns) {
       if (row.program != Printed::nothing) return row.program == Printed::yes;
       return !is_for_hosts(row) || (columns.saves == Columns::Saves::stored_too && is_save(row.verb));
     case Place::immediate:
-      if (row.immediate == Printed::nothing) return !is_for_programs(row.verb);
+      if (row.immediate == Printed::nothing) return !is_one_of(kForPrograms, row.verb);
       if (row.immediate == Printed::yes) return true;
       return columns.variable_forms == Columns::VariableForms::typed_too && is_variable_form(row);
     case Place::external:

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "base/complete_table.h"
+#include "interpreter/slim/verbs.h"
 #include "interpreter/slim/words.h"
 
 namespace understudy::interpreter::slim {
@@ -22,33 +24,57 @@ bool is_end(Editor::Mode mode, std::string_view text, const ProgramOptions& opti
   return word.empty() && options.empty_line == ProgramOptions::EmptyLine::ends_editing;
 }
 
+/// What a command begins to edit with.
+struct Desk {
+  Editor& editor;
+  Program& program;
+  const ProgramOptions& options;
+  int line;  // that the command names
+};
+using Beginning = Error (*)(const Desk&);
+
+constexpr HandlerRow<Verb, Beginning> kBeginningRows[] = {
+    {Verb::program_new,
+     [](const Desk& desk) {
+       desk.program.clear();
+       desk.editor = {.mode = Editor::Mode::lines};
+       return Error::none;
+     }},
+    {Verb::program_append,
+     [](const Desk& desk) {
+       desk.editor = {.mode = Editor::Mode::lines};
+       return Error::none;
+     }},
+    {Verb::download,
+     [](const Desk& desk) {
+       desk.program.clear();
+       desk.editor = {.mode = Editor::Mode::download};
+       return Error::none;
+     }},
+    {Verb::program_edit,
+     [](const Desk& desk) {
+       if (desk.line < 0 || desk.line >= desk.program.size()) return Error::range;
+       desk.editor = {.mode = Editor::Mode::replace, .line = desk.line};
+       return Error::none;
+     }},
+    {Verb::program_insert,
+     [](const Desk& desk) {
+       if (desk.line < 0 || desk.line > desk.program.size()) return Error::range;
+       if (desk.program.size() >= desk.options.capacity) return Error::buffer_full;
+       desk.editor = {.mode = Editor::Mode::insert, .line = desk.line};
+       return Error::none;
+     }},
+    {Verb::program_delete, [](const Desk& desk) { return desk.program.remove(desk.line); }},
+};
+constexpr CompleteTable<Verb, Beginning> kBeginnings(kEditingVerbs, kBeginningRows);
+
 }  // namespace
 
 Error begin_edit(Editor& editor, Program& program, const Command& command, const ProgramOptions& options) {
+  if (!kBeginnings.has(command.verb)) return Error::syntax;
   // Without a number behind it the command names no line.
   const int line = command.operands.empty() ? 0 : line_named_by(command, options);
-  switch (command.verb) {
-    case Verb::program_new:
-      program.clear();
-      editor = {.mode = Editor::Mode::lines};
-      return Error::none;
-    case Verb::program_append: editor = {.mode = Editor::Mode::lines}; return Error::none;
-    case Verb::download:
-      program.clear();
-      editor = {.mode = Editor::Mode::download};
-      return Error::none;
-    case Verb::program_edit:
-      if (line < 0 || line >= program.size()) return Error::range;
-      editor = {.mode = Editor::Mode::replace, .line = line};
-      return Error::none;
-    case Verb::program_insert:
-      if (line < 0 || line > program.size()) return Error::range;
-      if (program.size() >= options.capacity) return Error::buffer_full;
-      editor = {.mode = Editor::Mode::insert, .line = line};
-      return Error::none;
-    case Verb::program_delete: return program.remove(line);
-    default: return Error::syntax;
-  }
+  return kBeginnings[command.verb]({editor, program, options, line});
 }
 
 Error enter_line(Editor& editor, Program& program, std::string_view text, const ProgramOptions& options) {
@@ -81,8 +107,10 @@ std::optional<int> next_line_number(const Editor& editor, const Program& program
     case Editor::Mode::none: return std::nullopt;
     case Editor::Mode::replace:
     case Editor::Mode::insert: return editor.line + options.first_number;
-    default: return program.size() + options.first_number;
+    case Editor::Mode::lines:
+    case Editor::Mode::download: break;
   }
+  return program.size() + options.first_number;
 }
 
 }  // namespace understudy::interpreter::slim

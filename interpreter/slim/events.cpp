@@ -26,8 +26,13 @@ bool compare(Condition condition, double comparand, double variable) {
     case Condition::equal: return variable == comparand;
     case Condition::not_equal: return variable != comparand;
     case Condition::greater: return variable > comparand;
-    default: return variable <= comparand;
+    case Condition::not_greater: return variable <= comparand;
+    case Condition::input_on:
+    case Condition::input_off:
+    case Condition::zero:
+    case Condition::not_zero: break;
   }
+  return false;  // they look at something else
 }
 
 }  // namespace
@@ -62,7 +67,10 @@ Error test_condition(Condition condition, std::span<const Operand> operands, con
       holds = (number == 0) == (condition == Condition::zero);
       return error;
     }
-    default: break;
+    case Condition::equal:
+    case Condition::not_equal:
+    case Condition::greater:
+    case Condition::not_greater: break;
   }
   double comparand = 0;
   double variable = 0;

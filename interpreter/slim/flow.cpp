@@ -1,12 +1,15 @@
 #include "interpreter/slim/flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
+#include "base/complete_table.h"
+#include "interpreter/slim/verbs.h"
 #include "interpreter/slim/words.h"
 
 namespace understudy::interpreter::slim {
@@ -87,23 +90,7 @@ class LineRun {
   }
 
   Error run_command(const Command& command) {
-    const std::span<const Operand> operands = command.operands;
-    switch (command.verb) {
-      case Verb::jump: return jump(operands[0]);
-      case Verb::jump_if: return jump_if(command);
-      case Verb::jump_if_within: return jump_if_within(command);
-      case Verb::call: return call(operands[0]);
-      case Verb::return_: return give_back();
-      case Verb::wait_input: return wait_input(command);
-      case Verb::wait_time:
-        if (operands[0].number == 0) return go_on();
-        return hold(Hold::timer, now_ms_ + static_cast<std::int64_t>(operands[0].number));
-      case Verb::set_event:
-      case Verb::on_event: define_event(execution_.events, original(), options_.events); return go_on();
-      case Verb::get_integer:
-      case Verb::get_real: return take_bare_number(command.verb == Verb::get_integer);
-      default: break;
-    }
+    if (kActions.has(command.verb)) return (this->*kActions[command.verb])(command);
     const Outcome outcome = machine_.carry_out(command);
     if (outcome.error != Error::none) return outcome.error;
     if (outcome.program == Outcome::Program::ends) return end(Ending::exited);
@@ -118,7 +105,8 @@ class LineRun {
     }
   }
 
-  Error take_bare_number(bool is_integer) {
+  Error take_bare_number(const Command& asking) {
+    const bool is_integer = asking.verb == Verb::get_integer;
     if (options_.bare_number == FlowOptions::BareNumber::is_dropped) return go_on();
     Command command{.verb = Verb::set_variable, .row = is_integer ? row_of("N#=data") : row_of("R#=data")};
     command.operands.push_back({.kind = is_integer ? Kind::integer_variable : Kind::real_variable});
@@ -134,37 +122,39 @@ class LineRun {
     return static_cast<Condition>(kCommands[static_cast<std::size_t>(command.row)].variant);
   }
 
-  Error jump(const Operand& address) {
+  Error jump_to(const Operand& address) {
     const std::optional<int> line = program_.find(address, options_.program);
     return line ? go_to(*line) : Error::address;
   }
+
+  Error jump(const Command& command) { return jump_to(command.operands[0]); }
 
   Error jump_if(const Command& command) {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    return holds ? jump(command.operands.back()) : go_on();
+    return holds ? jump_to(command.operands.back()) : go_on();
   }
 
   Error jump_if_within(const Command& command) {
     bool holds = false;
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
-    if (holds) return jump(command.operands.back());
+    if (holds) return jump_to(command.operands.back());
     const auto window_ms = static_cast<std::int64_t>(command.operands[1].number) * options_.window_unit_ms;
     const std::int64_t until_ms = execution_.hold == Hold::window ? execution_.until_ms : now_ms_ + window_ms;
     return now_ms_ >= until_ms ? go_on() : hold(Hold::window, until_ms);
   }
 
-  Error call(const Operand& address) {
+  Error call(const Command& command) {
     const auto calls = std::ranges::count(execution_.stack, false, &Frame::of_event);
-    const std::optional<int> line = program_.find(address, options_.program);
+    const std::optional<int> line = program_.find(command.operands[0], options_.program);
     if (!line || calls >= options_.call_depth) return Error::address;
     execution_.stack.push_back({.line = execution_.line + 1});
     return go_to(*line);
   }
 
-  Error give_back() {
+  Error give_back(const Command&) {
     if (execution_.stack.empty()) return end(Ending::returned);
     const Frame frame = execution_.stack.back();
     execution_.stack.pop_back();
@@ -181,6 +171,17 @@ class LineRun {
     const Error error = test_condition(condition_of(command), command.operands, machine_, holds);
     if (error != Error::none) return error;
     return holds ? go_on() : hold(Hold::input);
+  }
+
+  Error wait_time(const Command& command) {
+    const double time_ms = command.operands[0].number;
+    if (time_ms == 0) return go_on();
+    return hold(Hold::timer, now_ms_ + static_cast<std::int64_t>(time_ms));
+  }
+
+  Error define(const Command&) {
+    define_event(execution_.events, original(), options_.events);
+    return go_on();
   }
 
   Error hold(Hold what, std::int64_t until_ms = 0) {
@@ -202,12 +203,31 @@ class LineRun {
     return Error::none;
   }
 
+  /// What the machine is not asked for.
+  using Action = Error (LineRun::*)(const Command&);
+  static const CompleteTable<Verb, Action> kActions;
+
   Execution& execution_;
   std::int64_t now_ms_;
   const Program& program_;
   const FlowOptions& options_;
   Machine& machine_;
 };
+
+constexpr CompleteTable<Verb, LineRun::Action> LineRun::kActions(
+    kFlowVerbs, std::to_array<HandlerRow<Verb, LineRun::Action>>({
+                    {Verb::jump, &LineRun::jump},
+                    {Verb::jump_if, &LineRun::jump_if},
+                    {Verb::jump_if_within, &LineRun::jump_if_within},
+                    {Verb::call, &LineRun::call},
+                    {Verb::return_, &LineRun::give_back},
+                    {Verb::wait_input, &LineRun::wait_input},
+                    {Verb::wait_time, &LineRun::wait_time},
+                    {Verb::set_event, &LineRun::define},
+                    {Verb::on_event, &LineRun::define},
+                    {Verb::get_integer, &LineRun::take_bare_number},
+                    {Verb::get_real, &LineRun::take_bare_number},
+                }));
 
 /// Goes to the routine of the event whose turn it is, if any.
 Error serve_events(Execution& execution, const Program& program, const FlowOptions& options) {

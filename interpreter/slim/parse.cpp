@@ -129,13 +129,11 @@ ParseResult assign(const Prefixed& name, int row_number, std::string_view data, 
   return understood(std::move(command));
 }
 
+/// What is not a variable is taken for R#: its error is found elsewhere.
 int row_of_variable(Kind kind, bool is_query) {
-  switch (kind) {
-    case Kind::integer_variable: return is_query ? row_of("?N#") : row_of("N#=data");
-    case Kind::integer_array: return is_query ? row_of("?N#") : row_of("NS(i)=data");
-    case Kind::real_array: return is_query ? row_of("?R#") : row_of("RS(i)=data");
-    default: return is_query ? row_of("?R#") : row_of("R#=data");
-  }
+  if (is_query) return holds_integer(kind) ? row_of("?N#") : row_of("?R#");
+  if (is_array(kind)) return holds_integer(kind) ? row_of("NS(i)=data") : row_of("RS(i)=data");
+  return holds_integer(kind) ? row_of("N#=data") : row_of("R#=data");
 }
 
 ParseResult assign_variable(std::string_view target_text, std::string_view data, const Dialect& dialect) {

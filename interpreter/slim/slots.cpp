@@ -39,8 +39,25 @@ constexpr std::optional<Range> whole_range(Slot slot, int variant) {
     case Slot::flag: return Range{0, 1};
     case Slot::whole: return Range{kIntegerLeast, kIntegerMost};
     case Slot::variant: return Range{static_cast<double>(variant), static_cast<double>(variant)};
-    default: return std::nullopt;
+    case Slot::none:
+    case Slot::real:
+    case Slot::real_variable:
+    case Slot::port:
+    case Slot::address:
+    case Slot::maybe_address:
+    case Slot::integer_variable:
+    case Slot::variable:
+    case Slot::stored_variable:
+    case Slot::comparand:
+    case Slot::data:
+    case Slot::frequency:
+    case Slot::percent:
+    case Slot::event:
+    case Slot::condition:
+    case Slot::word:
+    case Slot::text: return std::nullopt;
   }
+  return std::nullopt;
 }
 
 constexpr std::optional<Range> real_range(Slot slot) {
@@ -49,8 +66,34 @@ constexpr std::optional<Range> real_range(Slot slot) {
     case Slot::real: return Range{-kMost, kMost};
     case Slot::frequency: return Range{1e-6, 1e6};  // in kHz 0.001 Hz, in Hz what ticks are told
     case Slot::percent: return Range{0, 100};
-    default: return std::nullopt;
+    case Slot::none:
+    case Slot::real_variable:
+    case Slot::port:
+    case Slot::input:
+    case Slot::maybe_input:
+    case Slot::dip_switch:
+    case Slot::address:
+    case Slot::maybe_address:
+    case Slot::line:
+    case Slot::integer_variable:
+    case Slot::variable:
+    case Slot::stored_variable:
+    case Slot::comparand:
+    case Slot::data:
+    case Slot::milliseconds:
+    case Slot::pulse_width:
+    case Slot::thrust_level:
+    case Slot::levels:
+    case Slot::axis_module:
+    case Slot::flag:
+    case Slot::whole:
+    case Slot::variant:
+    case Slot::event:
+    case Slot::condition:
+    case Slot::word:
+    case Slot::text: return std::nullopt;
   }
+  return std::nullopt;
 }
 
 /// Of an integer variable.
@@ -96,8 +139,13 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
     case Kind::analog:
     case Kind::clock: return Error::none;
     case Kind::quantity: return dialect.quantities ? Error::none : Error::syntax;
-    default: return Error::syntax;
+    case Kind::port:
+    case Kind::label:
+    case Kind::text:
+    case Kind::event:
+    case Kind::condition: return Error::syntax;
   }
+  return Error::syntax;
 }
 
 /// What an assignment gives. A real variable takes integers, too; a parameter takes any number.
@@ -141,8 +189,29 @@ Error check_slot(Slot slot, const CommandRow& row, Operand& operand, const Diale
     case Slot::address:
     case Slot::maybe_address:
       return operand.kind == Kind::label ? Error::none : check_whole(operand, *whole_range(Slot::line, 0));
-    default: return Error::syntax;
+    case Slot::none:
+    case Slot::real:
+    case Slot::input:
+    case Slot::maybe_input:
+    case Slot::dip_switch:
+    case Slot::line:
+    case Slot::comparand:
+    case Slot::data:
+    case Slot::milliseconds:
+    case Slot::pulse_width:
+    case Slot::frequency:
+    case Slot::percent:
+    case Slot::thrust_level:
+    case Slot::levels:
+    case Slot::axis_module:
+    case Slot::flag:
+    case Slot::whole:
+    case Slot::variant:
+    case Slot::condition:
+    case Slot::word:
+    case Slot::text: return Error::syntax;
   }
+  return Error::syntax;
 }
 
 /// Syntax weighs more than range: what is not a command at all has no value that could be wrong.
@@ -178,8 +247,32 @@ class Matching {
       case Slot::comparand: return take_comparand();
       case Slot::data: return take_data();
       case Slot::event: return take_event();
-      default: break;
+      case Slot::none:
+      case Slot::real:
+      case Slot::real_variable:
+      case Slot::port:
+      case Slot::input:
+      case Slot::maybe_input:
+      case Slot::dip_switch:
+      case Slot::address:
+      case Slot::maybe_address:
+      case Slot::line:
+      case Slot::integer_variable:
+      case Slot::variable:
+      case Slot::stored_variable:
+      case Slot::milliseconds:
+      case Slot::pulse_width:
+      case Slot::frequency:
+      case Slot::percent:
+      case Slot::thrust_level:
+      case Slot::levels:
+      case Slot::axis_module:
+      case Slot::flag:
+      case Slot::whole:
+      case Slot::variant: return take_one(slot);
     }
+  }
+  void take_one(Slot slot) {
     Item item = next_item();
     if (item.error == Error::none) {
       item.error = is_printed_constant(slot, item.operand)
@@ -257,8 +350,13 @@ class Matching {
       case Condition::input_off: return take(Slot::input);
       case Condition::zero:
       case Condition::not_zero: return take(Slot::integer_variable);
-      default: break;
+      case Condition::equal:
+      case Condition::not_equal:
+      case Condition::greater:
+      case Condition::not_greater: return take_comparison();
     }
+  }
+  void take_comparison() {
     take(Slot::comparand);
     const Kind kind = result_.operands.back().kind;
     // An event is looked at every tick; it cannot wait for the host.

@@ -42,8 +42,10 @@ bool can_hold(const std::optional<Command>& command, Hold hold) {
     case Hold::input: return command->verb == Verb::wait_input;
     case Hold::window: return command->verb == Verb::jump_if_within;
     case Hold::number: return asks_host(*command);
-    default: return true;
+    case Hold::nothing:
+    case Hold::machine: return true;
   }
+  return false;
 }
 
 bool is_sound(const Frame& frame, const Program& program) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/models/models.h"
 #include "tests/fuzz/fuzzing.h"
@@ -43,10 +44,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     demand(emulator::parse_nv_image(emulator::to_json(image)) == image, "an image reads as it was written");
     emulator::Device* device = device_of(image.model);
     if (device == nullptr) return 0;
-    device->load_nv(image);
-    const emulator::NvImage kept = device->nv_image();
-    device->load_nv(kept);
-    demand(device->nv_image() == kept, "a memory takes back what it has given");
+    device->memory()->load_nv(image);
+    const emulator::NvImage kept = device->memory()->nv_image();
+    device->memory()->load_nv(kept);
+    demand(device->memory()->nv_image() == kept, "a memory takes back what it has given");
   } catch (const emulator::NvError& error) {
     demand(error.what()[0] != '\0', "an error says something");
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/snapshot.h"
@@ -51,9 +52,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   chain.is_as_made = false;
-  const std::string text = chain.world.device(0).program_text();
+  const std::string text = chain.world.device(0).user_program()->program_text();
   chain.world.load_program(0, text);
-  demand(chain.world.device(0).program_text() == text, "a program that it has is one that it takes");
+  demand(chain.world.device(0).user_program()->program_text() == text,
+         "a program that it has is one that it takes");
   if (!is_checked_wholly) return 0;
   const std::string_view start = "G\r";
   chain.world.line(0).line.receive({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()},

@@ -133,7 +133,7 @@ Sheet commands(const Model& model, SheetFormat format) {
 }
 
 std::string scenario_cell(const Model& model, const ChoiceRow& row, SheetFormat format) {
-  const std::string path = scenario_of_choice(model, row);
+  std::string path = scenario_of_choice(model, row);
   if (path.empty() || format != SheetFormat::markdown) return path;
   return "[" + std::string(row.id) + ".yaml](../../" + path + ")";  // from docs/fidelity/
 }

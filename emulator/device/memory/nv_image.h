@@ -28,7 +28,7 @@ struct NvError : std::runtime_error {
 
 std::string to_json(const NvImage& image);
 /// Throws NvError for text that is torn, not JSON, or no NV image. Whether the names and values suit the
-/// device is for Device::load_nv().
+/// device is for KeptMemory::load_nv().
 NvImage parse_nv_image(const std::string& text);
 
 }  // namespace understudy::emulator

@@ -4,8 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "emulator/device/device.h"
-
 namespace understudy::emulator {
 
 namespace {
@@ -22,11 +20,11 @@ std::pair<Value, Value> limits_of(Type type) {
 
 Cell cell_of(const Place& place) { return {.argument = place.row->argument, .index = place.index}; }
 
-std::uint32_t present_bits(const Device& device, const Place& place) {
+std::uint32_t present_bits(const RegisterBank& bank, const Place& place) {
   if (place.row->reader != nullptr) {
-    return static_cast<std::uint32_t>(place.row->reader(device, cell_of(place)));
+    return static_cast<std::uint32_t>(place.row->reader(bank, cell_of(place)));
   }
-  return device.image()[static_cast<std::size_t>(place.slot)];
+  return bank.image()[static_cast<std::size_t>(place.slot)];
 }
 
 std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
@@ -43,9 +41,9 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
 }
 
 /// Reading back what was written misses nothing; reading what the controller should say by itself does.
-void mention_if_missed(const Device& device, const Place& place) {
+void mention_if_missed(const RegisterBank& bank, const Place& place) {
   if (!place.row->unmodelled.empty() && place.row->access == Access::read)
-    device.mention_unmodelled(*place.row);
+    bank.mention_unmodelled(*place.row);
 }
 
 /// One register that a request touches, with what the request makes of it.
@@ -110,14 +108,12 @@ Refusal judge(Change& change, const MapPolicy& policy) {
 
 /// What each register would hold, and whether that may be. Addresses are judged before values. Behind a
 /// refusal only those changes are left that are made all the same.
-Refusal gather(const Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words,
-               Changes& changes) {
-  const RegisterMap& map = device.registers();
-  const MapPolicy& policy = device.map_policy();
+Refusal gather(const RegisterBank& bank, Table table, std::uint16_t first,
+               std::span<const std::uint16_t> words, Changes& changes) {
+  const MapPolicy& policy = bank.map_policy();
   if (first + words.size() > 65536 || words.size() > kMostChanges) return Refusal::no_register;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const Place place =
-        map.at(table, static_cast<std::uint16_t>(first + i), device.firmware(), device.low_word_first());
+    const Place place = bank.at(table, static_cast<std::uint16_t>(first + i));
     if (!place) {
       if (policy.unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
       continue;
@@ -127,7 +123,7 @@ Refusal gather(const Device& device, Table table, std::uint16_t first, std::span
       continue;
     }
     const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.slot == place.slot;
-    if (!continues) changes.all[changes.count++] = {.place = place, .bits = present_bits(device, place)};
+    if (!continues) changes.all[changes.count++] = {.place = place, .bits = present_bits(bank, place)};
     Change& change = changes.all[changes.count - 1];
     change.bits = with_word(change.bits, place.part, words[i]);
     if (place.part == Place::Part::low) change.low = true;
@@ -142,39 +138,39 @@ Refusal gather(const Device& device, Table table, std::uint16_t first, std::span
   return Refusal::none;
 }
 
-void store(Device& device, Change& change) {
+void store(RegisterBank& bank, Change& change) {
   change.bits &= change.place.row->stored_bits;
-  device.image()[static_cast<std::size_t>(change.place.slot)] = change.bits;
+  bank.image()[static_cast<std::size_t>(change.place.slot)] = change.bits;
 }
 
-void take_effect(Device& device, const Change& change) {
+void take_effect(RegisterBank& bank, const Change& change) {
   const RegisterRow& row = *change.place.row;
   if (change.bits == 0 && !row.acts_on_zero) return;
-  if (!row.unmodelled.empty()) device.mention_unmodelled(row);
+  if (!row.unmodelled.empty()) bank.mention_unmodelled(row);
   if (row.effect != nullptr) {
     Cell cell = cell_of(change.place);
     cell.high_half = !is_32_bit(row.type) || change.high;
-    row.effect(device, cell, value_of(change.bits, row.type));
+    row.effect(bank, cell, value_of(change.bits, row.type));
   }
-  device.register_written(row, static_cast<std::size_t>(change.place.slot));
+  bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
 /// Stores everything, then lets it take effect, both in ascending order; or each register in its turn.
-void carry_out(Device& device, Changes& changes) {
+void carry_out(RegisterBank& bank, Changes& changes) {
   const std::span all = std::span(changes.all).first(changes.count);
-  if (device.map_policy().effects == MapPolicy::Effects::one_by_one) {
+  if (bank.map_policy().effects == MapPolicy::Effects::one_by_one) {
     for (Change& change : all) {
-      store(device, change);
-      take_effect(device, change);
+      store(bank, change);
+      take_effect(bank, change);
     }
   } else {
-    for (Change& change : all) store(device, change);
-    for (const Change& change : all) take_effect(device, change);
+    for (Change& change : all) store(bank, change);
+    for (const Change& change : all) take_effect(bank, change);
   }
-  device.registers_written();
+  bank.registers_written();
 }
 
-Refusal words_for(const Device& device, const NamedPlace& named, Value value, PreparedWrite& out) {
+Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value value, PreparedWrite& out) {
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
@@ -182,7 +178,7 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Pr
   if (named.bit >= 0) {
     if (value != 0 && value != 1) return Refusal::bad_value;
     const Value mask = Value{1} << named.bit;
-    const Value whole = read_value(device, place);
+    const Value whole = read_value(bank, place);
     value = value == 1 ? whole | mask : whole & ~mask;
     if (!half)
       value = value_of(static_cast<std::uint32_t>(value), row.type);  // the sign bit is a bit as well
@@ -194,7 +190,7 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Pr
   const auto bits = static_cast<std::uint32_t>(value);
   const auto low = static_cast<std::uint16_t>(bits);
   const auto high = static_cast<std::uint16_t>(bits >> 16);
-  const bool low_first = device.low_word_first();
+  const bool low_first = bank.low_word_first();
   if (whole_32) {
     out = {row.table, place.address(), {low_first ? low : high, low_first ? high : low}, 2};
   } else {
@@ -207,13 +203,12 @@ Refusal words_for(const Device& device, const NamedPlace& named, Value value, Pr
 
 }  // namespace
 
-Refusal read_words(const Device& device, Table table, std::uint16_t first, std::span<std::uint16_t> words) {
-  const RegisterMap& map = device.registers();
-  const MapPolicy& policy = device.map_policy();
+Refusal read_words(const RegisterBank& bank, Table table, std::uint16_t first,
+                   std::span<std::uint16_t> words) {
+  const MapPolicy& policy = bank.map_policy();
   if (first + words.size() > 65536) return Refusal::no_register;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const Place place =
-        map.at(table, static_cast<std::uint16_t>(first + i), device.firmware(), device.low_word_first());
+    const Place place = bank.at(table, static_cast<std::uint16_t>(first + i));
     if (!place) {
       if (policy.unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
       words[i] = 0;
@@ -224,48 +219,48 @@ Refusal read_words(const Device& device, Table table, std::uint16_t first, std::
       words[i] = 0;
       continue;
     }
-    mention_if_missed(device, place);
-    words[i] = word_of(present_bits(device, place), place.part);
+    mention_if_missed(bank, place);
+    words[i] = word_of(present_bits(bank, place), place.part);
   }
   return Refusal::none;
 }
 
-Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words) {
+Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
+                    std::span<const std::uint16_t> words) {
   return with_room_for(words.size(), [&](Changes& changes) {
-    const Refusal refusal = gather(device, table, first, words, changes);
+    const Refusal refusal = gather(bank, table, first, words, changes);
     if (refusal == Refusal::none || (refusal == Refusal::bad_value && changes.count > 0))
-      carry_out(device, changes);
+      carry_out(bank, changes);
     return refusal;
   });
 }
 
-Value read_value(const Device& device, const Place& place) {
+Value read_value(const RegisterBank& bank, const Place& place) {
   if (place.row->access == Access::write) return 0;
-  mention_if_missed(device, place);
-  const std::uint32_t bits = present_bits(device, place);
+  mention_if_missed(bank, place);
+  const std::uint32_t bits = present_bits(bank, place);
   if (place.part != Place::Part::whole) return word_of(bits, place.part);
   return value_of(bits, place.row->type);
 }
 
-Value read_value(const Device& device, const NamedPlace& place) {
-  const Value value = read_value(device, place.place);
+Value read_value(const RegisterBank& bank, const NamedPlace& place) {
+  const Value value = read_value(bank, place.place);
   return place.bit < 0 ? value : (value >> place.bit) & 1;
 }
 
-Refusal prepare_value(const Device& device, const NamedPlace& place, Value value, PreparedWrite& write) {
+Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write) {
   if (place.place.row->access == Access::read) return Refusal::no_register;
-  if (const Refusal refusal = words_for(device, place, value, write); refusal != Refusal::none)
-    return refusal;
+  if (const Refusal refusal = words_for(bank, place, value, write); refusal != Refusal::none) return refusal;
   return with_room_for(write.count, [&](Changes& changes) {
-    return gather(device, write.table, write.first, std::span(write.words).first(write.count), changes);
+    return gather(bank, write.table, write.first, std::span(write.words).first(write.count), changes);
   });
 }
 
-Refusal write_prepared(Device& device, const PreparedWrite& write) {
-  return write_words(device, write.table, write.first, std::span(write.words).first(write.count));
+Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
+  return write_words(bank, write.table, write.first, std::span(write.words).first(write.count));
 }
 
-Refusal write_value(Device& device, const NamedPlace& named, Value value) {
+Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   if (named.bit < 0 && place.part == Place::Part::whole) {
@@ -273,21 +268,21 @@ Refusal write_value(Device& device, const NamedPlace& named, Value value) {
     if (row.access == Access::read) return Refusal::no_register;
     const auto [lowest, highest] = limits_of(row.type);
     if (value < lowest || value > highest) return Refusal::bad_value;
-    if (device.firmware() < row.since) {
-      return device.map_policy().unmapped == MapPolicy::Unmapped::refused ? Refusal::no_register
-                                                                          : Refusal::none;
+    if (!bank.has_row(row)) {
+      return bank.map_policy().unmapped == MapPolicy::Unmapped::refused ? Refusal::no_register
+                                                                        : Refusal::none;
     }
     std::array<Change, 1> one = {
         Change{.place = place, .bits = static_cast<std::uint32_t>(value), .low = true, .high = true}};
-    const Refusal refusal = judge(one[0], device.map_policy());
+    const Refusal refusal = judge(one[0], bank.map_policy());
     if (refusal != Refusal::none) return refusal;
     Changes changes{.all = one, .count = 1};
-    carry_out(device, changes);
+    carry_out(bank, changes);
     return Refusal::none;
   }
   PreparedWrite write;
-  const Refusal refusal = prepare_value(device, named, value, write);
-  return refusal == Refusal::none ? write_prepared(device, write) : refusal;
+  const Refusal refusal = prepare_value(bank, named, value, write);
+  return refusal == Refusal::none ? write_prepared(bank, write) : refusal;
 }
 
 }  // namespace understudy::emulator

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/register_bank.h"
 
 namespace understudy::emulator {
 
@@ -20,12 +20,14 @@ enum class Refusal : std::uint8_t {
 };
 
 /// Consecutive 16-bit words from `first` on, as the wire has them.
-Refusal read_words(const Device& device, Table table, std::uint16_t first, std::span<std::uint16_t> words);
-Refusal write_words(Device& device, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
+Refusal read_words(const RegisterBank& bank, Table table, std::uint16_t first,
+                   std::span<std::uint16_t> words);
+Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
+                    std::span<const std::uint16_t> words);
 
 /// A register's present value (or a half's), as its type has it: signed or not.
-Value read_value(const Device& device, const Place& place);
-Value read_value(const Device& device, const NamedPlace& place);
+Value read_value(const RegisterBank& bank, const Place& place);
+Value read_value(const RegisterBank& bank, const NamedPlace& place);
 
 /// A value for a named place, as the words that bring it.
 struct PreparedWrite {
@@ -38,9 +40,9 @@ struct PreparedWrite {
 /// Judges a write as one from the wire, and makes the words for it; those will not be refused, whatever is
 /// written before them (but for a register that changes the order of words). A bit is written by way of its
 /// register, as it is at this moment.
-Refusal prepare_value(const Device& device, const NamedPlace& place, Value value, PreparedWrite& write);
-Refusal write_prepared(Device& device, const PreparedWrite& write);
+Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);
+Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write);
 /// Both at once.
-Refusal write_value(Device& device, const NamedPlace& place, Value value);
+Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value);
 
 }  // namespace understudy::emulator

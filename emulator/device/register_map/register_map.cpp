@@ -155,4 +155,16 @@ std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const
   return "no register is called " + quoted(name) + suggestion(base, names_in_order_);
 }
 
+std::string range_text(const RegisterRow& row) {
+  if (row.stored_bits < 0xFFFF) return "0 to " + std::to_string(row.stored_bits);
+  if (row.ranged) return std::to_string(row.min) + " to " + std::to_string(row.max);
+  switch (row.type) {
+    case Type::u16: return "0 to 65535";
+    case Type::s16: return "-32768 to 32767";
+    case Type::u32: return "0 to 4294967295";
+    case Type::s32: return "-2147483648 to 2147483647";
+  }
+  return "";
+}
+
 }  // namespace understudy::emulator

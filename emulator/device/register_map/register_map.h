@@ -54,7 +54,6 @@ class RegisterMap {
   std::optional<NamedPlace> find(std::string_view name, Firmware firmware) const;
   /// Why find() found nothing, as one line: no such name (and the nearest), no such bit, a newer firmware.
   std::string why_not(std::string_view name, Firmware firmware) const;
-  /// The known name that is most like it, for messages.
 
   /// "MAIN_LINE" + number + "_CMD": the name of a row's register.
   static std::string name_of(const RegisterRow& row, int index);
@@ -82,6 +81,9 @@ class RegisterMap {
   std::unordered_map<std::string, Place> names_;  // looked up, never iterated
   std::vector<std::string> names_in_order_;
 };
+
+/// "0 to 3000", or what the width allows where the manual gives no range.
+std::string range_text(const RegisterRow& row);
 
 /// 152 as "1.52".
 std::string version_text(Firmware firmware);

@@ -7,7 +7,9 @@
 
 namespace understudy::emulator {
 
-class Device;
+class RegisterBank;
+template <typename D>
+class RegisterBankOf;
 
 enum class Table : std::uint8_t { holding, input, coil, discrete };
 enum class Access : std::uint8_t { read, write, read_write };
@@ -41,9 +43,26 @@ struct Cell {
 };
 
 /// The present value, where it is not simply the stored one.
-using Reader = Value (*)(const Device& device, Cell cell);
+using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// What a write does beyond storing. Runs after the whole request is stored, in ascending order.
-using Effect = void (*)(Device& device, Cell cell, Value value);
+using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
+
+/// A model's own functions take its own device, which the bank that they are called for is part of
+/// (register_bank.h). `D` may be incomplete where the rows stand.
+template <auto function>
+struct Handler;
+template <typename D, Value (*function)(const D&, Cell)>
+struct Handler<function> {
+  static Value call(const RegisterBank& bank, Cell cell) {
+    return function(static_cast<const RegisterBankOf<D>&>(bank).device(), cell);
+  }
+};
+template <typename D, void (*function)(D&, Cell, Value)>
+struct Handler<function> {
+  static void call(RegisterBank& bank, Cell cell, Value value) {
+    function(static_cast<RegisterBankOf<D>&>(bank).device(), cell, value);
+  }
+};
 
 struct RegisterRow {
   std::uint16_t address = 0;
@@ -118,19 +137,22 @@ struct RegisterRow {
     since = version;
     return *this;
   }
-  constexpr RegisterRow& reads(Reader function, int with_argument = 0) {
-    reader = function;
+  template <auto function>
+  constexpr RegisterRow& reads(int with_argument = 0) {
+    reader = Handler<function>::call;
     argument = with_argument;
     return *this;
   }
-  constexpr RegisterRow& does(Effect function, int with_argument = 0) {
-    effect = function;
+  template <auto function>
+  constexpr RegisterRow& does(int with_argument = 0) {
+    effect = Handler<function>::call;
     argument = with_argument;
     return *this;
   }
-  constexpr RegisterRow& triggers(Effect function, int with_argument = 0) {
+  template <auto function>
+  constexpr RegisterRow& triggers(int with_argument = 0) {
     acts_on_zero = false;
-    return does(function, with_argument);
+    return does<function>(with_argument);
   }
   constexpr RegisterRow& missing_trigger(std::string_view what_is_missing) {
     acts_on_zero = false;

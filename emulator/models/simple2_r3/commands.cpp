@@ -70,8 +70,18 @@ bool Simple2R3::may_begin(int axis_number, Outcome outcome, const KeptCommand& w
       }
       return false;
     case Outcome::ends: stop_drive(state_.axes[static_cast<std::size_t>(axis_number)]); return false;
-    default: return false;
+    case Outcome::goes_on:
+    case Outcome::stops:
+    case Outcome::leaves:
+    case Outcome::waits:
+    case Outcome::turns:
+    case Outcome::slows:
+    case Outcome::slows_and_waits:
+    case Outcome::blocked:
+    case Outcome::resumes:
+    case Outcome::dropped: return false;
   }
+  return false;
 }
 
 void Simple2R3::forget_kept(int axis) {
@@ -188,7 +198,15 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
     case Outcome::waits:
     case Outcome::slows_and_waits: axis.target_urpm = milli_rpm * 1000; break;
     case Outcome::slows: axis.target_urpm = 0; break;
-    default: (void)may_begin(axis_number, outcome, {.mode = Mode::velocity, .value = milli_rpm});
+    case Outcome::goes_on:
+    case Outcome::stops:
+    case Outcome::leaves:
+    case Outcome::turns:
+    case Outcome::blocked:
+    case Outcome::resumes:
+    case Outcome::dropped:
+    case Outcome::kept:
+    case Outcome::ends: (void)may_begin(axis_number, outcome, {.mode = Mode::velocity, .value = milli_rpm});
   }
   if (chose(kDroppedValueForgotten) && outcome != Outcome::kept) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].velocity] =

@@ -24,7 +24,10 @@ std::uint32_t resolution_of(const State& state, int axis) {
                                    0x8000'0000U);
 }
 
-Simple2R3::Simple2R3(const DeviceSettings& given) : Device(simple2_r3::model(), given) {
+Simple2R3::Simple2R3(const DeviceSettings& given)
+    : Device(simple2_r3::model(), given),
+      RegisterBankOf(*this, simple2_r3::model().registers, given.firmware),
+      KeptMemory(simple2_r3::model().name, given.firmware) {
   dialect_ = dialect_of(*this);
   map_policy_ = chosen_map_policy();
   timer_unit_ = chose(kTimer10ms) ? 10 : chose(kTimer100ms) ? 100 : 1;
@@ -58,7 +61,7 @@ Addressing Simple2R3::addressing(std::uint8_t address) const {
 }
 
 MapPolicy Simple2R3::chosen_map_policy() const {
-  MapPolicy policy = registers().policy();
+  MapPolicy policy = map().policy();
   if (chose(kUnmappedReadsZero)) policy.unmapped = MapPolicy::Unmapped::reads_zero;
   if (chose(kWriteToReadOnlyIgnored)) policy.read_only = MapPolicy::ReadOnly::ignores_writes;
   if (chose(kReadOfWriteOnlyRefused)) policy.write_only = MapPolicy::WriteOnly::refused;

@@ -6,8 +6,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "emulator/device/axes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/user_program.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/registers.h"
@@ -111,9 +116,24 @@ struct alignas(64) State {
 /// would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis);
 
-class Simple2R3 final : public Device {
+class Simple2R3 final : public Device,
+                        public RegisterBankOf<Simple2R3>,
+                        public ModbusStation,
+                        public KeptMemory,
+                        public UserProgram,
+                        public Axes {
  public:
-  explicit Simple2R3(const DeviceSettings& settings);
+  explicit Simple2R3(const DeviceSettings& given);
+
+  RegisterBank* register_bank() override { return this; }
+  const RegisterBank* register_bank() const override { return this; }
+  const ModbusStation* modbus() const override { return this; }
+  KeptMemory* memory() override { return this; }
+  const KeptMemory* memory() const override { return this; }
+  UserProgram* user_program() override { return this; }
+  const UserProgram* user_program() const override { return this; }
+  Axes* axes() override { return this; }
+  const Axes* axes() const override { return this; }
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
@@ -124,9 +144,11 @@ class Simple2R3 final : public Device {
     state_.touched = true;
     was_saving_.reset();
   }
+  void mention_unmodelled(const RegisterRow& row) const override {
+    Device::mention_unmodelled(row.name, row.unmodelled);
+  }
 
   bool keeps(const RegisterRow& row) const override;
-  std::span<const std::uint32_t> kept_image() const override { return state_.eeprom.kept(); }
   std::uint64_t kept_revision() const override { return state_.eeprom.revision(); }
   void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view listing) override;
@@ -215,9 +237,10 @@ class Simple2R3 final : public Device {
  protected:
   void power_up() override;
   void power_down() override;
-  void put_kept(std::size_t slot, std::uint32_t bits) override { state_.eeprom.put(slot, bits); }
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
+  void write_memory(NvImage& image) const override;
+  void read_memory(const NvImage& image) override;
 
  private:
   /// DIP1 is number 0.

@@ -9,11 +9,8 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-Simple2R3& self(Device& device) { return static_cast<Simple2R3&>(device); }
-const Simple2R3& self(const Device& device) { return static_cast<const Simple2R3&>(device); }
-
-const AxisState& axis_of(const Device& device, Cell cell) {
-  return self(device).state().axes[static_cast<std::size_t>(cell.argument)];
+const AxisState& axis_of(const Simple2R3& device, Cell cell) {
+  return device.state().axes[static_cast<std::size_t>(cell.argument)];
 }
 
 /// Calls `act` for the axis that the cell names, or for both.
@@ -54,10 +51,10 @@ bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slo
 }
 
 /// A trigger that goes on, as it reads.
-Value while_in_progress(const Device& device, Cell cell, Command command) {
+Value while_in_progress(const Simple2R3& device, Cell cell, Command command) {
   const AxisState& axis = axis_of(device, cell);
-  const bool is_shown = axis.by_trigger || !self(device).chose(kTriggersByThemselves);
-  return axis.command == command && is_shown && !self(device).chose(kTriggersReadZero);
+  const bool is_shown = axis.by_trigger || !device.chose(kTriggersByThemselves);
+  return axis.command == command && is_shown && !device.chose(kTriggersReadZero);
 }
 
 MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
@@ -84,105 +81,103 @@ std::size_t cell_slot(Cell cell) {
 
 }  // namespace
 
-Value read_status(const Device& device, Cell) {
-  const Simple2R3& d = self(device);
+Value read_status(const Simple2R3& device, Cell) {
   Value status = 0;
   for (int axis = 0; axis < 2; ++axis) {
-    const AxisState& state = d.state().axes[static_cast<std::size_t>(axis)];
+    const AxisState& state = device.state().axes[static_cast<std::size_t>(axis)];
     const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
-    const bool shows_moving = state.mode == Mode::position || !d.chose(kMovingInPositionOnly);
+    const bool shows_moving = state.mode == Mode::position || !device.chose(kMovingInPositionOnly);
     const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
-    bit(0, shown(d, d.alarm(axis), slots.alarm_assigned, slots.alarm_input));
-    bit(2, shown(d, d.ready(axis), slots.ready_assigned, slots.ready_input));
-    const bool homes_apart = state.command == Command::homing && d.chose(kHomingBitAlone);
+    bit(0, shown(device, device.alarm(axis), slots.alarm_assigned, slots.alarm_input));
+    bit(2, shown(device, device.ready(axis), slots.ready_assigned, slots.ready_input));
+    const bool homes_apart = state.command == Command::homing && device.chose(kHomingBitAlone);
     bit(4, shows_moving && is_moving(state) && !homes_apart);
     bit(6, state.command == Command::homing);
     bit(8, state.homed);
     bit(10, state.motor.servo_on);
-    bit(12, shown(d, d.upper_limit(axis), slots.upper_assigned, slots.upper_input));
-    bit(14, shown(d, d.lower_limit(axis), slots.lower_assigned, slots.lower_input));
+    bit(12, shown(device, device.upper_limit(axis), slots.upper_assigned, slots.upper_input));
+    bit(14, shown(device, device.lower_limit(axis), slots.lower_assigned, slots.lower_input));
   }
   return status;
 }
 
-Value read_version(const Device& device, Cell) {
+Value read_version(const Simple2R3& device, Cell) {
   const Value version = device.firmware();
-  if (!self(device).chose(kVersionBcd)) return version;
+  if (!device.chose(kVersionBcd)) return version;
   return version / 100 << 8 | version / 10 % 10 << 4 | version % 10;
 }
 
-Value read_output(const Device& device, Cell cell) {
-  if (self(device).chose(kOutputReadsWritten))
-    return (self(device).state().written_outputs >> cell.index) & 1;
-  return self(device).output_level(cell.index);
+Value read_output(const Simple2R3& device, Cell cell) {
+  if (device.chose(kOutputReadsWritten)) return (device.state().written_outputs >> cell.index) & 1;
+  return device.output_level(cell.index);
 }
 
-Value read_all_outputs(const Device& device, Cell) {
+Value read_all_outputs(const Simple2R3& device, Cell) {
   Value levels = 0;
   for (int i = 0; i < kOutputCount; ++i) levels |= read_output(device, {.index = i}) << i;
   return levels;
 }
 
-Value read_input(const Device& device, Cell cell) { return (self(device).inputs() >> cell.index) & 1; }
+Value read_input(const Simple2R3& device, Cell cell) { return (device.inputs() >> cell.index) & 1; }
 
-Value read_all_inputs(const Device& device, Cell) { return self(device).inputs(); }
+Value read_all_inputs(const Simple2R3& device, Cell) { return device.inputs(); }
 
-Value read_encoder(const Device& device, Cell cell) {
+Value read_encoder(const Simple2R3& device, Cell cell) {
   const AxisState& axis = axis_of(device, cell);
   return axis.encoder_counts + axis.encoder_preset;
 }
 
-Value read_coordinate(const Device& device, Cell cell) { return axis_of(device, cell).coordinate_pulses; }
+Value read_coordinate(const Simple2R3& device, Cell cell) { return axis_of(device, cell).coordinate_pulses; }
 
-Value read_incremental_trigger(const Device& device, Cell cell) {
+Value read_incremental_trigger(const Simple2R3& device, Cell cell) {
   return while_in_progress(device, cell, Command::incremental);
 }
 
-Value read_absolute_trigger(const Device& device, Cell cell) {
+Value read_absolute_trigger(const Simple2R3& device, Cell cell) {
   return while_in_progress(device, cell, Command::absolute);
 }
 
-Value read_homing_trigger(const Device& device, Cell cell) {
+Value read_homing_trigger(const Simple2R3& device, Cell cell) {
   return while_in_progress(device, cell, Command::homing);
 }
 
-Value read_mode(const Device& device, Cell cell) { return static_cast<Value>(axis_of(device, cell).mode); }
+Value read_mode(const Simple2R3& device, Cell cell) { return static_cast<Value>(axis_of(device, cell).mode); }
 
-Value read_encoder_speed(const Device& device, Cell cell) {
-  const auto& image = self(device).state().image;
+Value read_encoder_speed(const Simple2R3& device, Cell cell) {
+  const auto& image = device.state().image;
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(cell.argument)];
   const std::uint32_t resolution = std::max(image[slots.encoder_resolution], 1U);
   return encoder_rpm(axis_of(device, cell), device.now(),
-                     {.window = self(device).chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow,
+                     {.window = device.chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow,
                       .counts_per_revolution = resolution,
-                      .wraps = self(device).chose(kEncoderSpeedWraps)});
+                      .wraps = device.chose(kEncoderSpeedWraps)});
 }
 
-Value read_now_line(const Device& device, Cell) {
-  const auto& execution = self(device).state().execution;
-  return execution.running || !self(device).chose(kLineZeroAfterEnd) ? execution.now_line : 0;
+Value read_now_line(const Simple2R3& device, Cell) {
+  const auto& execution = device.state().execution;
+  return execution.running || !device.chose(kLineZeroAfterEnd) ? execution.now_line : 0;
 }
 
-Value read_program_runs(const Device& device, Cell) { return self(device).state().execution.running; }
+Value read_program_runs(const Simple2R3& device, Cell) { return device.state().execution.running; }
 
-Value read_timer(const Device& device, Cell cell) {
-  return self(device).state().timers[static_cast<std::size_t>(cell.argument)].at(
-      self(device).timer_time(), self(device).chose(kTimersStay));
+Value read_timer(const Simple2R3& device, Cell cell) {
+  return device.state().timers[static_cast<std::size_t>(cell.argument)].at(device.timer_time(),
+                                                                           device.chose(kTimersStay));
 }
 
-Value read_servo(const Device& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
+Value read_servo(const Simple2R3& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
 
-Value read_alarm_clear(const Device& device, Cell cell) { return self(device).alarm_clear(cell.argument); }
+Value read_alarm_clear(const Simple2R3& device, Cell cell) { return device.alarm_clear(cell.argument); }
 
-Value read_adc(const Device& device, Cell cell) {
-  return self(device).adc(static_cast<std::size_t>(cell.argument));
+Value read_adc(const Simple2R3& device, Cell cell) {
+  return device.adc(static_cast<std::size_t>(cell.argument));
 }
 
-Value read_analog(const Device& device, Cell cell) {
-  const auto& image = self(device).state().image;
+Value read_analog(const Simple2R3& device, Cell cell) {
+  const auto& image = device.state().image;
   const auto i = static_cast<std::size_t>(cell.argument);
   const Value at_10v = image[slot("ADC_10V_A") + i];
-  if (self(device).chose(kAnalogThroughZero)) {
+  if (device.chose(kAnalogThroughZero)) {
     return at_10v == 0 ? 0 : std::clamp<Value>(read_adc(device, cell) * 2000 / at_10v, 0, 65535);
   }
   // The line through the two points of the calibration: 200 at 1 V, 2000 at 10 V.
@@ -192,145 +187,139 @@ Value read_analog(const Device& device, Cell cell) {
   return std::clamp<Value>(200 + (read_adc(device, cell) - at_1v) * 1800 / span, 0, 65535);
 }
 
-Value read_eeprom_busy(const Device& device, Cell) { return self(device).state().eeprom.writing(); }
+Value read_eeprom_busy(const Simple2R3& device, Cell) { return device.state().eeprom.writing(); }
 
-Value read_cell(const Device& device, Cell cell) {
-  const Simple2R3& d = self(device);
-  return d.unlocked() ? d.state().image[cell_slot(cell)] : 0;
+Value read_cell(const Simple2R3& device, Cell cell) {
+  return device.unlocked() ? device.state().image[cell_slot(cell)] : 0;
 }
 
-Value read_unlocked(const Device& device, Cell) { return self(device).unlocked(); }
+Value read_unlocked(const Simple2R3& device, Cell) { return device.unlocked(); }
 
-Value read_password(const Device& device, Cell) {
-  const Simple2R3& d = self(device);
-  return d.unlocked() && !d.chose(kPasswordReadsZero) ? d.state().password : 0;
+Value read_password(const Simple2R3& device, Cell) {
+  return device.unlocked() && !device.chose(kPasswordReadsZero) ? device.state().password : 0;
 }
 
-Value read_zero(const Device&, Cell) { return 0; }
+Value read_zero(const Simple2R3&, Cell) { return 0; }
 
-void write_output(Device& device, Cell cell, Value level) {
-  self(device).write_outputs(static_cast<std::uint8_t>(1U << cell.index), level != 0 ? 0x7F : 0);
+void write_output(Simple2R3& device, Cell cell, Value level) {
+  device.write_outputs(static_cast<std::uint8_t>(1U << cell.index), level != 0 ? 0x7F : 0);
 }
 
-void write_all_outputs(Device& device, Cell, Value levels) {
-  self(device).write_outputs(0x7F, static_cast<std::uint8_t>(levels));
+void write_all_outputs(Simple2R3& device, Cell, Value levels) {
+  device.write_outputs(0x7F, static_cast<std::uint8_t>(levels));
 }
 
-void preset_encoder(Device& device, Cell cell, Value counts) {
-  AxisState& axis = self(device).state().axes[static_cast<std::size_t>(cell.argument)];
+void preset_encoder(Simple2R3& device, Cell cell, Value counts) {
+  AxisState& axis = device.state().axes[static_cast<std::size_t>(cell.argument)];
   axis.encoder_preset += counts - static_cast<std::int32_t>(read_encoder(device, cell));
 }
 
-void preset_coordinate(Device& device, Cell cell, Value pulses) {
-  self(device).preset_coordinate(cell.argument, static_cast<std::int32_t>(pulses));
+void preset_coordinate(Simple2R3& device, Cell cell, Value pulses) {
+  device.preset_coordinate(cell.argument, static_cast<std::int32_t>(pulses));
 }
 
-void change_sync(Device& device, Cell cell, Value) { self(device).sync_changed(cell.argument); }
+void change_sync(Simple2R3& device, Cell cell, Value) { device.sync_changed(cell.argument); }
 
-void change_speed(Device& device, Cell cell, Value) { self(device).speed_changed(cell.argument); }
+void change_speed(Simple2R3& device, Cell cell, Value) { device.speed_changed(cell.argument); }
 
-void start_incremental(Device& device, Cell cell, Value) {
-  Simple2R3& d = self(device);
-  for_each_axis(cell, [&](int axis) { d.start_move(axis, Command::incremental, own_parameters(d, axis)); });
+void start_incremental(Simple2R3& device, Cell cell, Value) {
+  for_each_axis(
+      cell, [&](int axis) { device.start_move(axis, Command::incremental, own_parameters(device, axis)); });
 }
 
-void start_absolute(Device& device, Cell cell, Value) {
-  Simple2R3& d = self(device);
+void start_absolute(Simple2R3& device, Cell cell, Value) {
   for_each_axis(cell, [&](int axis) {
-    d.start_move(axis, Command::absolute, from_here(d, axis, own_parameters(d, axis)));
+    device.start_move(axis, Command::absolute, from_here(device, axis, own_parameters(device, axis)));
   });
 }
 
-void start_incremental_by_set(Device& device, Cell cell, Value set) {
-  Simple2R3& d = self(device);
-  const MoveParameters move = parameters_of_set(d, set);
+void start_incremental_by_set(Simple2R3& device, Cell cell, Value set) {
+  const MoveParameters move = parameters_of_set(device, set);
   for_each_axis(cell, [&](int axis) {
-    show_set(d, axis, move);
-    d.start_move(axis, Command::incremental, move);
+    show_set(device, axis, move);
+    device.start_move(axis, Command::incremental, move);
   });
 }
 
-void start_absolute_by_set(Device& device, Cell cell, Value set) {
-  Simple2R3& d = self(device);
-  const MoveParameters move = parameters_of_set(d, set);
+void start_absolute_by_set(Simple2R3& device, Cell cell, Value set) {
+  const MoveParameters move = parameters_of_set(device, set);
   for_each_axis(cell, [&](int axis) {
-    show_set(d, axis, move);
-    d.start_move(axis, Command::absolute, from_here(d, axis, move));
+    show_set(device, axis, move);
+    device.start_move(axis, Command::absolute, from_here(device, axis, move));
   });
 }
 
-void stop_motion(Device& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { self(device).stop(axis, Stopping::by_register); });
+void stop_motion(Simple2R3& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { device.stop(axis, Stopping::by_register); });
 }
 
-void switch_servo(Device& device, Cell cell, Value on) {
-  for_each_axis(cell, [&](int axis) { self(device).switch_servo(axis, on != 0); });
+void switch_servo(Simple2R3& device, Cell cell, Value on) {
+  for_each_axis(cell, [&](int axis) { device.switch_servo(axis, on != 0); });
 }
 
-void clear_alarm(Device& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { self(device).clear_alarm(axis); });
+void clear_alarm(Simple2R3& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { device.clear_alarm(axis); });
 }
 
-void go_home(Device& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { self(device).go_home(axis, true); });
+void go_home(Simple2R3& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { device.go_home(axis, true); });
 }
 
-void run_velocity(Device& device, Cell cell, Value milli_rpm) {
+void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
   // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
-  if (!cell.high_half && !self(device).chose(kVelocityByLowWord)) return;
-  self(device).run_velocity(cell.argument, milli_rpm);
+  if (!cell.high_half && !device.chose(kVelocityByLowWord)) return;
+  device.run_velocity(cell.argument, milli_rpm);
 }
 
-void run_velocity_by_set(Device& device, Cell cell, Value set) {
-  const auto& image = self(device).state().image;
+void run_velocity_by_set(Simple2R3& device, Cell cell, Value set) {
+  const auto& image = device.state().image;
   const std::uint32_t milli_rpm = image[slot("Parms_mRPM{}") + static_cast<std::size_t>(set - 1)];
   for_each_axis(cell, [&](int axis) {
-    self(device).show_velocity(axis, static_cast<std::int32_t>(milli_rpm));
-    self(device).run_velocity(axis, static_cast<std::int32_t>(milli_rpm));
+    device.show_velocity(axis, static_cast<std::int32_t>(milli_rpm));
+    device.run_velocity(axis, static_cast<std::int32_t>(milli_rpm));
   });
 }
 
-void output_pwm(Device& device, Cell cell, Value percent) {
-  self(device).output_pwm(cell.argument, static_cast<std::uint8_t>(percent));
+void command_pwm(Simple2R3& device, Cell cell, Value percent) {
+  device.output_pwm(cell.argument, static_cast<std::uint8_t>(percent));
 }
 
-void follow_encoder(Device& device, Cell cell, Value) {
-  for_each_axis(cell, [&](int axis) { self(device).follow_encoder(axis); });
+void command_following(Simple2R3& device, Cell cell, Value) {
+  for_each_axis(cell, [&](int axis) { device.follow_encoder(axis); });
 }
 
-void preset_timer(Device& device, Cell cell, Value value) {
-  self(device).state().timers[static_cast<std::size_t>(cell.argument)].set(static_cast<std::uint32_t>(value),
-                                                                           self(device).timer_time());
+void preset_timer(Simple2R3& device, Cell cell, Value value) {
+  device.state().timers[static_cast<std::size_t>(cell.argument)].set(static_cast<std::uint32_t>(value),
+                                                                     device.timer_time());
 }
 
-void start_program(Device& device, Cell, Value line) {
-  if (!self(device).unlocked() && self(device).chose(kLockedStartIgnored)) return;
-  self(device).start_program(static_cast<std::uint8_t>(line));
+void start_program(Simple2R3& device, Cell, Value line) {
+  if (!device.unlocked() && device.chose(kLockedStartIgnored)) return;
+  device.start_program(static_cast<std::uint8_t>(line));
 }
 
-void stop_program(Device& device, Cell, Value) { self(device).stop_program(); }
+void stop_program(Simple2R3& device, Cell, Value) { device.stop_program(); }
 
-void write_cell(Device& device, Cell cell, Value value) {
-  Simple2R3& d = self(device);
+void write_cell(Simple2R3& device, Cell cell, Value value) {
   const int number = 4 * cell.index + cell.argument;
-  if (!d.unlocked() && d.chose(kLockedWritesIgnored)) {
-    d.state().image[cell_slot(cell)] = d.state().program.cell(number);
+  if (!device.unlocked() && device.chose(kLockedWritesIgnored)) {
+    device.state().image[cell_slot(cell)] = device.state().program.cell(number);
     return;
   }
-  d.state().program.set_cell(number, static_cast<std::uint8_t>(value));
+  device.state().program.set_cell(number, static_cast<std::uint8_t>(value));
 }
 
-void enter_password(Device& device, Cell, Value) { self(device).judge_lock(); }
+void enter_password(Simple2R3& device, Cell, Value) { device.judge_lock(); }
 
-void change_password(Device& device, Cell, Value password) {
-  self(device).change_password(static_cast<std::uint16_t>(password));
+void change_password(Simple2R3& device, Cell, Value password) {
+  device.change_password(static_cast<std::uint16_t>(password));
 }
 
-void erase_program(Device& device, Cell, Value) {
-  if (!self(device).unlocked() && self(device).chose(kLockedWritesIgnored)) return;
-  self(device).erase_program();
+void erase_program(Simple2R3& device, Cell, Value) {
+  if (!device.unlocked() && device.chose(kLockedWritesIgnored)) return;
+  device.erase_program();
 }
 
-void reset_to_factory(Device& device, Cell, Value) { self(device).reset_to_factory(); }
+void reset_to_factory(Simple2R3& device, Cell, Value) { device.reset_to_factory(); }
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -1,6 +1,7 @@
 // Simple2-R3's memory: what power-up finds and power-off loses, the program's cells, the password.
 #include <algorithm>
 
+#include "emulator/device/memory/register_memory.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
@@ -76,6 +77,13 @@ void Simple2R3::register_written(const RegisterRow& row, std::size_t slot) {
   const Tick ticks_per_word = chose(kEeprom1msAWord) ? 1 : 5;
   state_.eeprom.write(slot, state_.image[slot], ticks_per_word * (is_32_bit(row.type) ? 2 : 1), now(),
                       chose(kSameValueSaved));
+}
+
+void Simple2R3::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+
+void Simple2R3::read_memory(const NvImage& image) {
+  const auto values = read_registers(*this, image, Device::model().firmwares.back());
+  for (std::size_t slot = 0; slot < values.size(); ++slot) state_.eeprom.put(slot, values[slot]);
 }
 
 void Simple2R3::blank_state() {

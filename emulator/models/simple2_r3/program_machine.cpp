@@ -25,7 +25,7 @@ const std::vector<NamedPlace>& parameter_places() {
         if (target.name != row.register_name) continue;
         for (int i = 0; i < row.count; ++i) {
           const auto found = mine.registers.find(RegisterMap::name_of(target, i), mine.firmwares.back());
-          if (found) all[static_cast<std::size_t>(row.first + i)] = *found;
+          if (found) all[static_cast<std::size_t>(row.first) + static_cast<std::size_t>(i)] = *found;
         }
       }
     }

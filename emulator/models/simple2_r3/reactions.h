@@ -274,8 +274,20 @@ constexpr bool can_come(Phase phase, Event event) {
     case Event::limit_gone: return has(kOnLimit | set_of(in_alarm), phase);
     case Event::alarm: return phase != in_alarm;
     case Event::alarm_gone: return phase == in_alarm;
-    default: return true;
+    case Event::stop:
+    case Event::servo_off:
+    case Event::move_towards:
+    case Event::move_away:
+    case Event::move_nowhere:
+    case Event::home:
+    case Event::velocity_towards:
+    case Event::velocity_away:
+    case Event::velocity_zero:
+    case Event::pwm:
+    case Event::pwm_zero:
+    case Event::sync: return true;
   }
+  return true;
 }
 
 inline constexpr std::uint8_t kNoRow = 255;

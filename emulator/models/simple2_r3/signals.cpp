@@ -27,7 +27,15 @@ void meet_in_velocity(AxisState& axis, Outcome outcome) {
     case Outcome::slows: axis.target_urpm = 0; return;
     case Outcome::turns: halt_velocity(axis); return resume_velocity(axis);
     case Outcome::resumes: return resume_velocity(axis);
-    default: return;  // slows_and_waits: the limit itself holds it
+    case Outcome::goes_on:
+    case Outcome::leaves:
+    case Outcome::slows_and_waits:
+    case Outcome::blocked:
+    case Outcome::dropped:
+    case Outcome::kept:
+    case Outcome::ends:
+    case Outcome::begins:
+    case Outcome::changes: return;  // slows_and_waits: the limit itself holds it
   }
 }
 
@@ -84,7 +92,17 @@ void Simple2R3::meet_in_sync(int axis_number, Outcome outcome) {
     case Outcome::resumes:
       if (axis.motor.task != motion::Task::following) begin_following(axis_number);
       return;
-    default: return;  // waits: the alarm itself stops the motor
+    case Outcome::goes_on:
+    case Outcome::stops:
+    case Outcome::waits:
+    case Outcome::turns:
+    case Outcome::slows:
+    case Outcome::slows_and_waits:
+    case Outcome::dropped:
+    case Outcome::kept:
+    case Outcome::ends:
+    case Outcome::begins:
+    case Outcome::changes: return;  // waits: the alarm itself stops the motor
   }
 }
 

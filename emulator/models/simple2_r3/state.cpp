@@ -112,7 +112,7 @@ std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
   reader.read<StateFields>(*restored);
   restored->eeprom.check_restored(state_.eeprom);
   std::size_t slot = 0;
-  for (const RegisterRow& row : registers().rows()) {
+  for (const RegisterRow& row : map().rows()) {
     for (int i = 0; i < row.count; ++i, ++slot) {
       const std::uint32_t bits = restored->image[slot] | restored->eeprom.kept()[slot];
       demand_state((bits & ~row.stored_bits) == 0, "a register holds more than it can");

@@ -203,7 +203,9 @@ class Chain {
   };
 
   static std::size_t at(int module) { return static_cast<std::size_t>(module); }
-  bool in_pause_scope(int module) const { return module == 0 || !options_.pause_is_of_module_0; }
+  bool in_pause_scope(int module) const {
+    return module == 0 || !options_.chose(option("pause_scope", "t0"));
+  }
   bool in_pause_scope(const Group& group) const;
   /// Of a module, or a group: by TAPZ, or by PZ as far as that goes.
   Pauses pauses_of(const auto& what) const {

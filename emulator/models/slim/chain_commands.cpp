@@ -17,7 +17,7 @@ bool is_module(int module) { return module >= 0 && module < kModules; }
 
 Chain::Chain(const ChainOptions& options) : options_(options) {
   modules_[0].linked = true;
-  for (motion::Axis& axis : axes_) axis.switch_servo(options.servo_at_power_up);
+  for (motion::Axis& axis : axes_) axis.switch_servo(!options.chose(option("power_up_servo", "off")));
 }
 
 Error Chain::refusal(int module) const {
@@ -45,12 +45,13 @@ Error Chain::refusal_by_number(int module, InPause what) const {
 }
 
 Error Chain::refusal_of_jog(int module) const {
-  const Error why = options_.only_moves_reserved ? refusal_of_motion(module, InPause::jog)
-                                                 : refusal_by_number(module, InPause::jog);
+  const Error why = options_.chose(option("reserved_module", "moves_by_number"))
+                        ? refusal_of_motion(module, InPause::jog)
+                        : refusal_by_number(module, InPause::jog);
   if (why != Error::none) return why;
   const Activity activity = modules_[at(module)].activity;
   if (!busy(module) || activity == Activity::jog || activity == Activity::thrust) return Error::none;
-  if (!options_.jog_ends_move) return Error::not_allowed;
+  if (!options_.chose(option("jog_while_moving", "ends_the_move"))) return Error::not_allowed;
   // An HON that still waits would be given up, too.
   return axes_[at(module)].servo_on ? Error::none : Error::servo_off;
 }
@@ -73,14 +74,16 @@ double Chain::end_expected(int module) const {
   return mine.activity == Activity::idle ? mine.place_units : coordinate(module);
 }
 
-bool Chain::full(int module) const { return modules_[at(module)].fifo.size() >= options_.fifo_length; }
+bool Chain::full(int module) const {
+  return modules_[at(module)].fifo.size() >= static_cast<std::size_t>(options_.number(kBufferLength));
+}
 
 Error Chain::enqueue(Job job) {
   for (const std::int8_t module : job.module_of) {
     if (module >= 0 && full(module)) return Error::buffer_full;
   }
   for (const std::int8_t module : job.module_of) {
-    if (module < 0 || !options_.motion_ends_thrust || !job.moves()) continue;
+    if (module < 0 || !options_.chose(option("thrust_end", "a_move_too")) || !job.moves()) continue;
     if (modules_[at(module)].activity == Activity::thrust) stop_jog(module);
   }
   job.number = ++last_number_;
@@ -113,7 +116,8 @@ Error Chain::move_axis(Letter letter, bool absolute, double units) {
 }
 
 Error Chain::home(int module) {
-  const Error why = options_.only_moves_reserved ? refusal_of_motion(module) : refusal_by_number(module);
+  const Error why = options_.chose(option("reserved_module", "moves_by_number")) ? refusal_of_motion(module)
+                                                                                 : refusal_by_number(module);
   if (why != Error::none) return why;
   Job job{.kind = Job::Kind::home};
   job.module_of[0] = static_cast<std::int8_t>(module);
@@ -123,7 +127,7 @@ Error Chain::home(int module) {
 Error Chain::set_coordinate(int module, double units) {
   if (const Error why = refusal(module); why != Error::none) return why;
   if (!modules_[at(module)].reaches(units)) return Error::range;
-  if (options_.coordinate_at_rest_only && busy(module)) return Error::not_allowed;
+  if (options_.chose(option("coordinate_in_motion", "error_3")) && busy(module)) return Error::not_allowed;
   Job job{.kind = Job::Kind::set_coordinate};
   job.module_of[0] = static_cast<std::int8_t>(module);
   job.units[0] = job.ends[0] = units;
@@ -210,7 +214,7 @@ void Chain::begin_jog(int module, int way, Tick begin_at) {
 
 void Chain::begin_thrust(int module, std::int32_t force, Tick begin_at) {
   Module& mine = modules_[at(module)];
-  if (options_.thrust == ChainOptions::Thrust::runs_at_vj) begin_jog(module, +1, begin_at);
+  if (options_.chose(option("thrust", "runs_at_vj"))) begin_jog(module, +1, begin_at);
   // Also where there is no speed to run at.
   if (!axes_[at(module)].moving()) axes_[at(module)].hang(+1);
   mine.starved = false;
@@ -293,16 +297,16 @@ Error Chain::reset(int module) {
   forget_queue(module);
   modules_[at(module)].analog_speed = false;
   modules_[at(module)].late_error = Error::none;
-  if (options_.stops_end_outputs) end_outputs(module);
-  if (options_.triggers_stay_armed) {
+  if (options_.chose(option("outputs_at_stop", "end"))) end_outputs(module);
+  if (options_.chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position"))) {
     modules_[at(module)].triggers = {};
     place_triggers(module);
   }
-  if (options_.reset_clears_coordinate) {
+  if (options_.chose(option("reset", "coordinate_too"))) {
     modules_[at(module)].homed = false;
     put_coordinate(module, 0);
   }
-  axes_[at(module)].switch_servo(options_.servo_at_power_up);
+  axes_[at(module)].switch_servo(!options_.chose(option("power_up_servo", "off")));
   serve(now_ + 1);
   return Error::none;
 }

@@ -41,7 +41,7 @@ Error Chain::arc(const ArcOrder& order) {
     job.by_radius = true;
     job.sweep_deg = *order.radius_units;
   }
-  job.height_absolute = order.absolute || options_.sar_height == ChainOptions::SarHeight::absolute;
+  job.height_absolute = order.absolute || options_.chose(option("sar_height", "absolute"));
   const std::size_t letters = order.height_units ? 3 : 2;
   for (std::size_t i = 0; i < letters; ++i) {
     job.module_of[i] = map_[i];
@@ -52,9 +52,10 @@ Error Chain::arc(const ArcOrder& order) {
 
 Error Chain::spiral(double centre_x_units, double centre_y_units, double sweep_deg, double growth_units) {
   Job job{.kind = Job::Kind::spiral, .sweep_deg = sweep_deg, .growth_units_turn = growth_units};
-  job.absolute = !options_.spiral_centre_relative;
-  job.by_radius = options_.spiral_to_radius;
-  if (options_.spiral_growth_in_all && growth_units != 0 && !job.by_radius) {
+  job.absolute = !options_.chose(option("spiral_centre", "relative"));
+  job.by_radius = options_.chose(option("spiral_r", "radius_at_its_end"));
+  if (options_.chose(option("spiral", "sweep_in_degrees_and_growth_in_all")) && growth_units != 0 &&
+      !job.by_radius) {
     // On no way at all no radius can change.
     job.growth_units_turn = sweep_deg == 0 ? HUGE_VAL : growth_units * (360 / std::abs(sweep_deg));
     if (!std::isfinite(job.growth_units_turn)) return Error::range;
@@ -78,7 +79,7 @@ Error Chain::enqueue_coordinated(Job job) {
     const ModuleSettings& mine = modules_[at(module)].settings;
     const bool equal = path_speed(job, mine) == path_speed(job, first) &&
                        mine.path_acceleration_units_s2 == first.path_acceleration_units_s2;
-    if (!equal && options_.unequal_speeds == ChainOptions::UnequalSpeeds::refused) {
+    if (!equal && !options_.chose(option("unequal_speeds", "as_t0_has_them"))) {
       return Error::unequal_speeds;
     }
     const Activity activity = modules_[at(module)].activity;
@@ -88,13 +89,14 @@ Error Chain::enqueue_coordinated(Job job) {
   }
   job.continuous = continuous_;
   job.smooth_corner_deg = modules_[0].settings.smooth_corner_deg;
-  if (options_.acceleration_of_next_command) {
+  if (options_.chose(option("acceleration_in_motion", "next_command"))) {
     job.path_acceleration_units_s2 = path_settings(job).path_acceleration_units_s2;
   }
   try {
     const motion::Path path = path_of(job, begin);
     if (!within_reach(job, path)) return Error::range;
-    if (options_.path_needs_length && begin_is_known && path.length_u == 0) return Error::range;
+    if (options_.chose(option("path_without_length", "error_2")) && begin_is_known && path.length_u == 0)
+      return Error::range;
     for (std::size_t i = 0; i < job.ends.size(); ++i) job.ends[i] = path.end[static_cast<Eigen::Index>(i)];
   } catch (const motion::BadMotion&) {
     return Error::range;
@@ -104,13 +106,14 @@ Error Chain::enqueue_coordinated(Job job) {
 
 /// Whose speed and acceleration count.
 const ModuleSettings& Chain::path_settings(const Job& job) const {
-  const bool by_0 = options_.unequal_speeds == ChainOptions::UnequalSpeeds::by_module_0;
+  const bool by_0 = options_.chose(option("unequal_speeds", "as_t0_has_them"));
   return modules_[by_0 ? 0 : at(job.module_of[0])].settings;
 }
 
 /// PR4 instead of PR3.
 bool Chain::goes_by_line_speed(const Job& job) const {
-  return options_.lines_of_two_have_own_speed && job.kind == Job::Kind::line && job.modules() == 2;
+  return options_.chose(option("line_speed", "pr4_of_its_own")) && job.kind == Job::Kind::line &&
+         job.modules() == 2;
 }
 
 double Chain::path_speed(const Job& job, const ModuleSettings& settings) const {

@@ -1,6 +1,7 @@
 // A restored chain must be one whose ticks can neither leave a table nor run away.
 #include "emulator/models/slim/chain_fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "emulator/models/slim/parameters.h"
@@ -78,7 +79,11 @@ void ChainFields::read(Fifo<Job, kFifoLength>& fifo, StateReader& reader) {
   }
 }
 
-void ChainFields::check(const ChainOptions& options) { demand_within(options.fifo_length, 1, kFifoLength); }
+void ChainFields::check(const ChainOptions& options) {
+  for (std::size_t row = 0; row < options.numbers.size(); ++row) {
+    demand_within(options.numbers[row], 0, std::ranges::count(kChoices[row].options, '|'));
+  }
+}
 
 void ChainFields::check(const motion::UnitScale& scale) {
   demand_within(scale.multiplier, 1, INT32_MAX);

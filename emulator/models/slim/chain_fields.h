@@ -12,10 +12,7 @@ namespace understudy::emulator::models::slim {
 struct ChainFields {
   // clang-format off
   static void of(Like<ChainOptions> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag,
-           ah, ai, aj, ak] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, aa, ab, ac, ad, ae, af, ag, ah,
-          ai, aj, ak);
+    auto& [a] = v; visit(a);
   }
   static void of(Like<motion::UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<ModuleSettings> auto& v, auto visit) {
@@ -43,22 +40,6 @@ struct ChainFields {
   }
   // clang-format on
 
-  static constexpr ChainOptions::UnequalSpeeds last(ChainOptions::UnequalSpeeds) {
-    return ChainOptions::UnequalSpeeds::by_module_0;
-  }
-  static constexpr ChainOptions::InVain last(ChainOptions::InVain) { return ChainOptions::InVain::refused; }
-  static constexpr ChainOptions::Thrust last(ChainOptions::Thrust) {
-    return ChainOptions::Thrust::runs_at_vj;
-  }
-  static constexpr ChainOptions::NewSpeed last(ChainOptions::NewSpeed) {
-    return ChainOptions::NewSpeed::at_once;
-  }
-  static constexpr ChainOptions::PathSpeedInMotion last(ChainOptions::PathSpeedInMotion) {
-    return ChainOptions::PathSpeedInMotion::next_command;
-  }
-  static constexpr ChainOptions::SarHeight last(ChainOptions::SarHeight) {
-    return ChainOptions::SarHeight::absolute;
-  }
   static constexpr SpeedUnit last(SpeedUnit) { return SpeedUnit::rps; }
   static constexpr Output::Mode last(Output::Mode) { return Output::Mode::pwm; }
   static constexpr OutputOrder::Kind last(OutputOrder::Kind) { return OutputOrder::Kind::arm; }

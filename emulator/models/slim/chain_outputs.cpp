@@ -62,7 +62,7 @@ Error Chain::set_outputs(int module, int mask) {
   if (mask < 0 || mask >= 1 << kOutputs) return Error::range;
   unsigned levels = 0;
   for (int bit = 0; bit < kOutputs; ++bit) {
-    const int output = options_.first_bit_is_p4 ? kOutputs - 1 - bit : bit;
+    const int output = options_.chose(option("output_order", "p4")) ? kOutputs - 1 - bit : bit;
     levels |= ((static_cast<unsigned>(mask) >> bit) & 1U) << output;
   }
   return enqueue_output(module, {.kind = OutputOrder::Kind::all, .mask = static_cast<std::uint8_t>(levels)});
@@ -92,7 +92,11 @@ void Chain::carry_out_order(int module, const OutputOrder& order, Tick begin_at)
           .armed = true, .sets = order.trigger_sets, .output = order.output, .at_units = order.at_units};
       place_triggers(module);
       break;
-    default: carry_out(mine.outputs[order.output], order, begin_at); break;
+    case OutputOrder::Kind::set:
+    case OutputOrder::Kind::clear:
+    case OutputOrder::Kind::toggle:
+    case OutputOrder::Kind::pulse:
+    case OutputOrder::Kind::pwm: carry_out(mine.outputs[order.output], order, begin_at); break;
   }
 }
 
@@ -115,7 +119,8 @@ void Chain::meet_triggers(int module) {
     PositionTrigger& trigger = mine.triggers[i];
     if (!trigger.armed || (axes_[at(module)].events & motion::bit(event)) == 0) continue;
     mine.outputs[trigger.output] = {.on = trigger.sets};
-    if (options_.triggers_stay_armed) continue;
+    if (options_.chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position")))
+      continue;
     trigger = {};
     axes_[at(module)].set_comparator(i, {});
   }

@@ -104,7 +104,8 @@ bool Chain::start_home(int module, Tick begin_at) {
   mine.homed = false;
   // The inputs may have changed since the axis looked last.
   axis.signals = surroundings_[at(module)].at(axis.travel_pulses);
-  const bool forwards = options_.homes_forwards != (mine.settings.jog_speed < 0);
+  const bool forwards =
+      options_.chose(option("homing", "at_vj_forwards_to_horg_then_0")) != (mine.settings.jog_speed < 0);
   const motion::Cause refused =
       axis.home(motion::slim_homing({.way = forwards ? +1 : -1, .jog = law}), begin_at - 1);
   if (refused != motion::Cause::none) {
@@ -191,7 +192,7 @@ bool Chain::start_group(int module, Tick begin_at) {
     drop_head(module, Error::range);
     return true;
   }
-  if (path.length_u == 0 && options_.path_needs_length) {
+  if (path.length_u == 0 && options_.chose(option("path_without_length", "error_2"))) {
     drop_head(module, Error::range);
     return true;
   }
@@ -215,8 +216,8 @@ bool Chain::start_group(int module, Tick begin_at) {
     if (job.module_of[i] >= 0) group->motion.scale[i] = modules_[at(job.module_of[i])].settings.scale;
   }
   using Late = motion::PathRun::LateJoint;
-  group->motion.run.set_late_joint(options_.late_successor_speeds_up ? Late::speed_up_again
-                                                                     : Late::from_rest);
+  group->motion.run.set_late_joint(
+      options_.chose(option("late_successor", "speeds_up_again")) ? Late::speed_up_again : Late::from_rest);
   group->motion.run.set_speed({.top_speed_u_s = path_speed(job, speeds), .up = ramp, .down = ramp}, now_);
   group->motion.run.append(path, {}, now_);
   if (group->motion.begin(begin, axes_, begin_at - 1) != motion::Cause::none) {
@@ -242,7 +243,7 @@ void Chain::extend(Group& group) {
     Job before = fifo[group.paths - 1U];
     // The acceleration can only change at rest.
     if (before.path_acceleration_units_s2 != next.path_acceleration_units_s2) return;
-    if (options_.second_decides_joint) before.continuous = next.continuous;
+    if (options_.chose(option("joint", "second_command_decides"))) before.continuous = next.continuous;
     const motion::Joint joint = joint_between(before, next);
     if (joint.rule == motion::Joint::Rule::stop) return;
     if (goes_by_line_speed(before) != goes_by_line_speed(next))
@@ -253,7 +254,9 @@ void Chain::extend(Group& group) {
     } catch (const motion::BadMotion&) {
       return;  // refused when its turn comes
     }
-    if (!within_reach(next, path) || (path.length_u == 0 && options_.path_needs_length)) return;
+    if (!within_reach(next, path) ||
+        (path.length_u == 0 && options_.chose(option("path_without_length", "error_2"))))
+      return;
     note_ends(next, group.paths, path.end);
     group.motion.run.append(path, joint, now_);
     group.end = path.end;

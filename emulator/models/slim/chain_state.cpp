@@ -48,7 +48,7 @@ Error Chain::set_working_speed(int module, double speed) {
   Module& mine = modules_[at(module)];
   mine.settings.working_speed = speed;
   mine.analog_speed = false;
-  if (mine.starved || options_.new_speed == ChainOptions::NewSpeed::at_once) refresh_speed(module);
+  if (mine.starved || options_.chose(option("new_speed", "at_once"))) refresh_speed(module);
   serve(now_ + 1);  // a move may have waited for AVM's voltage
   return Error::none;
 }
@@ -58,7 +58,7 @@ Error Chain::set_jog_speed(int module, double speed) {
   Module& mine = modules_[at(module)];
   const bool same_sense = speed * mine.settings.jog_speed > 0;
   mine.settings.jog_speed = speed;
-  const bool at_once = options_.new_speed == ChainOptions::NewSpeed::at_once;
+  const bool at_once = options_.chose(option("new_speed", "at_once"));
   // A jog that is to turn round, or to stand, is another one.
   if (mine.activity == Activity::jog && at_once && same_sense) refresh_speed(module);
   return Error::none;
@@ -86,11 +86,10 @@ Error Chain::set_line_speed(int module, double units_s) {
 
 /// A new speed of a module that is on a path.
 void Chain::tell_path(int module, double units_s, bool of_lines) {
-  using InMotion = ChainOptions::PathSpeedInMotion;
   Group* const group = group_of(module);
-  if (group == nullptr || options_.path_speed_in_motion == InMotion::next_command) return;
+  if (group == nullptr || options_.chose(option("path_speed_in_motion", "next_command"))) return;
   const bool is_x = group->motion.axis_of[0] == module;
-  if (options_.path_speed_in_motion == InMotion::by_x && !is_x) return;
+  if (options_.chose(option("path_speed_in_motion", "at_once_if_x_has_it")) && !is_x) return;
   const bool is_line = group->paths > 0 && goes_by_line_speed(modules_[at(group->motion.axis_of[0])].fifo[0]);
   if (is_line == of_lines) group->motion.run.set_top_speed(units_s, now_);
 }
@@ -108,7 +107,8 @@ Error Chain::set_tvm(double units_s) {
 
 Error Chain::set_path_acceleration(int module, double units_s2) {
   if (!plannable(units_s2)) return Error::range;
-  if (group_of(module) != nullptr && !options_.acceleration_of_next_command) return Error::not_allowed;
+  if (group_of(module) != nullptr && !options_.chose(option("acceleration_in_motion", "next_command")))
+    return Error::not_allowed;
   modules_[at(module)].settings.path_acceleration_units_s2 = units_s2;
   return Error::none;
 }
@@ -120,7 +120,7 @@ Error Chain::set_smooth_corner(int module, double degrees) {
 }
 
 Error Chain::set_analog_speed(int module) {
-  const bool jogs = options_.analog_speed_jogs;
+  const bool jogs = options_.chose(option("analog_speed", "starts_a_jog"));
   if (const Error why = jogs ? refusal_of_jog(module) : refusal(module); why != Error::none) return why;
   modules_[at(module)].analog_speed = true;
   refresh_speed(module);
@@ -157,14 +157,14 @@ bool Chain::moving(int module) const {
   if (const Group* group = group_of(module); group != nullptr) {
     return !group->motion.run.paused() || !group->motion.run.at_rest(now_);
   }
-  const bool pushes = mine.activity == Activity::thrust && options_.thrust == ChainOptions::Thrust::stands;
+  const bool pushes = mine.activity == Activity::thrust && !options_.chose(option("thrust", "runs_at_vj"));
   return !pushes && axes_[at(module)].moving();
 }
 
 bool Chain::done(int module) const {
   const Module& mine = modules_[at(module)];
   if (!mine.fifo.empty()) return false;
-  if (options_.done_waits_for_all) {
+  if (options_.chose(option("done", "jogs_thrust_and_pulses_too"))) {
     const bool pulses = std::any_of(mine.outputs.begin(), mine.outputs.end(), [&](const Output& output) {
       return output.mode == Output::Mode::pulse && output.next_change(now_) != kNever;
     });

@@ -8,7 +8,7 @@ namespace understudy::emulator::models::slim {
 namespace {
 
 Error in_vain(const ChainOptions& options) {
-  return options.in_vain == ChainOptions::InVain::refused ? Error::not_allowed : Error::none;
+  return options.chose(option("ineffective_pause", "error_3")) ? Error::not_allowed : Error::none;
 }
 
 /// The one that takes `module`; nothing if none does.
@@ -127,7 +127,8 @@ void Chain::clear_waiting() {
     const Activity activity = modules_[at(module)].activity;
     const Group* group = group_of(module);
     const auto& fifo = modules_[at(module)].fifo;
-    const bool is_half_done = options_.clear_keeps_half_done && !fifo.empty() && fifo[0].begun;
+    const bool is_half_done =
+        options_.chose(option("clear_buffer_in_pause", "what_waits")) && !fifo.empty() && fifo[0].begun;
     const bool head_runs = activity == Activity::move || activity == Activity::home || is_half_done;
     forget_queue(module, group != nullptr ? group->paths : head_runs ? 1 : 0);
   }
@@ -139,8 +140,9 @@ void Chain::stop_all() {
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
     mine.fifo.truncate(0);
-    if (options_.stops_end_outputs) end_outputs(module);
-    if (!options_.emergency_switches_servo_off || !mine.linked) continue;
+    if (options_.chose(option("outputs_at_stop", "end"))) end_outputs(module);
+    if (!options_.chose(option("emergency_stop", "nothing_queued_not_paused_servo_off")) || !mine.linked)
+      continue;
     mine.analog_speed = false;  // as HOFF does
     axes_[at(module)].switch_servo(false);
   }

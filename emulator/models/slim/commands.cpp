@@ -1,7 +1,10 @@
 // What SLIM's commands do to the chain, for typed ones and a program's alike.
 #include <array>
 
+#include "base/complete_table.h"
+#include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/device.h"
+#include "interpreter/slim/verbs.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -19,44 +22,327 @@ int variant_of(const lang::Command& command) {
 
 int module_of(const lang::Command& command) { return command.module < 0 ? 0 : command.module; }
 
+// --- how a row is written --------------------------------------------------------------------------
+
+constexpr VerbActions always(Action action, Moves moves = Moves::nothing) { return {action, action, moves}; }
+constexpr VerbActions each(Action stored, Action typed) { return {stored, typed}; }
+constexpr VerbActions typed_only(Action typed) { return {is_refused, typed}; }
+constexpr VerbActions stored_only(Action stored) { return {stored, is_refused}; }
+
+using ActionRow = HandlerRow<Verb, VerbActions>;
+
+/// What a program's flow does by itself comes here only as something typed, if it may be.
+constexpr ActionRow of_flow(Verb verb, Action typed = is_refused) {
+  if (!lang::is_one_of(lang::kFlowVerbs, verb)) throw "the flow of a program does not carry it out";
+  return {verb, typed_only(typed)};
+}
+constexpr ActionRow of_editor(Verb verb, Action typed) {
+  if (!lang::is_one_of(lang::kEditingVerbs, verb)) throw "the editor does not begin with it";
+  return {verb, typed_only(typed)};
+}
+
+constexpr std::array kCommandVerbs = [] {
+  std::array<Verb, lang::kCommands.size()> verbs{};
+  std::size_t count = 0;
+  // In place of queries any other: a key may come twice.
+  for (const lang::CommandRow& row : lang::kCommands) verbs[count++] = row.is_query() ? Verb::home : row.verb;
+  return verbs;
+}();
+
 }  // namespace
+
+Error is_refused(Order&) { return Error::not_allowed; }
+
+/// The rows.
+struct SlimActions {
+  static double amount(const Order& order, std::size_t operand) {
+    return order.slim.amount(order.command, operand);
+  }
+  static std::int32_t whole(const Order& order, std::size_t operand) {
+    return static_cast<std::int32_t>(amount(order, operand));
+  }
+  static int port(const Order& order) { return order.command.operands.front().index; }
+
+  // --- one motor ---
+
+  static Error thrust(Order& order) {
+    order.slim.mention_unmodelled("FT", "it pushes without a load");
+    return order.chain.thrust(order.module, whole(order, 0));
+  }
+
+  static Error reset(Order& order) {
+    const Error error = order.chain.reset(order.module);
+    Slim& slim = order.slim;
+    if (error == Error::none) {
+      slim.state_.errors[static_cast<std::size_t>(order.module)].present = Error::none;
+    }
+    return error;
+  }
+
+  static constexpr ActionRow kOneMotor[] = {
+      {Verb::move_absolute,
+       always([](Order& o) { return o.chain.move(o.module, true, amount(o, 0)); }, Moves::its_module)},
+      {Verb::move_relative,
+       always([](Order& o) { return o.chain.move(o.module, false, amount(o, 0)); }, Moves::its_module)},
+      {Verb::jog_forward, always([](Order& o) { return o.chain.jog(o.module, +1); })},
+      {Verb::jog_reverse, always([](Order& o) { return o.chain.jog(o.module, -1); })},
+      {Verb::jog_stop, always([](Order& o) { return o.chain.jog(o.module, 0); })},
+      {Verb::thrust, always(thrust)},
+      {Verb::home, always([](Order& o) { return o.chain.home(o.module); }, Moves::its_module)},
+      {Verb::set_coordinate, always([](Order& o) { return o.chain.set_coordinate(o.module, amount(o, 0)); })},
+      {Verb::servo_on, always([](Order& o) { return o.chain.set_servo(o.module, true); })},
+      {Verb::servo_off, always([](Order& o) { return o.chain.set_servo(o.module, false); })},
+      {Verb::servo_on_now, always([](Order& o) { return o.chain.set_servo_at_once(o.module, true); })},
+      {Verb::servo_off_now, always([](Order& o) { return o.chain.set_servo_at_once(o.module, false); })},
+      {Verb::reset, always(reset)},
+      {Verb::analog_speed, always([](Order& o) { return o.chain.set_analog_speed(o.module); })},
+  };
+
+  // --- outputs ---
+
+  static Error pwm(Order& order) {
+    const double unit_hz = order.slim.chose(kPwmInKilohertz) ? 1000 : 1;
+    return order.chain.pwm(order.module, port(order), amount(order, 1) * unit_hz, amount(order, 2));
+  }
+  template <bool sets>
+  static Error arm(Order& order) {
+    return order.chain.arm(order.module, variant_of(order.command), port(order), sets, amount(order, 1));
+  }
+
+  static constexpr ActionRow kOutputs[] = {
+      {Verb::set_port, always([](Order& o) { return o.chain.set_output(o.module, port(o), true); })},
+      {Verb::clear_port, always([](Order& o) { return o.chain.set_output(o.module, port(o), false); })},
+      {Verb::toggle_port, always([](Order& o) { return o.chain.toggle_output(o.module, port(o)); })},
+      {Verb::set_port_now,
+       always([](Order& o) { return o.chain.set_output_at_once(o.module, port(o), true); })},
+      {Verb::clear_port_now,
+       always([](Order& o) { return o.chain.set_output_at_once(o.module, port(o), false); })},
+      {Verb::pulse_port,
+       always([](Order& o) { return o.chain.pulse_output(o.module, port(o), whole(o, 1)); })},
+      {Verb::pwm, always(pwm)},
+      {Verb::set_all_ports, always([](Order& o) { return o.chain.set_outputs(o.module, whole(o, 0)); })},
+      {Verb::set_port_at, always(arm<true>)},
+      {Verb::clear_port_at, always(arm<false>)},
+  };
+
+  // --- several motors ---
+
+  static Error map_axis(Order& order) {
+    Slim& slim = order.slim;
+    const Error error = slim.assign_axis(letter_of(order.command), whole(order, 0));
+    if (error == Error::none && slim.chose(kMapIsPn37)) slim.keep_axis_map();
+    return error;
+  }
+  template <bool absolute>
+  static Error line(Order& order) {
+    std::array<double, kLetters> units{};
+    const std::size_t count = order.command.operands.size();
+    for (std::size_t i = 0; i < count; ++i) units[i] = amount(order, i);
+    return order.chain.line(std::span(units).first(count), absolute);
+  }
+  template <bool absolute, bool rises>
+  static Error arc(Order& order) {
+    ArcOrder what{.absolute = absolute,
+                  .centre_x_units = amount(order, 0),
+                  .centre_y_units = amount(order, 1),
+                  .sweep_deg = amount(order, 2)};
+    if (rises) what.height_units = amount(order, 3);
+    if (absolute && !rises && order.slim.chose(option("arc", "end_point_and_radius")))
+      what.radius_units = amount(order, 2);
+    return order.chain.arc(what);
+  }
+  static Error spiral(Order& order) {
+    return order.chain.spiral(amount(order, 0), amount(order, 1), amount(order, 2), amount(order, 3));
+  }
+  template <bool absolute>
+  static Error move_axis(Order& order) {
+    return order.chain.move_axis(letter_of(order.command), absolute, amount(order, 0));
+  }
+
+  static constexpr ActionRow kSeveralMotors[] = {
+      {Verb::map_axis, always(map_axis)},
+      {Verb::line_absolute, always(line<true>, Moves::a_letter_each)},
+      {Verb::line_relative, always(line<false>, Moves::a_letter_each)},
+      {Verb::arc_absolute, always(arc<true, false>, Moves::x_and_y)},
+      {Verb::arc_relative, always(arc<false, false>, Moves::x_and_y)},
+      {Verb::helix_absolute, always(arc<true, true>, Moves::x_y_and_z)},
+      {Verb::helix_relative, always(arc<false, true>, Moves::x_y_and_z)},
+      {Verb::spiral, always(spiral, Moves::x_and_y)},
+      {Verb::axis_move_absolute, always(move_axis<true>, Moves::its_letter)},
+      {Verb::axis_move_relative, always(move_axis<false>, Moves::its_letter)},
+      {Verb::continuous_path,
+       always([](Order& o) { return o.chain.set_continuous_path(variant_of(o.command)); })},
+  };
+
+  // --- the whole chain ---
+
+  static Error stop_from_program(Order& order) {
+    const bool in_routine = in_event_routine(order.slim.state_.execution);
+    order.outcome.program = order.slim.program_after_stop(in_routine ? From::event_routine : From::program);
+    order.chain.emergency_stop();
+    return Error::none;
+  }
+  static Error stop_from_host(Order& order) {
+    Slim& slim = order.slim;
+    if (slim.program_after_stop(From::host) == lang::Outcome::Program::ends) stop(slim.state_.execution);
+    return order.chain.emergency_stop();
+  }
+
+  static constexpr ActionRow kWholeChain[] = {
+      {Verb::pause, always([](Order& o) { return o.chain.pause_queues(); })},
+      {Verb::redo, always([](Order& o) { return o.chain.resume_queues(); })},
+      {Verb::clear_buffer, always([](Order& o) { return o.chain.clear_queues(); })},
+      {Verb::pause_all, always([](Order& o) { return o.chain.pause(); })},
+      {Verb::resume_all, always([](Order& o) { return o.chain.resume(); })},
+      {Verb::abandon_all, always([](Order& o) { return o.chain.discard(); })},
+      {Verb::stop_all, each(stop_from_program, stop_from_host)},
+  };
+
+  // --- numbers, parameters, memory ---
+
+  static Error set_parameter(Order& order) {
+    Slim& slim = order.slim;
+    const lang::Command& command = order.command;
+    if (command.name == "TM" && slim.chose(kVariableReceivesClock) && is_variable(command.operands[0].kind)) {
+      return slim.set_variable(command.operands[0], static_cast<double>(slim.clock_s()));
+    }
+    return slim.set_parameter(order.module, command.name, amount(order, 0));
+  }
+  static std::string printed(const Order& order) {
+    const lang::Operand& what = order.command.operands.front();
+    return what.kind == lang::Operand::Kind::text ? what.text : order.slim.text_of(what);
+  }
+  /// A program is much faster than its line: it prints when there is room again.
+  static Error print_from_program(Order& order) {
+    order.outcome.waits = !order.slim.has_room_to_speak();
+    if (!order.outcome.waits) order.slim.say(printed(order));
+    return Error::none;
+  }
+  static Error print_from_host(Order& order) {
+    order.lines.push_back(printed(order));
+    return Error::none;
+  }
+  static Error list_from_program(Order& order) {
+    for (const std::string& line : order.slim.parameter_list()) order.slim.say(line);
+    return Error::none;
+  }
+  static Error list_from_host(Order& order) {
+    order.lines = order.slim.parameter_list();
+    return Error::none;
+  }
+  template <auto does>
+  static Error done(Order& order) {
+    (order.slim.*does)();
+    return Error::none;
+  }
+
+  static constexpr ActionRow kMemory[] = {
+      {Verb::set_variable,
+       always([](Order& o) { return o.slim.set_variable(o.command.operands[0], amount(o, 1)); })},
+      {Verb::set_parameter, always(set_parameter)},
+      {Verb::set_path_speed, always([](Order& o) { return o.slim.set_parameter(0, "TVM", amount(o, 0)); })},
+      {Verb::default_parameters, always([](Order& o) { return o.slim.restore_factory_parameters(); })},
+      {Verb::save_data, always(done<&Slim::keep_data>)},
+      {Verb::save_parameters, always(done<&Slim::keep_parameters>)},
+      {Verb::save_program, always(done<&Slim::keep_program>)},
+      {Verb::reboot, always(done<&Slim::reboot>)},
+      {Verb::list_parameters, each(list_from_program, list_from_host)},
+      {Verb::print, each(print_from_program, print_from_host)},
+  };
+
+  // --- programs ---
+
+  static Error wait_done(Order& order) {
+    order.outcome.waits = !order.slim.is_done(order.command);
+    return Error::none;
+  }
+  static Error wait_axis_done(Order& order) {
+    if (order.chain.assigned(letter_of(order.command)) == kUnassigned) return Error::axis;
+    return wait_done(order);
+  }
+  static Error run(Order& order) {
+    State& state = order.slim.state_;
+    const auto& operands = order.command.operands;
+    return start(state.execution, state.program, operands.empty() ? nullptr : operands.data(),
+                 order.slim.flow_options_);
+  }
+  static Error define(Order& order) {
+    define_event(order.slim.state_.execution.events, order.command, order.slim.flow_options_.events);
+    return Error::none;
+  }
+  static Error edit(Order& order) {
+    State& state = order.slim.state_;
+    return begin_edit(state.editor, state.program, order.command, order.slim.of_programs());
+  }
+
+  static constexpr ActionRow kPrograms[] = {
+      {Verb::wait_done, stored_only(wait_done)},
+      {Verb::axis_wait_done, stored_only(wait_axis_done)},
+      {Verb::run, typed_only(run)},
+      {Verb::exit, typed_only([](Order& o) {
+         stop(o.slim.state_.execution);
+         return Error::none;
+       })},
+      {Verb::program_list, typed_only([](Order& o) {
+         o.lines = o.slim.state_.program.listing(o.slim.of_programs());
+         return Error::none;
+       })},
+      {Verb::upload, typed_only([](Order& o) {
+         o.lines = o.slim.state_.program.upload();
+         return Error::none;
+       })},
+      of_editor(Verb::program_new, edit),
+      of_editor(Verb::program_append, edit),
+      of_editor(Verb::program_edit, edit),
+      of_editor(Verb::program_insert, edit),
+      of_editor(Verb::program_delete, edit),
+      of_editor(Verb::download, edit),
+      of_flow(Verb::set_event, define),
+      of_flow(Verb::on_event, define),
+      of_flow(Verb::jump),
+      of_flow(Verb::jump_if),
+      of_flow(Verb::jump_if_within),
+      of_flow(Verb::call),
+      of_flow(Verb::return_),
+      of_flow(Verb::wait_input),
+      of_flow(Verb::wait_time),
+      of_flow(Verb::get_integer),
+      of_flow(Verb::get_real),
+  };
+
+  static const CompleteTable<Verb, VerbActions> kTable;
+};
+
+constexpr CompleteTable<Verb, VerbActions> SlimActions::kTable(kCommandVerbs, kOneMotor, kOutputs,
+                                                               kSeveralMotors, kWholeChain, kMemory,
+                                                               kPrograms);
+
+const VerbActions& actions_of(Verb verb) { return SlimActions::kTable[verb]; }
 
 Error Slim::linked(int module) const { return state_.chain.linked(module) ? Error::none : Error::not_linked; }
 
 bool Slim::input(int number) const { return ((state_.inputs[0] >> (number - 1)) & 1) != 0; }
 
+Error Slim::perform(Order& order, Action action) {
+  const Error error = linked(order.module);
+  return error == Error::none ? action(order) : error;
+}
+
+Order Slim::order_of(const lang::Command& command) {
+  return {.slim = *this, .chain = state_.chain, .command = command, .module = module_of(command)};
+}
+
 /// A program waits where a host is refused: for room in a buffer, and (unless chosen otherwise) for the end
 /// of a pause.
 lang::Outcome Slim::carry_out(const lang::Command& command) {
-  switch (command.verb) {
-    case Verb::wait_done:
-    case Verb::axis_wait_done:
-      if (const Error error = linked(module_of(command)); error != Error::none) {
-        return is_silence(error) ? lang::kDone : lang::failed(error);
-      }
-      if (command.verb == Verb::axis_wait_done && state_.chain.assigned(letter_of(command)) == kUnassigned) {
-        return lang::failed(Error::axis);
-      }
-      return is_done(command) ? lang::kDone : lang::kWaits;
-    case Verb::print: {
-      // A program is much faster than its line: it prints when there is room again.
-      if (!has_room_to_speak()) return lang::kWaits;
-      const lang::Operand& what = command.operands.front();
-      say(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
-      return lang::kDone;
-    }
-    default: break;
-  }
-  const Error error = execute(command);
-  if (command.verb == Verb::stop_all) {
-    return {.program =
-                program_after_stop(in_event_routine(state_.execution) ? From::event_routine : From::program)};
-  }
+  Order order = order_of(command);
+  const Error error = perform(order, actions_of(command.verb).stored);
   if (is_silence(error)) return lang::kDone;
   const bool waits_for_pause = error == Error::paused && !chose(kPauseFailsMotion);
   if (error == Error::buffer_full || waits_for_pause) return lang::kWaits;
-  if (error != Error::none) failed_module_ = module_of(command);
-  return {.error = error};
+  if (error == Error::none) return order.outcome;
+  failed_module_ = module_of(command);
+  return lang::failed(error);
 }
 
 /// A machine that has been stopped must not start again by itself: DN, or what an event has interrupted,
@@ -68,8 +354,14 @@ lang::Outcome::Program Slim::program_after_stop(From from) const {
   switch (outcome_of(Doing::program_runs, Meeting::stop, from)) {
     case Outcome::ends: return Program::ends;
     case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;
-    default: return Program::goes_on;
+    case Outcome::comes_to_a_stand:
+    case Outcome::does_as_before:
+    case Outcome::is_forgotten:
+    case Outcome::stops_at_once:
+    case Outcome::goes_on:
+    case Outcome::cannot_be: break;
   }
+  return Program::goes_on;
 }
 
 bool Slim::is_done(const lang::Command& command) const {
@@ -90,21 +382,14 @@ bool Slim::would_wait(const lang::Command& command) const {
     const int module = chain.assigned(letter);
     return module != kUnassigned && chain.busy(module);
   };
-  std::size_t letters = 2;
-  switch (command.verb) {
-    case Verb::move_absolute:
-    case Verb::move_relative:
-    case Verb::home: return chain.linked(module_of(command)) && chain.busy(module_of(command));
-    case Verb::axis_move_absolute:
-    case Verb::axis_move_relative: return letter_is_busy(letter_of(command));
-    case Verb::line_absolute:
-    case Verb::line_relative: letters = command.operands.size(); break;
-    case Verb::helix_absolute:
-    case Verb::helix_relative: letters = 3; break;
-    case Verb::arc_absolute:
-    case Verb::arc_relative:
-    case Verb::spiral: break;
-    default: return false;
+  std::size_t letters = 0;
+  switch (actions_of(command.verb).moves) {
+    case Moves::nothing: return false;
+    case Moves::its_module: return chain.linked(module_of(command)) && chain.busy(module_of(command));
+    case Moves::its_letter: return letter_is_busy(letter_of(command));
+    case Moves::x_and_y: letters = 2; break;
+    case Moves::x_y_and_z: letters = 3; break;
+    case Moves::a_letter_each: letters = command.operands.size(); break;
   }
   bool busy = false;
   for (std::size_t i = 0; i < letters; ++i) {
@@ -112,184 +397,6 @@ bool Slim::would_wait(const lang::Command& command) const {
     busy = busy || letter_is_busy(static_cast<Letter>(i));
   }
   return busy;
-}
-
-Error Slim::execute(const lang::Command& command) {
-  const int module = module_of(command);
-  if (const Error error = linked(module); error != Error::none) return error;
-  switch (command.verb) {
-    case Verb::move_absolute:
-    case Verb::move_relative:
-    case Verb::jog_forward:
-    case Verb::jog_reverse:
-    case Verb::jog_stop:
-    case Verb::thrust:
-    case Verb::home:
-    case Verb::set_coordinate:
-    case Verb::servo_on:
-    case Verb::servo_off:
-    case Verb::servo_on_now:
-    case Verb::servo_off_now:
-    case Verb::reset:
-    case Verb::analog_speed: return move_one(command, module);
-
-    case Verb::set_port:
-    case Verb::clear_port:
-    case Verb::toggle_port:
-    case Verb::pulse_port:
-    case Verb::set_all_ports:
-    case Verb::set_port_now:
-    case Verb::clear_port_now:
-    case Verb::pwm:
-    case Verb::set_port_at:
-    case Verb::clear_port_at: return switch_outputs(command, module);
-
-    case Verb::map_axis:
-    case Verb::line_absolute:
-    case Verb::line_relative:
-    case Verb::arc_absolute:
-    case Verb::arc_relative:
-    case Verb::helix_absolute:
-    case Verb::helix_relative:
-    case Verb::spiral:
-    case Verb::axis_move_absolute:
-    case Verb::axis_move_relative:
-    case Verb::continuous_path: return move_several(command);
-
-    case Verb::pause:
-    case Verb::redo:
-    case Verb::clear_buffer:
-    case Verb::pause_all:
-    case Verb::resume_all:
-    case Verb::abandon_all:
-    case Verb::stop_all: return control_all(command);
-
-    case Verb::set_variable: {
-      const lang::Operand& variable = command.operands[0];
-      return set_variable(variable, amount(command, 1));
-    }
-    case Verb::set_parameter:
-      if (command.name == "TM" && chose(kVariableReceivesClock) && is_variable(command.operands[0].kind)) {
-        return set_variable(command.operands[0], static_cast<double>(clock_s()));
-      }
-      return set_parameter(module, command.name, amount(command, 0));
-    case Verb::set_path_speed: return set_parameter(0, "TVM", amount(command, 0));
-    case Verb::default_parameters: return restore_factory_parameters();
-    case Verb::save_data: keep_data(); return Error::none;
-    case Verb::save_parameters: keep_parameters(); return Error::none;
-    case Verb::save_program: keep_program(); return Error::none;
-    case Verb::list_parameters:
-      for (const std::string& line : parameter_list()) say(line);
-      return Error::none;
-    case Verb::reboot: reboot(); return Error::none;
-    default: return Error::not_allowed;
-  }
-}
-
-Error Slim::move_one(const lang::Command& command, int module) {
-  Chain& chain = state_.chain;
-  switch (command.verb) {
-    case Verb::move_absolute: return chain.move(module, true, amount(command, 0));
-    case Verb::move_relative: return chain.move(module, false, amount(command, 0));
-    case Verb::jog_forward: return chain.jog(module, +1);
-    case Verb::jog_reverse: return chain.jog(module, -1);
-    case Verb::jog_stop: return chain.jog(module, 0);
-    case Verb::thrust:
-      mention_unmodelled("FT", "it pushes without a load");
-      return chain.thrust(module, static_cast<std::int32_t>(amount(command, 0)));
-    case Verb::home: return chain.home(module);
-    case Verb::set_coordinate: return chain.set_coordinate(module, amount(command, 0));
-    case Verb::servo_on: return chain.set_servo(module, true);
-    case Verb::servo_off: return chain.set_servo(module, false);
-    case Verb::servo_on_now: return chain.set_servo_at_once(module, true);
-    case Verb::servo_off_now: return chain.set_servo_at_once(module, false);
-    case Verb::analog_speed: return chain.set_analog_speed(module);
-    default: break;
-  }
-  const Error error = chain.reset(module);  // RESET
-  if (error == Error::none) state_.errors[static_cast<std::size_t>(module)].present = Error::none;
-  return error;
-}
-
-Error Slim::switch_outputs(const lang::Command& command, int module) {
-  Chain& chain = state_.chain;
-  const auto port = [&] { return command.operands.front().index; };
-  switch (command.verb) {
-    case Verb::set_port: return chain.set_output(module, port(), true);
-    case Verb::clear_port: return chain.set_output(module, port(), false);
-    case Verb::toggle_port: return chain.toggle_output(module, port());
-    case Verb::set_port_now: return chain.set_output_at_once(module, port(), true);
-    case Verb::clear_port_now: return chain.set_output_at_once(module, port(), false);
-    case Verb::pulse_port:
-      return chain.pulse_output(module, port(), static_cast<std::int32_t>(amount(command, 1)));
-    case Verb::pwm: {
-      const double unit_hz = chose(kPwmInKilohertz) ? 1000 : 1;
-      return chain.pwm(module, port(), amount(command, 1) * unit_hz, amount(command, 2));
-    }
-    case Verb::set_all_ports: return chain.set_outputs(module, static_cast<int>(amount(command, 0)));
-    default: break;
-  }
-  return chain.arm(module, variant_of(command), port(), command.verb == Verb::set_port_at,
-                   amount(command, 1));
-}
-
-Error Slim::move_several(const lang::Command& command) {
-  Chain& chain = state_.chain;
-  const auto arc = [&](bool absolute, bool rises) {
-    ArcOrder order{.absolute = absolute,
-                   .centre_x_units = amount(command, 0),
-                   .centre_y_units = amount(command, 1),
-                   .sweep_deg = amount(command, 2)};
-    if (rises) order.height_units = amount(command, 3);
-    if (absolute && !rises && chose(kArcsByRadius)) order.radius_units = amount(command, 2);
-    return chain.arc(order);
-  };
-  switch (command.verb) {
-    case Verb::map_axis: {
-      const Error error = assign_axis(letter_of(command), static_cast<int>(amount(command, 0)));
-      if (error == Error::none && chose(kMapIsPn37)) keep_axis_map();
-      return error;
-    }
-    case Verb::line_absolute:
-    case Verb::line_relative: {
-      std::array<double, kLetters> units{};
-      const std::size_t count = command.operands.size();
-      for (std::size_t i = 0; i < count; ++i) units[i] = amount(command, i);
-      return chain.line(std::span(units).first(count), command.verb == Verb::line_absolute);
-    }
-    case Verb::arc_absolute: return arc(true, false);
-    case Verb::arc_relative: return arc(false, false);
-    case Verb::helix_absolute: return arc(true, true);
-    case Verb::helix_relative: return arc(false, true);
-    case Verb::spiral:
-      return chain.spiral(amount(command, 0), amount(command, 1), amount(command, 2), amount(command, 3));
-    case Verb::axis_move_absolute: return chain.move_axis(letter_of(command), true, amount(command, 0));
-    case Verb::axis_move_relative: return chain.move_axis(letter_of(command), false, amount(command, 0));
-    default: break;
-  }
-  return chain.set_continuous_path(variant_of(command));
-}
-
-/// TX= ..., and what PN37 says at power-up.
-Error Slim::assign_axis(Letter letter, int module) {
-  for (const Letter other : {Letter::x, Letter::y, Letter::z, Letter::w}) {
-    const bool has_it = module != kUnassigned && state_.chain.assigned(other) == module;
-    if (chose(kModuleTakenFromLetter) && has_it) state_.chain.assign(other, kUnassigned);
-  }
-  return state_.chain.assign(letter, module);
-}
-
-Error Slim::control_all(const lang::Command& command) {
-  Chain& chain = state_.chain;
-  switch (command.verb) {
-    case Verb::pause: return chain.pause_queues();
-    case Verb::redo: return chain.resume_queues();
-    case Verb::clear_buffer: return chain.clear_queues();
-    case Verb::pause_all: return chain.pause();
-    case Verb::resume_all: return chain.resume();
-    case Verb::abandon_all: return chain.discard();
-    default: return chain.emergency_stop();
-  }
 }
 
 }  // namespace understudy::emulator::models::slim

@@ -8,51 +8,18 @@
 namespace understudy::emulator::models::slim {
 
 Slim::Slim(const DeviceSettings& settings)
-    : TextDevice(slim::model(), settings), modules_(std::max(settings.modules, 1)) {
+    : TextDevice(slim::model(), settings),
+      KeptMemory(slim::model().name, settings.firmware),
+      modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();
   state_.kept = factory();
   state_.ram = state_.kept;
 }
 
+/// Each row's option in force, as the device has it.
 ChainOptions Slim::chain_options() const {
   ChainOptions options;
-  if (chose(kSpeedsOfT0)) options.unequal_speeds = ChainOptions::UnequalSpeeds::by_module_0;
-  if (chose(kIneffectivePauseRefused)) options.in_vain = ChainOptions::InVain::refused;
-  if (chose(kThrustRuns)) options.thrust = ChainOptions::Thrust::runs_at_vj;
-  if (chose(kNewSpeedAtOnce)) options.new_speed = ChainOptions::NewSpeed::at_once;
-  using PathSpeedInMotion = ChainOptions::PathSpeedInMotion;
-  if (chose(kPathSpeedByX)) options.path_speed_in_motion = PathSpeedInMotion::by_x;
-  if (chose(kPathSpeedOfNext)) options.path_speed_in_motion = PathSpeedInMotion::next_command;
-  if (chose(kSarHeightAbsolute)) options.sar_height = ChainOptions::SarHeight::absolute;
-  options.coordinate_at_rest_only = chose(kCoordinateAtRestOnly);
-  options.reset_clears_coordinate = chose(kResetClearsCoordinate);
-  options.first_bit_is_p4 = chose(kFirstBitIsP4);
-  options.triggers_stay_armed = chose(kTriggersStayArmed);
-  options.pause_is_of_module_0 = chose(kPauseIsOfT0);
-  options.one_pause = chose(kOnePause);
-  options.reset_ends_pause = chose(kResetEndsPause);
-  options.stops_end_outputs = chose(kStopsEndOutputs);
-  options.jog_ends_move = chose(kJogEndsMove);
-  options.spiral_growth_in_all = chose(kSpiralGrowthInAll);
-  options.emergency_switches_servo_off = chose(kEmergencyServoOff);
-  options.acceleration_of_next_command = chose(kAccelerationOfNext);
-  options.second_decides_joint = chose(kSecondDecidesJoint);
-  options.late_successor_speeds_up = chose(kLateSpeedsUp);
-  options.path_needs_length = chose(kPathNeedsLength);
-  options.ramps_by_path_acceleration = chose(kTrapezoidWithTva);
-  options.homes_forwards = chose(kHomesForwards);
-  options.analog_speed_jogs = chose(kAnalogSpeedJogs);
-  options.only_moves_reserved = chose(kOnlyMovesReserved);
-  options.arcs_by_radius = chose(kArcsByRadius);
-  options.spiral_to_radius = chose(kSpiralToRadius);
-  options.spiral_centre_relative = chose(kSpiralCentreRelative);
-  options.lines_of_two_have_own_speed = chose(kPr4OfItsOwn);
-  options.clear_keeps_half_done = chose(kClearKeepsHalfDone);
-  options.analog_leaves_jogs = chose(kAnalogOfMovesOnly);
-  options.motion_ends_thrust = chose(kMotionEndsThrust);
-  options.done_waits_for_all = chose(kDoneWaitsForAll);
-  options.fifo_length = static_cast<std::uint8_t>(chosen_number(kBufferLength));
-  options.servo_at_power_up = !chose(kServoOffAtPowerUp);
+  for (std::size_t row = 0; row < options.numbers.size(); ++row) options.numbers[row] = choice(row);
   return options;
 }
 

@@ -14,7 +14,12 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/device/axes.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/text/text_device.h"
+#include "emulator/device/user_program.h"
+#include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/meetings.h"
 #include "emulator/models/slim/memory.h"
@@ -25,8 +30,6 @@
 #include "interpreter/slim/flow.h"
 
 namespace understudy::emulator::models::slim {
-
-namespace lang = interpreter::slim;
 
 inline constexpr std::size_t kMostSpeech = 256 * 1024;
 
@@ -66,9 +69,23 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-class Slim final : public TextDevice, private lang::Machine {
+class Slim final : public TextDevice,
+                   public NamedValues,
+                   public KeptMemory,
+                   public UserProgram,
+                   public Axes,
+                   private lang::Machine {
  public:
   explicit Slim(const DeviceSettings& settings);
+
+  NamedValues* named_values() override { return this; }
+  const NamedValues* named_values() const override { return this; }
+  KeptMemory* memory() override { return this; }
+  const KeptMemory* memory() const override { return this; }
+  UserProgram* user_program() override { return this; }
+  const UserProgram* user_program() const override { return this; }
+  Axes* axes() override { return this; }
+  const Axes* axes() const override { return this; }
 
   // --- the dialogue ---
   TextRules text_rules() const override;
@@ -153,13 +170,10 @@ class Slim final : public TextDevice, private lang::Machine {
   Error obey(lang::Command& command, std::vector<std::string>& lines);
 
   // commands.cpp
-  Error execute(const lang::Command& command);
+  friend struct SlimActions;
+  Order order_of(const lang::Command& command);
+  Error perform(Order& order, Action action);
   lang::Outcome::Program program_after_stop(From from) const;
-  Error move_one(const lang::Command& command, int module);
-  Error move_several(const lang::Command& command);
-  Error switch_outputs(const lang::Command& command, int module);
-  Error assign_axis(Letter letter, int module);
-  Error control_all(const lang::Command& command);
   bool is_done(const lang::Command& command) const;
   bool would_wait(const lang::Command& command) const;
 
@@ -170,7 +184,7 @@ class Slim final : public TextDevice, private lang::Machine {
   Error set_variable(const lang::Operand& variable, double value);
   /// PR4 is another name of PR3, unless it is a speed of its own.
   std::string_view meant(std::string_view parameter) const {
-    return parameter == "PR4" && !chose(kPr4OfItsOwn) ? "PR3" : parameter;
+    return parameter == "PR4" && !chose(option("line_speed", "pr4_of_its_own")) ? "PR3" : parameter;
   }
   /// By number: so many pulses are so many user units.
   struct UserUnit {
@@ -188,6 +202,7 @@ class Slim final : public TextDevice, private lang::Machine {
   Error set_parameter(int module, std::string_view name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
+  Error assign_axis(Letter letter, int module);
   void keep_axis_map();
   Error restore_factory_parameters();
   void keep_parameters();
@@ -197,6 +212,7 @@ class Slim final : public TextDevice, private lang::Machine {
   std::int64_t clock_s() const { return (now() - state_.clock_zero) / 1000; }
 
   // queries.cpp
+  friend struct SlimQueries;
   Error query(const lang::Command& command, Answer& answer) const;
   std::uint16_t status_bits(int module) const;
   std::string history_text(const Errors& errors) const;
@@ -215,7 +231,8 @@ class Slim final : public TextDevice, private lang::Machine {
   std::array<Errors, kModules> read_history(NvImage& image) const;
   /// By PZ.
   bool program_is_held() const {
-    const bool is_paused = state_.chain.queues_paused() || (chose(kOnePause) && state_.chain.paused());
+    const bool is_paused =
+        state_.chain.queues_paused() || (chose(option("pauses", "one_pause")) && state_.chain.paused());
     return chose(kPauseHoldsProgram) && is_paused;
   }
   void reboot();

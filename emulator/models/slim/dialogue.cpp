@@ -129,7 +129,6 @@ void Slim::hear_command(std::string_view line) {
 
 /// A typed command. `lines` is what it has to say.
 Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
-  using lang::Verb;
   if (const Error error = resolve_indices(command, *this); error != Error::none) return error;
   const bool has_quantity = std::ranges::any_of(command.operands, [](const lang::Operand& operand) {
     return operand.kind == lang::Operand::Kind::quantity;
@@ -143,36 +142,11 @@ Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
     }
     return error;
   }
-  switch (command.verb) {
-    case Verb::run: {
-      const lang::Operand* const address = command.operands.empty() ? nullptr : command.operands.data();
-      return start(state_.execution, state_.program, address, flow_options_);
-    }
-    case Verb::exit: stop(state_.execution); return Error::none;
-    case Verb::stop_all:
-      if (program_after_stop(From::host) == lang::Outcome::Program::ends) stop(state_.execution);
-      break;
-    case Verb::set_event:
-    case Verb::on_event:
-      define_event(state_.execution.events, command, flow_options_.events);
-      return Error::none;
-    case Verb::program_list: lines = state_.program.listing(of_programs()); return Error::none;
-    case Verb::upload: lines = state_.program.upload(); return Error::none;
-    case Verb::program_new:
-    case Verb::program_append:
-    case Verb::program_edit:
-    case Verb::program_insert:
-    case Verb::program_delete:
-    case Verb::download: return begin_edit(state_.editor, state_.program, command, of_programs());
-    case Verb::list_parameters: lines = parameter_list(); return Error::none;
-    case Verb::print: {
-      const lang::Operand& what = command.operands.front();
-      lines.push_back(what.kind == lang::Operand::Kind::text ? what.text : text_of(what));
-      return Error::none;
-    }
-    default: break;
-  }
-  return chose(kBusyRefused) && would_wait(command) ? Error::not_allowed : execute(command);
+  if (chose(kBusyRefused) && would_wait(command)) return Error::not_allowed;
+  Order order = order_of(command);
+  const Error error = perform(order, actions_of(command.verb).typed);
+  lines = std::move(order.lines);
+  return error;
 }
 
 }  // namespace understudy::emulator::models::slim

@@ -32,7 +32,7 @@ struct Names {
 
 Names make_names() {
   Names names;
-  names.texts.reserve(static_cast<std::size_t>(kModules * kTerminalsOfModule));
+  names.texts.reserve(std::size_t{kModules} * kTerminalsOfModule);
   const auto add = [&](int module, TerminalRow::Kind kind, const std::string& name, int highest = 1) {
     // T0 needs no prefix, as in commands.
     names.texts.push_back((module == 0 ? "" : "T" + std::to_string(module)) + name);

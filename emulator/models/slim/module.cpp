@@ -26,8 +26,9 @@ double path_slope(const ModuleSettings& settings) {
 }
 
 motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed, const ChainOptions& options) {
-  const double slope = options.ramps_by_path_acceleration ? path_slope(settings)
-                                                          : pulses_a_second(settings, settings.acceleration);
+  const double slope = options.chose(option("single_axis_profile", "trapezoid_with_tva"))
+                           ? path_slope(settings)
+                           : pulses_a_second(settings, settings.acceleration);
   const auto ramp = motion::RampLaw::by_slope(slope);
   return {.top_speed_u_s = pulses_a_second(settings, speed), .up = ramp, .down = ramp};
 }
@@ -62,8 +63,10 @@ motion::SpeedLaw Module::working_law(const ChainOptions& options) const {
 }
 
 motion::SpeedLaw Module::jog_law(const ChainOptions& options) const {
-  return trapezoid(
-      settings, std::abs(settings.jog_speed) * (options.analog_leaves_jogs ? 1 : analog_factor()), options);
+  return trapezoid(settings,
+                   std::abs(settings.jog_speed) *
+                       (options.chose(option("analog_speed_of", "moves")) ? 1 : analog_factor()),
+                   options);
 }
 
 }  // namespace understudy::emulator::models::slim

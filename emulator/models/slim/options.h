@@ -1,5 +1,6 @@
-// SLIM: the options of choices.h as the code asks for them. Ours, the first of each row, needs no name; of
-// options that are numbers the row is asked for.
+// SLIM: the options of choices.h as the code asks for them, `chose(option("thrust", "runs_at_vj"))`. A row or
+// an option that there is not is a compile error. Ours, the first of each row, needs no name; of options that
+// are numbers the row is asked for. Those that the device itself asks for have names below.
 #pragma once
 
 #include <algorithm>
@@ -107,45 +108,9 @@ inline constexpr Option kWaitsHaveGoneOn = option("interrupted_wait", "have_gone
 // --- motion ---
 inline constexpr std::size_t kPulsesPerRevolution = numbers("pulses_per_revolution");
 inline constexpr std::size_t kBufferLength = numbers("buffer_length");
-inline constexpr Option kIneffectivePauseRefused = option("ineffective_pause", "error_3");
-inline constexpr Option kSpeedsOfT0 = option("unequal_speeds", "as_t0_has_them");
-inline constexpr Option kServoOffAtPowerUp = option("power_up_servo", "off");
-inline constexpr Option kThrustRuns = option("thrust", "runs_at_vj");
-inline constexpr Option kNewSpeedAtOnce = option("new_speed", "at_once");
 inline constexpr Option kBusyRefused = option("busy", "error_3");
-inline constexpr Option kCoordinateAtRestOnly = option("coordinate_in_motion", "error_3");
-inline constexpr Option kResetClearsCoordinate = option("reset", "coordinate_too");
-inline constexpr Option kFirstBitIsP4 = option("output_order", "p4");
-inline constexpr Option kTriggersStayArmed =
-    option("position_outputs", "each_time_from_either_side_on_the_commanded_position");
-inline constexpr Option kPauseIsOfT0 = option("pause_scope", "t0");
-inline constexpr Option kOnePause = option("pauses", "one_pause");
-inline constexpr Option kResetEndsPause = option("reset", "pause_too");
-inline constexpr Option kStopsEndOutputs = option("outputs_at_stop", "end");
-inline constexpr Option kJogEndsMove = option("jog_while_moving", "ends_the_move");
-inline constexpr Option kSpiralGrowthInAll = option("spiral", "sweep_in_degrees_and_growth_in_all");
-inline constexpr Option kEmergencyServoOff = option("emergency_stop", "nothing_queued_not_paused_servo_off");
 inline constexpr Option kStopEndsAnyProgram = option("emergency_stop_program", "ends_also_by_its_own_line");
 inline constexpr Option kStopLeavesProgram = option("emergency_stop_program", "goes_on");
-inline constexpr Option kPathSpeedByX = option("path_speed_in_motion", "at_once_if_x_has_it");
-inline constexpr Option kPathSpeedOfNext = option("path_speed_in_motion", "next_command");
-inline constexpr Option kArcsByRadius = option("arc", "end_point_and_radius");
-inline constexpr Option kSpiralToRadius = option("spiral_r", "radius_at_its_end");
-inline constexpr Option kSpiralCentreRelative = option("spiral_centre", "relative");
-inline constexpr Option kPr4OfItsOwn = option("line_speed", "pr4_of_its_own");
-inline constexpr Option kClearKeepsHalfDone = option("clear_buffer_in_pause", "what_waits");
-inline constexpr Option kAnalogOfMovesOnly = option("analog_speed_of", "moves");
-inline constexpr Option kMotionEndsThrust = option("thrust_end", "a_move_too");
-inline constexpr Option kDoneWaitsForAll = option("done", "jogs_thrust_and_pulses_too");
-inline constexpr Option kAccelerationOfNext = option("acceleration_in_motion", "next_command");
-inline constexpr Option kSecondDecidesJoint = option("joint", "second_command_decides");
-inline constexpr Option kLateSpeedsUp = option("late_successor", "speeds_up_again");
-inline constexpr Option kPathNeedsLength = option("path_without_length", "error_2");
-inline constexpr Option kTrapezoidWithTva = option("single_axis_profile", "trapezoid_with_tva");
-inline constexpr Option kHomesForwards = option("homing", "at_vj_forwards_to_horg_then_0");
-inline constexpr Option kAnalogSpeedJogs = option("analog_speed", "starts_a_jog");
 inline constexpr Option kPwmInKilohertz = option("pwm_units", "khz_and_percent");
-inline constexpr Option kOnlyMovesReserved = option("reserved_module", "moves_by_number");
-inline constexpr Option kSarHeightAbsolute = option("sar_height", "absolute");
 
 }  // namespace understudy::emulator::models::slim

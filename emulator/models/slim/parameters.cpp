@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpreter/slim/parse.h"
+#include "interpreter/slim/verbs.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -60,20 +61,16 @@ namespace {
 using interpreter::slim::Operand;
 using interpreter::slim::Verb;
 
+constexpr Verb kAnsweredInWords[] = {Verb::query_version, Verb::query_error_history, Verb::query_time};
+
 /// A function that is the value of a query: of one that there is, and whose answer is a number.
 bool is_quantity(const Operand& operand) {
   const auto parsed = interpreter::slim::parse_line("?" + operand.text);
   if (parsed.error != Error::none || !parsed.line.command) return false;
   const interpreter::slim::Command& query = *parsed.line.command;
-  switch (query.verb) {
-    case Verb::query_version:
-    case Verb::query_error_history:
-    case Verb::query_time: return false;
-    case Verb::query_parameter:
-      return check_parameter(query.module, query.name, std::nullopt, SpeedNames::pn10_is_vm, false) ==
-             Error::none;
-    default: return true;
-  }
+  if (interpreter::slim::is_one_of(kAnsweredInWords, query.verb)) return false;
+  return query.verb != Verb::query_parameter || check_parameter(query.module, query.name, std::nullopt,
+                                                                SpeedNames::pn10_is_vm, false) == Error::none;
 }
 
 }  // namespace

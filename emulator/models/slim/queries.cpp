@@ -1,8 +1,10 @@
 // What SLIM's queries answer.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "base/complete_table.h"
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/numbers.h"
 #include "interpreter/slim/text_of.h"
@@ -81,6 +83,134 @@ std::uint16_t Slim::status_bits(int module) const {
   return static_cast<std::uint16_t>(bits);
 }
 
+namespace {
+
+constexpr std::array kQueryVerbs = [] {
+  std::array<Verb, lang::kCommands.size()> verbs{};
+  std::size_t count = 0;
+  // In place of other commands any query: a key may come twice.
+  for (const lang::CommandRow& row : lang::kCommands) {
+    verbs[count++] = row.is_query() ? row.verb : Verb::query_parameter;
+  }
+  return verbs;
+}();
+
+}  // namespace
+
+/// What each query answers.
+struct SlimQueries {
+  struct Question {
+    const Slim& slim;
+    const lang::Command& command;
+    int module;
+    Slim::Answer& answer;
+
+    const State& state() const { return slim.state_; }
+    const Chain& chain() const { return slim.state_.chain; }
+    const Errors& errors() const { return slim.state_.errors[static_cast<std::size_t>(module)]; }
+    bool chose(const Option& option) const { return slim.chose(option); }
+    int number() const { return static_cast<int>(command.operands.front().number); }
+
+    Error whole(double value) const {
+      answer.number = value;
+      if (answer.has_words) answer.text = text_of_integer(value);
+      return Error::none;
+    }
+    Error real(double value) const {
+      answer.number = value;
+      if (answer.has_words) answer.text = text_of_real(value, slim.real_form());
+      return Error::none;
+    }
+    Error words(std::string text) const {
+      answer.text = std::move(text);
+      return Error::none;
+    }
+    Error shown_as(std::string text, double value) const {
+      answer.number = value;
+      return words(std::move(text));
+    }
+    /// Not modelled; kGaps says so.
+    Error electrical(double value) const {
+      slim.mention_unmodelled(command.name, "nothing electrical is; the value is always the same");
+      return whole(value);
+    }
+  };
+  using Reply = Error (*)(const Question&);
+  using Row = HandlerRow<Verb, Reply>;
+
+  static Error input(const Question& q) {
+    if (q.command.operands.empty() && q.chose(kInputsByNumberOnly)) return Error::syntax;
+    const std::uint8_t levels = q.slim.input_levels(q.module);
+    return q.whole(q.command.operands.empty() ? levels : (levels >> (q.number() - 1)) & 1);
+  }
+  static Error status(const Question& q) {
+    const unsigned bits = q.slim.status_bits(q.module);
+    return q.chose(kStatusInHexadecimal) ? q.shown_as(hexadecimal(bits), bits) : q.whole(bits);
+  }
+  static Error version(const Question& q) {
+    const auto firmware = q.slim.firmware();
+    return q.chose(kVersionIsNumber) ? q.whole(firmware) : q.words(version_text(firmware));
+  }
+  static Error variable(const Question& q) {
+    const lang::Operand& operand = q.command.operands.front();
+    q.answer.name = lang::text_of(operand);
+    return holds_integer(operand.kind) ? q.whole(q.slim.value(operand)) : q.real(q.slim.value(operand));
+  }
+  static Error coordinate(const Question& q) {
+    const double units = q.chain().coordinate(q.module);
+    return q.chose(kCoordinateOf32Bits) ? q.real(units) : q.shown_as(text_of_coordinate(units), units);
+  }
+  static Error mode(const Question& q) {
+    const Mode mode = q.chain().status(q.module).mode;
+    const auto code = static_cast<double>(mode);
+    return q.chose(kModeInWords) ? q.shown_as(word_of(mode), code) : q.whole(code);
+  }
+  static Error time(const Question& q) {
+    const Tick seconds = (q.slim.now() - q.state().powered_at) / 1000;
+    return q.chose(kTimeInSeconds) ? q.whole(static_cast<double>(seconds)) : q.words(time_text(seconds));
+  }
+  static Error following_error(const Question& q) {
+    q.slim.mention_unmodelled(q.command.name, "the servo follows without error");
+    return q.whole(0);
+  }
+  static Error parameter_value(const Question& q) {
+    if (q.command.name == "TM") return q.whole(static_cast<double>(q.slim.clock_s()));
+    const auto found = find_parameter(q.slim.meant(q.command.name), q.slim.memory_form().speed_names);
+    if (!found || (kParameters[*found].host_only && q.module != 0)) return Error::syntax;
+    const double held = q.state().ram.parameters[static_cast<std::size_t>(q.module)][*found];
+    if (*found == parameter("VM") && q.chain().analog_speed(q.module) && q.chose(kShownSpeedIsAnalog)) {
+      return q.real(held * q.chain().analog(q.module) / kFullAnalog);
+    }
+    return kParameters[*found].type == ParameterDefinition::Type::integer ? q.whole(held) : q.real(held);
+  }
+
+  using Q = const Question&;
+  static constexpr Row kRows[] = {
+      {Verb::query_input, input},
+      {Verb::query_analog, [](Q q) { return q.whole(q.slim.Device::input(terminal(q.module, kAnalog))); }},
+      {Verb::query_switch,
+       [](Q q) { return q.whole(q.slim.level(q.module, kFirstSwitch + q.number() - 1) ? 1 : 0); }},
+      {Verb::query_status, status},
+      {Verb::query_version, version},
+      {Verb::query_variable, variable},
+      {Verb::query_coordinate, coordinate},
+      {Verb::query_mode, mode},
+      {Verb::query_error, [](Q q) { return q.whole(q.slim.code_of(q.errors().present)); }},
+      {Verb::query_error_history, [](Q q) { return q.words(q.slim.history_text(q.errors())); }},
+      {Verb::query_time, time},
+      {Verb::query_motor_version, [](Q q) { return q.whole(q.slim.chosen_number(kMotorVersion)); }},
+      {Verb::query_voltage, [](Q q) { return q.electrical(q.slim.chosen_number(kVoltage)); }},
+      {Verb::query_temperature, [](Q q) { return q.electrical(q.slim.chosen_number(kTemperature)); }},
+      {Verb::query_peak_current, [](Q q) { return q.electrical(0); }},
+      {Verb::query_mean_current, [](Q q) { return q.electrical(0); }},
+      {Verb::query_peak_following_error, following_error},
+      {Verb::query_parameter, parameter_value},
+  };
+  static const CompleteTable<Verb, Reply> kTable;
+};
+
+constexpr CompleteTable<Verb, SlimQueries::Reply> SlimQueries::kTable(kQueryVerbs, kRows);
+
 /// The command's indices are resolved.
 Error Slim::query(const lang::Command& command, Answer& answer) const {
   const int module = command.module < 0 ? 0 : command.module;
@@ -88,85 +218,7 @@ Error Slim::query(const lang::Command& command, Answer& answer) const {
   if (answer.has_words) {
     answer.name = (command.module > 0 ? "T" + std::to_string(module) : "") + command.name;
   }
-  const auto whole = [&](double value) {
-    answer.number = value;
-    if (answer.has_words) answer.text = text_of_integer(value);
-    return Error::none;
-  };
-  const auto real = [&](double value) {
-    answer.number = value;
-    if (answer.has_words) answer.text = text_of_real(value, real_form());
-    return Error::none;
-  };
-  const auto words = [&](std::string text) {
-    answer.text = std::move(text);
-    return Error::none;
-  };
-  const auto shown_as = [&](std::string text, double value) {
-    answer.number = value;
-    answer.text = std::move(text);
-    return Error::none;
-  };
-  const auto electrical = [&](double value) {
-    mention_unmodelled(command.name, "nothing electrical is; the value is always the same");
-    return whole(value);
-  };
-  const auto number = [&] { return static_cast<int>(command.operands.front().number); };
-  const Errors& errors = state_.errors[static_cast<std::size_t>(module)];
-  switch (command.verb) {
-    case Verb::query_input: {
-      if (command.operands.empty() && chose(kInputsByNumberOnly)) return Error::syntax;
-      const std::uint8_t levels = input_levels(module);
-      return whole(command.operands.empty() ? levels : (levels >> (number() - 1)) & 1);
-    }
-    case Verb::query_analog: return whole(Device::input(terminal(module, kAnalog)));
-    case Verb::query_switch: return whole(level(module, kFirstSwitch + number() - 1) ? 1 : 0);
-    case Verb::query_status: {
-      const unsigned bits = status_bits(module);
-      return chose(kStatusInHexadecimal) ? shown_as(hexadecimal(bits), bits) : whole(bits);
-    }
-    case Verb::query_version:
-      return chose(kVersionIsNumber) ? whole(firmware()) : words(version_text(firmware()));
-    case Verb::query_variable: {
-      const lang::Operand& variable = command.operands.front();
-      answer.name = lang::text_of(variable);
-      return holds_integer(variable.kind) ? whole(value(variable)) : real(value(variable));
-    }
-    case Verb::query_coordinate: {
-      const double units = state_.chain.coordinate(module);
-      return chose(kCoordinateOf32Bits) ? real(units) : shown_as(text_of_coordinate(units), units);
-    }
-    case Verb::query_mode: {
-      const Mode mode = state_.chain.status(module).mode;
-      const auto code = static_cast<double>(mode);
-      return chose(kModeInWords) ? shown_as(word_of(mode), code) : whole(code);
-    }
-    case Verb::query_error: return whole(code_of(errors.present));
-    case Verb::query_error_history: return words(history_text(errors));
-    case Verb::query_time: {
-      const Tick seconds = (now() - state_.powered_at) / 1000;
-      return chose(kTimeInSeconds) ? whole(static_cast<double>(seconds)) : words(time_text(seconds));
-    }
-    case Verb::query_motor_version: return whole(chosen_number(kMotorVersion));
-    // Not modelled; kGaps says so.
-    case Verb::query_voltage: return electrical(chosen_number(kVoltage));
-    case Verb::query_temperature: return electrical(chosen_number(kTemperature));
-    case Verb::query_peak_current:
-    case Verb::query_mean_current: return electrical(0);
-    case Verb::query_peak_following_error:
-      mention_unmodelled(command.name, "the servo follows without error");
-      return whole(0);
-    default: break;
-  }
-  if (command.name == "TM") return whole(static_cast<double>(clock_s()));
-  const auto found = find_parameter(meant(command.name), memory_form().speed_names);
-  if (!found || (kParameters[*found].host_only && module != 0)) return Error::syntax;
-  const double held = state_.ram.parameters[static_cast<std::size_t>(module)][*found];
-  const Chain& chain = state_.chain;
-  if (*found == parameter("VM") && chain.analog_speed(module) && chose(kShownSpeedIsAnalog)) {
-    return real(held * chain.analog(module) / kFullAnalog);
-  }
-  return kParameters[*found].type == ParameterDefinition::Type::integer ? whole(held) : real(held);
+  return SlimQueries::kTable[command.verb]({*this, command, module, answer});
 }
 
 // --- past the line: scenarios, traces, the control socket ----------------------------------------
@@ -209,7 +261,10 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
       return "is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
     }
     parsed.error = resolve_indices(command, *this);
-    if (parsed.error == Error::none) parsed.error = execute(command);
+    if (parsed.error == Error::none) {
+      Order order = order_of(command);
+      parsed.error = perform(order, actions_of(command.verb).stored);
+    }
   }
   switch (parsed.error) {
     case Error::none: return std::nullopt;
@@ -220,8 +275,18 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
       return "is not a parameter or variable; expected one such as 'PR3', 'T1VM' or 'N0'";
     case Error::range: return "is out of range";
     case Error::not_linked: return "is of a module that is not linked; expected one of those in PN50";
-    default: return "is refused with ERR " + std::to_string(code_of(parsed.error));
+    case Error::not_allowed:
+    case Error::axis:
+    case Error::paused:
+    case Error::unequal_speeds:
+    case Error::buffer_full:
+    case Error::servo_off:
+    case Error::following_error:
+    case Error::overload:
+    case Error::over_temperature:
+    case Error::address: break;
   }
+  return "is refused with ERR " + std::to_string(code_of(parsed.error));
 }
 
 std::vector<std::string> Slim::names() const {

@@ -22,8 +22,17 @@ double Slim::value(const lang::Operand& operand) const {
     case Kind::analog: return Device::input(terminal(0, kAnalog));
     case Kind::clock: return static_cast<double>(clock_s());
     case Kind::quantity: return value_named(operand.text).value_or(0);
-    default: return operand.number;
+    case Kind::integer:
+    case Kind::real:
+    case Kind::port:
+    case Kind::label:
+    case Kind::text:
+    case Kind::get_integer:
+    case Kind::get_real:
+    case Kind::event:
+    case Kind::condition: return operand.number;
   }
+  return operand.number;
 }
 
 double Slim::amount(const lang::Command& command, std::size_t operand) const {
@@ -46,25 +55,23 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
   } else if (std::abs(value) > kMaxReal) {
     return Error::range;
   }
-  Memory& ram = state_.ram;
+  if (!is_variable(variable.kind)) return Error::syntax;
   const auto whole = static_cast<std::int16_t>(holds_integer(variable.kind) ? value : 0);
   const auto real = static_cast<float>(value);
   const std::size_t place = at(variable.index);
-  switch (variable.kind) {
-    case Kind::integer_variable: ram.integers[place] = whole; break;
-    case Kind::real_variable: ram.reals[place] = real; break;
-    case Kind::integer_array: ram.integer_array[place] = whole; break;
-    case Kind::real_array: ram.real_array[place] = real; break;
-    default: return Error::syntax;
-  }
+  const auto store = [&](Memory& memory) {
+    if (is_array(variable.kind)) {
+      if (holds_integer(variable.kind)) memory.integer_array[place] = whole;
+      if (!holds_integer(variable.kind)) memory.real_array[place] = real;
+    } else {
+      if (holds_integer(variable.kind)) memory.integers[place] = whole;
+      if (!holds_integer(variable.kind)) memory.reals[place] = real;
+    }
+  };
+  store(state_.ram);
   const bool is_kept = is_array(variable.kind) ? !chose(kArraysBySaveD) : chose(kVariablesWhenWritten);
   if (!is_kept) return Error::none;
-  switch (variable.kind) {
-    case Kind::integer_variable: state_.kept.integers[place] = whole; break;
-    case Kind::real_variable: state_.kept.reals[place] = real; break;
-    case Kind::integer_array: state_.kept.integer_array[place] = whole; break;
-    default: state_.kept.real_array[place] = real; break;
-  }
+  store(state_.kept);
   ++state_.kept_revision;
   return Error::none;
 }
@@ -141,6 +148,15 @@ void Slim::apply_all_parameters() {
       if (!kParameters[i].host_only) apply_parameter(m, i, state_.ram.parameters[at(m)][i]);
     }
   }
+}
+
+/// TX= ..., and what PN37 says at power-up.
+Error Slim::assign_axis(Letter letter, int module) {
+  for (const Letter other : {Letter::x, Letter::y, Letter::z, Letter::w}) {
+    const bool has_it = module != kUnassigned && state_.chain.assigned(other) == module;
+    if (chose(kModuleTakenFromLetter) && has_it) state_.chain.assign(other, kUnassigned);
+  }
+  return state_.chain.assign(letter, module);
 }
 
 /// PN37 becomes the map that is in force.

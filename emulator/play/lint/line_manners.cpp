@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
+
 namespace understudy::emulator::play {
 
 namespace {
@@ -16,13 +19,13 @@ SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
   return settings.duration_of(3) / 2;
 }
 
-int word_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
+int number_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
 
 /// The words that a request writes, in bytes; none if it is not a write.
 std::span<const std::uint8_t> written(std::span<const std::uint8_t> frame) {
   if (frame.size() == 8 && frame[1] == 0x06) return frame.subspan(4, 2);
   const bool is_several = frame.size() > 9 && frame[1] == 0x10 && frame.size() == 9U + frame[6] &&
-                          frame[6] == 2 * word_at(frame, 4);
+                          frame[6] == 2 * number_at(frame, 4);
   return is_several ? frame.subspan(7, frame[6]) : std::span<const std::uint8_t>();
 }
 
@@ -122,11 +125,12 @@ void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at)
   bool will_be_answered = false;
   for (const auto& present : world_.line(number_).stations) {
     const Device& device = present->device();
-    const Addressing addressing = device.addressing(station);
+    const Addressing addressing =
+        device.modbus() == nullptr ? Addressing::ignore : device.modbus()->addressing(station);
     if (addressing == Addressing::ignore) continue;
     is_there = true;
     will_be_answered = will_be_answered || addressing == Addressing::obey_and_reply;
-    if (!values.empty() && device.powered()) judge_write(device, word_at(frame, 2), values, at);
+    if (!values.empty() && device.powered()) judge_write(device, number_at(frame, 2), values, at);
   }
   if (!is_there) find(Manner::absent, std::to_string(station)).add(at);
   if (will_be_answered) return;
@@ -136,12 +140,12 @@ void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at)
 
 void LineManners::judge_write(const Device& device, int first, std::span<const std::uint8_t> values,
                               SimTime at) {
+  const RegisterBank& bank = *device.register_bank();
   const RegisterRow* last_row = nullptr;
   int last_index = 0;
   for (std::size_t i = 0; 2 * i < values.size(); ++i) {
     const auto address = static_cast<std::uint16_t>(first + static_cast<int>(i));
-    const Place place =
-        device.registers().at(Table::holding, address, device.firmware(), device.low_word_first());
+    const Place place = bank.at(Table::holding, address);
     if (!place) continue;
     const std::string name = device.name() + "." + RegisterMap::name_of(*place.row, place.index);
     // A register of two words counts once.
@@ -152,11 +156,11 @@ void LineManners::judge_write(const Device& device, int first, std::span<const s
       if (!is_second_word) find(Manner::read_only, name).add(at);
       continue;
     }
-    if (!device.keeps(*place.row)) continue;
-    const std::uint32_t bits = device.image()[static_cast<std::size_t>(place.slot)];
+    if (!bank.keeps(*place.row)) continue;
+    const std::uint32_t bits = bank.image()[static_cast<std::size_t>(place.slot)];
     const auto present = static_cast<std::uint16_t>(place.part == Place::Part::high ? bits >> 16 : bits);
     const bool is_listed = !asked_->worn.empty() && asked_->worn.back() == name;
-    if (present != word_at(values, 2 * i) && !is_listed) asked_->worn.push_back(name);
+    if (present != number_at(values, 2 * i) && !is_listed) asked_->worn.push_back(name);
   }
 }
 

@@ -1,6 +1,7 @@
 // Steps over the line: write, expect, send.
 #include <cmath>
 
+#include "emulator/device/register_map/register_bank.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/stages/modbus_host.h"
 #include "emulator/world/frames/frame_text.h"
@@ -76,7 +77,7 @@ std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
       if (target.place && target.place->place.row->table != Table::holding) {
         throw StepError(target.name + ": is not a holding register; expected one");
       }
-      low_word_first.push_back(world.device(target.device).low_word_first());
+      low_word_first.push_back(world.device(target.device).register_bank()->low_word_first());
       words.push_back(words_of(target, low_word_first.back()));
     }
   });

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/files/text_file.h"
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/play/performing/performance.h"
 
@@ -88,7 +89,7 @@ void Performance::perform(const ProgramStep& step) {
 
 void Performance::perform(const MemoryStep& step) {
   NvImage present;
-  stage_->with_world([&](world::World& world) { present = world.device(step.device).nv_image(); });
+  stage_->with_world([&](world::World& world) { present = world.device(step.device).memory()->nv_image(); });
   if (step.what == MemoryStep::What::save) {
     std::string why = why_not_replaceable_by_image(step.file);
     if (why.empty()) why = replace_text_file(step.file, to_json(present));

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 
+#include "emulator/device/axes.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/world/expression/number.h"
 
@@ -13,12 +15,14 @@ namespace {
 std::string registers_text(const Device& device) {
   std::string text;
   const auto add = [&](const std::string& name) {
-    const auto place = device.registers().find(name, device.firmware());
-    if (const auto number = place ? std::nullopt : device.value_named(name)) {
+    const RegisterBank* const bank = device.register_bank();
+    const auto place = bank != nullptr ? bank->find(name) : std::nullopt;
+    const NamedValues* const values = device.named_values();
+    if (const auto number = place || values == nullptr ? std::nullopt : values->value_named(name)) {
       text += (text.empty() ? "" : ", ") + name + " " + world::number_text(world::Number(*number));
     }
     if (!place) return;
-    const Value value = read_value(device, *place);
+    const Value value = read_value(*bank, *place);
     text += (text.empty() ? "" : ", ") + name + " " + std::to_string(value);
     if (name != "STATUS") return;
     std::array<char, 16> hexadecimal{};
@@ -33,8 +37,9 @@ std::string registers_text(const Device& device) {
 /// The device reads its inputs at each tick: until then the register of an input has the level before.
 bool is_read_later(const Device& device, const TerminalRow& row, std::int32_t level) {
   if (row.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
-  const auto place = device.registers().find(row.name, device.firmware());
-  return place && read_value(device, *place) != level;
+  const RegisterBank* const bank = device.register_bank();
+  const auto place = bank != nullptr ? bank->find(row.name) : std::nullopt;
+  return place && read_value(*bank, *place) != level;
 }
 
 std::string terminals_text(const Device& device) {
@@ -58,9 +63,9 @@ std::string axis_text(const world::World& world, std::size_t number, std::size_t
   const auto a = static_cast<int>(axis);
   const world::PlantAxis& plant = world.plant(number, a);
   std::string text = "pulses " + std::to_string(world.sent_pulses(number, a)) + ", speed " +
-                     world::number_text(world::Number(world.device(number).speed_pps(a))) + ", position " +
-                     std::to_string(plant.position_pulses());
-  const int duty_percent = world.device(number).duty_percent(a).value_or(0);
+                     world::number_text(world::Number(world.device(number).axes()->speed_pps(a))) +
+                     ", position " + std::to_string(plant.position_pulses());
+  const int duty_percent = world.device(number).axes()->duty_percent(a).value_or(0);
   if (duty_percent != 0) text += ", PWM " + std::to_string(duty_percent) + " %";
   if (plant.lost_pulses() != 0) text += ", lost " + std::to_string(plant.lost_pulses());
   if (plant.at_home()) text += ", at home";
@@ -95,7 +100,7 @@ std::vector<std::string> state_text(const world::World& world) {
       texts.push_back(device.name() + ": " + registers);
     }
     for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
-      if (!device.has_axis(static_cast<int>(a))) continue;
+      if (!device.axes()->has_axis(static_cast<int>(a))) continue;
       texts.push_back(device.name() + "." + std::string(device.model().axes[a].name) + ": " +
                       axis_text(world, d, a));
     }

@@ -14,18 +14,18 @@ namespace understudy::emulator::play {
 namespace {
 
 // In pixels.
-constexpr int kWidth = 1200;
+constexpr int kPlotWidth = 1200;
 constexpr int kTitleHeight = 46;
-constexpr int kTimeHeight = 56;
-constexpr int kPanelGap = 34;
+constexpr int kPlotTimeHeight = 56;
+constexpr int kPlotPanelGap = 34;
 constexpr int kPositionHeight = 230;
 constexpr int kPanelHeight = 140;
-constexpr int kRowHeight = 20;
+constexpr int kPlotRowHeight = 20;
 constexpr double kRowsBetween = 1.5;  // from one row of bits to the next, which are 1 high
 constexpr std::size_t kMostStretches = 3000;
-constexpr int kColours = 8;
-constexpr const char* kColourOf[kColours] = {"#0969da", "#bc4c00", "#1a7f37", "#8250df",
-                                             "#bf3989", "#0a7d88", "#9a6700", "#59636e"};
+constexpr int kPlotColours = 8;
+constexpr const char* kColourOf[kPlotColours] = {"#0969da", "#bc4c00", "#1a7f37", "#8250df",
+                                                 "#bf3989", "#0a7d88", "#9a6700", "#59636e"};
 
 constexpr const char* kPosition = ".position";
 constexpr const char* kPulses = ".pulses";
@@ -37,7 +37,7 @@ std::string in_quotes(const std::string& text) {
   return quoted + "'";
 }
 
-struct Panel {
+struct PlotPanel {
   std::string label;
   int height = 0;
   bool are_bits = false;
@@ -55,12 +55,12 @@ bool is_bit(const std::vector<double>& column) {
 
 bool is_followed(const TraceTable& table, std::size_t column);
 
-std::vector<Panel> panels_of(const TraceTable& table, std::span<const std::string> also,
-                             const std::string& name) {
-  Panel positions{.label = "position [pulses]", .height = kPositionHeight, .columns = {}};
-  Panel speeds{.label = "speed [pulses/s]", .height = kPanelHeight, .columns = {}};
-  Panel duties{.label = "PWM duty [%]", .height = kPanelHeight, .are_steps = true, .columns = {}};
-  Panel bits{.label = "", .are_bits = true, .columns = {}};
+std::vector<PlotPanel> panels_of(const TraceTable& table, std::span<const std::string> also,
+                                 const std::string& name) {
+  PlotPanel positions{.label = "position [pulses]", .height = kPositionHeight, .columns = {}};
+  PlotPanel speeds{.label = "speed [pulses/s]", .height = kPanelHeight, .columns = {}};
+  PlotPanel duties{.label = "PWM duty [%]", .height = kPanelHeight, .are_steps = true, .columns = {}};
+  PlotPanel bits{.label = "", .are_bits = true, .columns = {}};
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     if (!varies(table.columns[i])) continue;
     if (table.names[i].ends_with(kPulses) && is_followed(table, i)) continue;
@@ -74,9 +74,9 @@ std::vector<Panel> panels_of(const TraceTable& table, std::span<const std::strin
       bits.columns.push_back(i);
     }
   }
-  bits.height = kRowHeight * static_cast<int>(bits.columns.size());
-  std::vector<Panel> panels;
-  for (Panel& panel : std::vector{positions, speeds, duties}) {
+  bits.height = kPlotRowHeight * static_cast<int>(bits.columns.size());
+  std::vector<PlotPanel> panels;
+  for (PlotPanel& panel : std::vector{positions, speeds, duties}) {
     if (!panel.columns.empty()) panels.push_back(std::move(panel));
   }
   for (const std::string& wanted : also) {
@@ -121,11 +121,11 @@ std::string colour_of(const TraceTable& table, std::size_t column) {
     if (is_new) axes.push_back(axis_of(name));
   }
   const auto found = std::find(axes.begin(), axes.end(), axis_of(table.names[column]));
-  return kColourOf[(found == axes.end() ? 0 : found - axes.begin()) % kColours];
+  return kColourOf[(found == axes.end() ? 0 : found - axes.begin()) % kPlotColours];
 }
 
 /// From the least to the greatest value of all its columns, and a little beyond.
-std::string range_of(const TraceTable& table, const Panel& panel) {
+std::string range_of(const TraceTable& table, const PlotPanel& panel) {
   double least = table.columns[panel.columns.front()].front();
   double greatest = least;
   for (const std::size_t column : panel.columns) {
@@ -151,7 +151,7 @@ bool is_followed(const TraceTable& table, std::size_t column) {
   return true;
 }
 
-std::string curves_of(const TraceTable& table, const Panel& panel) {
+std::string curves_of(const TraceTable& table, const PlotPanel& panel) {
   std::string text;
   for (std::size_t i = 0; i < panel.columns.size(); ++i) {
     const std::string block = "$c" + std::to_string(panel.columns[i]);
@@ -172,7 +172,7 @@ std::string curves_of(const TraceTable& table, const Panel& panel) {
   return text + "\n";
 }
 
-std::string marks_of_bits(const TraceTable& table, const Panel& panel) {
+std::string marks_of_bits(const TraceTable& table, const PlotPanel& panel) {
   std::string text;
   for (std::size_t i = 0; i < panel.columns.size(); ++i) {
     const double base = kRowsBetween * static_cast<double>(panel.columns.size() - 1 - i);
@@ -186,15 +186,15 @@ std::string marks_of_bits(const TraceTable& table, const Panel& panel) {
 
 std::string plot_script(const TraceTable& table, std::span<const std::string> also, PlotFormat format,
                         const std::string& output, const std::string& name) {
-  const std::vector<Panel> panels = panels_of(table, also, name);
-  int height = kTitleHeight + kTimeHeight;
+  const std::vector<PlotPanel> panels = panels_of(table, also, name);
+  int height = kTitleHeight + kPlotTimeHeight;
   std::size_t longest = 0;
-  for (const Panel& panel : panels) {
-    height += panel.height + kPanelGap;
+  for (const PlotPanel& panel : panels) {
+    height += panel.height + kPlotPanelGap;
     if (!panel.are_bits) continue;
     for (const std::size_t column : panel.columns) longest = std::max(longest, table.names[column].size());
   }
-  const std::string size = std::to_string(kWidth) + "," + std::to_string(height);
+  const std::string size = std::to_string(kPlotWidth) + "," + std::to_string(height);
   std::string script =
       "set encoding utf8\n"
       "set terminal " +
@@ -202,26 +202,26 @@ std::string plot_script(const TraceTable& table, std::span<const std::string> al
            ? "pngcairo noenhanced background rgb 'white' size " + size + " font 'DejaVu Sans,10'"
            : "svg noenhanced background rgb 'white' size " + size + " dynamic font 'DejaVu Sans,12'") +
       "\nset output " + in_quotes(output) + "\n";
-  for (const Panel& panel : panels) {
+  for (const PlotPanel& panel : panels) {
     for (const std::size_t column : panel.columns) script += data_of(table, column);
   }
   constexpr double kSecond = 1000;
   const double begin = static_cast<double>(table.ticks.front()) / kSecond;
   const double end = static_cast<double>(std::max(table.ticks.back(), table.ticks.front() + 1)) / kSecond;
-  const double left = std::max(100.0, 20 + 7.2 * static_cast<double>(longest)) / kWidth;
+  const double left = std::max(100.0, 20 + 7.2 * static_cast<double>(longest)) / kPlotWidth;
   script += "set multiplot title " + in_quotes(name) + " noenhanced\n" + "set lmargin at screen " +
             fixed_number(left, 4) + "\nset rmargin at screen 0.985\n" + "set xrange [" +
             world::number_text(begin) + ":" + world::number_text(end) + "]\n" +
             "set grid lt 1 lw 0.8 lc rgb '#cfd6dd'\nset border lc rgb '#59636e'\nset tics nomirror\n"
             "set format x ''\n";
   double y = height - kTitleHeight;
-  for (const Panel& panel : panels) {
+  for (const PlotPanel& panel : panels) {
     const bool is_last = &panel == &panels.back();
-    y -= kPanelGap / 2.0;
+    y -= kPlotPanelGap / 2.0;
     const double key_y = y + 4;
     script += "set tmargin at screen " + fixed_number(y / height, 4) + "\nset bmargin at screen " +
               fixed_number((y - panel.height) / height, 4) + "\n";
-    y -= panel.height + kPanelGap / 2.0;
+    y -= panel.height + kPlotPanelGap / 2.0;
     if (panel.are_bits) {
       const double top = kRowsBetween * static_cast<double>(panel.columns.size());
       script += "unset ylabel\nset yrange [-0.3:" + fixed_number(top, 1) + "]\nset ytics (" +

@@ -13,13 +13,6 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// A time to wait for something.
-SimTime read_within(const world::YamlFields& field) {
-  const SimTime within = field.duration();
-  if (within <= SimTime{0}) field.fail("takes no time; expected some");
-  return within;
-}
-
 Answer read_answer(const world::YamlFields& step) {
   Answer answer;
   if (step.has("exception")) {

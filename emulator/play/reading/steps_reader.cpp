@@ -64,7 +64,7 @@ std::string canonical(const std::string& path) {
 
 }  // namespace
 
-StepsReader::StepsReader(const Trial& trial, FileReading& file, std::string path)
+StepsReader::StepsReader(const Trial& trial, FileReading& file, const std::string& path)
     : trial_(trial), file_(file), paths_{canonical(path)} {
   for (const world::Fault& fault : trial.bench().faults)
     story_.faults.push_back(world::to_text(trial.known(), fault));

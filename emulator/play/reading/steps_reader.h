@@ -29,9 +29,16 @@ struct FileReading {
 
 struct StepRow;
 
+/// A time to wait for something.
+inline SimTime read_within(const world::YamlFields& field) {
+  const SimTime within = field.duration();
+  if (within <= SimTime{0}) field.fail("takes no time; expected some");
+  return within;
+}
+
 class StepsReader {
  public:
-  StepsReader(const Trial& trial, FileReading& file, std::string path);
+  StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
   /// Throws all that is wrong with them.
   Steps read(const world::YamlFields& list, const Parameters& parameters);
@@ -60,7 +67,7 @@ class StepsReader {
   void read_here(const world::YamlFields& list, const Parameters& parameters);
   /// The steps of a list, from the story so far, which goes on as if they had not been.
   Steps read_branch(const world::YamlFields& list);
-  void read_included(const world::YamlFields& path);
+  void read_included(const world::YamlFields& field);
   /// Whether a step could not be read: another round of a loop would tell the same.
   bool has_complaints() const { return complaints_.count() > 0; }
 

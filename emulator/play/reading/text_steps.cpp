@@ -35,13 +35,6 @@ std::vector<std::string> read_texts(const world::YamlFields& field) {
   return lines;
 }
 
-SimTime read_within(const world::YamlFields& value) {
-  const world::YamlFields within = value.at("within");
-  const SimTime time = within.duration();
-  if (time <= SimTime{0}) within.fail("takes no time; expected some");
-  return time;
-}
-
 }  // namespace
 
 std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value, Protocol wanted) {
@@ -72,7 +65,7 @@ void read_send_text(StepsReader& reader, const world::YamlFields& step, const wo
     say.lines = read_texts(value.at("reply"));
     text += ", reply " + world::lines_text(*say.lines);
   }
-  if (value.has("within")) say.within = read_within(value);
+  if (value.has("within")) say.within = read_within(value.at("within"));
   reader.add(step, text, std::move(say));
 }
 
@@ -81,7 +74,7 @@ void read_hear(StepsReader& reader, const world::YamlFields& step, const world::
   TextStep hear;
   hear.line = read_line_of(reader, value, Protocol::text);
   hear.lines = read_texts(value.at("text"));
-  if (value.has("within")) hear.within = read_within(value);
+  if (value.has("within")) hear.within = read_within(value.at("within"));
   const std::string text = "hear " + world::lines_text(*hear.lines);
   reader.add(step, text, std::move(hear));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "emulator/device/axes.h"
 #include "emulator/world/frames/frame_text.h"
 
 namespace understudy::emulator::play {
@@ -21,12 +22,12 @@ Camera::Camera(world::World& world) : world_(world), probes_(world) {
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     const world::KnownDevice& device = world.known()[d];
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
-      if (!world.device(d).has_axis(static_cast<int>(a))) continue;
+      if (!world.device(d).axes()->has_axis(static_cast<int>(a))) continue;
       const std::string axis = device.name + "." + std::string(device.model->axes[a].name);
       add_sight(axis + ".position", Kind::position);
       add_sight(axis + ".pulses", Kind::pulses);
       add_sight(axis + ".speed", Kind::speed);
-      if (world.device(d).duty_percent(static_cast<int>(a))) add_sight(axis + ".pwm", Kind::duty);
+      if (world.device(d).axes()->duty_percent(static_cast<int>(a))) add_sight(axis + ".pwm", Kind::duty);
       for (const char* word : {".home", ".lower_limit", ".upper_limit", ".alarm"}) {
         add_sight(axis + word, Kind::bit);
       }

@@ -119,7 +119,7 @@ class SchemaWriter {
   bool has_parameters_;
 };
 
-std::string finished(const std::string& title, Json schema, Json definitions) {
+std::string finished(const std::string& title, const Json& schema, Json definitions) {
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
   whole.update(schema);
   if (!definitions.empty()) whole["definitions"] = std::move(definitions);

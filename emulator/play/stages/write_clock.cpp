@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/play/stages/modbus_host.h"
 
 namespace understudy::emulator::play {
@@ -54,7 +55,9 @@ void WriteClock::hear(std::size_t line, const pty::CapturedPacket& packet) {
 bool WriteClock::is_for_somebody(std::size_t line, std::uint8_t address) const {
   const auto& stations = world_.line(line).stations;
   return std::any_of(stations.begin(), stations.end(), [&](const auto& station) {
-    return station->device().powered() && station->device().addressing(address) != Addressing::ignore;
+    const ModbusStation* const modbus = station->device().modbus();
+    return station->device().powered() && modbus != nullptr &&
+           modbus->addressing(address) != Addressing::ignore;
   });
 }
 

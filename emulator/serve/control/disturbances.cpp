@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
@@ -106,7 +107,10 @@ Json program_message(Daemon& daemon, const Json& message) {
   daemon.catch_up();
   Device& device = daemon.world().device(number);
   if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
-  if (!message.contains("text")) return Json{{"ok", true}, {"text", device.program_text()}};
+  if (!message.contains("text")) {
+    const UserProgram* const program = device.user_program();
+    return Json{{"ok", true}, {"text", program != nullptr ? program->program_text() : ""}};
+  }
   try {
     daemon.world().load_program(number, demand_text(message, "text"));
   } catch (const ProgramError& error) {

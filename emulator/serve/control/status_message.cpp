@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "base/version.h"
+#include "emulator/device/axes.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
@@ -46,11 +48,11 @@ Json line_status(const Daemon& daemon, const Port& port) {
 Json telling_registers(const Device& device) {
   Json values = Json::object();
   for (const std::string_view name : device.model().state_registers) {
-    const auto place = device.registers().find(name, device.firmware());
-    if (place) {
-      values[std::string(name)] = read_value(device, *place);
-    } else if (const auto value = device.value_named(name)) {
-      values[std::string(name)] = json_of(*value);
+    const RegisterBank* const bank = device.register_bank();
+    if (const auto place = bank != nullptr ? bank->find(name) : std::nullopt) {
+      values[std::string(name)] = read_value(*bank, *place);
+    } else if (const NamedValues* const named = device.named_values()) {
+      if (const auto value = named->value_named(name)) values[std::string(name)] = json_of(*value);
     }
   }
   return values;
@@ -61,7 +63,8 @@ Json device_status(const world::World& world, std::size_t number) {
   Json status{
       {"name", device.name()}, {"model", device.model().name}, {"firmware", version_text(device.firmware())}};
   status["power"] = device.powered() ? "on" : "off";
-  if (!device.pulse_format().empty()) status["pulse_format"] = device.pulse_format();
+  const Axes* const axes = device.axes();
+  if (axes != nullptr && !axes->pulse_format().empty()) status["pulse_format"] = axes->pulse_format();
   if (device.powered()) status["registers"] = telling_registers(device);
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
@@ -80,11 +83,11 @@ Json device_status(const world::World& world, std::size_t number) {
   status["machines"] = Json::object();
   for (std::size_t axis = 0; axis < device.model().axes.size(); ++axis) {
     const auto place = static_cast<int>(axis);
-    if (!device.has_axis(place)) continue;
+    if (!axes->has_axis(place)) continue;
     const std::string name(device.model().axes[axis].name);
     status["axes"][name] =
-        Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", device.speed_pps(place)}};
-    if (const auto duty = device.duty_percent(place)) status["axes"][name]["pwm_percent"] = *duty;
+        Json{{"pulses", world.sent_pulses(number, place)}, {"speed_pps", axes->speed_pps(place)}};
+    if (const auto duty = axes->duty_percent(place)) status["axes"][name]["pwm_percent"] = *duty;
     const world::PlantAxis& plant = world.plant(number, place);
     Json& machine = status["machines"][name];
     machine = Json{{"position_pulses", plant.position_pulses()}, {"lost_pulses", plant.lost_pulses()}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
@@ -101,8 +102,10 @@ void demand_possible(const world::World& world,
       trial = make_device(device.model(), device.settings());
       trial->restore_state(device.save_state());
     }
-    if (!device.value_named(place.name)) throw MessageError(device.why_no_value(place.name));
-    if (const auto complaint = trial->assign(place.name, value)) {
+    const NamedValues* const values = device.named_values();
+    if (values == nullptr || !values->value_named(place.name))
+      throw MessageError(why_no_value(device, place.name));
+    if (const auto complaint = trial->named_values()->assign(place.name, value)) {
       throw MessageError(place.name + ": " + *complaint);
     }
   }
@@ -167,8 +170,8 @@ Json set_message(Daemon& daemon, const Json& message) {
     }
     places.push_back(place);
     demand_power(world.device(place.device));
-    demand_accepted(prepare_value(world.device(place.device), place.place, value, writes[i]), name, value,
-                    *place.place.place.row);
+    demand_accepted(prepare_value(*world.device(place.device).register_bank(), place.place, value, writes[i]),
+                    name, value, *place.place.place.row);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) world.write(places[i].device, writes[i]);
   for (const auto& [place, value] : values) world.assign(place.device, place.name, value);

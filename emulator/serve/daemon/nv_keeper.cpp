@@ -5,6 +5,7 @@
 #include <map>
 #include <system_error>
 
+#include "emulator/device/memory/kept_memory.h"
 #include "pty/port_link.h"
 
 namespace understudy::emulator::serve {
@@ -64,11 +65,11 @@ NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,
     : world_(world), log_(std::move(log)) {
   for (std::size_t i = 0; i < bench.devices.size(); ++i) {
     const world::DeviceSetup& device = bench.devices[i];
-    if (device.nv_path.empty()) continue;
+    if (device.nv_path.empty() || world.device(i).memory() == nullptr) continue;
     claim(device);
     files_.push_back({.device = i, .path = device.nv_path});
-    files_.back().written = world.device(i).kept_revision();
-    const NvImage image = world.device(i).nv_image();
+    files_.back().written = world.device(i).memory()->kept_revision();
+    const NvImage image = world.device(i).memory()->nv_image();
     const bool is_there = device.settings.nv && std::filesystem::exists(device.nv_path);
     if (!is_there || device.settings.nv->registers != image.registers) write(files_.back());
   }
@@ -97,12 +98,12 @@ NvKeeper::~NvKeeper() {
 }
 
 bool NvKeeper::is_behind(const File& file) const {
-  return world_.device(file.device).kept_revision() != file.written;
+  return world_.device(file.device).memory()->kept_revision() != file.written;
 }
 
 void NvKeeper::write(File& file) {
-  file.written = world_.device(file.device).kept_revision();
-  writer_.write(file.path, to_json(world_.device(file.device).nv_image()));
+  file.written = world_.device(file.device).memory()->kept_revision();
+  writer_.write(file.path, to_json(world_.device(file.device).memory()->nv_image()));
 }
 
 void NvKeeper::world_restored() {

@@ -6,7 +6,7 @@ namespace {
 
 using Form = FaultFieldRow::Form;
 using Kind = Fault::Kind;
-using Place = FaultKindRow::Place;
+using Where = FaultKindRow::Place;
 
 constexpr std::int64_t kFar = 1'000'000'000'000;       // pulses; farther than any counter
 constexpr std::int64_t kFarthestSlip = 1'000'000'000;  // pulses; many of them in one tick still add up
@@ -45,26 +45,35 @@ constexpr std::array kNoise{bytes_row("before", &Fault::before), bytes_row("afte
 constexpr std::array kCollision{bytes_row("with", &Fault::before), kOf};
 
 constexpr std::array<FaultKindRow, 19> kKinds{{
-    {"stall", Kind::stall, Place::axis, {}, "begins"},
-    {"lost_steps", Kind::lost_steps, Place::axis, kLostSteps, "begins"},
-    {"slip", Kind::slip, Place::axis, kSlip, "pushed"},
-    {"alarm", Kind::alarm, Place::axis, {}, "begins"},
-    {"stuck", Kind::stuck, Place::input, kStuck, "begins"},
-    {"encoder_noise", Kind::encoder_noise, Place::axis, kEncoderNoise, "begins"},
-    {"turn", Kind::turn, Place::axis, kTurn, "turned"},
-    {"power_cut", Kind::power_cut, Place::device, {}, "begins"},
-    {"slow", Kind::slow, Place::device, kSlow, "carried out later"},
-    {"busy", Kind::busy, Place::device_or_line, {}, "refused"},
-    {"exception", Kind::exception, Place::device_or_line, kException, "refused"},
-    {"early_reply", Kind::early_reply, Place::device_or_line, {}, "taken for over at once"},
-    {"drop", Kind::drop, Place::device_or_line, kSided, "not said", "not heard"},
-    {"delay", Kind::delay, Place::device_or_line, kDelay, "said later", "heard later"},
-    {"corrupt_checksum", Kind::corrupt_checksum, Place::device_or_line, kSided, "last byte inverted"},
-    {"truncate", Kind::truncate, Place::device_or_line, kTruncate, "cut"},
-    {"duplicate", Kind::duplicate, Place::device_or_line, kDuplicate, "said twice", "heard twice"},
-    {"noise", Kind::noise, Place::device_or_line, kNoise, "noise around it"},
-    {"collision", Kind::collision, Place::device_or_line, kCollision, "somebody else talked"},
+    {"stall", Kind::stall, Where::axis, {}, "begins"},
+    {"lost_steps", Kind::lost_steps, Where::axis, kLostSteps, "begins"},
+    {"slip", Kind::slip, Where::axis, kSlip, "pushed"},
+    {"alarm", Kind::alarm, Where::axis, {}, "begins"},
+    {"stuck", Kind::stuck, Where::input, kStuck, "begins"},
+    {"encoder_noise", Kind::encoder_noise, Where::axis, kEncoderNoise, "begins"},
+    {"turn", Kind::turn, Where::axis, kTurn, "turned"},
+    {"power_cut", Kind::power_cut, Where::device, {}, "begins"},
+    {"slow", Kind::slow, Where::device, kSlow, "carried out later"},
+    {"busy", Kind::busy, Where::device_or_line, {}, "refused"},
+    {"exception", Kind::exception, Where::device_or_line, kException, "refused"},
+    {"early_reply", Kind::early_reply, Where::device_or_line, {}, "taken for over at once"},
+    {"drop", Kind::drop, Where::device_or_line, kSided, "not said", "not heard"},
+    {"delay", Kind::delay, Where::device_or_line, kDelay, "said later", "heard later"},
+    {"corrupt_checksum", Kind::corrupt_checksum, Where::device_or_line, kSided, "last byte inverted"},
+    {"truncate", Kind::truncate, Where::device_or_line, kTruncate, "cut"},
+    {"duplicate", Kind::duplicate, Where::device_or_line, kDuplicate, "said twice", "heard twice"},
+    {"noise", Kind::noise, Where::device_or_line, kNoise, "noise around it"},
+    {"collision", Kind::collision, Where::device_or_line, kCollision, "somebody else talked"},
 }};
+
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < kKinds.size(); ++i) {
+        if (kKinds[i].kind != static_cast<Kind>(i)) return false;
+      }
+      return true;
+    }(),
+    "rows stand in the order of Fault::Kind, one each");
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/frames/text_lines_heard.h"
 #include "pty/rtu_crc.h"
 
@@ -11,11 +13,11 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 32;
+constexpr std::size_t kMostBytesShown = 32;
 constexpr std::size_t kMostRegisters = 8;
-constexpr std::uint8_t kException = 0x80;
+constexpr std::uint8_t kExceptionBit = 0x80;
 
-int word_at(std::span<const std::uint8_t> frame, std::size_t at) { return frame[at] << 8 | frame[at + 1]; }
+int frame_word(std::span<const std::uint8_t> frame, std::size_t at) { return frame[at] << 8 | frame[at + 1]; }
 
 std::string number_of(int address) {
   std::array<char, 8> text{};
@@ -26,7 +28,8 @@ std::string number_of(int address) {
 /// Null if no device on the line listens to that address.
 const Device* device_at(const World& world, std::size_t line, std::uint8_t address) {
   for (const auto& station : world.line(line).stations) {
-    if (station->device().addressing(address) != Addressing::ignore) return &station->device();
+    const ModbusStation* const modbus = station->device().modbus();
+    if (modbus != nullptr && modbus->addressing(address) != Addressing::ignore) return &station->device();
   }
   return nullptr;
 }
@@ -49,15 +52,14 @@ class WordsText {
 
  private:
   bool has_values() const { return !values_.empty(); }
-  int value_at(int i) const { return word_at(values_, 2 * static_cast<std::size_t>(i)); }
+  int value_at(int i) const { return frame_word(values_, 2 * static_cast<std::size_t>(i)); }
 
   /// Of the register at word `i`, which is moved behind it. The first one says whose it is.
   std::string next(int& i, bool is_first) const {
     const int word = i++;
-    const Place place = device_ == nullptr ? Place{}
-                                           : device_->registers().at(
-                                                 Table::holding, static_cast<std::uint16_t>(first_ + word),
-                                                 device_->firmware(), device_->low_word_first());
+    const RegisterBank* const bank = device_ == nullptr ? nullptr : device_->register_bank();
+    const Place place =
+        bank == nullptr ? Place{} : bank->at(Table::holding, static_cast<std::uint16_t>(first_ + word));
     if (!place) {
       return number_of(first_ + word) + (has_values() ? " = " + std::to_string(value_at(word)) : "");
     }
@@ -69,7 +71,7 @@ class WordsText {
       if (!has_values()) return name;
       const auto first = static_cast<std::uint32_t>(value_at(word));
       const auto second = static_cast<std::uint32_t>(value_at(word + 1));
-      const std::uint32_t bits = device_->low_word_first() ? first | second << 16 : second | first << 16;
+      const std::uint32_t bits = bank->low_word_first() ? first | second << 16 : second | first << 16;
       return name + " = " + std::to_string(value_of(bits, row.type));
     }
     if (place.part != Place::Part::whole) {
@@ -103,12 +105,12 @@ bool is_read(std::uint8_t function) { return function == 0x03 || function == 0x0
 
 std::string hex_text(std::span<const std::uint8_t> bytes) {
   std::string text;
-  for (std::size_t i = 0; i < bytes.size() && i < kMostBytes; ++i) {
+  for (std::size_t i = 0; i < bytes.size() && i < kMostBytesShown; ++i) {
     std::array<char, 4> byte{};
     std::snprintf(byte.data(), byte.size(), i == 0 ? "%02X" : " %02X", bytes[i]);
     text += byte.data();
   }
-  if (bytes.size() > kMostBytes) text += " ... (" + std::to_string(bytes.size()) + " bytes)";
+  if (bytes.size() > kMostBytesShown) text += " ... (" + std::to_string(bytes.size()) + " bytes)";
   return text;
 }
 
@@ -131,14 +133,15 @@ std::string request_text(const World& world, std::size_t line, std::span<const s
   const Device* const device = device_at(world, line, request[0]);
   const std::string whom =
       device == nullptr || request[0] == 0 ? "station " + std::to_string(request[0]) + ": " : std::string();
-  const int first = word_at(request, 2);
+  const int first = frame_word(request, 2);
   const std::size_t size = request.size();
   if (is_read(request[1]) && size == 8) {
-    return whom + "read " + number_of(first) + " " + WordsText(device, first, word_at(request, 4), {}).text();
+    return whom + "read " + number_of(first) + " " +
+           WordsText(device, first, frame_word(request, 4), {}).text();
   }
   const bool is_single = request[1] == 0x06 && size == 8;
   const bool is_several =
-      request[1] == 0x10 && size == 9U + request[6] && request[6] == 2 * word_at(request, 4);
+      request[1] == 0x10 && size == 9U + request[6] && request[6] == 2 * frame_word(request, 4);
   if (!is_single && !is_several) return whom + hex_text(request);
   const auto values = is_single ? request.subspan(4, 2) : request.subspan(7, request[6]);
   return whom + "write " + number_of(first) + " " +
@@ -149,10 +152,11 @@ std::string reply_text(const World& world, std::size_t line, std::span<const std
                        std::span<const std::uint8_t> reply) {
   if (world.line(line).protocol == Protocol::text) return quoted_text(reply);
   if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
-  if ((reply[1] & kException) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
+  if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
   const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
-  if (is_read(reply[1]) && is_asked && reply[2] == 2 * word_at(request, 4) && reply.size() == 5U + reply[2]) {
-    return WordsText(device_at(world, line, reply[0]), word_at(request, 2), word_at(request, 4),
+  if (is_read(reply[1]) && is_asked && reply[2] == 2 * frame_word(request, 4) &&
+      reply.size() == 5U + reply[2]) {
+    return WordsText(device_at(world, line, reply[0]), frame_word(request, 2), frame_word(request, 4),
                      reply.subspan(3, reply[2]))
         .text();
   }

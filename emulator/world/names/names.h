@@ -38,7 +38,7 @@ struct RegisterName {
 };
 RegisterName find_register(const KnownDevices& devices, std::string_view name);
 
-/// A value of a device without registers (Device::value_named), "robot.T2PE"; nothing where the device has
+/// A value of a device without registers (NamedValues), "robot.T2PE"; nothing where the device has
 /// registers. Whether it has such a value only the device knows.
 struct ValueName {
   std::size_t device = 0;

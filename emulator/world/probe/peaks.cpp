@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/device/axes.h"
+
 namespace understudy::emulator::world {
 
 Peaks::Peaks(const WorldView& view) : view_(view) {
   for (std::size_t d = 0; d < view.device_count(); ++d) {
     const Device& device = view.device(d);
     auto& axes = peaks_.emplace_back(device.model().axes.size());
-    for (std::size_t a = 0; a < axes.size(); ++a) axes[a].speed_pps = device.speed_pps(static_cast<int>(a));
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      axes[a].speed_pps = device.axes()->speed_pps(static_cast<int>(a));
   }
 }
 
@@ -19,7 +22,7 @@ void Peaks::on_tick(Tick) {
     const Device& device = view_.device(d);
     for (std::size_t a = 0; a < peaks_[d].size(); ++a) {
       Peak& peak = peaks_[d][a];
-      const double speed = device.speed_pps(static_cast<int>(a));
+      const double speed = device.axes()->speed_pps(static_cast<int>(a));
       peak.greatest_pps = std::max(peak.greatest_pps, std::abs(speed));
       peak.greatest_pps2 = std::max(peak.greatest_pps2, std::abs(speed - peak.speed_pps) * kTicksPerSecond);
       peak.speed_pps = speed;

@@ -7,6 +7,8 @@
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/axes.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/world/names/names.h"
 
@@ -73,7 +75,7 @@ bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
   if (axis < 0 || rest.find('.') == std::string_view::npos) return false;
   std::vector<std::string> known;
   for (const auto& [word, what] : kOfAxis) {
-    if (what == What::pwm && !view_.device(probe.device).duty_percent(axis)) continue;
+    if (what == What::pwm && !view_.device(probe.device).axes()->duty_percent(axis)) continue;
     known.emplace_back(word);
     if (word != what_name) continue;
     probe.what = what;
@@ -127,7 +129,8 @@ Probes::Probe Probes::find(std::string_view name) const {
     probe.what = kWhatOfDevice[i];
     return probe;
   }
-  if (rest == "pulse_format" && !view_.device(probe.device).pulse_formats().empty()) {
+  const Axes* const axes = view_.device(probe.device).axes();
+  if (rest == "pulse_format" && axes != nullptr && !axes->pulse_formats().empty()) {
     probe.what = What::pulse_format;
     return probe;
   }
@@ -146,12 +149,14 @@ Probes::Probe Probes::find(std::string_view name) const {
     return probe;
   }
   const Device& there = view_.device(probe.device);
-  if (!there.value_named(rest)) find_of_axis(std::string(rest) + ".", probe);  // tells of an axis alone
+  const NamedValues* const values = there.named_values();
+  const bool has_value = values != nullptr && values->value_named(rest).has_value();
+  if (!has_value) find_of_axis(std::string(rest) + ".", probe);  // tells of an axis alone
   if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
-  if (device.model->protocol() != Protocol::text) {
+  if (there.register_bank() != nullptr) {
     throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
   }
-  if (!there.value_named(rest)) throw NameError(there.why_no_value(rest));
+  if (!has_value) throw NameError(why_no_value(there, rest));
   probe.what = What::named;
   probe.value_name = rest;
   return probe;
@@ -191,16 +196,17 @@ Number Probes::value(std::int32_t handle) const {
   }
   const Device& device = view_.device(probe.device);
   switch (probe.what) {
-    case What::reg: return device.powered() ? read_value(device, probe.reg) : 0;
+    case What::reg: return device.powered() ? read_value(*device.register_bank(), probe.reg) : 0;
     case What::named:
-      return device.powered() ? number_of(device.value_named(probe.value_name).value_or(0)) : Number(0);
+      return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
+                              : Number(0);
     case What::input: return device.input(probe.place);
     case What::output: return device.output(probe.place) ? 1 : 0;
     case What::power: return device.powered() ? 1 : 0;
-    case What::pulse_format: return static_cast<std::int64_t>(device.pulse_format_number());
+    case What::pulse_format: return static_cast<std::int64_t>(device.axes()->pulse_format_number());
     case What::pulses: return view_.sent_pulses(probe.device, probe.place);
-    case What::speed: return device.speed_pps(probe.place);
-    case What::pwm: return device.duty_percent(probe.place).value_or(0);
+    case What::speed: return device.axes()->speed_pps(probe.place);
+    case What::pwm: return device.axes()->duty_percent(probe.place).value_or(0);
     case What::greatest_speed:
     case What::greatest_acceleration: return peak_value(probe);
     case What::requests: return count(count_of_stations(probe.device, &StationCounters::requests));

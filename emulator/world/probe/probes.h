@@ -3,7 +3,7 @@
 //
 //   time                       simulated time, a duration
 //   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
-//   robot.T2PE                 values of devices without registers (Device::value_named)
+//   robot.T2PE                 values of devices without registers (NamedValues)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
 //                              of the same name comes first
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense

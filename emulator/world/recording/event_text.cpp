@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "base/text/one_line.h"
+#include "emulator/device/register_map/register_bank.h"
 
 namespace understudy::emulator::world {
 
@@ -12,9 +13,9 @@ namespace {
 using What = RecordedEvent::What;
 
 /// "Aaxis_Speed=200"
-std::string write_text(const PreparedWrite& write, const Device& device) {
-  const bool low_word_first = device.low_word_first();
-  const Place place = device.registers().at(write.table, write.first, device.firmware(), low_word_first);
+std::string write_text(const PreparedWrite& write, const RegisterBank& bank) {
+  const bool low_word_first = bank.low_word_first();
+  const Place place = bank.at(write.table, write.first);
   std::uint32_t bits = write.words[0];
   if (write.count == 2) {
     bits = low_word_first ? bits | std::uint32_t{write.words[1]} << 16 : bits << 16 | write.words[1];
@@ -51,7 +52,8 @@ std::string text_of(const RecordedEvent& event, const World& world) {
     case What::power: return "power " + device() + (event.value != 0 ? " on" : " off");
     case What::inject: return "inject " + to_text(world.known(), event.fault);
     case What::clear: return "clear " + std::to_string(event.value);
-    case What::write: return "set " + device() + "." + write_text(event.write, world.device(event.where));
+    case What::write:
+      return "set " + device() + "." + write_text(event.write, *world.device(event.where).register_bank());
     case What::assign: {
       std::array<char, 32> value{};
       std::snprintf(value.data(), value.size(), "%.9g", event.real);

@@ -15,7 +15,7 @@ class Recorder final : private OutsideListener {
   /// Begins now: `take` gets the header's line, then one for each event, each with its end. The world must
   /// outlive it.
   Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
-  ~Recorder();
+  ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 

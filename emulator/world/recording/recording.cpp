@@ -14,10 +14,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 using What = RecordedEvent::What;
 
-constexpr const char* kKind = "recording";
-constexpr int kFormat = 1;
+constexpr const char* kRecordingKind = "recording";
+constexpr int kRecordingFormat = 1;
 
-constexpr std::array<std::pair<What, std::string_view>, 15> kWords{{
+constexpr std::array<std::pair<What, std::string_view>, 15> kEventWords{{
     {What::opened, "open"},
     {What::closed, "close"},
     {What::settings, "settings"},
@@ -36,7 +36,7 @@ constexpr std::array<std::pair<What, std::string_view>, 15> kWords{{
 }};
 
 constexpr std::string_view word_of(What what) {
-  for (const auto& [known, word] : kWords) {
+  for (const auto& [known, word] : kEventWords) {
     if (known == what) return word;
   }
   return {};
@@ -154,8 +154,8 @@ PreparedWrite write_at(const Json& object) {
 }  // namespace
 
 std::string to_line(const RecordingHeader& header) {
-  Json line{{"understudy", kFormat},
-            {"kind", kKind},
+  Json line{{"understudy", kRecordingFormat},
+            {"kind", kRecordingKind},
             {"version", header.version},
             {"strict_framing", header.options.strict_framing},
             {"enforce_settings", header.options.enforce_settings},
@@ -168,10 +168,10 @@ std::string to_line(const RecordingHeader& header) {
 
 RecordingHeader parse_header(std::string_view text) {
   const Json line = parse_line(text);
-  if (!line.contains("understudy") || !line.contains("kind") || line["kind"] != kKind) {
+  if (!line.contains("understudy") || !line.contains("kind") || line["kind"] != kRecordingKind) {
     throw RecordingError("kind: is missing or another; expected a recording");
   }
-  number_at(line, "understudy", kFormat, kFormat);
+  number_at(line, "understudy", kRecordingFormat, kRecordingFormat);
   RecordingHeader header;
   header.version = text_at(line, "version");
   header.options.strict_framing = truth_at(line, "strict_framing");
@@ -277,7 +277,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
   RecordedEvent event;
   const std::string word = text_at(line, "do");
   bool is_known = false;
-  for (const auto& [what, known] : kWords) {
+  for (const auto& [what, known] : kEventWords) {
     if (known != word) continue;
     event.what = what;
     is_known = true;

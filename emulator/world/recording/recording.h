@@ -64,8 +64,8 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices);
 struct RecordingError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-RecordingHeader parse_header(std::string_view line);
-RecordedEvent parse_event(std::string_view line, const KnownDevices& devices, std::size_t line_count);
+RecordingHeader parse_header(std::string_view text);
+RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
 /// Does to the world what the event tells (nothing for `said` and `end`), at the world's present time.
 void apply(World& world, const RecordedEvent& event);

@@ -60,7 +60,7 @@ class Speeches {
   std::deque<Speech> waiting_;
 };
 
-std::string hex_of(const std::vector<std::uint8_t>& bytes) {
+std::string hex_words_of(const std::vector<std::uint8_t>& bytes) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;
   for (const std::uint8_t byte : bytes) {
@@ -73,7 +73,7 @@ std::string hex_of(const std::vector<std::uint8_t>& bytes) {
 
 std::string text_of(const World& world, std::size_t line, SimTime at,
                     const std::vector<std::uint8_t>& bytes) {
-  return hex_of(bytes) + " on " + world.line(line).line.name() + " at " + format_duration(at);
+  return hex_words_of(bytes) + " on " + world.line(line).line.name() + " at " + format_duration(at);
 }
 
 /// Empty if it is as recorded; else which byte differs first.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/world/stations/server.h"
 #include "emulator/world/stations/station_fields.h"
 #include "pty/rtu_crc.h"
@@ -60,7 +61,7 @@ void RtuStation::take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::T
 
 void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out) {
   const std::uint8_t address = frame.bytes[0];
-  const Addressing addressing = device_.addressing(address);
+  const Addressing addressing = device_.modbus()->addressing(address);
   if (addressing == Addressing::ignore) return;
   ++counters_.requests;
   const HeardFrame request = heard(std::span(frame.bytes).first(frame.size), frame.last_character, now);
@@ -72,7 +73,7 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
   if (addressing == Addressing::obey_silently || !treatment.is_answered) return;
 
   const bool refuses = (reply.pdu[0] & 0x80) != 0;
-  if (refuses && treatment.exception == 0 && !device_.answers_refusals()) return;
+  if (refuses && treatment.exception == 0 && !device_.modbus()->answers_refusals()) return;
 
   ++counters_.replies;
   if (refuses) ++counters_.exceptions;
@@ -99,7 +100,7 @@ HeardFrame RtuStation::heard(std::span<const std::uint8_t> bytes, std::uint64_t 
   return {.device = device_number_,
           .bytes = bytes,
           .last_character = last_character,
-          .is_for_device = device_.addressing(bytes[0]) != Addressing::ignore,
+          .is_for_device = device_.modbus()->addressing(bytes[0]) != Addressing::ignore,
           .now = now};
 }
 

@@ -41,7 +41,7 @@ ModbusReply echo(std::span<const std::uint8_t> pdu) {
   return reply;
 }
 
-ModbusReply read_registers(const Device& device, std::span<const std::uint8_t> pdu) {
+ModbusReply read_registers(const RegisterBank& bank, std::span<const std::uint8_t> pdu) {
   const std::uint8_t function = pdu[0];
   if (pdu.size() != 5) return exception(function, ModbusException::illegal_data_value);
   const std::size_t quantity = word_at(pdu, 3);
@@ -49,8 +49,7 @@ ModbusReply read_registers(const Device& device, std::span<const std::uint8_t> p
     return exception(function, ModbusException::illegal_data_value);
   std::array<std::uint16_t, kMaxReadWords> words;
   // The input registers of models that do not tell them apart are the holding registers.
-  const Refusal refusal =
-      read_words(device, Table::holding, word_at(pdu, 1), std::span(words).first(quantity));
+  const Refusal refusal = read_words(bank, Table::holding, word_at(pdu, 1), std::span(words).first(quantity));
   if (refusal != Refusal::none) return exception(function, exception_for(refusal));
   ModbusReply reply;
   reply.pdu[reply.size++] = function;
@@ -59,14 +58,14 @@ ModbusReply read_registers(const Device& device, std::span<const std::uint8_t> p
   return reply;
 }
 
-ModbusReply write_register(Device& device, std::span<const std::uint8_t> pdu) {
+ModbusReply write_register(RegisterBank& bank, std::span<const std::uint8_t> pdu) {
   if (pdu.size() != 5) return exception(pdu[0], ModbusException::illegal_data_value);
   const std::array<std::uint16_t, 1> word{word_at(pdu, 3)};
-  const Refusal refusal = write_words(device, Table::holding, word_at(pdu, 1), word);
+  const Refusal refusal = write_words(bank, Table::holding, word_at(pdu, 1), word);
   return refusal == Refusal::none ? echo(pdu) : exception(pdu[0], exception_for(refusal));
 }
 
-ModbusReply write_registers(Device& device, std::span<const std::uint8_t> pdu) {
+ModbusReply write_registers(RegisterBank& bank, std::span<const std::uint8_t> pdu) {
   if (pdu.size() < 6) return exception(pdu[0], ModbusException::illegal_data_value);
   const std::size_t quantity = word_at(pdu, 3);
   if (quantity < 1 || quantity > kMaxWriteWords || pdu[5] != 2 * quantity || pdu.size() != 6 + 2 * quantity) {
@@ -75,7 +74,7 @@ ModbusReply write_registers(Device& device, std::span<const std::uint8_t> pdu) {
   std::array<std::uint16_t, kMaxWriteWords> words;
   for (std::size_t i = 0; i < quantity; ++i) words[i] = word_at(pdu, 6 + 2 * i);
   const Refusal refusal =
-      write_words(device, Table::holding, word_at(pdu, 1), std::span(words).first(quantity));
+      write_words(bank, Table::holding, word_at(pdu, 1), std::span(words).first(quantity));
   return refusal == Refusal::none ? echo(pdu) : exception(pdu[0], exception_for(refusal));
 }
 
@@ -87,11 +86,12 @@ ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
   if (std::find(known.begin(), known.end(), function) == known.end()) {
     return exception(function, ModbusException::illegal_function);
   }
+  RegisterBank& bank = *device.register_bank();
   switch (function) {
     case 0x03:
-    case 0x04: return read_registers(device, pdu);
-    case 0x06: return write_register(device, pdu);
-    case 0x10: return write_registers(device, pdu);
+    case 0x04: return read_registers(bank, pdu);
+    case 0x06: return write_register(bank, pdu);
+    case 0x10: return write_registers(bank, pdu);
     default: return exception(function, ModbusException::illegal_function);
   }
 }

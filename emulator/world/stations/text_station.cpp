@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::world {
 
-using What = pty::HeardText::What;
+using Heard = pty::HeardText::What;
 
 namespace {
 
@@ -98,7 +98,7 @@ void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
 }
 
 void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now) {
-  if (faults_ == nullptr || heard.what != What::line) return serve(heard, now);
+  if (faults_ == nullptr || heard.what != Heard::line) return serve(heard, now);
   const std::vector<std::uint8_t> bytes = bytes_of(heard.text + '\r');
   const auto stages = faults_->on_request(frame_of(bytes, heard.last_character, now));
   if (stages.empty()) return serve(heard, now);
@@ -115,17 +115,17 @@ void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now) {
 void TextStation::serve(const pty::HeardText& heard, pty::SimTime now) {
   FrameFaults::Treatment treatment;
   switch (heard.what) {
-    case What::line: {
+    case Heard::line: {
       ++counters_.requests;
       const std::vector<std::uint8_t> bytes = bytes_of(heard.text);
       if (faults_ != nullptr) treatment = faults_->on_serving(frame_of(bytes, heard.last_character, now));
       speaker_.hear_line(heard.text);
       break;
     }
-    case What::overlong: speaker_.hear_overlong(); break;
-    case What::escape: speaker_.hear_escape(); break;
-    case What::hold: is_held_ = true; return;
-    case What::go_on: is_held_ = false; return;
+    case Heard::overlong: speaker_.hear_overlong(); break;
+    case Heard::escape: speaker_.hear_escape(); break;
+    case Heard::hold: is_held_ = true; return;
+    case Heard::go_on: is_held_ = false; return;
   }
   if (!speaker_.has_speech() || outgoing_size() >= kMostOutgoing) return;
   std::string text = speaker_.take_speech();

@@ -3,20 +3,22 @@
 #include <algorithm>
 #include <array>
 
+#include "emulator/device/axes.h"
+
 namespace understudy::emulator::world {
 
 namespace {
 
-using Kind = TraceSignal::Kind;
+using SignalKind = TraceSignal::Kind;
 
 void add_axis(const std::string& axis, bool has_duty, std::vector<TraceSignal>& signals) {
   for (const auto& [word, kind] :
-       {std::pair{"pulses", Kind::whole}, std::pair{"speed", Kind::real}, std::pair{"position", Kind::whole},
-        std::pair{"home", Kind::bit}, std::pair{"lower_limit", Kind::bit},
-        std::pair{"upper_limit", Kind::bit}}) {
+       {std::pair{"pulses", SignalKind::whole}, std::pair{"speed", SignalKind::real},
+        std::pair{"position", SignalKind::whole}, std::pair{"home", SignalKind::bit},
+        std::pair{"lower_limit", SignalKind::bit}, std::pair{"upper_limit", SignalKind::bit}}) {
     signals.push_back({.name = axis + "." + word, .kind = kind});
   }
-  if (has_duty) signals.push_back({.name = axis + ".pwm", .kind = Kind::whole});
+  if (has_duty) signals.push_back({.name = axis + ".pwm", .kind = SignalKind::whole});
 }
 
 }  // namespace
@@ -26,25 +28,26 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     const KnownDevice& device = world.known()[d];
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
-      if (!world.device(d).has_axis(static_cast<int>(a))) continue;
+      if (!world.device(d).axes()->has_axis(static_cast<int>(a))) continue;
       add_axis(device.name + "." + std::string(device.model->axes[a].name),
-               world.device(d).duty_percent(static_cast<int>(a)).has_value(), signals);
+               world.device(d).axes()->duty_percent(static_cast<int>(a)).has_value(), signals);
     }
     for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
       const TerminalRow& row = device.model->terminals[t];
       if (row.kind == TerminalRow::Kind::dip_switch) continue;
       if (!world.device(d).has_terminal(static_cast<int>(t))) continue;
       const bool is_bit = !is_analog(row.kind);
-      signals.push_back(
-          {.name = device.name + "." + std::string(row.name), .kind = is_bit ? Kind::bit : Kind::whole});
+      signals.push_back({.name = device.name + "." + std::string(row.name),
+                         .kind = is_bit ? SignalKind::bit : SignalKind::whole});
     }
-    const Kind kind = device.model->protocol() == Protocol::text ? Kind::real : Kind::whole;
+    const SignalKind kind = device.model->protocol() == Protocol::text ? SignalKind::real : SignalKind::whole;
     for (const std::string_view name : device.model->state_registers) {
       signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
     }
-    if (!world.device(d).pulse_formats().empty())
-      signals.push_back({.name = device.name + ".pulse_format", .kind = Kind::whole});
-    signals.push_back({.name = device.name + ".power", .kind = Kind::bit});
+    const Axes* const axes = world.device(d).axes();
+    if (axes != nullptr && !axes->pulse_formats().empty())
+      signals.push_back({.name = device.name + ".pulse_format", .kind = SignalKind::whole});
+    signals.push_back({.name = device.name + ".power", .kind = SignalKind::bit});
   }
   const Probes probes(world);
   for (const std::string& name : also) {
@@ -53,12 +56,13 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
                                       [&](const TraceSignal& signal) { return signal.name == name; });
     if (is_there) continue;
     signals.push_back(
-        {.name = name, .kind = probes.value(number.handle).is_whole() ? Kind::whole : Kind::real});
+        {.name = name,
+         .kind = probes.value(number.handle).is_whole() ? SignalKind::whole : SignalKind::real});
   }
   return signals;
 }
 
-Trace::Trace(World& world, std::vector<TraceSignal> signals, std::unique_ptr<TraceFormat> format)
+Trace::Trace(World& world, const std::vector<TraceSignal>& signals, std::unique_ptr<TraceFormat> format)
     : world_(world),
       probes_(world),
       values_(signals.size()),

@@ -44,8 +44,8 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
 /// Watches the world for as long as it lives.
 class Trace final : private TickWatcher {
  public:
-  Trace(World& world, std::vector<TraceSignal> signals, std::unique_ptr<TraceFormat> format);
-  ~Trace();
+  Trace(World& world, const std::vector<TraceSignal>& signals, std::unique_ptr<TraceFormat> format);
+  ~Trace() override;
   Trace(const Trace&) = delete;
   Trace& operator=(const Trace&) = delete;
 

@@ -43,10 +43,10 @@ struct Step {
 using Action = Then (*)(Step&);
 
 struct ActionRow {
-  std::uint8_t opcode;
-  Action action;
+  std::uint8_t key;  // the opcode
+  Action handler;
 
-  consteval ActionRow(std::string_view mnemonic, Action does) : opcode(opcode_of(mnemonic)), action(does) {}
+  consteval ActionRow(std::string_view mnemonic, Action does) : key(opcode_of(mnemonic)), handler(does) {}
 };
 
 constexpr Then jump_if(bool condition) { return condition ? Then::flag : Then::next_line; }

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/complete_table.h"
 #include "interpreter/simple2/execution/flow.h"
 #include "interpreter/simple2/execution/motion.h"
 #include "interpreter/simple2/execution/numbers.h"
@@ -10,29 +13,14 @@
 
 namespace understudy::interpreter::simple2 {
 
-using ActionTable = std::array<Action, 256>;
+inline constexpr auto kOpcodes = [] {
+  std::array<std::uint8_t, kInstructions.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = kInstructions[i].opcode;
+  return all;
+}();
 
-consteval ActionTable action_table() {
-  ActionTable table{};
-  std::array<bool, 256> is_filled{};  // g++'s sanitizers cannot compare with null here (GCC bug 71962)
-  const auto add = [&](const auto& rows) {
-    for (const ActionRow& row : rows) {
-      if (is_filled[row.opcode]) throw "an instruction does two things";
-      is_filled[row.opcode] = true;
-      table[row.opcode] = row.action;
-    }
-  };
-  add(kFlowActions);
-  add(kOutputActions);
-  add(kNumberActions);
-  add(kMotionActions);
-  for (const Instruction& instruction : kInstructions) {
-    if (!is_filled[instruction.opcode]) throw "an instruction does nothing";
-  }
-  return table;
-}
-
-/// Nothing where the manual lists no instruction.
-inline constexpr ActionTable kActions = action_table();
+/// Null where the manual lists no instruction.
+inline constexpr CompleteTable<std::uint8_t, Action> kActions(kOpcodes, kFlowActions, kOutputActions,
+                                                              kNumberActions, kMotionActions);
 
 }  // namespace understudy::interpreter::simple2

@@ -25,7 +25,7 @@ std::string error_of(const DeviceSettings& settings) {
 }
 
 Value value_of(const Device& device, std::string_view name) {
-  return read_value(device, device.registers().find(name, device.firmware()).value());
+  return read_value(*device.register_bank(), device.register_bank()->find(name).value());
 }
 
 TEST(Models, HaveNamesOfTheirOwn) {

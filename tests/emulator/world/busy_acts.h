@@ -74,7 +74,7 @@ class BusyActs {
     for (const std::uint16_t word : {0x03, 1, 0, 0}) words.push_back(word);
     return [device, words](World& world) {
       if (!world.device(device).powered()) return;
-      write_words(world.device(device), Table::holding, 0x4000, words);
+      write_words(*world.device(device).register_bank(), Table::holding, 0x4000, words);
       set(world, world.device(device).name() + ".PROG_MAIN_RunTime_START", 0);
     };
   }

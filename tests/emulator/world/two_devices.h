@@ -63,12 +63,12 @@ inline Bytes read_request(int station, int address, int count) {
 
 inline Value get(const World& world, std::string_view name) {
   const RegisterName found = find_register(world.known(), name);
-  return read_value(world.device(found.device), found.place);
+  return read_value(*world.device(found.device).register_bank(), found.place);
 }
 
 inline Refusal set(World& world, std::string_view name, Value value) {
   const RegisterName found = find_register(world.known(), name);
-  return write_value(world.device(found.device), found.place, value);
+  return write_value(*world.device(found.device).register_bank(), found.place, value);
 }
 
 inline void set_input(World& world, std::string_view name, bool on) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/model.h"
 #include "emulator/models/simple2_r3/model.h"
 
@@ -260,30 +261,31 @@ std::string device_complaint(NvImage image) {
 }
 
 TEST(NvImageOfADevice, FromTheFactoryIsEmpty) {
-  EXPECT_EQ(device()->nv_image(), (NvImage{.model = "simple2-r3", .firmware = "1.52", .registers = {}}));
-  EXPECT_EQ(device({}, 139)->nv_image().firmware, "1.39");
+  EXPECT_EQ(device()->memory()->nv_image(),
+            (NvImage{.model = "simple2-r3", .firmware = "1.52", .registers = {}}));
+  EXPECT_EQ(device({}, 139)->memory()->nv_image().firmware, "1.39");
 }
 
 TEST(NvImageOfADevice, BringsEveryRegisterBack) {
-  EXPECT_EQ(device(kExample)->nv_image(), kExample) << "also in the order of the table";
+  EXPECT_EQ(device(kExample)->memory()->nv_image(), kExample) << "also in the order of the table";
   NvImage shuffled = kExample;
   std::mt19937_64 random(5);
   std::shuffle(shuffled.registers.begin(), shuffled.registers.end(), random);
-  EXPECT_EQ(device(shuffled)->nv_image(), kExample);
+  EXPECT_EQ(device(shuffled)->memory()->nv_image(), kExample);
 }
 
 TEST(NvImageOfADevice, LeavesOutWhatIsAsFromTheFactory) {
   NvImage image = kExample;
   image.registers.emplace_back("Aaxis_Resoultion", 3200);
-  EXPECT_EQ(device(image)->nv_image(), kExample);
+  EXPECT_EQ(device(image)->memory()->nv_image(), kExample);
 }
 
 TEST(NvImageOfADevice, OutlivesAFirmwareUpdateAndItsUndoing) {
   const NvImage locked{.model = "simple2-r3", .firmware = "1.52", .registers = {{"NEW_PWD", 77}}};
-  NvImage old = device(locked, 139)->nv_image();
+  NvImage old = device(locked, 139)->memory()->nv_image();
   EXPECT_EQ(old.registers, locked.registers);
   EXPECT_EQ(old.firmware, "1.39");
-  EXPECT_EQ(device(old)->nv_image(), locked);
+  EXPECT_EQ(device(old)->memory()->nv_image(), locked);
 }
 
 TEST(NvImageOfADevice, IsRefusedWhereItSuitsAnotherOne) {

@@ -21,9 +21,9 @@ std::vector<std::uint32_t> image_of(const Toy& toy) {
 
 TEST(WriteWords, StoresAllThenAppliesEffectsInAscendingOrder) {
   const RegisterRow rows[] = {
-      reg(0x0012, "Late", Type::u16, Access::read_write).does(note, 3),
-      reg(0x0010, "Early", Type::u16, Access::read_write).does(note, 1),
-      reg(0x0011, "Middle", Type::u16, Access::read_write).does(note, 2),
+      reg(0x0012, "Late", Type::u16, Access::read_write).does<note>(3),
+      reg(0x0010, "Early", Type::u16, Access::read_write).does<note>(1),
+      reg(0x0011, "Middle", Type::u16, Access::read_write).does<note>(2),
   };
   Toy toy(rows);
   EXPECT_EQ(write(toy, 0x0010, {10, 20, 30}), Refusal::none);

@@ -23,22 +23,24 @@ inline constexpr std::uint8_t kToyFunctions[] = {0x03, 0x04, 0x06, 0x10};
 inline constexpr int kToyBauds[] = {9600};
 inline constexpr Firmware kToyFirmwares[] = {100, 200};
 
-class ToyDevice final : public Device {
+class ToyDevice final : public Device, public RegisterBankOf<ToyDevice> {
  public:
-  ToyDevice(const Model& model, DeviceSettings settings) : Device(model, std::move(settings)) {
+  ToyDevice(const Model& model, const DeviceSettings& settings)
+      : Device(model, settings), RegisterBankOf(*this, model.registers, settings.firmware) {
     for (const RegisterRow& row : model.registers.rows()) {
       for (int i = 0; i < row.count; ++i) image_.push_back(static_cast<std::uint32_t>(row.factory));
     }
   }
+  RegisterBank* register_bank() override { return this; }
+  const RegisterBank* register_bank() const override { return this; }
   std::span<std::uint32_t> image() override { return image_; }
   std::span<const std::uint32_t> image() const override { return image_; }
   bool low_word_first() const override { return is_low_word_first; }
   void register_written(const RegisterRow&, std::size_t) override {}
   void registers_written() override { events.push_back("written"); }
-  std::span<const std::uint32_t> kept_image() const override { return image_; }
-  std::uint64_t kept_revision() const override { return 0; }
-  void settle_memory() override {}
-  Addressing addressing(std::uint8_t) const override { return Addressing::obey_and_reply; }
+  void mention_unmodelled(const RegisterRow& row) const override {
+    Device::mention_unmodelled(row.name, row.unmodelled);
+  }
   pty::LineSettings line_settings() const override { return {}; }
   void sample_inputs(Tick) override {}
   void run_interpreters(Tick) override {}
@@ -47,9 +49,6 @@ class ToyDevice final : public Device {
   Tick next_active_tick(Tick) const override { return kNever; }
   bool same_state(const Device&) const override { return false; }
   bool output(int) const override { return false; }
-  std::int64_t pulses_this_tick(int) const override { return 0; }
-  double speed_pps(int) const override { return 0; }
-  void set_encoder(int, std::int64_t) override {}
 
   bool is_low_word_first = true;
   std::vector<std::string> events;  // effects in the order in which they came
@@ -57,7 +56,6 @@ class ToyDevice final : public Device {
  protected:
   void power_up() override {}
   void power_down() override {}
-  void put_kept(std::size_t slot, std::uint32_t bits) override { image_[slot] = bits; }
   void write_own_state(StateWriter&) const override {}
   std::function<void()> read_own_state(StateReader&) override {
     return [] {};
@@ -69,8 +67,7 @@ class ToyDevice final : public Device {
 
 /// An effect: notes argument, index, value, the present content of the device's first register, and
 /// whether only a low half came.
-inline void note(Device& device, Cell cell, Value value) {
-  auto& toy = static_cast<ToyDevice&>(device);
+inline void note(ToyDevice& toy, Cell cell, Value value) {
   toy.events.push_back(std::to_string(cell.argument) + "[" + std::to_string(cell.index) +
                        "]=" + std::to_string(value) + " first=" + std::to_string(toy.image()[0]) +
                        (cell.high_half ? "" : " low"));
@@ -109,8 +106,10 @@ struct Toy {
     if (!found) throw std::out_of_range(std::string(name));
     return *found;
   }
-  Value value(std::string_view name) const { return read_value(device, named(name)); }
-  Refusal write(std::string_view name, Value value) { return write_value(device, named(name), value); }
+  Value value(std::string_view name) const { return read_value(*device.register_bank(), named(name)); }
+  Refusal write(std::string_view name, Value value) {
+    return write_value(*device.register_bank(), named(name), value);
+  }
 
   RegisterMap map;
   Model model;
@@ -123,12 +122,12 @@ inline constexpr RegisterRow kToyRows[] = {
     reg(0x0011, "Angle", Type::s16, Access::read_write).range(-1000, 1000),
     reg(0x0012, "Target", Type::s32, Access::read_write).range(-100000, 100000).also("Goal"),
     reg(0x0014, "Count", Type::u32, Access::read_write),
-    reg(0x0016, "Start", Type::u16, Access::write).range(0, 1).triggers(note, 7),
+    reg(0x0016, "Start", Type::u16, Access::write).range(0, 1).triggers<note>(7),
     reg(0x0017, "State", Type::u16, Access::read).from_factory(0x8421),
     reg(0x0019, "Trim", Type::s16, Access::read_write),
     reg(0x001A, "Bits", Type::u16, Access::read_write).holding_bits(0x00FF),
-    reg(0x0020, "Cell{}", Type::u16, Access::read_write).times(3, 4, 1).does(note, 1),
-    reg(0x0021, "Far{}", Type::s32, Access::read_write).times(3, 4, 1).halves("_RegL", "_RegH").does(note, 2),
+    reg(0x0020, "Cell{}", Type::u16, Access::read_write).times(3, 4, 1).does<note>(1),
+    reg(0x0021, "Far{}", Type::s32, Access::read_write).times(3, 4, 1).halves("_RegL", "_RegH").does<note>(2),
     reg(0x0040, "New", Type::u16, Access::read_write).since_firmware(200),
 };
 

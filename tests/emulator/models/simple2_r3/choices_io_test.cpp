@@ -1,4 +1,5 @@
 // Choices about registers as they read, inputs and outputs.
+#include "emulator/device/axes.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -232,7 +233,7 @@ TEST(ChoicesInputs, EncoderSpeedSaturatesOrWraps) {
       feeder.set("ENCA_Resoultion", 1);
       feeder.set("Axis_EncSync_NUM", 0);  // what is fed past a machine wakes no device, but sync mode looks
       feeder.set("Aaxis_SyncMode", 1);
-      feeder.device().set_encoder(0, sign * 60);
+      feeder.device().axes()->set_encoder(0, sign * 60);
       feeder.run(1);
       EXPECT_EQ(feeder.get("ENCA_RPM"), sign > 0 ? rpm : rpm == 32767 ? -32768 : 29536) << option;
     }

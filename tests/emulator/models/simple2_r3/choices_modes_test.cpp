@@ -1,4 +1,5 @@
 // Choices about homing, velocity, PWM and sync mode.
+#include "emulator/device/axes.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
@@ -238,7 +239,7 @@ TEST(ChoicesModes, SyncRatioIsPulsesACountOrRevolutions) {
     feeder.set("Axis_EncSync_DEN", 2);
     feeder.set("Aaxis_SyncMode", 1);
     for (int counts = 1; counts <= 400; ++counts) {
-      feeder.device().set_encoder(0, counts);
+      feeder.device().axes()->set_encoder(0, counts);
       feeder.run(1);
     }
     feeder.run(20);
@@ -255,7 +256,7 @@ TEST(ChoicesModes, SyncSlopeIsInRpmOrInPulsesEachPeriod) {
     feeder.set("Axis_SyncSlope", 3);
     feeder.set("Aaxis_SyncMode", 1);
     for (int tick = 1; tick <= 15; ++tick) {
-      feeder.device().set_encoder(0, 1000 * tick);
+      feeder.device().axes()->set_encoder(0, 1000 * tick);
       feeder.run(1);
     }
     EXPECT_EQ(feeder.coordinate('A'), pulses) << option;
@@ -270,7 +271,7 @@ TEST(ChoicesModes, SyncForgetsLostPulsesOrCatchesUp) {
     feeder.set("Aaxis_Resoultion", 60'000);
     feeder.set("Axis_SyncRPM", 1);
     feeder.set("Aaxis_SyncMode", 1);
-    feeder.device().set_encoder(0, 20);
+    feeder.device().axes()->set_encoder(0, 20);
     feeder.run(5);
     EXPECT_EQ(feeder.coordinate('A'), 5) << option;
     feeder.run(50);
@@ -288,7 +289,7 @@ TEST(ChoicesModes, SyncPeriodsBeginWithTheCommandOrAtEveryFifthTick) {
     ReadySimple2 feeder(with("sync_period", option));
     feeder.run_to(12);
     feeder.set("Aaxis_SyncMode", 1);
-    feeder.device().set_encoder(0, 10);
+    feeder.device().axes()->set_encoder(0, 10);
     for (const auto& [tick, pulses] : {std::pair{13, expected.at_13}, std::pair{15, expected.at_15},
                                        std::pair{17, expected.at_17}, std::pair{19, expected.at_19}}) {
       feeder.run_to(tick);
@@ -305,7 +306,7 @@ TEST(ChoicesModes, EncoderSpeedIsOver100Or10Milliseconds) {
     feeder.set("Axis_EncSync_NUM", 0);  // what is fed past a machine wakes no device, but sync mode looks
     feeder.set("Aaxis_SyncMode", 1);
     for (int tick = 1; tick <= 100; ++tick) {
-      feeder.device().set_encoder(0, 16 * tick);
+      feeder.device().axes()->set_encoder(0, 16 * tick);
       feeder.run(1);
       if (tick == 10) {
         EXPECT_EQ(feeder.get("ENCA_RPM"), rpm) << option;

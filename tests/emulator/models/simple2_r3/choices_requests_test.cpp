@@ -1,17 +1,18 @@
 // Choices about what a request may do, and what it gets for an answer.
+#include "emulator/device/axes.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 namespace {
 
 Refusal try_write(OneSimple2& feeder, std::uint16_t first, const std::vector<std::uint16_t>& words) {
-  return write_words(feeder.device(), Table::holding, first, words);
+  return write_words(*feeder.device().register_bank(), Table::holding, first, words);
 }
 
 /// The words from `first` on; none if the request is refused.
 std::vector<std::uint16_t> read(OneSimple2& feeder, std::uint16_t first, std::size_t count) {
   std::vector<std::uint16_t> words(count, 0xEEEE);
-  const Refusal refusal = read_words(feeder.device(), Table::holding, first, words);
+  const Refusal refusal = read_words(*feeder.device().register_bank(), Table::holding, first, words);
   return refusal == Refusal::none ? words : std::vector<std::uint16_t>{};
 }
 
@@ -50,7 +51,7 @@ TEST(ChoicesRequests, RegistersTakeEffectOnceAllAreStoredOrEachInItsTurn) {
     ReadySimple2 feeder(with("request_effects", option));
     feeder.set("Aaxis_Resoultion", 60'000);
     feeder.write(0xF025, {1, 0, 0, 0, 1});  // Aaxis_SyncMode, Baxis_SyncMode, both slopes, SyncRPM of A
-    feeder.device().set_encoder(0, 20);
+    feeder.device().axes()->set_encoder(0, 20);
     feeder.run(50);
     EXPECT_EQ(feeder.coordinate('A'), pulses) << option;
     // A whole move works either way: the trigger comes last.

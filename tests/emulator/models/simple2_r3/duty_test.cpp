@@ -1,6 +1,7 @@
 // What PWM and the pulses' form are to whoever looks: conditions, traces, messages.
 #include <algorithm>
 
+#include "emulator/device/axes.h"
 #include "emulator/world/probe/probes.h"
 #include "emulator/world/trace/trace.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
@@ -59,7 +60,7 @@ TEST(PulseFormat, IsThatOfTheSwitchAtPowerUp) {
   EXPECT_EQ(value_of(probes, "feeder.pulse_format"), world::Number(0));
   switch_off_and_on(feeder);
   EXPECT_EQ(value_of(probes, "feeder.pulse_format"), world::Number(1));
-  EXPECT_EQ(feeder.device().pulse_format(), "PLS/DIR");
+  EXPECT_EQ(feeder.device().axes()->pulse_format(), "PLS/DIR");
 }
 
 TEST(Duty, IsAColumnOfEveryTrace) {

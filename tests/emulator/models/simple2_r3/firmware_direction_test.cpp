@@ -5,6 +5,7 @@
 // t - 5 up to P, P - (P + 10 - t)^2 / 20 up to its end after P + 10.
 #include <cmath>
 
+#include "emulator/device/axes.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -145,7 +146,7 @@ TEST(FirmwareDirection, VelocityAndSyncModeAreCountedAlike) {
       if (sync) {
         machine.set(machine.name(p.axis, "SyncMode"), 1);
         for (int count = 1; count <= 100; ++count) {
-          machine.device().set_encoder(p.axis == 'A' ? 0 : 1, count);
+          machine.device().axes()->set_encoder(p.axis == 'A' ? 0 : 1, count);
           machine.run(1);
         }
         machine.run(10);  // what a period gathers comes out in the next one

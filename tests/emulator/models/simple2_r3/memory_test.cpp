@@ -1,4 +1,5 @@
 // Factory reset, the program's memory, and firmware versions (manual: 程式控制, 附錄 C).
+#include "emulator/device/register_map/register_bank.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -109,7 +110,8 @@ TEST(ProgramMemory, KeepsTheLowByteOfEachCell) {
     for (const std::uint16_t address : {0x4000, 0x4001, 0x4002, 0x4003, 0x4204, 0x43FC, 0x43FF}) {
       feeder.write(address, {written});
       std::uint16_t read = 0;
-      EXPECT_EQ(read_words(feeder.device(), Table::holding, address, std::span(&read, 1)), Refusal::none);
+      EXPECT_EQ(read_words(*feeder.device().register_bank(), Table::holding, address, std::span(&read, 1)),
+                Refusal::none);
       EXPECT_EQ(read, kept) << address;
     }
   }
@@ -142,7 +144,8 @@ TEST(ProgramMemory, EraseFillsEveryLineWithZeroAndNothingElse) {
   feeder.set("PROG_MAIN_Erase_ALL", 1);
   for (std::uint16_t address = 0x4000; address <= 0x43FF; ++address) {
     std::uint16_t word = 1;
-    EXPECT_EQ(read_words(feeder.device(), Table::holding, address, std::span(&word, 1)), Refusal::none);
+    EXPECT_EQ(read_words(*feeder.device().register_bank(), Table::holding, address, std::span(&word, 1)),
+              Refusal::none);
     ASSERT_EQ(word, 0) << address;
   }
   for (const Written& r : kPersistent) {
@@ -161,9 +164,10 @@ TEST(Firmware, ShowsItsVersionAndHasThePasswordFrom151On) {
     }
     for (const std::uint16_t address : {0xFF07, 0xFF09}) {
       const std::vector<std::uint16_t> words{0};
-      EXPECT_EQ(write_words(feeder.device(), Table::holding, address, words), expected) << firmware;
+      EXPECT_EQ(write_words(*feeder.device().register_bank(), Table::holding, address, words), expected)
+          << firmware;
     }
-    EXPECT_EQ(feeder.device().registers().find("PWD_Input", firmware).has_value(), firmware >= 151);
+    EXPECT_EQ(feeder.device().register_bank()->find("PWD_Input").has_value(), firmware >= 151);
     EXPECT_EQ(feeder.try_read(0xFF05), Refusal::none);
     EXPECT_EQ(feeder.try_read(0xFF0A), Refusal::no_register);
   }
@@ -172,7 +176,8 @@ TEST(Firmware, ShowsItsVersionAndHasThePasswordFrom151On) {
 TEST(Firmware, ARequestReachingThePasswordOf150IsRefusedWhole) {
   OneSimple2 feeder({.firmware = 150});
   const std::vector<std::uint16_t> words{1, 2, 3, 4, 0, 0};
-  EXPECT_EQ(write_words(feeder.device(), Table::holding, 0xFF02, words), Refusal::no_register);
+  EXPECT_EQ(write_words(*feeder.device().register_bank(), Table::holding, 0xFF02, words),
+            Refusal::no_register);
   EXPECT_EQ(feeder.get("ADC_10V_A"), 4000);
 }
 

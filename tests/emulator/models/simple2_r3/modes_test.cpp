@@ -1,4 +1,5 @@
 // Velocity, PWM and encoder-synchronous mode, homing, and how one mode gives way to another.
+#include "emulator/device/axes.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
@@ -109,20 +110,20 @@ TEST(SyncMode, FollowsItsEncoderByTheRatioAndKeepsTheRemainder) {
   feeder.set("Aaxis_SyncMode", 1);
   EXPECT_EQ(feeder.get("Aaxis_Mode"), 3);
   for (int counts = 1; counts <= 1000; ++counts) {
-    feeder.device().set_encoder(0, counts);
+    feeder.device().axes()->set_encoder(0, counts);
     feeder.run(1);
   }
   feeder.run(20);
   EXPECT_EQ(feeder.coordinate('A'), 666);
   for (int counts = 999; counts >= 0; --counts) {
-    feeder.device().set_encoder(0, counts);
+    feeder.device().axes()->set_encoder(0, counts);
     feeder.run(1);
   }
   feeder.run(20);
   EXPECT_EQ(feeder.coordinate('A'), 0) << "nothing is lost on the way back";
   feeder.set("ALL_STOP", 1);
   EXPECT_EQ(feeder.get("Aaxis_Mode"), 0);
-  feeder.device().set_encoder(0, 500);
+  feeder.device().axes()->set_encoder(0, 500);
   feeder.run(50);
   EXPECT_EQ(feeder.coordinate('A'), 0);
 }
@@ -132,7 +133,7 @@ TEST(SyncMode, IsNoFasterThanItsTopSpeed) {
   feeder.set("Aaxis_Resoultion", 6000);
   feeder.set("Axis_SyncRPM", 10);  // 1000 pulses a second
   feeder.set("Aaxis_SyncMode", 1);
-  feeder.device().set_encoder(0, 100'000);
+  feeder.device().axes()->set_encoder(0, 100'000);
   feeder.run(1000);
   EXPECT_EQ(feeder.coordinate('A'), 5) << "one period at 1000 pulses a second; the rest is forgotten";
 }
@@ -141,14 +142,14 @@ TEST(EncoderSpeed, IsTheCountsOfTheLast100Milliseconds) {
   OneSimple2 feeder;
   feeder.set("ENCA_Resoultion", 6000);
   for (int i = 1; i <= 300; ++i) {
-    feeder.device().set_encoder(0, 10 * i);  // 10,000 a second: 100 RPM
+    feeder.device().axes()->set_encoder(0, 10 * i);  // 10,000 a second: 100 RPM
     feeder.run(1);
   }
   EXPECT_EQ(feeder.get("ENCA_RPM"), 100);
   feeder.set("Axis_ENC_Polarity", 1);
   EXPECT_EQ(feeder.get("ENCA_RPM"), 100) << "what is counted is counted";
   for (int i = 301; i <= 400; ++i) {
-    feeder.device().set_encoder(0, 10 * i);
+    feeder.device().axes()->set_encoder(0, 10 * i);
     feeder.run(1);
   }
   EXPECT_EQ(feeder.get("ENCA_RPM"), -100);
@@ -193,7 +194,7 @@ TEST(Homing, EndsOnTheEdgeAndMakesItZero) {
   std::int64_t travel = 0;
   while (feeder.bit("STATUS.6")) {
     feeder.run(1);
-    travel += feeder.device().pulses_this_tick(0);
+    travel += feeder.device().axes()->pulses_this_tick(0);
     ASSERT_LT(feeder.now(), 2000);
   }
   EXPECT_GT(edge, 150);

@@ -163,7 +163,9 @@ TEST(MoveCommands, BySetZeroDoesNothingAndSeventeenIsRefused) {
     EXPECT_EQ(feeder.get("STATUS"), kServoA | kServoB) << address;
     for (const std::uint16_t number : {17, 255, 65'535}) {
       const std::vector<std::uint16_t> words{number};
-      EXPECT_EQ(write_words(feeder.device(), Table::holding, address, words), Refusal::bad_value) << address;
+      EXPECT_EQ(write_words(*feeder.device().register_bank(), Table::holding, address, words),
+                Refusal::bad_value)
+          << address;
       EXPECT_EQ(feeder.get("STATUS"), kServoA | kServoB) << address;
     }
   }

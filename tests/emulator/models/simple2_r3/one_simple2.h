@@ -38,22 +38,24 @@ class OneSimple2 {
 
   // --- registers -------------------------------------------------------------------------------
   Value get(std::string_view name) const {
-    return read_value(world_.device(0), world::find_register(world_.known(), name).place);
+    return read_value(*world_.device(0).register_bank(), world::find_register(world_.known(), name).place);
   }
   bool bit(std::string_view name) const { return get(name) != 0; }
   Refusal try_set(std::string_view name, Value value) {
-    return write_value(world_.device(0), world::find_register(world_.known(), name).place, value);
+    return write_value(*world_.device(0).register_bank(), world::find_register(world_.known(), name).place,
+                       value);
   }
   void set(std::string_view name, Value value) {
     EXPECT_EQ(try_set(name, value), Refusal::none) << name << " = " << value;
   }
   /// One request that writes several words.
   void write(std::uint16_t first, const std::vector<std::uint16_t>& words) {
-    EXPECT_EQ(write_words(world_.device(0), Table::holding, first, words), Refusal::none) << first;
+    EXPECT_EQ(write_words(*world_.device(0).register_bank(), Table::holding, first, words), Refusal::none)
+        << first;
   }
   Refusal try_read(std::uint16_t address) const {
     std::uint16_t word = 0;
-    return read_words(world_.device(0), Table::holding, address, std::span(&word, 1));
+    return read_words(*world_.device(0).register_bank(), Table::holding, address, std::span(&word, 1));
   }
 
   // --- motion, of axis 'A' or 'B' ------------------------------------------------------------------

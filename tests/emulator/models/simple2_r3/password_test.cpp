@@ -1,5 +1,6 @@
 // The program's password (manual, 附錄 C; firmware 1.51 and later): while PROG_UNLOCK is 0 every cell of the
 // program reads as 0, so that a backup of it is empty, and NEW_PWD is void.
+#include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 #include "tests/emulator/world/stations/pdus.h"
 
@@ -262,7 +263,7 @@ TEST(Password, IsNoneBefore151WhoeverSetOneLater) {
   settings.firmware = 150;
   const auto old = world::make_simple2(settings);
   EXPECT_EQ(world::read(*old, 0x4000, 1), world::Words{5});
-  settings.nv = old->nv_image();
+  settings.nv = old->memory()->nv_image();
   settings.firmware = 151;
   EXPECT_EQ(world::read(*world::make_simple2(settings), 0x4000, 1), world::Words{0});
 }

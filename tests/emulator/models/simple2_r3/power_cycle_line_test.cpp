@@ -4,6 +4,7 @@
 // At 19200 baud a character of 11 bits takes 572 917 ns; a device replies 750 us after a request's last one.
 #include <gtest/gtest.h>
 
+#include "emulator/device/axes.h"
 #include "emulator/models/models.h"
 #include "tests/emulator/world/two_devices.h"
 
@@ -231,12 +232,12 @@ TEST(PowerCycleOnTheLine, PulseFormatIsThatOfTheSwitchWhenThePowerComes) {
   PoweredLine line;
   Device& feeder = line.world.device(kFeeder);
   const int dip2 = find_terminal(feeder.model(), "DIP2");
-  EXPECT_EQ(feeder.pulse_format(), "CW/CCW");
+  EXPECT_EQ(feeder.axes()->pulse_format(), "CW/CCW");
   line.world.set_external_input(kFeeder, dip2, 1);
   line.to(10ms);
-  EXPECT_EQ(feeder.pulse_format(), "CW/CCW");
+  EXPECT_EQ(feeder.axes()->pulse_format(), "CW/CCW");
   line.cycle(kFeeder);
-  EXPECT_EQ(feeder.pulse_format(), "PLS/DIR");
+  EXPECT_EQ(feeder.axes()->pulse_format(), "PLS/DIR");
   EXPECT_EQ(feeder.line_settings().baud, 19'200) << "DIP1 is another one";
 }
 

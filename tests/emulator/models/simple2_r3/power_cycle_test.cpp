@@ -2,6 +2,7 @@
 // and a device that comes back as if it had never done anything else than keep its memory.
 #include <functional>
 
+#include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/device/register_map/register_facts.h"
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 #include "tests/emulator/world/stations/pdus.h"
@@ -45,7 +46,7 @@ TEST(PowerCycle, KeepsEveryRegisterThatTheManualMarksAndNoOther) {
   EXPECT_GT(written, 1300u);
   feeder.run(10'000);
   ASSERT_FALSE(feeder.bit("EEPROM_Writing"));
-  const NvImage memory = feeder.device().nv_image();
+  const NvImage memory = feeder.device().memory()->nv_image();
   feeder.cycle(50);
 
   // A device that is made from a file of this memory is the same.
@@ -64,8 +65,8 @@ TEST(PowerCycle, KeepsEveryRegisterThatTheManualMarksAndNoOther) {
     EXPECT_EQ(world::read(*copy, r.address, 1), world::Words{expected}) << r.name << " from a file";
   }
   EXPECT_GT(kept, 1200u);
-  EXPECT_EQ(feeder.device().nv_image(), memory);
-  EXPECT_EQ(copy->nv_image(), memory);
+  EXPECT_EQ(feeder.device().memory()->nv_image(), memory);
+  EXPECT_EQ(copy->memory()->nv_image(), memory);
 }
 
 // --- in the middle of everything
@@ -214,7 +215,7 @@ TEST(PowerCycle, StopsWhateverWasGoingOnAndForgetsItWholly) {
 
       const std::int64_t places[] = {feeder.place(0), feeder.place(1)};
       EXPECT_NE(places[0], 0);
-      const NvImage memory = feeder.device().nv_image();
+      const NvImage memory = feeder.device().memory()->nv_image();
       feeder.power(false);
       EXPECT_FALSE(feeder.outputs_any()) << "nothing is driven without power";
       feeder.run(off_for);

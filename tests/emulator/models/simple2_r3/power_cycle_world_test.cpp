@@ -7,6 +7,7 @@
 #include <iostream>
 #include <random>
 
+#include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -94,7 +95,7 @@ class Outside {
   }
   static void load(world::World& world, std::size_t number) {
     Device& device = world.device(number);
-    EXPECT_EQ(write_words(device, Table::holding, 0x4000, kProgram), Refusal::none);
+    EXPECT_EQ(write_words(*device.register_bank(), Table::holding, 0x4000, kProgram), Refusal::none);
     const std::string name = device.name() + ".";
     for (const auto& [what, value] :
          std::vector<std::pair<std::string, Value>>{{"PROG_MEM1", 60},
@@ -121,7 +122,7 @@ testing::AssertionResult same(world::World& one, world::World& other) {
   for (std::size_t d = 0; d < 2; ++d) {
     if (one.device(d).powered() != other.device(d).powered()) return differ("the power");
     if (!one.device(d).same_state(other.device(d))) return differ(one.device(d).name());
-    if (one.device(d).nv_image() != other.device(d).nv_image()) return differ("a memory");
+    if (one.device(d).memory()->nv_image() != other.device(d).memory()->nv_image()) return differ("a memory");
     for (int i = 0; i < 18; ++i) {
       if (one.device(d).input(i) != other.device(d).input(i)) return differ("an input");
       if (one.device(d).output(i) != other.device(d).output(i)) return differ("an output");
@@ -164,7 +165,7 @@ TEST(PowerCycleInAWorld, AtRandomTimesBulkTicksAreSingleTicksBitForBit) {
     run += bulk.ticks_run();
     EXPECT_EQ(single.ticks_crossed(), 0u);
     for (std::size_t d : {0, 1}) {
-      for (const auto& [name, value] : bulk.device(d).nv_image().registers) {
+      for (const auto& [name, value] : bulk.device(d).memory()->nv_image().registers) {
         if (name == "PROG_MEM0") counted += value;
       }
     }
@@ -186,12 +187,12 @@ TEST(PowerCycleInAWorld, WhatWasKeptOnceIsThereAfterEachPowerUp) {
   for (int cycle = 0; cycle < 300; ++cycle) {
     time += SimTime{outside.between(0, 200'000'000)};
     world.advance_to(time);
-    const NvImage kept = world.device(0).nv_image();
+    const NvImage kept = world.device(0).memory()->nv_image();
     world.switch_power(0, false);
     if (outside.between(0, 1) == 0) world.advance_to(time += kTickLength * outside.between(0, 50));
-    EXPECT_EQ(world.device(0).nv_image(), kept) << "it rests while there is no power";
+    EXPECT_EQ(world.device(0).memory()->nv_image(), kept) << "it rests while there is no power";
     world.switch_power(0, true);
-    EXPECT_EQ(world.device(0).nv_image(), kept);
+    EXPECT_EQ(world.device(0).memory()->nv_image(), kept);
     for (const auto& [name, value] : kept.registers)
       ASSERT_EQ(world::get(world, "feeder." + name), value) << name;
     const Value counted = world::get(world, "feeder.PROG_MEM0");

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "emulator/device/axes.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/reactions.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
@@ -47,7 +48,7 @@ class Rig : public OneSimple2 {
     Pulses pulses;
     for (Tick i = 0; i < ticks; ++i) {
       turned_ += turns;
-      device().set_encoder(0, turned_);
+      device().axes()->set_encoder(0, turned_);
       const Value before = coordinate('A');
       OneSimple2::run(1);
       pulses.push_back(coordinate('A') - before);

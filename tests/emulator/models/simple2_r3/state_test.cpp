@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/state/state_error.h"
+#include "emulator/device/user_program.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
@@ -24,7 +25,7 @@ std::string refusal_of(Device& device, const Saved& bytes) {
 /// Busy: it moves, its program runs and waits, its memory writes.
 struct BusySimple2 : ReadySimple2 {
   explicit BusySimple2(const Given& given = {}) : ReadySimple2(given) {
-    device().load_program("Out 2 1\nDelay_mSec 100\nEND\n");
+    device().user_program()->load_program("Out 2 1\nDelay_mSec 100\nEND\n");
     set("PROG_MAIN_RunTime_START", 0);
     set_one_pulse_a_tick('A', 500);
     set("Aaxis_Move_INC", 1);
@@ -38,7 +39,7 @@ struct BusySimple2 : ReadySimple2 {
 TEST(Simple2State, EverythingThatAHostCanSeeComesBack) {
   BusySimple2 busy;
   const Saved state = busy.device().save_state();
-  const std::string program = busy.device().program_text();
+  const std::string program = busy.device().user_program()->program_text();
   const Value a = busy.coordinate('A');
   const Value b = busy.coordinate('B');
   EXPECT_TRUE(busy.moving('A'));
@@ -56,7 +57,7 @@ TEST(Simple2State, EverythingThatAHostCanSeeComesBack) {
   EXPECT_FALSE(busy.bit("EEPROM_Writing"));
   EXPECT_FALSE(busy.output(2));
   EXPECT_EQ(busy.get("Baxis_VelMode_ACC"), 1000);
-  EXPECT_NE(busy.device().program_text(), program);
+  EXPECT_NE(busy.device().user_program()->program_text(), program);
   EXPECT_NE(busy.device().save_state(), state);
 
   busy.device().restore_state(state);
@@ -68,7 +69,7 @@ TEST(Simple2State, EverythingThatAHostCanSeeComesBack) {
   EXPECT_TRUE(busy.bit("EEPROM_Writing"));
   EXPECT_TRUE(busy.output(2));
   EXPECT_EQ(busy.get("Baxis_VelMode_ACC"), 30'000);
-  EXPECT_EQ(busy.device().program_text(), program);
+  EXPECT_EQ(busy.device().user_program()->program_text(), program);
   EXPECT_EQ(busy.device().save_state(), state);
 }
 

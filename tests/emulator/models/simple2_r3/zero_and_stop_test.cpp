@@ -2,6 +2,7 @@
 // lines of the manual.
 #include <cmath>
 
+#include "emulator/device/axes.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 #include "tests/emulator/models/simple2_r3/reaction_rig.h"
@@ -106,7 +107,7 @@ void expect_no_gentler(void (*begin)(Rig&), Tick last) {
   std::vector<double> speeds;
   std::vector<bool> slows;
   for (Tick i = 0; i < last; ++i) {
-    speeds.push_back(std::abs(other.device().speed_pps(0)));
+    speeds.push_back(std::abs(other.device().axes()->speed_pps(0)));
     const motion::Axis& motor = other.axis().motor;
     slows.push_back(motor.drive.moving() && motor.sample(other.now()).acceleration_u_s2 < 0);
     other.watch(1);
@@ -122,7 +123,7 @@ void expect_no_gentler(void (*begin)(Rig&), Tick last) {
     double before = speeds[static_cast<std::size_t>(at)];
     for (Tick i = at + 1; i < last; ++i) {
       rig.watch(1);
-      const double now = std::abs(rig.device().speed_pps(0));
+      const double now = std::abs(rig.device().axes()->speed_pps(0));
       const double least = speeds[static_cast<std::size_t>(i - 1)] - speeds[static_cast<std::size_t>(i)];
       const bool goes_on = slows[static_cast<std::size_t>(i)] && now > 0;
       if (goes_on) {
@@ -182,11 +183,11 @@ TEST(Speed, HasNoSignAtRest) {
   Rig rig({});
   rig.move(-100);
   while (rig.moving('A')) {
-    EXPECT_FALSE(rig.device().speed_pps(0) == 0 && std::signbit(rig.device().speed_pps(0)));
+    EXPECT_FALSE(rig.device().axes()->speed_pps(0) == 0 && std::signbit(rig.device().axes()->speed_pps(0)));
     rig.watch(1);
   }
   rig.set("Aaxis_DIR_Polarity", 1);
-  EXPECT_FALSE(std::signbit(rig.device().speed_pps(0)));
+  EXPECT_FALSE(std::signbit(rig.device().axes()->speed_pps(0)));
 }
 
 // --- programs and inputs

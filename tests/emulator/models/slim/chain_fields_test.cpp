@@ -22,7 +22,7 @@ Chain restored(std::span<const std::byte> bytes) {
 
 OneChain busy() {
   ChainOptions options;
-  options.fifo_length = 20;
+  options.choose(option("buffer_length", "16"));
   OneChain bench(options);
   bench.scale_all(100);
   bench.map({0, 1});

@@ -1,4 +1,5 @@
 // What SLIM says to what is typed: queries, parameters, memory, errors, editing, options.
+#include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -310,13 +311,13 @@ TEST(SlimDialogue, ListsItsParametersAsAssignments) {
 TEST(SlimDialogue, IsReadAndWrittenByNamePastTheLine) {
   DialogueScript script(2);
   Slim& device = script.device();
-  EXPECT_EQ(device.value_named("T1PE"), 0);
-  EXPECT_EQ(device.value_named("NOTHING"), std::nullopt);
-  EXPECT_EQ(device.value_named("T5PE"), std::nullopt);
-  EXPECT_EQ(device.assign("R0", 2.5), std::nullopt);
-  EXPECT_EQ(device.value_named("R0"), 2.5);
-  EXPECT_TRUE(device.assign("N0", 1e6).has_value());
-  EXPECT_TRUE(device.assign("MA", 1).has_value());
+  EXPECT_EQ(device.named_values()->value_named("T1PE"), 0);
+  EXPECT_EQ(device.named_values()->value_named("NOTHING"), std::nullopt);
+  EXPECT_EQ(device.named_values()->value_named("T5PE"), std::nullopt);
+  EXPECT_EQ(device.named_values()->assign("R0", 2.5), std::nullopt);
+  EXPECT_EQ(device.named_values()->value_named("R0"), 2.5);
+  EXPECT_TRUE(device.named_values()->assign("N0", 1e6).has_value());
+  EXPECT_TRUE(device.named_values()->assign("MA", 1).has_value());
   EXPECT_EQ(script.ask("?R0"), "2.5");
 }
 

@@ -180,7 +180,7 @@ TEST(SlimGolden, AnArcAboutWhereItStandsIsItsRiseAlone) {
   EXPECT_EQ(bench.travel(0), 0);
   EXPECT_EQ(bench.travel(2), 50);
   ChainOptions options;
-  options.path_needs_length = true;
+  options.choose(option("path_without_length", "error_2"));
   bench.chain.set_options(options);
   EXPECT_EQ(bench.chain.arc(about(0, 0, 90)), Error::range);
 }

@@ -127,7 +127,7 @@ TEST(SlimThrust, PushesUntilItIsStopped) {
 
 TEST(SlimThrust, MayRunByChoice) {
   ChainOptions options;
-  options.thrust = ChainOptions::Thrust::runs_at_vj;
+  options.choose(option("thrust", "runs_at_vj"));
   OneChain bench(options);
   bench.speeds(0, 10'000, 10'000);
   bench.jog_speed(0, 1000);
@@ -175,7 +175,7 @@ TEST(SlimMove, IsOutOfItsBufferInTheTickOfItsArrival) {
 
 TEST(SlimJog, VjOfZeroIsOfTheNextJogAlsoWhereSpeedsCountAtOnce) {
   ChainOptions options;
-  options.new_speed = ChainOptions::NewSpeed::at_once;
+  options.choose(option("new_speed", "at_once"));
   OneChain bench(options);
   bench.speeds(0, 10'000, 10'000);
   bench.jog_speed(0, 1000);

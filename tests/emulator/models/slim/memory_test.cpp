@@ -1,4 +1,6 @@
 // What SLIM keeps over power-off, and its memory as an image.
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -101,12 +103,12 @@ TEST(SlimMemory, KeepsTheBytesOfAText) {
   for (const std::string& typed : {std::string("PG"), line, std::string(), std::string("SAVE P")}) {
     script.type(typed);
   }
-  const NvImage image = script.device().nv_image();
+  const NvImage image = script.device().memory()->nv_image();
   ASSERT_EQ(image.program, std::vector<std::string>{line});
   world::Bench bench = slim_bench(1);
   bench.devices[0].settings.nv = parse_nv_image(to_json(image));
   world::World world(bench, world::WorldOptions{}, [](const std::string&) {});
-  EXPECT_EQ(world.device(0).nv_image(), image);
+  EXPECT_EQ(world.device(0).memory()->nv_image(), image);
 }
 
 TEST(SlimMemory, IsKeptInAnImage) {
@@ -122,7 +124,7 @@ TEST(SlimMemory, IsKeptInAnImage) {
 > SAVE C
 > SAVE P
 )");
-  const NvImage image = script.device().nv_image();
+  const NvImage image = script.device().memory()->nv_image();
   EXPECT_EQ(image.registers, (std::vector<std::pair<std::string, std::int64_t>>{{"N3", 7}}));
   EXPECT_EQ(image.reals, (std::vector<std::pair<std::string, double>>{{"T1PN10", 77}, {"RS(0)", 0.5}}));
   EXPECT_EQ(image.program, (std::vector<std::string>{"MA 5"}));
@@ -130,9 +132,9 @@ TEST(SlimMemory, IsKeptInAnImage) {
   world::Bench bench = slim_bench(2);
   bench.devices[0].settings.nv = parse_nv_image(to_json(image));
   world::World world(bench, world::WorldOptions{}, [](const std::string&) {});
-  EXPECT_EQ(world.device(0).nv_image(), image);
-  EXPECT_EQ(world.device(0).value_named("N3"), 7);
-  EXPECT_EQ(world.device(0).value_named("T1VM"), 77);
+  EXPECT_EQ(world.device(0).memory()->nv_image(), image);
+  EXPECT_EQ(world.device(0).named_values()->value_named("N3"), 7);
+  EXPECT_EQ(world.device(0).named_values()->value_named("T1VM"), 77);
 }
 
 }  // namespace

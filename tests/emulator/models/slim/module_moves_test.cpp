@@ -108,7 +108,7 @@ TEST(SlimMove, AFullFifoRefusesAndLeavesThingsAsTheyAre) {
 TEST(SlimMove, VmWhileMovingByChoice) {
   for (const bool at_once : {false, true}) {
     ChainOptions options;
-    if (at_once) options.new_speed = ChainOptions::NewSpeed::at_once;
+    if (at_once) options.choose(option("new_speed", "at_once"));
     OneChain bench(options);
     bench.speeds(0, 1000, 10'000);
     bench.chain.move(0, true, 2000);

@@ -1,6 +1,7 @@
 // How numbers are written, whose an error is, and what is refused as a line is entered.
 #include <string>
 
+#include "emulator/device/user_program.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -193,9 +194,9 @@ TEST(SlimEntry, LinesAreCheckedAsTheyAreEntered) {
     }
     DialogueScript loaded;
     if (each.error.empty()) {
-      loaded.device().load_program(each.line);
+      loaded.device().user_program()->load_program(each.line);
     } else {
-      EXPECT_THROW(loaded.device().load_program(each.line), ProgramError) << each.line;
+      EXPECT_THROW(loaded.device().user_program()->load_program(each.line), ProgramError) << each.line;
     }
     // By choice it is stored, and fails when its turn comes.
     DialogueScript later(1, {{"program_check", "when_it_runs"}});

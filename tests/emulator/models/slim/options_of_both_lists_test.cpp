@@ -1,5 +1,6 @@
 // Where the maker's two lists say different things, or one says too little: each option at work beside ours,
 // also tick by tick and in a device that is restored at each step.
+#include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/models/slim/motion_option_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -186,10 +187,10 @@ TEST(SlimListOptions, AHistoryThatIsKeptIsInTheImage) {
   const std::map<std::string, std::string> kept{{"history_kept", "for_ever"}, {"history_length", "4"}};
   DialogueScript first(2, kept);
   first.play("> T1HOFF\n> T1MA 5\n< ERR 9\n> FOO\n< ERR 1\n> OUTP 16\n< ERR 2\n");
-  const NvImage image = first.device().nv_image();
+  const NvImage image = first.device().memory()->nv_image();
   DialogueScript second(2, kept);
   second.play("off\n");
-  second.device().load_nv(image);
+  second.device().memory()->load_nv(image);
   second.play("on\n> ?ERC\n< 2,1\n> ?T1ERC\n< 9\n> ?ERR\n< 0\n");
 }
 

@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "base/state/state_error.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/user_program.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -20,10 +22,10 @@ TEST(SlimProgramEntryChoices, ProgramSize) {
     SCOPED_TRACE(option);
     const Choices chosen{{"program_size", option}};
     DialogueScript script(1, chosen);
-    script.device().load_program(lines(size));
+    script.device().user_program()->load_program(lines(size));
     script.play("> PA\n> RET\n< ERR 8\n>\n> PI 0\n< ERR 8\n> SAVE P\n");
     try {
-      script.device().load_program(lines(size + 1));
+      script.device().user_program()->load_program(lines(size + 1));
       ADD_FAILURE() << "taken";
     } catch (const ProgramError& error) {
       const std::string expected = "at most " + std::to_string(size) + " lines";
@@ -37,7 +39,7 @@ TEST(SlimProgramEntryChoices, ProgramSize) {
     EXPECT_TRUE(other.device().same_state(script.device()));
     script.play("off\non\n");
     EXPECT_EQ(script.device().state().program.size(), size);
-    NvImage image = script.device().nv_image();
+    NvImage image = script.device().memory()->nv_image();
     for (const bool fits : {true, false}) {
       world::Bench bench = slim_bench(1, chosen);
       bench.devices[0].settings.nv = image;
@@ -91,12 +93,12 @@ on
        entered + "< B\n> ?ERC\n< 3,2,1\n");
 
   DialogueScript late(1, {{"program_check", "when_it_runs"}});
-  late.device().load_program("; a remark\nOUT \"A\"\n$B NONSENSE\n");
-  EXPECT_EQ(late.device().program_text(), "OUT \"A\"\n$B NONSENSE\n");
-  EXPECT_THROW(late.device().load_program("END\n"), ProgramError);
+  late.device().user_program()->load_program("; a remark\nOUT \"A\"\n$B NONSENSE\n");
+  EXPECT_EQ(late.device().user_program()->program_text(), "OUT \"A\"\n$B NONSENSE\n");
+  EXPECT_THROW(late.device().user_program()->load_program("END\n"), ProgramError);
   late.play("> SAVE P\n> G $B\n@ 1\n> ?ERC\n< 1\n");
   world::Bench bench = slim_bench(1, {{"program_check", "when_it_runs"}});
-  bench.devices[0].settings.nv = parse_nv_image(to_json(late.device().nv_image()));
+  bench.devices[0].settings.nv = parse_nv_image(to_json(late.device().memory()->nv_image()));
   const world::World again(bench, world::WorldOptions{}, [](const std::string&) {});
   EXPECT_EQ(dynamic_cast<const Slim&>(again.device(0)).program_text(), "OUT \"A\"\n$B NONSENSE\n");
 
@@ -116,7 +118,7 @@ TEST(SlimProgramEntryChoices, ProgramCheckOfLinesAsLongAsChosen) {
     const std::string line(static_cast<std::size_t>(longest), 'A');
     script.play("> PG\n> " + line + "\n> " + line + "A\n< ERR 1\n>\n> PL\n< 0: " + line + "\n> SAVE P\n");
     try {
-      script.device().load_program(line + "A");
+      script.device().user_program()->load_program(line + "A");
       ADD_FAILURE() << "taken";
     } catch (const ProgramError&) {
     }

@@ -1,4 +1,5 @@
 // What TASTOP does to a program, and what is heard while one waits for a number: each option beside ours.
+#include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -62,7 +63,7 @@ TEST(SlimStopOptions, TheChainIsSteeredWhileANumberIsAwaited) {
   // At 95 of 100 a second after the first; stopped at 100 units along, and on at 50.
   DialogueScript script(2);
   script.play(kAtNumber + "> TAPZ\n@ 200\n> ?PE\n< ERR 1\n");
-  EXPECT_DOUBLE_EQ(script.device().value_named("PE").value(), 60);
+  EXPECT_DOUBLE_EQ(script.device().named_values()->value_named("PE").value(), 60);
   script.play("> TVM=50\n> TAREDO\n@ 1051\n> TASTOP\n@ 10\n> ?ST\n< 33\n> ?PE\n< 91\n");  // 1.25 in 50 ms,
                                                                                           // and 50 a second
   // What asks for a number takes none of that.

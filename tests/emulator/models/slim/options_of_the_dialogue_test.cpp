@@ -2,6 +2,9 @@
 // line is held and read: options_of_the_line_test.cpp.
 #include <algorithm>
 
+#include "emulator/device/axes.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/named_values.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
@@ -87,11 +90,11 @@ TEST(SlimDialogueOptions, ANameHasANumberHoweverItIsWritten) {
                             {"input_mask", "error_1"}});
   script.type("JGF");
   script.pass(2000);
-  EXPECT_EQ(script.device().value_named("ST"), 131.0);
-  EXPECT_EQ(script.device().value_named("MD"), 2.0);
-  EXPECT_EQ(script.device().value_named("TIME"), 2.0);
-  EXPECT_EQ(script.device().value_named("IN"), std::nullopt);
-  const std::vector<std::string> names = script.device().names();
+  EXPECT_EQ(script.device().named_values()->value_named("ST"), 131.0);
+  EXPECT_EQ(script.device().named_values()->value_named("MD"), 2.0);
+  EXPECT_EQ(script.device().named_values()->value_named("TIME"), 2.0);
+  EXPECT_EQ(script.device().named_values()->value_named("IN"), std::nullopt);
+  const std::vector<std::string> names = script.device().named_values()->names();
   EXPECT_EQ(std::count(names.begin(), names.end(), "IN"), 0);
 }
 
@@ -170,8 +173,8 @@ TEST(SlimDialogueOptions, AModuleThatIsNotLinked) {
   prompted.send("?T1PE\r?PE\r");  // T0 is ready for the next line all the same
   EXPECT_EQ(prompted.next(), ">0");
   // Past the line somebody is there to be told.
-  EXPECT_TRUE(
-      silent.device().assign("T2VM", 5).value_or("").starts_with("is of a module that is not linked"));
+  EXPECT_TRUE(silent.device().named_values()->assign("T2VM", 5).value_or("").starts_with(
+      "is of a module that is not linked"));
 }
 
 TEST(SlimDialogueOptions, IntegerRange) {
@@ -208,12 +211,12 @@ TEST(SlimDialogueOptions, IntegerRange) {
 }
 
 TEST(SlimDialogueOptions, IntegerRangeOfWhatIsKept) {
-  NvImage image = DialogueScript(1).device().nv_image();
+  NvImage image = DialogueScript(1).device().memory()->nv_image();
   image.registers.emplace_back("N3", -32767);
   const auto load = [&](const Choices& choices) {
     DialogueScript script(1, choices);
     script.world().switch_power(0, false);
-    script.device().load_nv(image);
+    script.device().memory()->load_nv(image);
     script.world().switch_power(0, true);
     return script.ask("?N3");
   };
@@ -301,19 +304,19 @@ TEST(SlimDialogueOptions, NamesOfSpeedsTheOtherWayRound) {
       "> T1PN14=900\n> ?T1VM\n< 900\n> SAVE C\n");
   EXPECT_EQ(first_parameters(script), "PN10=7|PN14=600|FU=0|");
   // The image has the names of the commands.
-  const NvImage image = script.device().nv_image();
+  const NvImage image = script.device().memory()->nv_image();
   const std::vector<std::pair<std::string, double>> kept{{"PN10", 7}, {"PN14", 600}, {"T1PN14", 900}};
   EXPECT_EQ(image.reals, kept);
   DialogueScript other(2, choices);
   other.world().switch_power(0, false);
-  other.device().load_nv(image);
+  other.device().memory()->load_nv(image);
   other.play("on\n> ?VM\n< 600\n> ?VJ\n< 7\n> ?T1VM\n< 900\n");
-  EXPECT_EQ(other.device().assign("PN10", 9), std::nullopt);
+  EXPECT_EQ(other.device().named_values()->assign("PN10", 9), std::nullopt);
   EXPECT_EQ(other.ask("?VJ"), "9");
-  EXPECT_EQ(other.device().value_named("PN14"), 600.0);
+  EXPECT_EQ(other.device().named_values()->value_named("PN14"), 600.0);
   // VJ counts for a jog: at 600 RPM and 10000 pulses a revolution 100 pulses a millisecond.
   other.play("> PN10=600\n> VA=1000000000\n> JGF\n@ 10\n");
-  EXPECT_DOUBLE_EQ(other.device().speed_pps(0), 100000);
+  EXPECT_DOUBLE_EQ(other.device().axes()->speed_pps(0), 100000);
 }
 
 TEST(SlimDialogueOptions, ABenchChoosesAndSets) {

@@ -1,5 +1,7 @@
 // SLIM's line as a bench chooses it: where lines end, how long they may be, and who holds whom.
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/user_program.h"
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
@@ -74,8 +76,8 @@ TEST(SlimLineOptions, LongLines) {
     const std::string text(one.longest - 6, 'x');
     const std::string line = "OUT \"" + text + "\"";
     EXPECT_EQ(wire.answer("PG\r" + line + "\r\rSAVE P\r"), "") << one.option;
-    EXPECT_THROW(wire.device().load_program(line + " "), ProgramError) << one.option;
-    wire.device().load_program(line);
+    EXPECT_THROW(wire.device().user_program()->load_program(line + " "), ProgramError) << one.option;
+    wire.device().user_program()->load_program(line);
     wire.world->switch_power(0, false);
     wire.world->switch_power(0, true);
     wire.send("G\r");
@@ -93,7 +95,7 @@ TEST(SlimLineOptions, ALineThatIsTooLongForAnotherChoiceDoesNotFit) {
   Wire ours(Choices{});
   EXPECT_THROW(ours.device().restore_state(long_lines.device().save_state()), StateError);
   ours.world->switch_power(0, false);
-  EXPECT_THROW(ours.device().load_nv(long_lines.device().nv_image()), NvError);
+  EXPECT_THROW(ours.device().memory()->load_nv(long_lines.device().memory()->nv_image()), NvError);
 }
 
 TEST(SlimLineOptions, WithoutFlowControlXoffIsACharacter) {

@@ -45,18 +45,19 @@ TEST(SlimTvm, ChangesOnThePathWithTheSlopeThereIs) {
 }
 
 TEST(SlimTvm, Pr3OfOneModuleInMotionCountsAtOnce) {
-  using InMotion = ChainOptions::PathSpeedInMotion;
+  constexpr Option kWholePath = option("path_speed_in_motion", "at_once_for_the_whole_path");
+  constexpr Option kByX = option("path_speed_in_motion", "at_once_if_x_has_it");
+  constexpr Option kNextCommand = option("path_speed_in_motion", "next_command");
   struct Row {
-    InMotion how;
+    Option how;
     int module;
     Tick ms;
   };
   // 45 of 100 at 100, 80 ms down to 20 (4.8), 50 at 20, and 20 ms to stop: or as if nothing had been.
-  for (const Row& row :
-       {Row{InMotion::whole_path, 0, 3100}, Row{InMotion::whole_path, 1, 3100}, Row{InMotion::by_x, 0, 3100},
-        Row{InMotion::by_x, 1, 1100}, Row{InMotion::next_command, 0, 1100}}) {
+  for (const Row& row : {Row{kWholePath, 0, 3100}, Row{kWholePath, 1, 3100}, Row{kByX, 0, 3100},
+                         Row{kByX, 1, 1100}, Row{kNextCommand, 0, 1100}}) {
     ChainOptions options;
-    options.path_speed_in_motion = row.how;
+    options.choose(row.how);
     OneChain bench = at_origin(options);
     bench.line({100, 0});
     bench.steps(501);
@@ -69,7 +70,7 @@ TEST(SlimTvm, Pr3OfOneModuleInMotionCountsAtOnce) {
 
 TEST(SlimTvm, OneByOneSpoilsWhatComes) {
   ChainOptions next_command;
-  next_command.path_speed_in_motion = ChainOptions::PathSpeedInMotion::next_command;
+  next_command.choose(option("path_speed_in_motion", "next_command"));
   OneChain bench = at_origin(next_command);
   bench.line({100, 0});
   bench.steps(500);
@@ -77,7 +78,7 @@ TEST(SlimTvm, OneByOneSpoilsWhatComes) {
   EXPECT_EQ(bench.finish() - 1, 1100);
   EXPECT_EQ(bench.line({100, 0}), Error::unequal_speeds);
   ChainOptions options;
-  options.unequal_speeds = ChainOptions::UnequalSpeeds::by_module_0;
+  options.choose(option("unequal_speeds", "as_t0_has_them"));
   bench.chain.set_options(options);
   const Tick began = bench.tick;
   EXPECT_EQ(bench.line({100, 0}), Error::none);

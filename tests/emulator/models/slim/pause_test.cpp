@@ -154,7 +154,7 @@ TEST(SlimPauseTable, RunAndTapz) {
 TEST(SlimPauseTable, RunAndTaredoOrTaupzHaveNoEffect) {
   for (const bool refused : {false, true}) {
     ChainOptions options;
-    if (refused) options.in_vain = ChainOptions::InVain::refused;
+    if (refused) options.choose(option("ineffective_pause", "error_3"));
     OneChain bench = at_origin(options);
     bench.line({100, 0});
     bench.steps(300);

@@ -55,7 +55,8 @@ class PauseCell {
     EXPECT_EQ(slim::pauses_of(chain().queues_paused(), chain().paused()), expected.left);
     if (expected.outcome == PauseOutcome::in_vain) {
       EXPECT_EQ(chain(), before);
-      EXPECT_EQ(error, options_.in_vain == ChainOptions::InVain::refused ? Error::not_allowed : Error::none);
+      EXPECT_EQ(error,
+                options_.chose(option("ineffective_pause", "error_3")) ? Error::not_allowed : Error::none);
       return;
     }
     EXPECT_EQ(error, expected.outcome == PauseOutcome::is_refused ? Error::paused : Error::none);
@@ -166,16 +167,18 @@ class PauseCell {
 };
 
 /// Whether PZ's pause can be, by these options.
-bool can_be(Pauses pauses, const ChainOptions& options) { return !options.one_pause || !has_pz(pauses); }
+bool can_be(Pauses pauses, const ChainOptions& options) {
+  return !options.chose(option("pauses", "one_pause")) || !has_pz(pauses);
+}
 
 TEST(SlimPauses, ComeOutAsTheTableSays) {
   int cells = 0;
   for (unsigned bits = 0; bits < 16; ++bits) {
     ChainOptions options;
-    options.one_pause = (bits & 1) != 0;
-    options.clear_keeps_half_done = (bits & 2) != 0;
-    options.reset_ends_pause = (bits & 4) != 0;
-    if ((bits & 8) != 0) options.in_vain = ChainOptions::InVain::refused;
+    if ((bits & 1) != 0) options.choose(option("pauses", "one_pause"));
+    if ((bits & 2) != 0) options.choose(option("clear_buffer_in_pause", "what_waits"));
+    if ((bits & 4) != 0) options.choose(option("reset", "pause_too"));
+    if ((bits & 8) != 0) options.choose(option("ineffective_pause", "error_3"));
     for (const PauseRow& row : pauses::kRows) {
       if (!can_be(row.pauses, options)) continue;
       SCOPED_TRACE(kWhatNames[static_cast<std::size_t>(row.what)] + " in " +
@@ -192,13 +195,13 @@ TEST(SlimPauses, NameTheListOrARowOfTheChoices) {
     const bool is_row = std::ranges::any_of(kChoices, [&](const ChoiceRow& c) { return c.id == row.by; });
     EXPECT_TRUE(is_row || row.by.starts_with("list, ")) << row.by;
     // A cell that an option changes is not a list's.
-    EXPECT_TRUE(row.other.chosen == nullptr || row.other.result != row.result) << row.by;
+    EXPECT_TRUE(!row.other.chosen || row.other.result != row.result) << row.by;
   }
 }
 
 TEST(SlimPauses, OfT0AloneHoldNoOthers) {
   ChainOptions options;
-  options.pause_is_of_module_0 = true;
+  options.choose(option("pause_scope", "t0"));
   OneChain bench(options);
   bench.chain.pause_queues();
   EXPECT_EQ(bench.chain.jog(0, +1), Error::paused);
@@ -220,7 +223,7 @@ TEST(SlimPauses, OfT0AloneHoldNoOthers) {
 
 TEST(SlimPauses, ResetOfAnotherModuleEndsNone) {
   ChainOptions options;
-  options.reset_ends_pause = true;
+  options.choose(option("reset", "pause_too"));
   OneChain bench(options);
   bench.chain.jog(5, +1);
   bench.chain.pause();

@@ -2,6 +2,7 @@
 // by hand: a move of L from rest to rest takes L/v + v/a, or 2 sqrt(L/a) where L < v^2/a. For single axes v
 // is 1000 RPM x 10000 / 60 = 166667 pulses/s and a ten times that a second; for coordinated ones 100 and 1000
 // units. A line takes 1 ms; the scripts look a few lines' time before and after each moment.
+#include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -136,7 +137,7 @@ AIN = 500
 > JG0
 @ 50
 )");
-  EXPECT_NEAR(*script.device().value_named("PE"), 8333, 20) << "a tick or two more or less";
+  EXPECT_NEAR(*script.device().named_values()->value_named("PE"), 8333, 20) << "a tick or two more or less";
 }
 
 TEST(SlimPrograms, AsksTheHostForNumbers) {
@@ -341,11 +342,11 @@ TEST(SlimPrograms, AnEmergencyStopLeavesNothing) {
 > ?ST
 < 1
 )");
-  const double stopped = *script.device().value_named("PE");
+  const double stopped = *script.device().named_values()->value_named("PE");
   EXPECT_GT(stopped, 0);
   EXPECT_LT(stopped, 100000);
   script.pass(500);
-  EXPECT_EQ(script.device().value_named("PE"), stopped);
+  EXPECT_EQ(script.device().named_values()->value_named("PE"), stopped);
 }
 
 }  // namespace

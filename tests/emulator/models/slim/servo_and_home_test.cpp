@@ -103,7 +103,7 @@ TEST(SlimServo, ResetClearsTheQueueAndKeepsTheCoordinate) {
 
 TEST(SlimServo, AtPowerUpByChoice) {
   ChainOptions options;
-  options.servo_at_power_up = false;
+  options.choose(option("power_up_servo", "off"));
   OneChain bench(options);
   EXPECT_EQ(bench.chain.move(0, true, 1), Error::servo_off);
   EXPECT_EQ(bench.chain.set_servo(0, true), Error::none);

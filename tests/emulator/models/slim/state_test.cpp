@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "base/state/state_error.h"
+#include "emulator/device/axes.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/named_values.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -95,7 +98,7 @@ std::string seen_of(DialogueScript& script) {
   for (int m = 0; m < kModulesHere; ++m) {
     const std::string prefix = "T" + std::to_string(m);
     for (const char* name : {"PE", "ST", "MD", "ERR"}) {
-      const auto value = device.value_named(prefix + name);
+      const auto value = device.named_values()->value_named(prefix + name);
       seen += value ? std::to_string(*value) + " " : "- ";
     }
     for (int i = 0; i < kOutputs; ++i) seen += device.output(terminal(m, kFirstOutput + i)) ? "1" : "0";
@@ -252,16 +255,16 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
     SCOPED_TRACE(moment.name);
     DialogueScript cut(kModulesHere);
     cut.play(moment.until);
-    const NvImage kept = cut.device().nv_image();
+    const NvImage kept = cut.device().memory()->nv_image();
     cut.world().switch_power(0, false);
     cut.pass(100);
     EXPECT_EQ(cut.ask("?PE"), "(nothing)");
-    EXPECT_EQ(cut.device().value_named("PE"), std::nullopt);
+    EXPECT_EQ(cut.device().named_values()->value_named("PE"), std::nullopt);
     for (int m = 0; m < kModulesHere; ++m) {
       for (int i = 0; i < kOutputs; ++i) EXPECT_FALSE(cut.device().output(terminal(m, kFirstOutput + i)));
-      EXPECT_EQ(cut.device().pulses_this_tick(m), 0);
+      EXPECT_EQ(cut.device().axes()->pulses_this_tick(m), 0);
     }
-    EXPECT_EQ(cut.device().nv_image(), kept);
+    EXPECT_EQ(cut.device().memory()->nv_image(), kept);
 
     // Saved while dead, too.
     const std::vector<std::byte> dead = cut.device().save_state();

@@ -175,7 +175,7 @@ struct KeptBench {
   }
   void write(const std::string& name, Value value) {
     const world::RegisterName found = world::find_register(world->known(), name);
-    EXPECT_EQ(write_value(world->device(found.device), found.place, value), Refusal::none);
+    EXPECT_EQ(write_value(*world->device(found.device).register_bank(), found.place, value), Refusal::none);
   }
   void run(Tick ticks) { world->advance_to(world->now() + time_of(ticks)); }
   std::optional<std::int64_t> in_file(const std::string& name, const std::string& device = "feeder") const {

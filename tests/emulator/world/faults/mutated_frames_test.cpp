@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "emulator/device/register_map/register_bank.h"
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
@@ -65,7 +66,7 @@ void expect_unmoved(std::uint64_t seed, bool is_strict) {
   FaultyLine line("", {.strict_framing = is_strict});
   Mutants mutants(seed);
   const auto image = [&](std::size_t device) {
-    const auto words = std::as_const(line.world()).device(device).image();
+    const auto words = std::as_const(line.world()).device(device).register_bank()->image();
     return std::vector<std::uint32_t>(words.begin(), words.end());
   };
   const auto feeder = image(0);

@@ -235,7 +235,7 @@ TEST(WireFaults, SlowDevicesCarryOutRequestsLate) {
   line.world().line(0).line.receive(kSetSpeed, 200ms);
   const auto speed = [&] {
     const RegisterName name = find_register(line.world().known(), "feeder.Aaxis_Speed");
-    return read_value(line.world().device(0), name.place);
+    return read_value(*line.world().device(0).register_bank(), name.place);
   };
   // It would have been carried out at 205,333,333 ns.
   line.world().advance_to(SimTime{235'333'332});

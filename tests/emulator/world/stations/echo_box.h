@@ -19,7 +19,10 @@
 
 #include "base/state/state_bytes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/named_values.h"
 #include "emulator/device/text/text_device.h"
+#include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
 
 namespace understudy::emulator::world {
@@ -33,9 +36,17 @@ inline constexpr CommandRow kEchoCommands[] = {
 inline constexpr TerminalRow kEchoTerminals[] = {{TerminalRow::Kind::digital_in, "IN_1"},
                                                  {TerminalRow::Kind::digital_out, "OUT_1"}};
 
-class EchoBox final : public TextDevice {
+class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, public UserProgram {
  public:
-  using TextDevice::TextDevice;
+  EchoBox(const Model& model, const DeviceSettings& settings)
+      : TextDevice(model, settings), KeptMemory(model.name, settings.firmware) {}
+
+  NamedValues* named_values() override { return this; }
+  const NamedValues* named_values() const override { return this; }
+  KeptMemory* memory() override { return this; }
+  const KeptMemory* memory() const override { return this; }
+  UserProgram* user_program() override { return this; }
+  const UserProgram* user_program() const override { return this; }
 
   // --- the dialogue ----------------------------------------------------------------------------
   TextRules text_rules() const override { return {.echo = state_.echo, .longest_line = 20}; }
@@ -128,9 +139,6 @@ class EchoBox final : public TextDevice {
     return state_ == dynamic_cast<const EchoBox&>(other).state_;
   }
   bool output(int) const override { return false; }
-  std::int64_t pulses_this_tick(int) const override { return 0; }
-  double speed_pps(int) const override { return 0; }
-  void set_encoder(int, std::int64_t) override {}
 
  protected:
   void power_up() override {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "emulator/device/register_map/register_bank.h"
 #include "pty/line.h"
 #include "pty/rtu_crc.h"
 #include "tests/emulator/world/stations/pdus.h"
@@ -104,7 +105,7 @@ TEST(WireExamples, TheStatusIsReadWithFunction04) {
 
 TEST(WireExamples, TheCoordinateOfThePrintedReplyIs32000) {
   StationRig rig;
-  const auto cord_a = rig.device->registers().find("Cord_A", rig.device->firmware());
+  const auto cord_a = rig.device->register_bank()->find("Cord_A");
   ASSERT_TRUE(cord_a);
   rig.exchange(framed(1, hex("10 0E 04 00 02 04 7D 00 00 00")));
   EXPECT_EQ(rig.exchange(hex("01 03 0E 04 00 02 87 22")), Said{"01 03 04 7D 00 00 00 E2 5F"});

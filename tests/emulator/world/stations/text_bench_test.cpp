@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "emulator/device/describe/describe.h"
+#include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_file.h"
+#include "emulator/device/named_values.h"
 #include "emulator/models/models.h"
 #include "emulator/serve/control/control_door.h"
 #include "emulator/serve/control/messages.h"
@@ -51,9 +53,9 @@ TEST(TextBench, ADeviceThatSpeaksTextStandsOnALineOfItsOwn) {
   EXPECT_EQ(world.line(0).protocol, Protocol::text);
   EXPECT_EQ(world.line(1).protocol, Protocol::modbus_rtu);
   EXPECT_EQ(pty::to_string(world.line(0).line.options().settings), "9600 8N1");
-  EXPECT_EQ(world.device(0).value_named("N0"), -7);
-  EXPECT_EQ(world.device(0).value_named("R0"), 0.25);
-  EXPECT_EQ(world.device(0).value_named("MODULES"), 3);
+  EXPECT_EQ(world.device(0).named_values()->value_named("N0"), -7);
+  EXPECT_EQ(world.device(0).named_values()->value_named("R0"), 0.25);
+  EXPECT_EQ(world.device(0).named_values()->value_named("MODULES"), 3);
 }
 
 TEST(TextBench, IsTheSameBenchAsText) {
@@ -216,7 +218,7 @@ TEST(TextBench, ItsMemoryIsAnImageWithRealsAndAProgram) {
   settings.name = "robot";
   settings.nv = image;
   const auto device = make_device(echo_box(), settings);
-  EXPECT_EQ(device->nv_image(), image);
+  EXPECT_EQ(device->memory()->nv_image(), image);
   const std::string text = to_json(image);
   EXPECT_NE(text.find("\"R0\": 0.1\n"), std::string::npos) << text;
   EXPECT_EQ(parse_nv_image(text), image);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "emulator/device/axes.h"
 #include "emulator/play/plot/trace_table.h"
 #include "tests/emulator/play/performing/played.h"
 
@@ -48,7 +49,7 @@ class Witness final : public play::Onlooker, private TickWatcher {
     // By these names the inputs are registers, which read 0 without power.
     rows_.push_back(
         {tick,
-         {static_cast<double>(world_.plant(0, 0).position_pulses()), device.speed_pps(0),
+         {static_cast<double>(world_.plant(0, 0).position_pulses()), device.axes()->speed_pps(0),
           device.powered() ? static_cast<double>(device.input(10)) : 0.0, device.powered() ? 1.0 : 0.0,
           static_cast<double>(world_.line(0).line.counters().bytes_in)}});
   }

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "emulator/device/axes.h"
+#include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/stations/server.h"
 #include "interpreter/simple2/listing.h"
 #include "tests/emulator/models/simple2_r3/programs/course_text.h"
@@ -47,9 +49,10 @@ void write_by_frame(OneSimple2& box, std::size_t first, std::span<const std::uin
 
 void write_by_frame(OneSimple2& box, std::string_view name, Value value) {
   PreparedWrite write;
-  const auto place = box.device().registers().find(name, box.device().firmware());
+  const auto place = box.device().register_bank()->find(name);
   ASSERT_TRUE(place) << name;
-  ASSERT_EQ(prepare_value(box.device(), *place, value, write), Refusal::none) << name << " = " << value;
+  ASSERT_EQ(prepare_value(*box.device().register_bank(), *place, value, write), Refusal::none)
+      << name << " = " << value;
   if (write.count == 2) return write_by_frame(box, write.first, write.words);
   const Bytes pdu = request(0x06, write.first, write.words[0]);
   EXPECT_EQ(reply_to(box, pdu), pdu) << name << " = " << value;
@@ -210,7 +213,7 @@ struct Stage {
   void go_to(Tick ms) { box.run_to(kTickBeforeStart + 1 + ms); }
   /// What comes from outside before tick `ms`.
   void do_deeds(Tick ms) {
-    if (play.encoder_a) box.device().set_encoder(0, play.encoder_a(ms));
+    if (play.encoder_a) box.device().axes()->set_encoder(0, play.encoder_a(ms));
     for (; next < deeds.size() && deeds[next].at <= ms; ++next) deeds[next].does(box);
   }
   /// What happens before the program runs.

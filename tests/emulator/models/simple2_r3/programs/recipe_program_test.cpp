@@ -1,5 +1,6 @@
 // A program that writes and reads every class of parameters. The rules are those in
 // positioning_programs_test.cpp; one line, one slot, so line n runs at 2n ms until the first jump.
+#include "emulator/device/axes.h"
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -22,7 +23,7 @@ TEST(Program, ChangeoverMakesEveryKindOfParameterFromARecipe) {
                           {"Axis_SyncRPM", 100},
                           {"Baxis_SyncRPM", 200},
                           {"ENCB_Resoultion", 600}},
-                 .deeds = {{{-50, [](OneSimple2& box) { box.device().set_encoder(1, -300); }}}},
+                 .deeds = {{{-50, [](OneSimple2& box) { box.device().axes()->set_encoder(1, -300); }}}},
                  .until = 500},
                 R"(
 0       run L0 PROG_VAR0=100

@@ -1,0 +1,69 @@
+// A table that is complete: exactly one handler for each key. As a constexpr variable it does not compile
+// with none or two. What an interpreter's opcodes or a device's commands do is such a table:
+//
+//   constexpr HandlerRow<Verb, Action> kOutputActions[] = {{Verb::set_port, set_port}, ...};
+//   constexpr CompleteTable<Verb, Action> kActions(kVerbs, kMotionActions, kOutputActions);
+//   ...
+//   kActions[verb](device);
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace understudy {
+
+/// How a row is written. Any type with a `key` and a `handler` will do.
+template <typename Key, typename Handler>
+struct HandlerRow {
+  Key key;
+  Handler handler;
+};
+
+/// Keys are numbers or enumerations of one byte.
+template <typename Key, typename Handler>
+class CompleteTable {
+ public:
+  /// Keys may come several times: they are often what the rows of another table name.
+  constexpr explicit CompleteTable(const auto& keys, const auto&... groups_of_rows) {
+    (add(groups_of_rows), ...);
+    std::array<bool, kSize> is_key{};
+    for (const Key key : keys) {
+      is_key[place(key)] = true;
+      demand_handler(key, has(key));
+    }
+    for (std::size_t i = 0; i < kSize; ++i) demand_key(static_cast<Key>(i), is_key[i] || !is_filled_[i]);
+  }
+
+  constexpr bool has(Key key) const { return is_filled_[place(key)]; }
+  /// Of what is not a key, Handler{}.
+  constexpr const Handler& operator[](Key key) const { return handlers_[place(key)]; }
+
+ private:
+  static_assert(sizeof(Key) == 1);
+  static constexpr std::size_t kSize = 256;
+
+  static constexpr std::size_t place(Key key) { return static_cast<unsigned char>(key); }
+  constexpr void add(const auto& rows) {
+    for (const auto& row : rows) {
+      demand_first_handler(row.key, !has(row.key));
+      is_filled_[place(row.key)] = true;
+      handlers_[place(row.key)] = row.handler;
+    }
+  }
+
+  // clang shows a refused call with the number of its key, g++ the call alone.
+  static constexpr void demand_handler(Key /*key*/, bool has_one) {
+    if (!has_one) throw "a key has no handler";
+  }
+  static constexpr void demand_first_handler(Key /*key*/, bool is_first) {
+    if (!is_first) throw "a key has two handlers";
+  }
+  static constexpr void demand_key(Key /*key*/, bool is_key) {
+    if (!is_key) throw "a handler is of something that is not a key";
+  }
+
+  std::array<Handler, kSize> handlers_{};
+  std::array<bool, kSize> is_filled_{};  // g++'s sanitizers cannot compare with null here (GCC bug 71962)
+};
+
+}  // namespace understudy

@@ -1,0 +1,99 @@
+// What a value consists of: its fields, each by its name, written down once beside its type:
+//
+//   template <>
+//   struct understudy::StateOf<Timer> {
+//     static constexpr auto fields = std::tuple{field("mode", &Timer::mode), field("since", &Timer::since)};
+//     static void check(const Timer& timer);   // optional: throws StateError for what no timer can be
+//   };
+//   template <>
+//   struct understudy::StateOf<Mode> {
+//     static constexpr Mode last = Mode::sync;  // of an enumeration: its last value
+//   };
+//
+// From that list a value is saved, restored, hashed (state_bytes.h) and compared (difference.h). The order of
+// the list is that of the bytes. A member of an aggregate that is not listed does not compile; a class with
+// private fields makes its StateOf a friend.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace understudy {
+
+/// Specialised for each type that is a part of a state.
+template <class T>
+struct StateOf;
+
+template <class Owner, class T>
+struct NamedField {
+  std::string_view name;
+  T Owner::*at = nullptr;
+};
+
+template <class Owner, class T>
+constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at) {
+  return {name, at};
+}
+
+namespace state_fields {
+
+template <class T>
+inline constexpr bool kIsOptional = false;
+template <class T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+
+/// Stands for a member of whatever type, where members are counted; an optional one is made of what it holds.
+struct AnyMember {
+  template <class T>
+  requires(!kIsOptional<T>) operator T&() const {  // NOLINT(google-explicit-constructor)
+    std::abort();                                  // never asked: members are counted without being made
+  }
+};
+
+template <class T, std::size_t... i>
+constexpr bool is_made_of(std::index_sequence<i...>) {
+  return requires { T{(static_cast<void>(i), AnyMember{})...}; };
+}
+
+/// How many members an aggregate has.
+template <class T, std::size_t count = 48>
+constexpr std::size_t member_count() {
+  if constexpr (requires { StateOf<T>::members; }) {
+    return StateOf<T>::members;  // one that cannot be counted
+  } else if constexpr (count == 0 || is_made_of<T>(std::make_index_sequence<count>())) {
+    return count;
+  } else {
+    return member_count<T, count - 1>();
+  }
+}
+
+}  // namespace state_fields
+
+template <class T>
+concept HasFields = requires {
+  StateOf<std::remove_cv_t<T>>::fields;
+};
+
+/// The fields of a type, all of them: a member that is not listed does not compile.
+template <HasFields T>
+constexpr const auto& fields_of() {
+  using Fields = std::remove_cvref_t<decltype(StateOf<T>::fields)>;
+  if constexpr (std::is_aggregate_v<T>) {
+    static_assert(std::tuple_size_v<Fields> == state_fields::member_count<T>(),
+                  "StateOf lists other fields than the type has");
+  }
+  return StateOf<T>::fields;
+}
+
+/// Calls visit(field) for each field of a value, in order.
+template <HasFields T>
+constexpr void for_each_field(T& value, auto visit) {
+  std::apply([&](const auto&... named) { (visit(value.*named.at), ...); }, fields_of<std::remove_cv_t<T>>());
+}
+
+}  // namespace understudy

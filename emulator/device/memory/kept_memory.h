@@ -1,0 +1,40 @@
+// What of a device outlives the power. A facet: Device::memory() is null where a device keeps nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/register_map/register_map.h"
+
+namespace understudy::emulator {
+
+class KeptMemory {
+ public:
+  /// As a file has it, and back (without power only). Throws NvError for what it cannot hold.
+  NvImage nv_image() const;
+  void load_nv(const NvImage& image);
+
+  /// Changes whenever what would be there if the power went now may have changed.
+  virtual std::uint64_t kept_revision() const = 0;
+  /// All that waits to be kept is kept at once, as if its time were over.
+  virtual void settle_memory() = 0;
+
+ protected:
+  /// Of the model and the firmware that its images name.
+  KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
+  ~KeptMemory() = default;
+
+  /// All that is kept, into an image that has the model and the firmware already.
+  virtual void write_memory(NvImage& image) const = 0;
+  /// The same back, without power: what the image does not name has the factory's value. Throws NvError for
+  /// what it cannot hold; nothing has changed then.
+  virtual void read_memory(const NvImage& image) = 0;
+
+ private:
+  std::string_view model_name_;
+  Firmware firmware_;
+};
+
+}  // namespace understudy::emulator

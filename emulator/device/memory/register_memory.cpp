@@ -1,0 +1,58 @@
+#include "emulator/device/memory/register_memory.h"
+
+#include <string>
+#include <utility>
+
+#include "base/text/one_line.h"
+
+namespace understudy::emulator {
+
+void write_registers(const RegisterBank& bank, std::span<const std::uint32_t> kept, NvImage& image) {
+  std::size_t slot = 0;
+  for (const RegisterRow& row : bank.map().rows()) {
+    for (int i = 0; i < row.count; ++i, ++slot) {
+      if (!bank.keeps(row) || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
+      image.registers.emplace_back(RegisterMap::name_of(row, i), value_of(kept[slot], row.type));
+    }
+  }
+}
+
+std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImage& image, Firmware newest) {
+  for (const auto& [key, is_there] :
+       {std::pair("reals", !image.reals.empty()), std::pair("program", !image.program.empty())}) {
+    if (!is_there) continue;
+    throw NvError(std::string(key) + ": is not part of the memory of " + image.model + "; expected none");
+  }
+  const RegisterMap& map = bank.map();
+  std::vector<std::uint32_t> values;
+  for (const RegisterRow& row : map.rows()) {
+    values.insert(values.end(), static_cast<std::size_t>(row.count), static_cast<std::uint32_t>(row.factory));
+  }
+  std::vector<bool> is_named(values.size(), false);
+  for (const auto& [name, value] : image.registers) {
+    const auto found = map.find(name, newest);
+    if (!found || found->bit >= 0 || found->place.part != Place::Part::whole) {
+      throw NvError("registers: " + map.why_not(name, newest));
+    }
+    const RegisterRow& row = *found->place.row;
+    if (!bank.keeps(row)) {
+      throw NvError("registers: " + quoted(name) + " is not kept over power-off; expected one that is");
+    }
+    const auto bits = static_cast<std::uint32_t>(value);
+    // Half of a 32-bit value may have been written alone, so it can be beyond its range; nothing else can.
+    const bool in_range = !row.ranged || is_32_bit(row.type) || (value >= row.min && value <= row.max);
+    if (value_of(bits, row.type) != value || (bits & row.stored_bits) != bits || !in_range) {
+      throw NvError("registers: " + quoted(name) + ": " + std::to_string(value) + " does not fit; expected " +
+                    range_text(row));
+    }
+    const auto slot = static_cast<std::size_t>(found->place.slot);
+    if (is_named[slot]) {
+      throw NvError("registers: " + quoted(name) + ": is there twice, by two names; expected it once");
+    }
+    is_named[slot] = true;
+    values[slot] = bits;
+  }
+  return values;
+}
+
+}  // namespace understudy::emulator

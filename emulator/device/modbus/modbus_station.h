@@ -1,0 +1,22 @@
+// What a device offers that is spoken to in Modbus, beside its registers: which addresses it listens to, and
+// whether it says no. A facet: Device::modbus() is null where a device speaks something else.
+#pragma once
+
+#include <cstdint>
+
+namespace understudy::emulator {
+
+/// What a station does with a frame that carries some address.
+enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
+
+class ModbusStation {
+ public:
+  virtual Addressing addressing(std::uint8_t address) const = 0;
+  /// Whether a request that it refuses gets an exception, or no answer.
+  virtual bool answers_refusals() const { return true; }
+
+ protected:
+  ~ModbusStation() = default;
+};
+
+}  // namespace understudy::emulator

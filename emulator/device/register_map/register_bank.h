@@ -1,0 +1,69 @@
+// A device's registers, as all reach them that read and write them (access.h): the wire, the control socket,
+// scenarios, the device's own program. A facet: Device::register_bank() is null where a device has none.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/device/register_map/register_map.h"
+
+namespace understudy::emulator {
+
+class RegisterBank {
+ public:
+  const RegisterMap& map() const { return map_; }
+  /// What the device has at an address, or of a name, by its firmware.
+  Place at(Table table, std::uint16_t address) const {
+    return map_.at(table, address, map_firmware_, low_word_first());
+  }
+  std::optional<NamedPlace> find(std::string_view name) const { return map_.find(name, map_firmware_); }
+  /// Why find() found nothing, as one line.
+  std::string why_not(std::string_view name) const { return map_.why_not(name, map_firmware_); }
+  bool has_row(const RegisterRow& row) const { return map_firmware_ >= row.since; }
+
+  /// The map's, or what this device makes of it.
+  virtual const MapPolicy& map_policy() const { return map_.policy(); }
+  virtual bool low_word_first() const { return map_.policy().low_word_first; }
+  /// One slot for each register, as the map numbers them.
+  virtual std::span<std::uint32_t> image() = 0;
+  virtual std::span<const std::uint32_t> image() const = 0;
+  /// Whether a register outlives the power.
+  virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
+
+  /// Called for each register that a request has written, after its effect.
+  virtual void register_written(const RegisterRow& row, std::size_t slot) = 0;
+  /// Called after a write request has been stored and all its effects have run.
+  virtual void registers_written() {}
+  /// Tells the user, once for each row, that something is not modelled.
+  virtual void mention_unmodelled(const RegisterRow& row) const = 0;
+
+ protected:
+  RegisterBank(const RegisterMap& map, Firmware firmware) : map_(map), map_firmware_(firmware) {}
+  ~RegisterBank() = default;
+
+ private:
+  const RegisterMap& map_;
+  Firmware map_firmware_;
+};
+
+/// The registers of a device of type `D`: rows whose functions take that type find it here (row.h).
+template <typename D>
+class RegisterBankOf : public RegisterBank {
+ public:
+  D& device() { return device_; }
+  const D& device() const { return device_; }
+
+ protected:
+  RegisterBankOf(D& device, const RegisterMap& map, Firmware firmware)
+      : RegisterBank(map, firmware), device_(device) {}
+  ~RegisterBankOf() = default;
+
+ private:
+  D& device_;
+};
+
+}  // namespace understudy::emulator

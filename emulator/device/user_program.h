@@ -1,0 +1,21 @@
+// The program that a user gives a device to run by itself. A facet: Device::user_program() is null where a
+// device takes none.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace understudy::emulator {
+
+class UserProgram {
+ public:
+  /// Throws ProgramError; then nothing has changed. What it brings is written as over the wire.
+  virtual void load_program(std::string_view text) = 0;
+  /// As text that load_program() takes.
+  virtual std::string program_text() const = 0;
+
+ protected:
+  ~UserProgram() = default;
+};
+
+}  // namespace understudy::emulator
