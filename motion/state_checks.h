@@ -5,21 +5,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/state/state_error.h"
 #include "motion/axis.h"
-#include "motion/bad_motion.h"
 #include "motion/coordinated.h"
 #include "motion/external_drive.h"
 #include "motion/synchronous.h"
 
 namespace understudy::motion {
-
-inline void demand_state(bool holds, const char* what) {
-  if (!holds) throw BadMotion(Refusal::out_of_range, "saved state", what);
-}
-
-inline void demand_within(std::int64_t value, std::int64_t least, std::int64_t greatest) {
-  demand_state(value >= least && value <= greatest, "a number is beyond its range");
-}
 
 /// Pulses and ticks: sums with what a drive can send still fit 64 bits.
 inline void demand_reach(std::int64_t value) {

@@ -346,6 +346,11 @@ struct StateOf<motion::PathRun> {
                                             field("paused", &motion::PathRun::paused_),
                                             field("completed", &motion::PathRun::completed_),
                                             field("last_place", &motion::PathRun::last_place_)};
+  static constexpr std::size_t members = 14;
+  static void name_all(motion::PathRun& run) {  // does not compile if there are others
+    [[maybe_unused]] auto& [pieces, head, count, chain_count, chain_end_u, profile, begin_tick, law, override,
+                            late_joint, running, paused, completed, last_place] = run;
+  }
   static void check(const motion::PathRun& value) { motion::check_restored(value); }
 };
 

@@ -11,8 +11,9 @@
 //   };
 //
 // From that list a value is saved, restored, hashed (state_bytes.h) and compared (difference.h). The order of
-// the list is that of the bytes. A member of an aggregate that is not listed does not compile; a class with
-// private fields makes its StateOf a friend.
+// the list is that of the bytes. A member that is not listed does not compile. A class with private fields
+// makes its StateOf a friend, which names them in a structured binding (they cannot be counted otherwise) and
+// says how many there are, `members`.
 #pragma once
 
 #include <cstddef>
@@ -83,10 +84,11 @@ concept HasFields = requires {
 template <HasFields T>
 constexpr const auto& fields_of() {
   using Fields = std::remove_cvref_t<decltype(StateOf<T>::fields)>;
-  if constexpr (std::is_aggregate_v<T>) {
-    static_assert(std::tuple_size_v<Fields> == state_fields::member_count<T>(),
-                  "StateOf lists other fields than the type has");
-  }
+  static_assert(
+      std::is_aggregate_v<T> || requires { StateOf<T>::members; },
+      "the members of a class cannot be counted: StateOf must say how many there are");
+  static_assert(std::tuple_size_v<Fields> == state_fields::member_count<T>(),
+                "StateOf lists other fields than the type has");
   return StateOf<T>::fields;
 }
 

@@ -89,7 +89,7 @@ class Device {
   /// Whether it equals another device of the same model, bit for bit.
   virtual bool same_state(const Device& other) const = 0;
 
-  // --- its state as bytes (emulator/state/) ---------------------------------------------------------
+  // --- its state as bytes (base/state/) ---------------------------------------------------------
   /// All that it is at this moment; what it was made from (model, firmware, settings, choices) is not in it.
   std::vector<std::byte> save_state() const;
   /// Makes it what save_state() of a device made alike has given, once the result is called. Throws
