@@ -269,8 +269,8 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
 void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
                       std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
-  world_.line(lines_[frame.device])
-      .line.tell_strike({.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
+  world_.tell_strike(lines_[frame.device],
+                     {.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
 }
 
 bool FaultWatch::is_early(const HeardFrame& frame) {

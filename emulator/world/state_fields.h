@@ -18,6 +18,7 @@ struct WorldFields {
     return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
   }
   static auto& plants(Like<World> auto& world) { return world.plants_; }
+  static pty::Line& line(World& world, std::size_t number) { return world.lines_[number]->line; }
   // clang-format off
   static void of(Like<World::Input> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<World::Supply> auto& v, auto visit) { auto& [a] = v; visit(a); }

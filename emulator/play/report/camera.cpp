@@ -62,12 +62,12 @@ void Camera::watch_lines() {
     framers_.push_back(std::make_unique<pty::CaptureFrames>(
         i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); },
         world_.line(i).protocol == Protocol::text));
-    world_.line(i).line.add_observer(*framers_.back());
+    world_.add_observer(i, *framers_.back());
   }
 }
 
 void Camera::ignore_lines() {
-  for (std::size_t i = 0; i < framers_.size(); ++i) world_.line(i).line.remove_observer(*framers_[i]);
+  for (std::size_t i = 0; i < framers_.size(); ++i) world_.remove_observer(i, *framers_[i]);
   framers_.clear();
 }
 
