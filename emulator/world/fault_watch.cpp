@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "base/text/one_line.h"
 #include "emulator/world/check_fault.h"
-#include "emulator/world/expression/parser.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/world.h"
 
@@ -15,26 +13,6 @@ namespace {
 using Kind = Fault::Kind;
 
 constexpr int kDeviceBusy = 6;  // the exception of that name
-
-/// ExpressionError, or what the resolver throws.
-Expression parse_condition(const std::string& text, const Probes& probes) {
-  ExpressionParser parser(text, probes);
-  const Term term = parser.expression();
-  parser.expect_end();
-  if (term.unit != Unit::none) {
-    throw NameError(quoted(text) + " is " + kind_of(term.unit) + "; expected a condition");
-  }
-  return parser.take();
-}
-
-/// What is known by name but kept by nobody here, as what a scenario counts.
-void demand_value(const Probes& probes, const Expression::Name& name) {
-  try {
-    probes.value(name.number.handle);
-  } catch (const NameError&) {
-    throw NameError(quoted(name.spelling) + " is nothing to wait for; expected what the world itself knows");
-  }
-}
 
 /// Which registers a request is about.
 FrameFacts facts_of(const HeardFrame& frame) {
@@ -107,65 +85,11 @@ bool is_of_replies(const Fault& fault) {
   return is_of_wire(fault.kind) && fault.kind != Kind::slow && fault.side != Fault::Side::request;
 }
 
-/// Lines of text have no functions, no stations, no checksum and no exceptions.
-void demand_of_protocol(const KnownDevice& device, const Fault& fault) {
-  if (device.model->protocol() != Protocol::text) return;
-  const std::string kind(fault_kind(fault.kind).name);
-  switch (fault.kind) {
-    case Kind::busy:
-    case Kind::exception:
-    case Kind::early_reply:
-    case Kind::corrupt_checksum:
-      throw NameError(kind + ": is a fault of Modbus frames, and " + device.name +
-                      " speaks text; expected another one");
-    default: break;
-  }
-  const FaultTrigger& trigger = fault.trigger;
-  for (const auto& [field, value] :
-       {std::pair("function", trigger.function), std::pair("station", trigger.station),
-        std::pair("address", trigger.first_address)}) {
-    if (value < 0) continue;
-    throw FaultFieldError(kind, field, device.name + " speaks text, which has none; expected none");
-  }
-}
-
 }  // namespace
 
 std::int64_t encoder_noise_counts(const Fault& fault, Tick tick) {
   const bool is_second_half = fault.period_ticks != 0 && tick % fault.period_ticks >= fault.period_ticks / 2;
   return is_second_half ? -fault.amount : fault.amount;
-}
-
-void check_fault(const World& world, const Fault& fault) {
-  if (fault.kind == Kind::encoder_noise && !world.plant(fault.device, fault.place).has_encoder()) {
-    const KnownDevice& device = world.known()[fault.device];
-    throw NameError(device.name + "." +
-                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
-                    " has no encoder; expected one in `plant`");
-  }
-  if (fault.kind == Kind::turn && !world.plant(fault.device, fault.place).setup().has_wheel) {
-    const KnownDevice& device = world.known()[fault.device];
-    throw NameError(device.name + "." +
-                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
-                    " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
-  }
-  demand_of_protocol(world.known()[fault.device], fault);
-  if (fault.trigger.when.empty()) return;
-  try {
-    check_condition(world, fault.trigger.when);
-  } catch (const NameError& error) {
-    throw FaultFieldError(std::string(fault_kind(fault.kind).name), "when", error.what());
-  }
-}
-
-void check_condition(const World& world, const std::string& when) {
-  const Probes probes(world);
-  try {
-    const Expression condition = parse_condition(when, probes);
-    for (const Expression::Name& name : condition.names) demand_value(probes, name);
-  } catch (const std::runtime_error& error) {
-    throw NameError(error.what());
-  }
 }
 
 FaultWatch::FaultWatch(World& world, Faults& faults, std::uint64_t seed)

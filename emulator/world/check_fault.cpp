@@ -1,0 +1,85 @@
+#include "emulator/world/check_fault.h"
+
+#include "base/text/one_line.h"
+#include "emulator/world/expression/parser.h"
+#include "emulator/world/faults/kinds.h"
+#include "emulator/world/probe/probe_names.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+using Kind = Fault::Kind;
+
+/// Lines of text have no functions, no stations, no checksum and no exceptions.
+void demand_of_protocol(const KnownDevice& device, const Fault& fault) {
+  if (device.model->protocol() != Protocol::text) return;
+  const std::string kind(fault_kind(fault.kind).name);
+  switch (fault.kind) {
+    case Kind::busy:
+    case Kind::exception:
+    case Kind::early_reply:
+    case Kind::corrupt_checksum:
+      throw NameError(kind + ": is a fault of Modbus frames, and " + device.name +
+                      " speaks text; expected another one");
+    default: break;
+  }
+  const FaultTrigger& trigger = fault.trigger;
+  for (const auto& [field, value] :
+       {std::pair("function", trigger.function), std::pair("station", trigger.station),
+        std::pair("address", trigger.first_address)}) {
+    if (value < 0) continue;
+    throw FaultFieldError(kind, field, device.name + " speaks text, which has none; expected none");
+  }
+}
+
+}  // namespace
+
+Expression parse_condition(const std::string& text, const NameResolver& names) {
+  ExpressionParser parser(text, names);
+  const Term term = parser.expression();
+  parser.expect_end();
+  if (term.unit != Unit::none) {
+    throw NameError(quoted(text) + " is " + kind_of(term.unit) + "; expected a condition");
+  }
+  return parser.take();
+}
+
+void check_fault(const Inventory& inventory, const Fault& fault) {
+  if (fault.kind == Kind::encoder_noise &&
+      inventory.machine(fault.device, fault.place).encoder_counts_per_revolution == 0) {
+    const KnownDevice& device = inventory.known()[fault.device];
+    throw NameError(device.name + "." +
+                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
+                    " has no encoder; expected one in `plant`");
+  }
+  if (fault.kind == Kind::turn && !inventory.machine(fault.device, fault.place).has_wheel) {
+    const KnownDevice& device = inventory.known()[fault.device];
+    throw NameError(device.name + "." +
+                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
+                    " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
+  }
+  demand_of_protocol(inventory.known()[fault.device], fault);
+  if (fault.trigger.when.empty()) return;
+  try {
+    check_condition(inventory, fault.trigger.when);
+  } catch (const NameError& error) {
+    throw FaultFieldError(std::string(fault_kind(fault.kind).name), "when", error.what());
+  }
+}
+
+void check_condition(const Inventory& inventory, const std::string& when) {
+  const ProbeNames names(inventory);
+  try {
+    const Expression condition = parse_condition(when, names);
+    for (const Expression::Name& name : condition.names) {
+      if (!names.is_of_scenarios(name.number.handle)) continue;
+      throw NameError(quoted(name.spelling) +
+                      " is nothing to wait for; expected what the world itself knows");
+    }
+  } catch (const std::runtime_error& error) {
+    throw NameError(error.what());
+  }
+}
+
+}  // namespace understudy::emulator::world
