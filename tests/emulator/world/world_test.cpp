@@ -5,7 +5,7 @@
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace world_test {
 
 using namespace std::chrono_literals;
 
@@ -223,5 +223,5 @@ TEST(World, DevicesOfOtherSettingsAreOfAnotherState) {
   EXPECT_FALSE(a.device(0).same_state(b.device(0)));
 }
 
-}  // namespace
+}  // namespace world_test
 }  // namespace understudy::emulator::world

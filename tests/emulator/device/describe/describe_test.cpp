@@ -12,7 +12,7 @@
 #include "tests/emulator/device/register_map/register_facts.h"
 
 namespace understudy::emulator {
-namespace {
+namespace describe_test {
 
 const Model& simple2() { return *find_model(models::all_models(), "simple2-r3"); }
 
@@ -283,5 +283,5 @@ TEST(Describe, TheTableForPeopleTellsWhatIsNotModelled) {
   EXPECT_NE(table.substr(0, table.find('\n')).find("not modelled"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace describe_test
 }  // namespace understudy::emulator

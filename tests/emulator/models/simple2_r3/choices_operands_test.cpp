@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_operands_test {
 
 // CMD of the lines used here.
 constexpr std::uint16_t kWaitIo = 0x01, kJump = 0x03, kOut = 0x05, kOutAll = 0x06, kOutSelect = 0x09;
@@ -96,5 +96,5 @@ TEST(ChoicesProgram, TheReadOnlyParametersAreThoseOfReadOnlyRegisters) {
   }
 }
 
-}  // namespace
+}  // namespace choices_operands_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -11,7 +11,7 @@
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace power_cycle_world_test {
 
 std::uint64_t seed() {
   const char* given = std::getenv("UNDERSTUDY_SEED");
@@ -231,5 +231,5 @@ TEST(PowerCycleInAWorld, InputsAreLookedAtAnewByADeviceThatComesBack) {
   EXPECT_EQ(world::get(world, "feeder.STATUS.0"), 1);
 }
 
-}  // namespace
+}  // namespace power_cycle_world_test
 }  // namespace understudy::emulator::models::simple2_r3

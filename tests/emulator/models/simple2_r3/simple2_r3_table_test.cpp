@@ -10,7 +10,7 @@
 #include "tests/emulator/device/register_map/register_facts.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace simple2_r3_table_test {
 
 const Model& simple2() { return *find_model(all_models(), "simple2-r3"); }
 
@@ -150,5 +150,5 @@ TEST(Simple2Parameters, AreThe175NumbersOfTheManual) {
   }
 }
 
-}  // namespace
+}  // namespace simple2_r3_table_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace meetings_test {
 
 using Lines = std::vector<std::string>;
 
@@ -191,6 +191,6 @@ TEST(SlimMeetings, NameTheListOrARowOfTheChoices) {
   }
 }
 
-}  // namespace
+}  // namespace meetings_test
 
 }  // namespace understudy::emulator::models::slim

@@ -5,7 +5,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace outputs_test {
 
 int levels(const Chain& chain, int module) {
   int mask = 0;
@@ -187,5 +187,5 @@ TEST(SlimTriggers, FollowTheCoordinateAndWorkInCoordinatedMotion) {
   EXPECT_EQ(bench.chain.arm(1, 3, 1, true, 1), Error::range);
 }
 
-}  // namespace
+}  // namespace outputs_test
 }  // namespace understudy::emulator::models::slim

@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace programs_test {
 
 TEST(SlimPrograms, PickAndPlace) {
   // 10000 pulses: 2 sqrt(10000 / 1666667) = 0.1549 s. Twice, and 50 ms between: 0.360 s and 8 lines.
@@ -349,6 +349,6 @@ TEST(SlimPrograms, AnEmergencyStopLeavesNothing) {
   EXPECT_EQ(script.device().named_values()->value_named("PE"), stopped);
 }
 
-}  // namespace
+}  // namespace programs_test
 
 }  // namespace understudy::emulator::models::slim

@@ -12,7 +12,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace state_test {
 
 /// A script up to a moment in the middle of something, and what goes on from there.
 struct Moment {
@@ -322,6 +322,6 @@ on
 )");
 }
 
-}  // namespace
+}  // namespace state_test
 
 }  // namespace understudy::emulator::models::slim

@@ -9,7 +9,7 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace text_lines_test {
 
 using Strings = std::vector<std::string>;
 
@@ -182,5 +182,5 @@ TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
   }
 }
 
-}  // namespace
+}  // namespace text_lines_test
 }  // namespace understudy::emulator::play

@@ -8,7 +8,7 @@
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace frame_text_test {
 
 class FrameText : public testing::Test {
  protected:
@@ -84,5 +84,5 @@ TEST_F(FrameText, LongNoiseIsCut) {
   EXPECT_EQ(hex_text(Bytes(300, 0x55)).substr(90), "55 55 ... (300 bytes)");
 }
 
-}  // namespace
+}  // namespace frame_text_test
 }  // namespace understudy::emulator::world

@@ -24,7 +24,7 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace text_bench_test {
 
 using namespace std::chrono_literals;
 
@@ -264,5 +264,5 @@ TEST(TextBench, AnImageThatDoesNotSuitIsRefused) {
   EXPECT_EQ(parse(R"("program":["A",1])"), "program: is not a list of lines; expected one");
 }
 
-}  // namespace
+}  // namespace text_bench_test
 }  // namespace understudy::emulator::world
