@@ -56,3 +56,19 @@ UNDERSTUDY_STATE(UnitScale);
 #undef UNDERSTUDY_STATE
 
 }  // namespace understudy::motion
+
+namespace understudy {
+
+#define UNDERSTUDY_STATE_HERE(Type)                            \
+  template void StateWriter::write<void>(const motion::Type&); \
+  template void StateReader::read<void>(motion::Type&);        \
+  template std::string first_difference(const motion::Type&, const motion::Type&, const std::string&)
+
+UNDERSTUDY_STATE_HERE(Axis);
+UNDERSTUDY_STATE_HERE(Coordinated);
+UNDERSTUDY_STATE_HERE(Surroundings);
+UNDERSTUDY_STATE_HERE(UnitScale);
+
+#undef UNDERSTUDY_STATE_HERE
+
+}  // namespace understudy

@@ -1,11 +1,14 @@
 // What each value of motion consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <string>
 #include <tuple>
 
+#include "base/state/difference.h"
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "motion/axis.h"
+#include "motion/bad_motion.h"
 #include "motion/coordinated.h"
 #include "motion/external_drive.h"
 #include "motion/following.h"
@@ -365,5 +368,29 @@ struct StateOf<motion::Coordinated> {
                                             field("slowing_for", &motion::Coordinated::slowing_for)};
   static void check(const motion::Coordinated& value) { motion::check_restored(value); }
 };
+
+namespace motion {
+/// For what holds motion's values: what these refuse as BadMotion comes as a StateError.
+void with_state_errors(auto read) {
+  try {
+    read();
+  } catch (const BadMotion& bad) {
+    throw StateError(bad.what());
+  }
+}
+}  // namespace motion
+
+// Those that other rooms hold are made once, in state.cpp.
+#define UNDERSTUDY_STATE_ELSEWHERE(Type)                              \
+  extern template void StateWriter::write<void>(const motion::Type&); \
+  extern template void StateReader::read<void>(motion::Type&);        \
+  extern template std::string first_difference(const motion::Type&, const motion::Type&, const std::string&)
+
+UNDERSTUDY_STATE_ELSEWHERE(Axis);
+UNDERSTUDY_STATE_ELSEWHERE(Coordinated);
+UNDERSTUDY_STATE_ELSEWHERE(Surroundings);
+UNDERSTUDY_STATE_ELSEWHERE(UnitScale);
+
+#undef UNDERSTUDY_STATE_ELSEWHERE
 
 }  // namespace understudy
