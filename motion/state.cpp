@@ -21,9 +21,6 @@ std::size_t restore(T& value, std::span<const std::byte> bytes) {
     reader.take_value(restored);
   } catch (const StateError& error) {
     refuse(error.what());
-  } catch (const BadMotion& bad) {
-    if (bad.refusal() == Refusal::out_of_range) throw;
-    refuse(bad.what());
   }
   value = restored;
   return bytes.size() - reader.rest().size();

@@ -8,7 +8,6 @@
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "motion/axis.h"
-#include "motion/bad_motion.h"
 #include "motion/coordinated.h"
 #include "motion/external_drive.h"
 #include "motion/following.h"
@@ -368,17 +367,6 @@ struct StateOf<motion::Coordinated> {
                                             field("slowing_for", &motion::Coordinated::slowing_for)};
   static void check(const motion::Coordinated& value) { motion::check_restored(value); }
 };
-
-namespace motion {
-/// For what holds motion's values: what these refuse as BadMotion comes as a StateError.
-void with_state_errors(auto read) {
-  try {
-    read();
-  } catch (const BadMotion& bad) {
-    throw StateError(bad.what());
-  }
-}
-}  // namespace motion
 
 // Those that other rooms hold are made once, in state.cpp.
 #define UNDERSTUDY_STATE_ELSEWHERE(Type)                              \

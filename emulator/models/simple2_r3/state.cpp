@@ -7,7 +7,6 @@
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/state_fields.h"
-#include "motion/state_fields.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
@@ -82,7 +81,7 @@ void Simple2R3::write_own_state(StateWriter& writer) const { writer.put_value(st
 
 std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
-  motion::with_state_errors([&] { reader.take_value(*restored); });
+  reader.take_value(*restored);
   restored->eeprom.check_restored(state_.eeprom);
   std::size_t slot = 0;
   for (const RegisterRow& row : map().rows()) {
@@ -95,9 +94,7 @@ std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
 }
 
 std::string Simple2R3::own_difference(StateReader& a, StateReader& b) const {
-  std::string found;
-  motion::with_state_errors([&] { found = difference_of_saved<State>(a, b); });
-  return found;
+  return difference_of_saved<State>(a, b);
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

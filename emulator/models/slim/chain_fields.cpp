@@ -67,8 +67,6 @@ void StateOf<ChainOptions>::check(const ChainOptions& options) {
 }
 
 void StateOf<ModuleSettings>::check(const ModuleSettings& settings) {
-  demand_within(settings.scale.multiplier, 1, INT32_MAX);
-  demand_within(settings.scale.divider, 1, INT32_MAX);
   demand_within(settings.pulses_per_revolution, 1, INT32_MAX);
   for (const double speed :
        {settings.working_speed, settings.acceleration, settings.path_acceleration_units_s2,

@@ -7,7 +7,6 @@
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/state_fields.h"
 #include "interpreter/slim/state_fields.h"
-#include "motion/state_fields.h"
 
 namespace understudy {
 
@@ -52,7 +51,7 @@ void Slim::write_own_state(StateWriter& writer) const { writer.put_value(settled
 
 std::function<void()> Slim::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
-  motion::with_state_errors([&] { reader.take_value(*restored); });
+  reader.take_value(*restored);
   settle_programs(*restored, flow_options_);
   // What else only this bench's choices tell.
   for (const Errors& errors : restored->errors) {
@@ -70,9 +69,7 @@ std::function<void()> Slim::read_own_state(StateReader& reader) {
 }
 
 std::string Slim::own_difference(StateReader& a, StateReader& b) const {
-  std::string found;
-  motion::with_state_errors([&] { found = difference_of_saved<State>(a, b); });
-  return found;
+  return difference_of_saved<State>(a, b);
 }
 
 }  // namespace understudy::emulator::models::slim
