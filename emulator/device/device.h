@@ -20,6 +20,8 @@
 namespace understudy {
 class StateReader;
 class StateWriter;
+template <class T>
+struct StateOf;
 }  // namespace understudy
 
 namespace understudy::emulator {
@@ -98,6 +100,9 @@ class Device {
   /// The same at once; when it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
+  /// "axes[0].motor.travel_pulses: 12 against 13": the first field by which two states differ that
+  /// save_state() of devices made alike has given; empty if none does. Throws StateError for other bytes.
+  std::string state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const;
 
   // --- terminals, by their number in the model's table -----------------------------------------------
   /// Levels from outside, in the terminal's unit; the device looks at them in sample_inputs().
@@ -131,9 +136,11 @@ class Device {
   virtual void write_own_state(StateWriter& writer) const = 0;
   /// Reads it, and gives what puts it in force, which throws nothing.
   virtual std::function<void()> read_own_state(StateReader& reader) = 0;
+  /// Reads two of it, and tells where they differ (base/state/difference.h).
+  virtual std::string own_difference(StateReader& a, StateReader& b) const = 0;
 
  private:
-  struct CommonFields;  // device_state.cpp
+  friend struct StateOf<Device>;  // device_state.cpp
 
   // What every tick needs, first: the rest lies behind the first cache line.
   const Model& model_;

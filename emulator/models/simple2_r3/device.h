@@ -239,6 +239,7 @@ class Simple2R3 final : public Device,
   void power_down() override;
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
+  std::string own_difference(StateReader& a, StateReader& b) const override;
   void write_memory(NvImage& image) const override;
   void read_memory(const NvImage& image) override;
 

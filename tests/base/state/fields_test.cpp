@@ -137,7 +137,7 @@ TEST(Difference, IsToldByTheNamesOfTheFields) {
                   p.is_on = false;
                   p.number = 1;
                 },
-                "is_on: 1 against 0"},
+                "is_on: true against false"},
        }) {
     Panel other = a_panel();
     change(other);

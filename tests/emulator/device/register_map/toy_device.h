@@ -60,6 +60,7 @@ class ToyDevice final : public Device, public RegisterBankOf<ToyDevice> {
   std::function<void()> read_own_state(StateReader&) override {
     return [] {};
   }
+  std::string own_difference(StateReader&, StateReader&) const override { return ""; }
 
  private:
   std::vector<std::uint32_t> image_;
