@@ -26,7 +26,7 @@ std::uint32_t resolution_of(const State& state, int axis) {
 
 Simple2R3::Simple2R3(const DeviceSettings& given)
     : Device(simple2_r3::model(), given),
-      RegisterBankOf(*this, simple2_r3::model().registers, given.firmware),
+      RegisterBankOf(*this, *simple2_r3::model().registers, given.firmware),
       KeptMemory(simple2_r3::model().name, given.firmware) {
   dialect_ = dialect_of(*this);
   map_policy_ = chosen_map_policy();
@@ -46,7 +46,7 @@ Simple2R3::Simple2R3(const DeviceSettings& given)
   counts_physical_sense_ = firmware() <= 140;
   boot_ticks_ = chose(kBoot100ms) ? 100 : chose(kBoot1s) ? 1000 : 0;
   state_.eeprom = factory_memory();
-  set_input(kFirstSwitch, settings().baud == simple2_r3::model().rtu.bauds.back() ? 1 : 0);  // DIP1
+  set_input(kFirstSwitch, settings().baud == simple2_r3::model().line.bauds.back() ? 1 : 0);  // DIP1
 }
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
@@ -73,8 +73,8 @@ MapPolicy Simple2R3::chosen_map_policy() const {
 }
 
 pty::LineSettings Simple2R3::line_settings() const {
-  pty::LineSettings line = Device::model().rtu.settings;
-  line.baud = Device::model().rtu.bauds[dip_switch(0) ? 1 : 0];
+  pty::LineSettings line = Device::line_settings();
+  line.baud = Device::model().line.bauds[dip_switch(0) ? 1 : 0];
   return line;
 }
 

@@ -12,6 +12,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/options.h"
@@ -121,6 +122,7 @@ class Simple2R3 final : public Device,
                         public ModbusStation,
                         public KeptMemory,
                         public UserProgram,
+                        public Terminals,
                         public Axes {
  public:
   explicit Simple2R3(const DeviceSettings& given);
@@ -132,6 +134,7 @@ class Simple2R3 final : public Device,
   const KeptMemory* memory() const override { return this; }
   UserProgram* user_program() override { return this; }
   const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
 

@@ -21,10 +21,10 @@ const std::vector<NamedPlace>& parameter_places() {
     std::vector<NamedPlace> all(256);
     const Model& mine = simple2_r3::model();
     for (const ParameterRow& row : mine.parameters) {
-      for (const RegisterRow& target : mine.registers.rows()) {
+      for (const RegisterRow& target : mine.registers->rows()) {
         if (target.name != row.register_name) continue;
         for (int i = 0; i < row.count; ++i) {
-          const auto found = mine.registers.find(RegisterMap::name_of(target, i), mine.firmwares.back());
+          const auto found = mine.registers->find(RegisterMap::name_of(target, i), mine.firmwares.back());
           if (found) all[static_cast<std::size_t>(row.first) + static_cast<std::size_t>(i)] = *found;
         }
       }

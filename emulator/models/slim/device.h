@@ -17,6 +17,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/terminals.h"
 #include "emulator/device/text/text_device.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/actions.h"
@@ -73,6 +74,7 @@ class Slim final : public TextDevice,
                    public NamedValues,
                    public KeptMemory,
                    public UserProgram,
+                   public Terminals,
                    public Axes,
                    private lang::Machine {
  public:
@@ -84,6 +86,7 @@ class Slim final : public TextDevice,
   const KeptMemory* memory() const override { return this; }
   UserProgram* user_program() override { return this; }
   const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
 
