@@ -141,7 +141,7 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
   };
   for (const Model* const model : models::all_models()) {
     std::set<std::string_view> sections;
-    for (const RegisterRow& row : model->registers.rows()) sections.insert(row.section);
+    for (const RegisterRow& row : register_rows(*model)) sections.insert(row.section);
     for (const ChoiceRow& row : model->choices) sections.insert(row.section);
     std::erase_if(sections, is_ascii);
     std::set<std::string_view> translated;

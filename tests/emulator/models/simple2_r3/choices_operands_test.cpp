@@ -86,7 +86,7 @@ TEST(ChoicesProgram, AReadOnlyWriteIsIgnoredOrEndsTheProgram) {
 
 TEST(ChoicesProgram, TheReadOnlyParametersAreThoseOfReadOnlyRegisters) {
   for (const ParameterRow& parameters : model().parameters) {
-    for (const RegisterRow& target : model().registers.rows()) {
+    for (const RegisterRow& target : model().registers->rows()) {
       if (target.name != parameters.register_name) continue;
       for (int i = 0; i < parameters.count; ++i) {
         const auto number = static_cast<std::uint8_t>(parameters.first + i);

@@ -1,10 +1,11 @@
 // Frames in words.
-#include "emulator/world/frames/frame_text.h"
 #include "emulator/models/models.h"
 
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::world {
@@ -55,7 +56,7 @@ TEST_F(FrameText, RequestsNameTheirRegisters) {
       {{0xFF}, "FF"},
       {{}, ""},
   };
-  for (const Case& c : cases) EXPECT_EQ(request_text(world_, 0, c.request), c.text);
+  for (const Case& c : cases) EXPECT_EQ(world_.line(0).request_text(c.request), c.text);
 }
 
 TEST_F(FrameText, RepliesSayWhatTheRequestAskedFor) {
@@ -77,7 +78,7 @@ TEST_F(FrameText, RepliesSayWhatTheRequestAskedFor) {
       {read, {1, 3, 4}, "01 03 04"},
   };
   for (const Case& c : cases)
-    EXPECT_EQ(reply_text(world_, 0, c.request, c.reply).substr(0, c.text.size()), c.text);
+    EXPECT_EQ(world_.line(0).reply_text(c.request, c.reply).substr(0, c.text.size()), c.text);
 }
 
 TEST_F(FrameText, LongNoiseIsCut) {
