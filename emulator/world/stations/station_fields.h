@@ -10,6 +10,7 @@ namespace understudy::emulator::world {
 struct StationFields {
   // clang-format off
   static void of(Like<StationCounters> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
+  static void of(Like<FaultyWire::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
 
   static void of(Like<pty::RtuFramer::State::Character> auto& v, auto visit) {
     auto& [a, b, c] = v; visit(a, b, c);
@@ -18,7 +19,6 @@ struct StationFields {
   static void of(Like<pty::RtuFramer::State> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
   }
-  static void of(Like<RtuStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<RtuStation::State> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
 
   static void of(Like<pty::TextLines::State> auto& v, auto visit) {
@@ -26,7 +26,6 @@ struct StationFields {
   }
   static void of(Like<pty::HeardText> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<TextStation::Waiting> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<TextStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
   static void of(Like<TextStation::Outgoing> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
   static void of(Like<TextStation::State> auto& v, auto visit) {
     auto& [a, b, c, d, e, f, g, h] = v; visit(a, b, c, d, e, f, g, h);
