@@ -4,34 +4,13 @@
 #include "emulator/world/expression/parser.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/probe/probe_names.h"
+#include "emulator/world/speech/line_speech.h"
 
 namespace understudy::emulator::world {
 
 namespace {
 
 using Kind = Fault::Kind;
-
-/// Lines of text have no functions, no stations, no checksum and no exceptions.
-void demand_of_protocol(const KnownDevice& device, const Fault& fault) {
-  if (device.model->protocol() != Protocol::text) return;
-  const std::string kind(fault_kind(fault.kind).name);
-  switch (fault.kind) {
-    case Kind::busy:
-    case Kind::exception:
-    case Kind::early_reply:
-    case Kind::corrupt_checksum:
-      throw NameError(kind + ": is a fault of Modbus frames, and " + device.name +
-                      " speaks text; expected another one");
-    default: break;
-  }
-  const FaultTrigger& trigger = fault.trigger;
-  for (const auto& [field, value] :
-       {std::pair("function", trigger.function), std::pair("station", trigger.station),
-        std::pair("address", trigger.first_address)}) {
-    if (value < 0) continue;
-    throw FaultFieldError(kind, field, device.name + " speaks text, which has none; expected none");
-  }
-}
 
 }  // namespace
 
@@ -59,7 +38,8 @@ void check_fault(const Inventory& inventory, const Fault& fault) {
                     std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
                     " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
   }
-  demand_of_protocol(inventory.known()[fault.device], fault);
+  const KnownDevice& known = inventory.known()[fault.device];
+  speech_of(*known.model).demand_possible(known.name, fault);
   if (fault.trigger.when.empty()) return;
   try {
     check_condition(inventory, fault.trigger.when);

@@ -4,6 +4,7 @@
 
 #include "emulator/world/check_fault.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/speech/line_speech.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
@@ -13,35 +14,6 @@ namespace {
 using Kind = Fault::Kind;
 
 constexpr int kDeviceBusy = 6;  // the exception of that name
-
-/// Which registers a request is about.
-FrameFacts facts_of(const HeardFrame& frame) {
-  if (frame.protocol == Protocol::text) return {.at = frame.now};  // neither station nor function
-  FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
-  const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };
-  switch (facts.function) {
-    case 0x01:
-    case 0x02:
-    case 0x03:
-    case 0x04:
-    case 0x0F:
-    case 0x10:
-    case 0x17:
-      if (frame.bytes.size() < 8) break;
-      facts.first = word(2);
-      facts.count = word(4);
-      break;
-    case 0x05:
-    case 0x06:
-    case 0x16:
-      if (frame.bytes.size() < 6) break;
-      facts.first = word(2);
-      facts.count = 1;
-      break;
-    default: break;
-  }
-  return facts;
-}
 
 pty::WireFault stage_of(const Fault& fault) {
   using Stage = pty::WireFault::Kind;
@@ -175,7 +147,8 @@ bool FaultWatch::is_at(const Fault& fault, std::size_t device) const {
 }
 
 bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
-  return strikes_frame(armed.fault.trigger, armed.course, facts_of(frame), *this, stream(number));
+  const LineSpeech& speech = world_.line(lines_[frame.device]).speech;
+  return strikes_frame(armed.fault.trigger, armed.course, speech.facts_of(frame), *this, stream(number));
 }
 
 /// Every station of a line hears the same request: it is judged when the first of them asks.

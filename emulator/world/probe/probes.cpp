@@ -7,6 +7,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 
 namespace understudy::emulator::world {
 
@@ -61,7 +62,7 @@ Number Probes::value(std::int32_t handle) const {
       return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
                               : Number(0);
     case What::input: return device.input(probe.place);
-    case What::output: return device.output(probe.place) ? 1 : 0;
+    case What::output: return device.terminals()->output(probe.place) ? 1 : 0;
     case What::power: return device.powered() ? 1 : 0;
     case What::pulse_format: return static_cast<std::int64_t>(device.axes()->pulse_format_number());
     case What::pulses: return view_.sent_pulses(probe.device, probe.place);

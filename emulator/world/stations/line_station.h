@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/world/stations/faulty_wire.h"
@@ -51,5 +53,8 @@ class LineStation : public pty::Station, private FaultyWire::End {
   StationCounters counters_;
   FaultyWire wire_;  // all that it hears and says goes through it
 };
+
+/// Those on a line.
+using LineStations = std::vector<std::unique_ptr<LineStation>>;
 
 }  // namespace understudy::emulator::world

@@ -20,11 +20,7 @@ std::span<const std::uint8_t> bytes_of(std::string_view text) {
 
 /// A line as the wire is asked about it, with its end, or the device, without.
 HeardFrame frame_of(std::string_view text, std::uint64_t last_character, pty::SimTime now) {
-  return {.bytes = bytes_of(text),
-          .last_character = last_character,
-          .is_for_device = true,
-          .now = now,
-          .protocol = Protocol::text};
+  return {.bytes = bytes_of(text), .last_character = last_character, .is_for_device = true, .now = now};
 }
 
 pty::TextLineRules rules_of(const TextSpeaker& speaker) {

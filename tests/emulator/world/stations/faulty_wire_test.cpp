@@ -9,7 +9,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace faulty_wire_test {
 
 using namespace std::chrono_literals;
 using Kind = pty::WireFault::Kind;
@@ -147,5 +147,5 @@ TEST(FaultyWire, RefusesLateMessagesThatCannotBe) {
   EXPECT_THROW(FaultyWire::check(std::vector(FaultyWire::kMostLate + 1, early)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace faulty_wire_test
 }  // namespace understudy::emulator::world
