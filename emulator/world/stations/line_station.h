@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "emulator/device/device.h"
 #include "emulator/world/stations/frame_faults.h"
@@ -43,6 +44,8 @@ class LineStation : public pty::Station {
   /// Reads it, and gives what puts it in force, which throws nothing. Throws StateError or
   /// std::invalid_argument for what this station cannot be.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
+  /// Reads two, and tells where they differ (base/state/difference.h).
+  virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
   explicit LineStation(Device& device) : device_(device) {}

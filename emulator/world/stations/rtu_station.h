@@ -36,6 +36,7 @@ class RtuStation final : public LineStation {
   std::uint64_t dropped_bytes() const override { return framer_.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
+  std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
   /// A message that a fault has made late.
   struct Late {
