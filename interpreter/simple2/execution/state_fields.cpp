@@ -1,4 +1,4 @@
-#include "interpreter/simple2/state_fields.h"
+#include "interpreter/simple2/execution/state_fields.h"
 
 #include <cstdint>
 
