@@ -118,11 +118,7 @@ struct StateOf<fields_test::Counter> {
   static constexpr std::size_t apart = 1;
 };
 
-namespace {
-
-using fields_test::Colour;
-using fields_test::Lamp;
-using fields_test::Panel;
+namespace fields_test {
 
 Panel a_panel() {
   return {.number = 7,
@@ -268,5 +264,5 @@ TEST(Difference, BeginsWithThePathThatIsAskedFor) {
   EXPECT_EQ(first_difference(a_panel(), other, "door.panel"), "door.panel.number: 7 against 0");
 }
 
-}  // namespace
+}  // namespace fields_test
 }  // namespace understudy

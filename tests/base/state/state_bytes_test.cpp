@@ -74,12 +74,7 @@ struct StateOf<state_bytes_test::Secret> {
   static constexpr std::size_t members = 1;
 };
 
-namespace {
-
-using state_bytes_test::Colour;
-using state_bytes_test::Point;
-using state_bytes_test::Sample;
-using state_bytes_test::Secret;
+namespace state_bytes_test {
 
 using namespace std::chrono_literals;
 
@@ -207,5 +202,5 @@ TEST(Base64, OtherTextIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace state_bytes_test
 }  // namespace understudy

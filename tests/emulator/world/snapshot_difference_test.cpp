@@ -11,7 +11,7 @@
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace snapshot_difference_test {
 
 using namespace std::chrono_literals;
 
@@ -132,5 +132,5 @@ TEST(SnapshotDifference, WhatIsNotOfSuchAWorldIsRefused) {
   EXPECT_THROW(difference(world, state, torn), StateError);
 }
 
-}  // namespace
+}  // namespace snapshot_difference_test
 }  // namespace understudy::emulator::world

@@ -9,7 +9,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace state_test {
 
 using Saved = std::vector<std::byte>;
 
@@ -260,5 +260,5 @@ TEST(Simple2State, ADeviceOfAnotherFirmwareTakesIt) {
   EXPECT_EQ(old.get("Aaxis_Speed"), 123);
 }
 
-}  // namespace
+}  // namespace state_test
 }  // namespace understudy::emulator::models::simple2_r3

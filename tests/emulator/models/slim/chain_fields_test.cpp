@@ -5,7 +5,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace chain_fields_test {
 
 std::vector<std::byte> saved(const Chain& chain) {
   StateWriter writer;
@@ -108,5 +108,5 @@ TEST(SlimChainFields, TicksLeftOutWhereNothingHappensMakeNoDifference) {
   EXPECT_LT(steps, 19'000);
 }
 
-}  // namespace
+}  // namespace chain_fields_test
 }  // namespace understudy::emulator::models::slim

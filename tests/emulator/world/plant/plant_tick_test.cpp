@@ -9,7 +9,7 @@
 #include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_tick_test {
 
 class Random {
  public:
@@ -178,5 +178,5 @@ TEST(PlantTicks, AreWantedForASlipAndForReadyAlone) {
   EXPECT_EQ(axis.next_active_tick(50), kNever);
 }
 
-}  // namespace
+}  // namespace plant_tick_test
 }  // namespace understudy::emulator::world

@@ -11,7 +11,7 @@
 #include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace replay_test {
 
 using Verdict = ReplayResult::Verdict;
 
@@ -224,5 +224,5 @@ TEST(Replay, ARecordingNamesNoPaths) {
       std::string::npos);
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace understudy::emulator::world

@@ -24,9 +24,11 @@
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/terminals.h"
 #include "emulator/device/text/text_device.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
+#include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::world {
 
@@ -67,7 +69,11 @@ inline constexpr CommandRow kEchoCommands[] = {
 inline constexpr TerminalRow kEchoTerminals[] = {{TerminalRow::Kind::digital_in, "IN_1"},
                                                  {TerminalRow::Kind::digital_out, "OUT_1"}};
 
-class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, public UserProgram {
+class EchoBox final : public TextDevice,
+                      public NamedValues,
+                      public KeptMemory,
+                      public UserProgram,
+                      public Terminals {
  public:
   EchoBox(const Model& model, const DeviceSettings& settings)
       : TextDevice(model, settings), KeptMemory(model.name, settings.firmware) {}
@@ -78,6 +84,7 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
   const KeptMemory* memory() const override { return this; }
   UserProgram* user_program() override { return this; }
   const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
 
   // --- the dialogue ----------------------------------------------------------------------------
   TextRules text_rules() const override { return {.echo = state_.echo, .longest_line = 20}; }
@@ -155,14 +162,11 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
   }
 
   // --- the rest of a device ----------------------------------------------------------------------
-  void sample_inputs(Tick) override {}
   void run_interpreters(Tick tick) override {
     if (tick != state_.speaks_at) return;
     state_.speaks_at = kNever;
     say("TICK " + std::to_string(tick));
   }
-  void step_motion(Tick) override {}
-  void update_outputs(Tick) override {}
   Tick next_active_tick(Tick done) const override {
     return state_.speaks_at > done ? state_.speaks_at : kNever;
   }
@@ -225,16 +229,13 @@ inline const Model& echo_box() {
       .name = "echo-box",
       .title = "says back what it is told",
       .firmwares = kEchoFirmwares,
-      .registers = no_registers(),
-      .parameters = {},
-      .instructions = {},
       .commands = kEchoCommands,
       .choices = {},
       .terminals = kEchoTerminals,
       .axes = {},
       .state_registers = {},
       .gaps = {},
-      .text = TextPort{},
+      .line = line_of_text(),
       .most_modules = 8,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<EchoBox>(echo_box(), settings);
