@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "emulator/device/device.h"
@@ -45,6 +46,8 @@ class LineStation : public pty::Station, private FaultyWire::End {
   /// Reads it, and gives what puts it in force, which throws nothing. Throws StateError or
   /// std::invalid_argument for what this station cannot be.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
+  /// Reads two, and tells where they differ (base/state/difference.h).
+  virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
   explicit LineStation(Device& device) : device_(device), wire_(*this) {}

@@ -114,8 +114,12 @@ void RtuStation::restore(const State& state) {
   wire_.restore(state.late);
 }
 
-void RtuStation::write_state(StateWriter& writer) const { writer.write<StationFields>(save()); }
+void RtuStation::write_state(StateWriter& writer) const { writer.write(save()); }
 
 std::function<void()> RtuStation::read_state(StateReader& reader) { return read_state_of(*this, reader); }
+
+std::string RtuStation::difference(StateReader& a, StateReader& b, const std::string& path) const {
+  return difference_of_saved<State>(a, b, path);
+}
 
 }  // namespace understudy::emulator::world

@@ -33,6 +33,7 @@ class RtuStation final : public LineStation {
   std::uint64_t dropped_bytes() const override { return framer_.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
+  std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
   /// What it hears and has counted; the device's state is its own.
   struct State {

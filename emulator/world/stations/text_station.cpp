@@ -209,8 +209,12 @@ void TextStation::restore(const State& state) {
   is_held_ = state.is_held;
 }
 
-void TextStation::write_state(StateWriter& writer) const { writer.write<StationFields>(save()); }
+void TextStation::write_state(StateWriter& writer) const { writer.write(save()); }
 
 std::function<void()> TextStation::read_state(StateReader& reader) { return read_state_of(*this, reader); }
+
+std::string TextStation::difference(StateReader& a, StateReader& b, const std::string& path) const {
+  return difference_of_saved<State>(a, b, path);
+}
 
 }  // namespace understudy::emulator::world

@@ -40,6 +40,7 @@ class TextStation final : public LineStation {
   std::uint64_t dropped_bytes() const override { return lines_.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
+  std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
   /// What has been heard and is still to be carried out: at its time, within the event that brought it.
   struct Waiting {
