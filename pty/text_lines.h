@@ -4,8 +4,8 @@
 //    not empty, so hosts that send CR, LF or both are understood.
 //  * A line that is too long is given as such at its end, without its text.
 //  * Where the device echoes, a person types: BS and DEL take the last character back.
-//  * ESC is told at once, and what of a line came before it is forgotten.
-//  * XOFF and XON, where the device heeds them, are told at once and are no part of a line.
+//  * ESC is reported at once, and the unfinished line before it is forgotten.
+//  * XOFF and XON, where the device heeds them, are reported at once and are not part of a line.
 #pragma once
 
 #include <cstddef>
@@ -42,10 +42,11 @@ class TextLines {
   };
   /// The rules may change from one character to the next.
   Outcome push(const TimedByte& byte, const TextLineRules& rules);
-  /// Forget what of a line has come.
+  /// Forgets the unfinished line.
   void reset();
 
-  /// Characters that were given in no line: of overlong ones, and forgotten for an ESC.
+  /// Characters that were not part of any line: those of overlong lines, and those forgotten because of an
+  /// ESC.
   std::uint64_t dropped_bytes() const { return dropped_; }
 
   // --- its state -----------------------------------------------------------------------------
@@ -59,9 +60,9 @@ class TextLines {
     bool operator==(const State&) const = default;
   };
   State save() const;
-  /// Throws std::invalid_argument for what cannot be.
+  /// Throws std::invalid_argument if it is impossible.
   static void check(const State& state);
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

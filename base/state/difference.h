@@ -28,7 +28,7 @@ std::string value_text(const T& value) {
 }  // namespace state_fields
 
 /// "drive.profile.segments[2].speed_u_s: 12 against 13", the first difference in the order of the fields;
-/// empty if there is none. `path` stands before the names.
+/// empty if there is none. `path` is put in front of the names.
 template <class T>
 std::string first_difference(const T& a, const T& b, const std::string& path = "") {
   using namespace state_bytes;

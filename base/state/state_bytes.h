@@ -1,5 +1,5 @@
-// State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding.
-// What a value consists of is said by its StateOf (fields.h), by which it is saved, restored and hashed.
+// State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding. Its
+// StateOf (fields.h) says what a value consists of; by it the value is saved, restored and hashed.
 //
 // Older lists are being replaced by it: a type `Fields` with `of(value, visit)`, where a structured binding
 // names every field, `last(Enumeration)`, `check(value)`, and for what another room saves by itself a pair
@@ -190,8 +190,8 @@ class StateWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// All of it throws StateError for bytes that end too early or hold what the type cannot (a bool of 7, an
-/// enumeration's value that does not exist).
+/// Everything here throws StateError for bytes that end too early or hold what the type cannot (a bool of 7,
+/// an enumeration's value that does not exist).
 class StateReader {
  public:
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -213,7 +213,7 @@ class StateReader {
     } else if constexpr (kIsVector<T>) {
       std::uint32_t count = 0;
       read<Fields>(count);
-      // Each takes a byte at least: what is not there needs no room.
+      // Each takes at least a byte, so no room is made for what is not there.
       demand_state(count <= rest_.size(), "the bytes end too early");
       value.assign(count, {});
       read_all<Fields>(value);
@@ -224,7 +224,7 @@ class StateReader {
       for (; count > 0; --count) {
         typename T::key_type key{};
         read<Fields>(key);
-        demand_state(value.empty() || value.rbegin()->first < key, "its entries are in disorder");
+        demand_state(value.empty() || value.rbegin()->first < key, "its entries are out of order");
         read<Fields>(value[key]);
       }
     } else if constexpr (kIsArray<T>) {
@@ -260,7 +260,7 @@ class StateReader {
     rest_ = rest_.subspan(count);
     return taken;
   }
-  void demand_end() const { demand_state(rest_.empty(), "there are more bytes than it takes"); }
+  void demand_end() const { demand_state(rest_.empty(), "bytes are left over"); }
 
  private:
   template <class Fields, class T>

@@ -1,4 +1,4 @@
-// What of a device's state is every model's: its power, its inputs, its time.
+// The part of a device's state that every model has: its power, its inputs, its time.
 #include <tuple>
 #include <utility>
 
@@ -28,7 +28,7 @@ std::function<void()> Device::read_state(std::span<const std::byte> bytes) {
   auto restored = CommonFields::of(*this, [](const auto&... field) { return std::tuple(field...); });
   std::apply([&](auto&... field) { (reader.read<CommonFields>(field), ...); }, restored);
   const auto& inputs = std::get<std::vector<std::int32_t>>(restored);
-  demand_state(inputs.size() == model_.terminals.size(), "it has other terminals");
+  demand_state(inputs.size() == model_.terminals.size(), "its terminals are different");
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     demand_within(inputs[i], model_.terminals[i].lowest, model_.terminals[i].highest);
   }

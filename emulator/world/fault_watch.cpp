@@ -32,7 +32,8 @@ void demand_value(const Probes& probes, const Expression::Name& name) {
   try {
     probes.value(name.number.handle);
   } catch (const NameError&) {
-    throw NameError(quoted(name.spelling) + " is nothing to wait for; expected what the world itself knows");
+    throw NameError(quoted(name.spelling) +
+                    " cannot be waited for; expected something that the world itself knows");
   }
 }
 

@@ -1,5 +1,5 @@
-// The state of a running world as a value: saved and restored in memory, hashed. Also into another world, if
-// it is of the same bench. For a file see snapshot_file.h.
+// The state of a running world as a value: saved and restored in memory, hashed. It can also be restored into
+// another world of the same bench. For a file see snapshot_file.h.
 //
 // A world that is restored goes on as it did after it was saved: the same things from outside at the same
 // times make the same states and the same bytes on its lines. Not to be called from within
@@ -35,16 +35,16 @@ struct WorldState {
 
 WorldState save(const World& world);
 
-/// Reads a state, and gives what puts the world into it, as often as that is called: it throws nothing.
-/// Throws StateError "part: what is wrong" for what is not a state of such a world. Watchers, observers and
-/// the listener stay as they are. The world must outlive it.
+/// Reads a state; calling the result, as often as you like, puts the world into it and does not throw. Throws
+/// StateError "part: what is wrong" if it is not a state of such a world. Watchers, observers and the
+/// listener stay as they are. The world must outlive it.
 std::function<void()> read_state(World& world, const WorldState& state);
 
-/// The same at once; when it throws, nothing has changed.
+/// Like the above, at once; if it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
-/// Of all that the model does things by, and of nothing else: not of bytes that a host has not taken yet, of
-/// whether quiet ticks were crossed in bulk, or of what is counted of that.
+/// A hash of everything that decides what the model does, and of nothing else: not of bytes that a host has
+/// not taken yet, nor of whether quiet ticks were crossed in bulk, nor of counts of that.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

@@ -10,8 +10,8 @@ namespace understudy::emulator::world {
 /// A world, its machines and lines; devices and stations have lists of their own.
 struct WorldFields {
   static auto of(Like<World> auto& world, auto visit) {
-    // What it is made of, and who looks at it, is not a state. Devices, machines and lines are parts of their
-    // own, how often ticks were run is of the edge.
+    // What it is made of, and who looks at it, is not state. Devices, machines and lines are separate parts;
+    // how often ticks were run concerns only the edge.
     auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
            watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
            ticks_crossed, bulk_ticks] = world;
@@ -58,10 +58,10 @@ struct WorldFields {
   static constexpr Fault::Side last(Fault::Side) { return Fault::Side::both; }
   static constexpr pty::Parity last(pty::Parity) { return pty::Parity::even; }
 
-  static void check(const auto&) {}  // only the whole tells what may be: snapshot.cpp
+  static void check(const auto&) {}  // only the whole decides what is possible: snapshot.cpp
 };
 
-/// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
+/// What does not influence the model: what hosts and observers leave behind, and how ticks were run.
 struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
     auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,

@@ -1,6 +1,6 @@
 // Simple2-R3: the options of choices.h as the code asks for them, `device.chose(kAclrIgnored)`. A name or an
-// option that the rows do not have is a compile error. Ours, the first of each row, needs no name where the
-// code has an else for it.
+// option that the rows do not have is a compile error. Our option, the first of each row, does not need a
+// name if the code has an else for it.
 #pragma once
 
 #include "emulator/models/simple2_r3/choices.h"

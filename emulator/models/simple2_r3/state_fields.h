@@ -1,5 +1,5 @@
-// What the state of a Simple2-R3 consists of, for state.cpp: all fields, in order, and what a restored one
-// must be so that its ticks can neither leave a table nor run away.
+// What the state of a Simple2-R3 consists of, for state.cpp: all fields, in order, and the demands on a
+// restored state, so that its ticks can neither leave a table nor run away.
 #pragma once
 
 #include "base/state/state_bytes.h"

@@ -48,7 +48,7 @@ struct ChainFields {
   static constexpr Activity last(Activity) { return Activity::stopping; }
   static constexpr Error last(Error) { return Error::address; }
 
-  // Of motion/, and what is saved only as far as it is there.
+  // Types of motion/, and what is saved only as far as it exists.
   static void write(const motion::Axis& axis, StateWriter& writer);
   static void read(motion::Axis& axis, StateReader& reader);
   static void write(const motion::Surroundings& here, StateWriter& writer);

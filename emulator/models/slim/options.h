@@ -1,6 +1,6 @@
-// SLIM: the options of choices.h as the code asks for them, `chose(option("thrust", "runs_at_vj"))`. A row or
-// an option that there is not is a compile error. Ours, the first of each row, needs no name; of options that
-// are numbers the row is asked for. Those that the device itself asks for have names below.
+// SLIM: the options of choices.h as the code asks for them, `chose(option("thrust", "runs_at_vj"))`. An
+// unknown row or option is a compile error. Our option, the first of each row, does not need a name; for
+// options that are numbers, ask for the row. Those that the device itself asks for have names below.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
   return number;
 }
 
-/// A row whose options are numbers; a compile error if one of them is none.
+/// A row whose options are numbers; a compile error if one of them is not.
 consteval std::size_t numbers(std::string_view id) {
   const std::size_t row = choice_number(kChoices, id);
   const auto bars = std::ranges::count(kChoices[row].options, '|');

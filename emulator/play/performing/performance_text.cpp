@@ -1,5 +1,9 @@
 // Steps over lines of text.
+#include <string>
+#include <vector>
+
 #include "emulator/play/performing/performance.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/world/frames/text_lines_heard.h"
 
 namespace understudy::emulator::play {

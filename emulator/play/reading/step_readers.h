@@ -21,7 +21,7 @@ void read_send(StepsReader& reader, const world::YamlFields& step, const world::
 // text_steps.cpp
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
-/// The line that a step names, or the only one. Where text is wanted it must carry that.
+/// The line that a step names, or the only one. It must carry text if text is wanted.
 std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value, Protocol wanted);
 
 // truth_steps.cpp

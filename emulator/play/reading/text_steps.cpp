@@ -1,7 +1,15 @@
 // Steps with lines of text: send (with `text`), hear.
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/model.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/frames/text_lines_heard.h"
 
 namespace understudy::emulator::play {

@@ -1,10 +1,22 @@
 #include "emulator/play/report/camera.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/model.h"
+#include "emulator/play/report/footage.h"
+#include "emulator/play/results/result.h"
 #include "emulator/world/frames/frame_text.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
+#include "pty/capture_frames.h"
 
 namespace understudy::emulator::play {
 
@@ -12,7 +24,7 @@ namespace {
 
 using Kind = SeenSignal::Kind;
 
-// A scene keeps so many frames from its beginning, and as many from its end.
+// A scene keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
 

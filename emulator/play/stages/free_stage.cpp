@@ -1,9 +1,28 @@
 #include "emulator/play/stages/free_stage.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
+#include "pty/line_observer.h"
+#include "pty/line_settings.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::play {
 
@@ -47,7 +66,7 @@ class FreeStage::Host final : public pty::LineObserver {
     bytes.insert(bytes.end(), came.begin(), came.end());
     line_.take_output(came.size());
   }
-  /// The same as lines of text; it stays there.
+  /// Like the above, as lines of text; it stays there.
   world::LinesHeard lines() const {
     const auto came = line_.output();
     return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});

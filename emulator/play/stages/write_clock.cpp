@@ -1,10 +1,19 @@
 #include "emulator/play/stages/write_clock.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
 #include "emulator/play/stages/modbus_host.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
+#include "pty/capture_frames.h"
 
 namespace understudy::emulator::play {
 

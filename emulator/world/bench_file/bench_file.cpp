@@ -161,7 +161,7 @@ class BenchReader {
       link.fail(understudy::quoted(written) +
                 " is an address of a network; expected a path, for a serial port");
     line.link = path_in(links_, link);
-    if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without");
+    if (one_line(line.link) != line.link) link.fail("has a control character; expected a path without one");
     const std::string name = fs::path(line.link).filename().string();
     if (name.size() > kLongestLinkName) {
       link.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +

@@ -14,9 +14,9 @@ std::string hex_text(std::span<const std::uint8_t> bytes);
 /// "3 (illegal data value)".
 std::string exception_text(int exception);
 
-/// A frame of a host on that line. What cannot be read is given in bytes.
+/// A frame of a host on that line. If it cannot be read it is shown as bytes.
 std::string request_text(const World& world, std::size_t line, std::span<const std::uint8_t> request);
-/// What a station answered. `request` is empty where it is not known.
+/// What a station answered. `request` is empty if it is not known.
 std::string reply_text(const World& world, std::size_t line, std::span<const std::uint8_t> request,
                        std::span<const std::uint8_t> reply);
 

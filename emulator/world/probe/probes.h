@@ -33,12 +33,12 @@ namespace understudy::emulator::world {
 
 class Probes final : public NameResolver, public ValueSource {
  public:
-  /// Both must outlive it. Without peaks their names are known, but have no value.
+  /// Both must outlive it. Without peaks their names are known, but have no values.
   explicit Probes(const WorldView& view, const Peaks* peaks = nullptr) : view_(view), peaks_(peaks) {}
 
   /// Throws NameError. A name that was resolved before gets its handle again.
   NamedNumber resolve(std::string_view name) const override;
-  /// A register of a device without power is 0. NameError for what nobody keeps here.
+  /// A register of a device without power is 0. Throws NameError for what nobody keeps here.
   Number value(std::int32_t handle) const override;
   /// The device whose register or value it is: without power it has none.
   std::optional<std::size_t> device_read(std::int32_t handle) const;

@@ -10,7 +10,7 @@ namespace understudy::emulator::world {
 
 class RtuStation final : public LineStation {
  public:
-  /// Requests and replies that are late; what is more is lost.
+  /// The most requests and replies that can be late; any more are lost.
   static constexpr std::size_t kMostLate = 256;
 
   RtuStation(Device& device, pty::RtuFraming framing) : LineStation(device), framer_(framing) {}
@@ -44,7 +44,7 @@ class RtuStation final : public LineStation {
     std::uint64_t last_character = 0;
     std::vector<std::uint8_t> bytes{};
   };
-  /// What it hears and has counted; the device's state is its own.
+  /// What it hears and has counted; the device's state is separate.
   struct State {
     pty::RtuFramer::State framer;
     StationCounters counters;
@@ -53,7 +53,7 @@ class RtuStation final : public LineStation {
   State save() const;
   /// Throws std::invalid_argument for what this station cannot be.
   void check(const State& state) const;
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

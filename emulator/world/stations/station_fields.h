@@ -34,10 +34,10 @@ struct StationFields {
   // clang-format on
 
   static constexpr pty::HeardText::What last(pty::HeardText::What) { return pty::HeardText::What::go_on; }
-  static void check(const auto&) {}  // only the station tells what may be
+  static void check(const auto&) {}  // only the station decides what is possible
 };
 
-/// Reads a state of `station` and checks it; the result puts it in force.
+/// Reads a state of `station` and checks it; calling the result puts it in force.
 template <class OneStation>
 std::function<void()> read_state_of(OneStation& station, StateReader& reader) {
   typename OneStation::State state;

@@ -1,5 +1,5 @@
-// What can be looked at in a world: devices, lines, machines, time. Whoever looks (probes, peaks) knows no
-// more of a world than this; looking changes nothing.
+// What can be looked at in a world: devices, lines, machines, time. Probes and peaks know a world only
+// through this; looking changes nothing.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ namespace understudy::emulator::world {
 struct WorldLine {
   pty::Line line;
   std::vector<std::unique_ptr<LineStation>> stations;
-  pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
+  pty::RtuFraming framing{};  // as its stations have it; the shortest of different silences
   Protocol protocol = Protocol::modbus_rtu;
 };
 
@@ -42,7 +42,7 @@ class WorldView {
   ~WorldView() = default;
 };
 
-/// Sees every tick, quiet or not, when all of it is over. May act on the world as the outside does.
+/// Sees every tick, quiet or not, when it is completely over. May act on the world as the outside does.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
