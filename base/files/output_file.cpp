@@ -38,7 +38,7 @@ void demand_own_way(const fs::path& absolute) {
   for (const fs::path& step : absolute.parent_path()) {
     way /= step;
     struct stat status = {};
-    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it is told
+    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it gets an error
     if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
       throw OutputError(
           way.string() +

@@ -14,6 +14,12 @@ Device::Device(const Model& model, DeviceSettings settings)
       inputs_(model.terminals.size(), 0),
       settings_(std::move(settings)) {}
 
+pty::LineSettings Device::line_settings() const {
+  pty::LineSettings line = model_.line.settings;
+  line.baud = settings_.baud;
+  return line;
+}
+
 void Device::prefetch(Tick /*tick*/) const {
   // Of the device itself the beginning; its settings are large, and no tick reads them.
   prefetch_line(this);

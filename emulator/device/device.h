@@ -20,6 +20,8 @@
 namespace understudy {
 class StateReader;
 class StateWriter;
+template <class T>
+struct StateOf;
 }  // namespace understudy
 
 namespace understudy::emulator {
@@ -29,6 +31,7 @@ class KeptMemory;
 class ModbusStation;
 class NamedValues;
 class RegisterBank;
+class Terminals;
 class TextSpeaker;
 class UserProgram;
 
@@ -64,12 +67,14 @@ class Device {
   /// The program that it runs by itself (user_program.h).
   virtual UserProgram* user_program() { return nullptr; }
   virtual const UserProgram* user_program() const { return nullptr; }
+  /// What it does with its terminals (terminals.h).
+  virtual const Terminals* terminals() const { return nullptr; }
   /// The axes that it drives (axes.h).
   virtual Axes* axes() { return nullptr; }
   virtual const Axes* axes() const { return nullptr; }
 
-  /// The settings of the line that it is on.
-  virtual pty::LineSettings line_settings() const = 0;
+  /// Of the line that it is on: its model's, at the speed that its settings say.
+  virtual pty::LineSettings line_settings() const;
 
   // --- power -----------------------------------------------------------------------------------
   /// A device is made without power. When it is switched on it begins with what its memory has kept.
@@ -77,13 +82,13 @@ class Device {
   void switch_power(bool on);
 
   // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
-  virtual void sample_inputs(Tick tick) = 0;
-  virtual void run_interpreters(Tick tick) = 0;
-  virtual void step_motion(Tick tick) = 0;
-  virtual void update_outputs(Tick tick) = 0;
+  virtual void sample_inputs(Tick /*tick*/) {}
+  virtual void run_interpreters(Tick /*tick*/) {}
+  virtual void step_motion(Tick /*tick*/) {}
+  virtual void update_outputs(Tick /*tick*/) {}
   /// The first tick after `done` at which anything may change without help from outside; kNever if none. The
   /// ticks before it may be skipped: the state is then the same as if they had been run.
-  virtual Tick next_active_tick(Tick done) const = 0;
+  virtual Tick next_active_tick(Tick /*done*/) const { return kNever; }
   /// Asks the processor for the memory that `tick` will need (base/prefetch.h).
   virtual void prefetch(Tick tick) const;
   /// Whether it equals another device of the same model, bit for bit.
@@ -99,17 +104,17 @@ class Device {
   /// Like the above, at once; if it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
+  /// "axes[0].motor.travel_pulses: 12 against 13": the first field by which two states differ that
+  /// save_state() of devices made alike has given; empty if none does. Throws StateError for other bytes.
+  std::string state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const;
 
-  // --- terminals, by their number in the model's table -----------------------------------------------
-  /// Levels from outside, in the terminal's unit; the device looks at them in sample_inputs().
+  // --- levels from outside, by the terminal's number in the model's table, in its unit -----------------
+  /// The device looks at them in sample_inputs().
   void set_input(int terminal, std::int32_t level) {
     inputs_[static_cast<std::size_t>(terminal)] = level;
     inputs_changed_ = true;
   }
   std::int32_t input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
-  virtual bool output(int terminal) const = 0;
-  /// How many of those that the model lists this device has: a chain may be shorter.
-  virtual bool has_terminal(int /*terminal*/) const { return true; }
 
   /// The last tick that is over. Set by the world; what a write starts begins to move in the next one.
   Tick now() const { return now_; }
@@ -125,16 +130,18 @@ class Device {
   bool inputs_changed() const { return inputs_changed_; }
   bool take_inputs_changed() { return std::exchange(inputs_changed_, false); }
   /// Sets the state at power-up, from what is kept and the inputs.
-  virtual void power_up() = 0;
+  virtual void power_up() {}
   /// Stops driving anything, and loses all that is not kept.
-  virtual void power_down() = 0;
+  virtual void power_down() {}
   /// The model's part of the state.
   virtual void write_own_state(StateWriter& writer) const = 0;
   /// Reads it; calling the result puts it in force, which does not throw.
   virtual std::function<void()> read_own_state(StateReader& reader) = 0;
+  /// Reads two of it, and tells where they differ (base/state/difference.h).
+  virtual std::string own_difference(StateReader& a, StateReader& b) const = 0;
 
  private:
-  struct CommonFields;  // device_state.cpp
+  friend struct StateOf<Device>;  // device_state.cpp
 
   // What every tick needs comes first: the rest lies behind the first cache line.
   const Model& model_;

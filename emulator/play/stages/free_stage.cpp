@@ -14,15 +14,7 @@
 
 #include "base/simulated_time.h"
 #include "emulator/play/stages/modbus_host.h"
-#include "emulator/play/stages/stage.h"
-#include "emulator/world/bench/bench.h"
-#include "emulator/world/frames/text_lines_heard.h"
-#include "emulator/world/view/world_view.h"
-#include "emulator/world/world.h"
-#include "pty/line.h"
-#include "pty/line_observer.h"
-#include "pty/line_settings.h"
-#include "pty/station.h"
+#include "emulator/world/speech/modbus_words.h"
 
 namespace understudy::emulator::play {
 
@@ -260,7 +252,7 @@ void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
     world_.advance_to(start);  // a station may say something late
   }
   host.discard();
-  if (is_write(bytes)) {
+  if (world::is_write(bytes)) {
     writing_ = &host;
     requests_before_ = host.requests();
   }

@@ -24,7 +24,7 @@
 
 #include "emulator/play/stages/stage.h"
 #include "emulator/serve/loop/event_loop.h"
-#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/speech/text_lines_heard.h"
 #include "pty/line_settings.h"
 #include "pty/port_link.h"
 

@@ -37,7 +37,7 @@ class FrameLog {
   /// Of the frame that comes next.
   std::uint64_t next_number() const { return next_number_; }
 
-  /// The lines were put into another state: what they were just hearing is forgotten.
+  /// The lines were put into another state: half-heard frames are forgotten.
   void begin_anew();
 
  private:

@@ -11,7 +11,7 @@
 #include "tests/pty/pty_host.h"
 
 namespace understudy {
-namespace {
+namespace output_file_test {
 
 namespace fs = std::filesystem;
 
@@ -131,5 +131,5 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
       way + "is another user's link in a folder that everyone can write to; expected a path of your own");
 }
 
-}  // namespace
+}  // namespace output_file_test
 }  // namespace understudy
