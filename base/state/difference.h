@@ -12,6 +12,7 @@
 
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "base/text/one_line.h"
 
 namespace understudy {
 
@@ -144,7 +145,7 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
     }
     return a ? first_difference(*a, *b, path) : "";
   } else if constexpr (std::is_same_v<T, std::string>) {
-    return a == b ? "" : told(path, quoted(a), quoted(b));
+    return a == b ? "" : told(path, understudy::quoted(a), understudy::quoted(b));
   } else if constexpr (kIsMap<T>) {
     return difference_in_map(a, b, path);
   } else if constexpr (HasFields<T>) {
