@@ -45,9 +45,8 @@ class TextLines {
   /// Forgets the unfinished line.
   void reset();
 
-  /// Characters that were not part of any line: those of overlong lines, and those forgotten because of an
-  /// ESC.
-  std::uint64_t dropped_bytes() const { return dropped_; }
+  /// Characters that were given in no line: of overlong ones, and forgotten for an ESC.
+  std::uint64_t dropped_bytes() const { return state_.dropped; }
 
   // --- its state -----------------------------------------------------------------------------
   /// No line may be longer than this, whatever the rules say.
@@ -59,17 +58,14 @@ class TextLines {
     std::uint64_t dropped = 0;
     bool operator==(const State&) const = default;
   };
-  State save() const;
-  /// Throws std::invalid_argument if it is impossible.
+  const State& save() const { return state_; }
+  /// Throws std::invalid_argument for what cannot be.
   static void check(const State& state);
   /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:
-  std::string text_;
-  bool is_overlong_ = false;
-  bool was_return_ = false;
-  std::uint64_t dropped_ = 0;
+  State state_;
 };
 
 }  // namespace understudy::pty

@@ -82,13 +82,15 @@ class Device {
   void switch_power(bool on);
 
   // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
-  virtual void sample_inputs(Tick /*tick*/) {}
-  virtual void run_interpreters(Tick /*tick*/) {}
-  virtual void step_motion(Tick /*tick*/) {}
-  virtual void update_outputs(Tick /*tick*/) {}
-  /// The first tick after `done` at which anything may change without help from outside; kNever if none. The
-  /// ticks before it may be skipped: the state is then the same as if they had been run.
-  virtual Tick next_active_tick(Tick /*done*/) const { return kNever; }
+  // Where a device has nothing to do in a phase, nothing is done. (Not here: the compiler would guess at each
+  // call that it is the empty one.)
+  virtual void sample_inputs(Tick tick);
+  virtual void run_interpreters(Tick tick);
+  virtual void step_motion(Tick tick);
+  virtual void update_outputs(Tick tick);
+  /// The first tick after `done` at which anything may change without help from outside; kNever if
+  /// none. The ticks before it may be left out: the state is then the same as if they had been run.
+  virtual Tick next_active_tick(Tick done) const;
   /// Asks the processor for the memory that `tick` will need (base/prefetch.h).
   virtual void prefetch(Tick tick) const;
   /// Whether it equals another device of the same model, bit for bit.

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "emulator/device/device.h"
-#include "emulator/world/stations/frame_faults.h"
+#include "emulator/world/stations/faulty_wire.h"
 #include "pty/station.h"
 
 namespace understudy::emulator::world {
@@ -18,18 +19,19 @@ struct StationCounters {
   std::uint64_t exceptions = 0;  // of the replies
 };
 
-class LineStation : public pty::Station {
+class LineStation : public pty::Station, private FaultyWire::End {
  public:
+  LineStation(const LineStation&) = delete;
+  LineStation& operator=(const LineStation&) = delete;
+
   pty::LineSettings settings() const final { return device_.line_settings(); }
 
   /// Forgets what it was hearing, and what it still has to say.
   virtual void reset() = 0;
 
-  /// What is broken that frames meet; null: nothing. It gets the device's number with each frame.
-  void set_faults(FrameFaults* faults, std::size_t device) {
-    faults_ = faults;
-    device_number_ = device;
-  }
+  /// Where something is broken that frames meet; null: nothing is. The device's number is told with each
+  /// frame.
+  void set_faults(FrameFaults* faults, std::size_t device) { wire_.set_faults(faults, device); }
 
   /// The device may have something to say unasked. Returns whether it has: then due() has changed.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
@@ -44,14 +46,15 @@ class LineStation : public pty::Station {
   /// Reads it; calling the result puts it in force, which does not throw. Throws StateError or
   /// std::invalid_argument for what this station cannot be.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
+  /// Reads two, and tells where they differ (base/state/difference.h).
+  virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
-  explicit LineStation(Device& device) : device_(device) {}
+  explicit LineStation(Device& device) : device_(device), wire_(*this) {}
 
   Device& device_;
   StationCounters counters_;
-  FrameFaults* faults_ = nullptr;
-  std::size_t device_number_ = 0;
+  FaultyWire wire_;  // all that it hears and says goes through it
 };
 
 /// Those on a line.
