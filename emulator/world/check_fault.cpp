@@ -55,7 +55,7 @@ void check_condition(const Inventory& inventory, const std::string& when) {
     for (const Expression::Name& name : condition.names) {
       if (!names.is_of_scenarios(name.number.handle)) continue;
       throw NameError(quoted(name.spelling) +
-                      " is nothing to wait for; expected what the world itself knows");
+                      " cannot be waited for; expected something that the world itself knows");
     }
   } catch (const std::runtime_error& error) {
     throw NameError(error.what());

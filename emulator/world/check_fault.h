@@ -9,10 +9,10 @@
 
 namespace understudy::emulator::world {
 
-/// NameError for one that it cannot have: a condition that it does not understand, noise on an encoder that
-/// is not there.
+/// Throws NameError for one that it cannot have: a condition that it does not understand, noise on an encoder
+/// that does not exist.
 void check_fault(const Inventory& inventory, const Fault& fault);
-/// The condition alone: NameError for one that it does not understand.
+/// Checks only the condition: throws NameError for one that it does not understand.
 void check_condition(const Inventory& inventory, const std::string& when);
 /// The same for use: ExpressionError, or what the names throw.
 Expression parse_condition(const std::string& text, const NameResolver& names);

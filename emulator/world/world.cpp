@@ -213,8 +213,7 @@ void World::run_tick() {
   ++ticks_.run;
 }
 
-/// What run_device() needs, and the first memory of the device two later, which tells where the rest of it
-/// is.
+/// What run_device() needs, and the first memory of the device two later, which says where the rest of it is.
 void World::prefetch_device(std::size_t number) const {
   if (number >= devices_.size()) return;
   if (number + 2 < devices_.size()) prefetch_line(devices_[number + 2].get());

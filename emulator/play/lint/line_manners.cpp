@@ -1,10 +1,24 @@
 #include "emulator/play/lint/line_manners.h"
 
 #include <algorithm>
-#include <utility>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 
+#include "base/simulated_time.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/play/lint/finding.h"
+#include "emulator/world/world.h"
+#include "pty/line_observer.h"
+#include "pty/line_settings.h"
+#include "pty/rtu_framer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::play {
 

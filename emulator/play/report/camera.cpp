@@ -1,8 +1,13 @@
 #include "emulator/play/report/camera.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/speech/modbus_words.h"
@@ -13,7 +18,7 @@ namespace {
 
 using Kind = SeenSignal::Kind;
 
-// A scene keeps so many frames from its beginning, and as many from its end.
+// A scene keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
 

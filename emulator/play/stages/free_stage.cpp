@@ -1,8 +1,18 @@
 #include "emulator/play/stages/free_stage.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/stages/modbus_host.h"
 #include "emulator/world/speech/modbus_words.h"
 
@@ -50,7 +60,7 @@ class FreeStage::Host final : public pty::LineObserver {
     bytes.insert(bytes.end(), came.begin(), came.end());
     take_output(came.size());
   }
-  /// The same as lines of text; it stays there.
+  /// Like the above, as lines of text; it stays there.
   world::LinesHeard lines() const {
     const auto came = line().output();
     return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});

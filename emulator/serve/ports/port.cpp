@@ -2,6 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
 
 namespace understudy::emulator::serve {
 

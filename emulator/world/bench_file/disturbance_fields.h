@@ -1,4 +1,4 @@
-// What a bench file says of its inputs and of what is broken at first.
+// What a bench file says about inputs, and about what is broken at first.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
 std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices, Complaints& complaints,
                                 std::string_view other_key = {});
 
-/// Complains of a fault that cannot be had there. What it waits for is judged even where the fault itself
+/// Complains about a fault that the bench cannot have. What it waits for is judged even if the fault itself
 /// could not be read.
 void demand_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
                      Complaints& complaints);

@@ -35,7 +35,7 @@ std::string read_link(const YamlFields& link, const std::optional<std::string>& 
     link.fail(understudy::quoted(written) +
               " is an address of a network; expected a path, for a serial port");
   std::string path = path_in(folder, link);
-  if (one_line(path) != path) link.fail("has a control character; expected a path without");
+  if (one_line(path) != path) link.fail("has a control character; expected a path without one");
   const std::string name = fs::path(path).filename().string();
   if (name.size() > kLongestLinkName) {
     link.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +

@@ -90,11 +90,10 @@ std::string compare(const World& world, Speeches& speeches, const RecordedEvent&
     ++same;
   }
   if (said.bytes != recorded.bytes) {
-    return "byte " + std::to_string(bytes_before + same + 1) + ": expected " + expected + "; said was " +
-           came;
+    return "byte " + std::to_string(bytes_before + same + 1) + ": expected " + expected + "; got " + came;
   }
   if (said.line != recorded.where || said.at != recorded.at) {
-    return "expected " + expected + "; said was " + came;
+    return "expected " + expected + "; got " + came;
   }
   return {};
 }
@@ -135,7 +134,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
   const auto expect_silence = [&] {
     if (speeches.waiting().empty()) return;
     const Speeches::Speech& said = speeches.waiting().front();
-    result.difference = "said was " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
+    result.difference = "got " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
   };
   while (result.difference.empty() && !result.has_end && std::getline(recording, line)) {
     ++line_number;
@@ -167,7 +166,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
   }
   if (result.has_end && std::getline(recording, line)) {
     ++line_number;
-    throw fail("line: stands behind the end; expected nothing more");
+    throw fail("line: comes after the end; expected nothing more");
   }
   const bool is_stopped = until && result.difference.empty();
   if (is_stopped && !result.has_end) world.advance_to(*until);

@@ -58,7 +58,7 @@ class LineSpeech {
   /// A message of a host in words.
   virtual std::string request_text(const LineStations& stations,
                                    std::span<const std::uint8_t> request) const = 0;
-  /// What a station answered. `request` is empty where it is not known.
+  /// What a station answered. `request` is empty if it is not known.
   virtual std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                                  std::span<const std::uint8_t> reply) const = 0;
 

@@ -23,7 +23,7 @@ struct WorldLine {
   pty::Line line;
   const LineSpeech& speech;
   LineStations stations;
-  pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
+  pty::RtuFraming framing{};  // as its stations have it; the shortest of different silences
 
   /// As of `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
@@ -53,7 +53,7 @@ class WorldView : public Inventory {
   ~WorldView() = default;
 };
 
-/// Sees every tick, quiet or not, when all of it is over. May act on the world as the outside does.
+/// Sees every tick, quiet or not, when it is completely over. May act on the world as the outside does.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;

@@ -186,8 +186,8 @@ TEST_F(InstantLintTest, WhereBytesTakeNoTimeTheHostIsNotHeldToAny) {
 
 // --- in scenarios ----------------------------------------------------------------------------------
 
-PlayOptions with_lint(bool with_hash = false) {
-  PlayOptions options{.with_hash = with_hash};
+RunOptions with_lint(bool with_hash = false) {
+  RunOptions options{.with_hash = with_hash};
   options.onlookers.push_back([](world::World& world) { return std::make_unique<Lint>(world); });
   return options;
 }

@@ -7,7 +7,7 @@ namespace understudy::emulator::play {
 namespace real_time_test {
 
 ScenarioResult played_in_real_time(const std::string& steps) {
-  PlayOptions options;
+  RunOptions options;
   options.make_stage = make_real_stage;
   return played(steps, "", options);
 }

@@ -10,7 +10,7 @@
 #include "tests/emulator/world/view/same_inventory.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace shipped_inventory_test {
 
 TEST(ShippedInventory, IsThatOfTheWorldMadeOfTheBench) {
   int benches = 0;
@@ -34,5 +34,5 @@ TEST(ShippedInventory, IsThatOfTheWorldMadeOfTheBench) {
   EXPECT_GE(scenarios, 100);
 }
 
-}  // namespace
+}  // namespace shipped_inventory_test
 }  // namespace understudy::emulator::play

@@ -16,7 +16,7 @@
 #include "tests/emulator/world/view/same_inventory.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace bench_inventory_test {
 
 constexpr const char* kBench = R"(understudy: 1
 lines:
@@ -105,7 +105,8 @@ TEST_F(BenchInventoryTest, JudgesFaultsAsTheWorldDoes) {
       {"stall",
        "feeder.A",
        {{"when", "feeder.A.greatest_speed > 5"}},
-       "stall: when: 'feeder.A.greatest_speed' is nothing to wait for; expected what the world itself knows"},
+       "stall: when: 'feeder.A.greatest_speed' cannot be waited for; expected something that the world "
+       "itself knows"},
       {"stall", "feeder.A", {{"when", "time"}}, nullptr},
       {"stall", "feeder.A", {{"when", "feeder.Cord_Q > 5"}}, nullptr},
   };
@@ -126,5 +127,5 @@ TEST_F(BenchInventoryTest, JudgesFaultsAsTheWorldDoes) {
   }
 }
 
-}  // namespace
+}  // namespace bench_inventory_test
 }  // namespace understudy::emulator::world
