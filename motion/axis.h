@@ -264,6 +264,26 @@ struct alignas(64) Axis {
     return step_with_care(tick, here);
   }
 
+  // ---- Many ticks in one step: motion/axis_crossing.cpp
+
+  struct TravelRange {
+    std::int64_t low = INT64_MIN;  // both included
+    std::int64_t high = INT64_MAX;
+  };
+  /// The last of the ticks from `next` on, which is the next one, and up to `most`, that may be crossed: the
+  /// axis goes on along its plan through all of them, within `range`, and meets nothing. next - 1: none.
+  Tick quiet_until(Tick next, Tick most, const Surroundings& here, TravelRange range) const;
+  /// Travel after one of those.
+  std::int64_t travel_ahead(Tick tick) const {
+    return base_pulses + drive.direction * drive.pulses_of_segment(tick);
+  }
+  /// All ticks up to `tick`, one of those, at once: the state, and the sum of what comes out, are the same.
+  std::int64_t cross_to(Tick tick);
+  /// Whether carry() does nothing but count while travel stays within watch_low and watch_high.
+  bool carries_quietly(const Surroundings& here) const;
+  /// So many pulses of carry(), of one sign, in ticks of which that is true.
+  std::int64_t carry_across(std::int64_t pulses);
+
  private:
   Cause forbidden(int way, Signals ignored) const;
   std::int64_t step_with_care(Tick tick, const Surroundings& here);
