@@ -14,6 +14,13 @@ Device::Device(const Model& model, DeviceSettings settings)
       inputs_(model.terminals.size(), 0),
       settings_(std::move(settings)) {}
 
+Tick Device::next_event_tick(Tick done, Tick /*most*/, const MachineAhead& /*ahead*/) const {
+  return next_active_tick(done);
+}
+
+void Device::cross_to(Tick /*done*/, Tick /*tick*/, const MachineAhead& /*ahead*/,
+                      std::span<std::int64_t> /*pulses*/) {}
+
 void Device::prefetch(Tick /*tick*/) const {
   // Of the device itself the beginning; its settings are large, and no tick reads them.
   prefetch_line(this);

@@ -14,7 +14,7 @@ struct WorldFields {
     // own, how often ticks were run is of the edge.
     auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
            watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
-           ticks_crossed, bulk_ticks] = world;
+           ticks_crossed, bulk_ticks, crossing_tries] = world;
     return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
   }
   static auto& plants(Like<World> auto& world) { return world.plants_; }
@@ -66,7 +66,7 @@ struct EdgeFields {
   static auto of(Like<World> auto& world, auto visit) {
     auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
            watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
-           ticks_crossed, bulk_ticks] = world;
+           ticks_crossed, bulk_ticks, crossing_tries] = world;
     return visit(ticks_run, ticks_crossed);
   }
   static void of(Like<pty::Line::State> auto& v, auto visit) {

@@ -6,6 +6,7 @@
 #include "base/large_pages.h"
 #include "base/prefetch.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/machine_ahead.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/world/fault_watch.h"
@@ -135,7 +136,10 @@ void World::advance_to(SimTime time) {
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
     const Tick reachable = tick_at(std::min(time, line_time));
     const Tick active = bulk_ticks_ ? std::min(next_active_tick(), next_fault_tick()) : done_ + 1;
-    if (active > done_ + 1) {
+    const Tick crossed = active > done_ + 1 ? done_ : last_tick_to_cross(reachable);
+    if (crossed > done_) {
+      cross_to(crossed);
+    } else if (active > done_ + 1) {
       // Watchers see each of them.
       const Tick last_quiet = watchers_.empty() ? std::min(reachable, active - 1) : done_ + 1;
       ticks_crossed_ += static_cast<std::uint64_t>(last_quiet - done_);

@@ -118,6 +118,12 @@ class World final : public WorldView {
     int input = 0;
   };
 
+  /// Where nothing could be crossed it is not tried again in each tick. Only what that costs depends on these.
+  struct CrossingTries {
+    Tick next = 0;
+    Tick apart = 1;
+  };
+
   /// Of a device's power.
   struct Supply {
     bool is_switched_on = true;
@@ -128,6 +134,9 @@ class World final : public WorldView {
   void show_tick();
   void run_lines(SimTime time);
   Tick next_active_tick() const;
+  Tick next_event_tick(Tick most) const;
+  Tick last_tick_to_cross(Tick most);
+  void cross_to(Tick tick);
   SimTime next_line_time() const;
   void run_device(std::size_t number);
   void prefetch_device(std::size_t number) const;
@@ -169,6 +178,7 @@ class World final : public WorldView {
   std::uint64_t ticks_run_ = 0;
   std::uint64_t ticks_crossed_ = 0;
   bool bulk_ticks_ = true;
+  CrossingTries crossing_tries_;
 };
 
 }  // namespace understudy::emulator::world
