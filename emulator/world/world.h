@@ -118,7 +118,8 @@ class World final : public WorldView {
     int input = 0;
   };
 
-  /// Where nothing could be crossed it is not tried again in each tick. Only what that costs depends on these.
+  /// Where nothing could be crossed it is not tried again in each tick. Only what that costs depends on
+  /// these.
   struct CrossingTries {
     Tick next = 0;
     Tick apart = 1;
