@@ -21,9 +21,6 @@ std::size_t restore(T& value, std::span<const std::byte> bytes) {
     reader.take_value(restored);
   } catch (const StateError& error) {
     refuse(error.what());
-  } catch (const BadMotion& bad) {
-    if (bad.refusal() == Refusal::out_of_range) throw;
-    refuse(bad.what());
   }
   value = restored;
   return bytes.size() - reader.rest().size();
@@ -56,3 +53,19 @@ UNDERSTUDY_STATE(UnitScale);
 #undef UNDERSTUDY_STATE
 
 }  // namespace understudy::motion
+
+namespace understudy {
+
+#define UNDERSTUDY_STATE_HERE(Type)                            \
+  template void StateWriter::write<void>(const motion::Type&); \
+  template void StateReader::read<void>(motion::Type&);        \
+  template std::string first_difference(const motion::Type&, const motion::Type&, const std::string&)
+
+UNDERSTUDY_STATE_HERE(Axis);
+UNDERSTUDY_STATE_HERE(Coordinated);
+UNDERSTUDY_STATE_HERE(Surroundings);
+UNDERSTUDY_STATE_HERE(UnitScale);
+
+#undef UNDERSTUDY_STATE_HERE
+
+}  // namespace understudy

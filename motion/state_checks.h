@@ -7,6 +7,7 @@
 
 #include "base/state/state_error.h"
 #include "motion/axis.h"
+#include "motion/bad_motion.h"
 #include "motion/coordinated.h"
 #include "motion/external_drive.h"
 #include "motion/synchronous.h"
@@ -22,6 +23,15 @@ inline void demand_reach(std::int64_t value) {
 template <class... Doubles>
 void demand_all_finite(Doubles... values) {
   demand_state((std::isfinite(values) && ...), "a quantity must be finite");
+}
+
+/// What the types refuse by themselves, as a BadMotion.
+void demand_accepted(auto check) {
+  try {
+    check();
+  } catch (const BadMotion& bad) {
+    throw StateError(bad.what());
+  }
 }
 
 /// Types that may hold any bits.
@@ -68,7 +78,7 @@ inline void check_restored(const Surroundings& here) {
 }
 
 inline void check_restored(const Follower& follower) {
-  follower.check();
+  demand_accepted([&] { follower.check(); });
   constexpr std::int64_t kMost = INT64_MAX / 2;  // Follower bounds its own numbers to half of it
   for (const std::int64_t value : {follower.gathered, follower.behind_pulses, follower.period_pulses}) {
     demand_within(value, -kMost, kMost);
@@ -84,7 +94,7 @@ inline void check_restored(const ExternalDrive& drive) {
 }
 
 inline void check_restored(const Homing& homing) {
-  check(homing.program);
+  demand_accepted([&] { check(homing.program); });
   demand_within(homing.phase, -1, homing.program.phase_count - 1);
   demand_within(homing.counted, 0, INT32_MAX - 1);
   demand_reach(homing.reference_pulses);
@@ -106,7 +116,9 @@ inline void check_restored(const Axis& axis) {
   demand_state(axis.constant_pps >= 0 && std::isfinite(axis.constant_pps), "a speed must not be negative");
 }
 
-inline void check_restored(const UnitScale& scale) { UnitScale::of(scale.multiplier, scale.divider); }
+inline void check_restored(const UnitScale& scale) {
+  demand_accepted([&] { UnitScale::of(scale.multiplier, scale.divider); });
+}
 
 inline void check_restored(const Path& path) {
   for (const Point* point :
@@ -125,7 +137,9 @@ inline void check_restored(const Path& path) {
                "an arc's length must be that of its sweep");
 }
 
-inline void check_restored(const PathRun& run) { run.check_queue(); }
+inline void check_restored(const PathRun& run) {
+  demand_accepted([&] { run.check_queue(); });
+}
 
 inline void check_restored(const Coordinated& group) {
   for (const std::int8_t axis : group.axis_of) demand_within(axis, Coordinated::kNone, INT8_MAX);

@@ -1,8 +1,10 @@
 // What each value of motion consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <string>
 #include <tuple>
 
+#include "base/state/difference.h"
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "motion/axis.h"
@@ -373,5 +375,18 @@ struct StateOf<motion::Coordinated> {
                                             field("slowing_for", &motion::Coordinated::slowing_for)};
   static void check(const motion::Coordinated& value) { motion::check_restored(value); }
 };
+
+// Those that other rooms hold are made once, in state.cpp.
+#define UNDERSTUDY_STATE_ELSEWHERE(Type)                              \
+  extern template void StateWriter::write<void>(const motion::Type&); \
+  extern template void StateReader::read<void>(motion::Type&);        \
+  extern template std::string first_difference(const motion::Type&, const motion::Type&, const std::string&)
+
+UNDERSTUDY_STATE_ELSEWHERE(Axis);
+UNDERSTUDY_STATE_ELSEWHERE(Coordinated);
+UNDERSTUDY_STATE_ELSEWHERE(Surroundings);
+UNDERSTUDY_STATE_ELSEWHERE(UnitScale);
+
+#undef UNDERSTUDY_STATE_ELSEWHERE
 
 }  // namespace understudy

@@ -2,77 +2,177 @@
 #pragma once
 
 #include <cstddef>
-#include <sstream>
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 
 namespace understudy {
 
+template <class T>
+std::string first_difference(const T& a, const T& b, const std::string& path = "");
+
 namespace state_fields {
 
+/// "path: this against that"; without a path what stands behind it.
+std::string told(const std::string& path, const std::string& a, const std::string& b);
+std::string told(const std::string& path, const std::string& what);
+/// "path.name", "path[name]".
+std::string path_to(const std::string& path, std::string_view name);
+std::string path_to_element(const std::string& path, const std::string& name);
+/// In quotes, what cannot be printed as \x07.
+std::string quoted(std::string_view text);
+std::string number_text(std::int64_t value);
+std::string number_text(std::uint64_t value);
+std::string number_text(double value);
+
 template <class T>
-std::string value_text(const T& value) {
-  std::ostringstream text;
-  text.precision(17);
-  if constexpr (std::is_enum_v<T>) {
-    text << static_cast<long long>(value);
+std::string value_text(T value) {
+  if constexpr (std::is_same_v<T, bool>) {
+    return value ? "true" : "false";
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return number_text(static_cast<double>(value));
+  } else if constexpr (std::is_signed_v<T>) {
+    return number_text(static_cast<std::int64_t>(value));
   } else {
-    text << +value;
+    return number_text(static_cast<std::uint64_t>(value));
   }
-  return text.str();
+}
+
+template <class T>
+concept Row = requires(const T& value) {
+  value.size();
+  value[0];
+};
+
+/// Looked at by their numbers. `name` tells what one is called; null: by its number.
+template <class T>
+std::string difference_in_row(const T& a, const T& b, const std::string& path, ElementName name) {
+  const auto size_a = static_cast<std::size_t>(a.size());
+  const auto size_b = static_cast<std::size_t>(b.size());
+  if (size_a != size_b) {
+    return told(path, number_text(std::uint64_t{size_a}) + " elements",
+                number_text(std::uint64_t{size_b}) + " elements");
+  }
+  for (std::size_t i = 0; i < size_a; ++i) {
+    using Index = std::conditional_t<std::is_signed_v<decltype(a.size())>, std::ptrdiff_t, std::size_t>;
+    const auto& of_a = a[static_cast<Index>(i)];
+    const auto& of_b = b[static_cast<Index>(i)];
+    if constexpr (state_bytes::Numeric<std::remove_cvref_t<decltype(of_a)>>) {
+      if (state_bytes::as_bits(of_a) == state_bytes::as_bits(of_b)) continue;  // no path for each of many
+    }
+    const std::string called = name == nullptr ? number_text(std::uint64_t{i}) : name(i);
+    if (auto found = first_difference(of_a, of_b, path_to_element(path, called)); !found.empty()) {
+      return found;
+    }
+  }
+  return "";
+}
+
+template <class T>
+std::string difference_in_map(const T& a, const T& b, const std::string& path) {
+  auto of_b = b.begin();
+  for (const auto& [key, value] : a) {
+    if (of_b == b.end() || key < of_b->first)
+      return told(path_to_element(path, value_text(key)), "something", "nothing");
+    if (of_b->first < key) break;
+    if (auto found = first_difference(value, of_b->second, path_to_element(path, value_text(key)));
+        !found.empty()) {
+      return found;
+    }
+    ++of_b;
+  }
+  return of_b == b.end() ? "" : told(path_to_element(path, value_text(of_b->first)), "nothing", "something");
+}
+
+template <class Named, class T>
+void look_at_field(const Named& named, const T& a, const T& b, const std::string& path, std::string& found) {
+  if (!found.empty()) return;
+  if (named.element == nullptr) {
+    found = first_difference(a, b, path_to(path, named.name));
+  } else if constexpr (Row<T>) {
+    found = difference_in_row(a, b, path_to(path, named.name), named.element);
+  }
+}
+
+template <class T>
+std::string difference_in_fields(const T& a, const T& b, const std::string& path) {
+  std::string found;
+  std::apply(
+      [&](const auto&... named) { (look_at_field(named, a.*named.at, b.*named.at, path, found), ...); },
+      fields_of<T>());
+  return found;
 }
 
 }  // namespace state_fields
 
+/// The same of fields that copy_fields() has given.
+template <HasFields T>
+std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>& b,
+                                 const std::string& path) {
+  std::string found;
+  const auto look = [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (state_fields::look_at_field(std::get<i>(fields_of<T>()), std::get<i>(a), std::get<i>(b), path, found),
+     ...);
+  };
+  look(std::make_index_sequence<std::tuple_size_v<CopiedFields<T>>>());
+  return found;
+}
+
 /// "drive.profile.segments[2].speed_u_s: 12 against 13", the first difference in the order of the fields;
 /// empty if there is none. `path` stands before the names.
 template <class T>
-std::string first_difference(const T& a, const T& b, const std::string& path = "") {
+std::string first_difference(const T& a, const T& b, const std::string& path) {
   using namespace state_bytes;
-  const auto told = [&](const std::string& what) { return (path.empty() ? "" : path + ": ") + what; };
-  if constexpr (Numeric<T>) {
-    if (as_bits(a) == as_bits(b)) return "";
-    return told(state_fields::value_text(a) + " against " + state_fields::value_text(b));
+  using namespace state_fields;
+  if constexpr (std::is_enum_v<T>) {
+    return first_difference(static_cast<std::underlying_type_t<T>>(a),
+                            static_cast<std::underlying_type_t<T>>(b), path);
+  } else if constexpr (Numeric<T>) {
+    return as_bits(a) == as_bits(b) ? "" : told(path, value_text(a), value_text(b));
   } else if constexpr (kIsTime<T>) {
     return first_difference(a.count(), b.count(), path);
   } else if constexpr (kIsOptional<T>) {
     if (a.has_value() != b.has_value()) {
-      return told(a.has_value() ? "something against nothing" : "nothing against something");
+      return a ? told(path, "something", "nothing") : told(path, "nothing", "something");
     }
     return a ? first_difference(*a, *b, path) : "";
-  } else if constexpr (kIsVector<T> || kIsArray<T>) {
-    if (a.size() != b.size()) {
-      return told(std::to_string(a.size()) + " elements against " + std::to_string(b.size()) + " elements");
-    }
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (auto found = first_difference(a[i], b[i], path + "[" + std::to_string(i) + "]"); !found.empty()) {
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return a == b ? "" : told(path, quoted(a), quoted(b));
+  } else if constexpr (kIsMap<T>) {
+    return difference_in_map(a, b, path);
+  } else if constexpr (HasFields<T>) {
+    return difference_in_fields(a, b, path);
+  } else if constexpr (Row<T>) {
+    return difference_in_row(a, b, path, nullptr);
+  } else {
+    if constexpr (requires { StateOf<T>::told(a); }) {
+      if (auto found = first_difference(StateOf<T>::told(a), StateOf<T>::told(b), path); !found.empty()) {
         return found;
       }
     }
-    return "";
-  } else if constexpr (HasFields<T>) {
-    std::string found;
-    std::apply(
-        [&](const auto&... named) {
-          const auto look = [&](const auto& field) {
-            if (!found.empty()) return;
-            const std::string name(field.name);
-            found = first_difference(a.*field.at, b.*field.at, path.empty() ? name : path + "." + name);
-          };
-          (look(named), ...);
-        },
-        fields_of<T>());
-    return found;
-  } else {
     StateWriter of_a;
     StateWriter of_b;
     StateOf<T>::write(a, of_a);
     StateOf<T>::write(b, of_b);
-    return of_a.take() == of_b.take() ? "" : told("other bytes");
+    return of_a.take() == of_b.take() ? "" : told(path, "other bytes");
   }
+}
+
+/// The first difference of two values of a type as they were saved; both are read to their end.
+template <class T>
+std::string difference_of_saved(StateReader& a, StateReader& b, const std::string& path = "") {
+  const auto of_a = std::make_unique<T>();
+  const auto of_b = std::make_unique<T>();
+  a.take_value(*of_a);
+  b.take_value(*of_b);
+  return first_difference(*of_a, *of_b, path);
 }
 
 }  // namespace understudy

@@ -13,12 +13,17 @@
 // From that list a value is saved, restored, hashed (state_bytes.h) and compared (difference.h). The order of
 // the list is that of the bytes. A member that is not listed does not compile. A class with private fields
 // makes its StateOf a friend, which names them in a structured binding (they cannot be counted otherwise) and
-// says how many there are, `members`.
+// says how many there are, `members`, and how many of them are not a part of its state, `apart`.
+//
+// What lies in memory otherwise than it is saved (a ring, a program that is kept as its lines) has a pair of
+// its own instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may have `fields` as
+// well, or `told(value)`, another value, by which two of it are compared.
 #pragma once
 
 #include <cstddef>
 #include <cstdlib>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -30,15 +35,19 @@ namespace understudy {
 template <class T>
 struct StateOf;
 
+/// What an element of an array is called, by its number.
+using ElementName = std::string (*)(std::size_t number);
+
 template <class Owner, class T>
 struct NamedField {
   std::string_view name;
   T Owner::*at = nullptr;
+  ElementName element = nullptr;  // null: by its number
 };
 
 template <class Owner, class T>
-constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at) {
-  return {name, at};
+constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at, ElementName element = nullptr) {
+  return {name, at, element};
 }
 
 namespace state_fields {
@@ -73,6 +82,16 @@ constexpr std::size_t member_count() {
   }
 }
 
+/// Those of them that are not a part of its state.
+template <class T>
+constexpr std::size_t apart_of() {
+  if constexpr (requires { StateOf<T>::apart; }) {
+    return StateOf<T>::apart;
+  } else {
+    return 0;
+  }
+}
+
 }  // namespace state_fields
 
 template <class T>
@@ -87,7 +106,7 @@ constexpr const auto& fields_of() {
   static_assert(
       std::is_aggregate_v<T> || requires { StateOf<T>::members; },
       "the members of a class cannot be counted: StateOf must say how many there are");
-  static_assert(std::tuple_size_v<Fields> == state_fields::member_count<T>(),
+  static_assert(std::tuple_size_v<Fields> + state_fields::apart_of<T>() == state_fields::member_count<T>(),
                 "StateOf lists other fields than the type has");
   return StateOf<T>::fields;
 }
@@ -96,6 +115,19 @@ constexpr const auto& fields_of() {
 template <HasFields T>
 constexpr void for_each_field(T& value, auto visit) {
   std::apply([&](const auto&... named) { (visit(value.*named.at), ...); }, fields_of<std::remove_cv_t<T>>());
+}
+
+/// The fields by themselves, of a class that cannot be copied: read first, put in force when all is read.
+template <HasFields T>
+auto copy_fields(const T& value) {
+  return std::apply([&](const auto&... named) { return std::tuple(value.*named.at...); }, fields_of<T>());
+}
+template <HasFields T>
+using CopiedFields = decltype(copy_fields(std::declval<const T&>()));
+
+template <HasFields T>
+void assign_fields(T& value, const CopiedFields<T>& fields) {
+  std::apply([&](const auto&... named) { std::tie(value.*named.at...) = fields; }, fields_of<T>());
 }
 
 }  // namespace understudy

@@ -37,10 +37,7 @@ std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t onto = 0xc
 
 namespace state_bytes {
 
-template <class T>
-inline constexpr bool kIsOptional = false;
-template <class T>
-inline constexpr bool kIsOptional<std::optional<T>> = true;
+using state_fields::kIsOptional;
 template <class T>
 inline constexpr bool kIsArray = false;
 template <class T, std::size_t n>
@@ -110,38 +107,7 @@ class StateWriter {
   explicit StateWriter(std::size_t expected_bytes = 0) { bytes_.reserve(expected_bytes); }
 
   template <class Fields, class T>
-  void write(const T& value) {
-    using namespace state_bytes;
-    if constexpr (Numeric<T>) {
-      put(room_for(sizeof(Bits<T>)), value);
-    } else if constexpr (kIsTime<T>) {
-      write<Fields>(std::int64_t{value.count()});
-    } else if constexpr (kIsOptional<T>) {
-      write<Fields>(value.has_value());
-      if (value) write<Fields>(*value);
-    } else if constexpr (kIsVector<T>) {
-      write<Fields>(static_cast<std::uint32_t>(value.size()));
-      write_all<Fields>(value);
-    } else if constexpr (kIsMap<T>) {
-      write<Fields>(static_cast<std::uint32_t>(value.size()));
-      for (const auto& [key, entry] : value) {
-        write<Fields>(key);
-        write<Fields>(entry);
-      }
-    } else if constexpr (kIsArray<T>) {
-      write_all<Fields>(value);
-    } else if constexpr (HasFields<T>) {
-      for_each_field(value, [&](const auto& part) { write<Fields>(part); });
-    } else if constexpr (Foreign<T, StateOf<T>>) {
-      StateOf<T>::write(value, *this);
-    } else if constexpr (Foreign<T, Fields>) {
-      Fields::write(value, *this);
-    } else if constexpr (Listed<T>) {
-      T::fields(value, [&](const auto&... field) { (write<Fields>(field), ...); });
-    } else {
-      Fields::of(value, [&](const auto&... field) { (write<Fields>(field), ...); });
-    }
-  }
+  void write(const T& value);
   /// Of a type whose parts all have a StateOf.
   template <class T>
   void put_value(const T& value) {
@@ -197,55 +163,7 @@ class StateReader {
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <class Fields, class T>
-  void read(T& value) {
-    using namespace state_bytes;
-    if constexpr (Numeric<T>) {
-      value = get<Fields, T>(take(sizeof(Bits<T>)).data());
-    } else if constexpr (kIsTime<T>) {
-      std::int64_t count = 0;
-      read<Fields>(count);
-      value = T{count};
-    } else if constexpr (kIsOptional<T>) {
-      bool has = false;
-      read<Fields>(has);
-      value.reset();
-      if (has) read<Fields>(value.emplace());
-    } else if constexpr (kIsVector<T>) {
-      std::uint32_t count = 0;
-      read<Fields>(count);
-      // Each takes a byte at least: what is not there needs no room.
-      demand_state(count <= rest_.size(), "the bytes end too early");
-      value.assign(count, {});
-      read_all<Fields>(value);
-    } else if constexpr (kIsMap<T>) {
-      std::uint32_t count = 0;
-      read<Fields>(count);
-      value.clear();
-      for (; count > 0; --count) {
-        typename T::key_type key{};
-        read<Fields>(key);
-        demand_state(value.empty() || value.rbegin()->first < key, "its entries are in disorder");
-        read<Fields>(value[key]);
-      }
-    } else if constexpr (kIsArray<T>) {
-      read_all<Fields>(value);
-    } else if constexpr (HasFields<T>) {
-      for_each_field(value, [&](auto& part) { read<Fields>(part); });
-      if constexpr (requires { StateOf<T>::check(value); }) StateOf<T>::check(value);
-    } else if constexpr (Foreign<T, StateOf<T>>) {
-      StateOf<T>::read(value, *this);
-    } else if constexpr (Foreign<T, Fields>) {
-      Fields::read(value, *this);
-    } else {
-      const auto read_each = [&](auto&... field) { (read<Fields>(field), ...); };
-      if constexpr (Listed<T>) {
-        T::fields(value, read_each);
-      } else {
-        Fields::of(value, read_each);
-      }
-      Fields::check(value);
-    }
-  }
+  void read(T& value);
 
   /// Of a type whose parts all have a StateOf.
   template <class T>
@@ -308,5 +226,92 @@ class StateReader {
 
   std::span<const std::byte> rest_;
 };
+
+// Outside of their classes, so that a room can have those of its big types made once (motion/state_fields.h).
+
+template <class Fields, class T>
+void StateWriter::write(const T& value) {
+  using namespace state_bytes;
+  if constexpr (Numeric<T>) {
+    put(room_for(sizeof(Bits<T>)), value);
+  } else if constexpr (kIsTime<T>) {
+    write<Fields>(std::int64_t{value.count()});
+  } else if constexpr (kIsOptional<T>) {
+    write<Fields>(value.has_value());
+    if (value) write<Fields>(*value);
+  } else if constexpr (kIsVector<T>) {
+    write<Fields>(static_cast<std::uint32_t>(value.size()));
+    write_all<Fields>(value);
+  } else if constexpr (kIsMap<T>) {
+    write<Fields>(static_cast<std::uint32_t>(value.size()));
+    for (const auto& [key, entry] : value) {
+      write<Fields>(key);
+      write<Fields>(entry);
+    }
+  } else if constexpr (kIsArray<T>) {
+    write_all<Fields>(value);
+  } else if constexpr (Foreign<T, StateOf<T>>) {
+    StateOf<T>::write(value, *this);
+  } else if constexpr (HasFields<T>) {
+    for_each_field(value, [&](const auto& part) { write<Fields>(part); });
+  } else if constexpr (Foreign<T, Fields>) {
+    Fields::write(value, *this);
+  } else if constexpr (Listed<T>) {
+    T::fields(value, [&](const auto&... field) { (write<Fields>(field), ...); });
+  } else {
+    Fields::of(value, [&](const auto&... field) { (write<Fields>(field), ...); });
+  }
+}
+
+template <class Fields, class T>
+void StateReader::read(T& value) {
+  using namespace state_bytes;
+  if constexpr (Numeric<T>) {
+    value = get<Fields, T>(take(sizeof(Bits<T>)).data());
+  } else if constexpr (kIsTime<T>) {
+    std::int64_t count = 0;
+    read<Fields>(count);
+    value = T{count};
+  } else if constexpr (kIsOptional<T>) {
+    bool has = false;
+    read<Fields>(has);
+    value.reset();
+    if (has) read<Fields>(value.emplace());
+  } else if constexpr (kIsVector<T>) {
+    std::uint32_t count = 0;
+    read<Fields>(count);
+    // Each takes a byte at least: what is not there needs no room.
+    demand_state(count <= rest_.size(), "the bytes end too early");
+    value.assign(count, {});
+    read_all<Fields>(value);
+  } else if constexpr (kIsMap<T>) {
+    std::uint32_t count = 0;
+    read<Fields>(count);
+    value.clear();
+    for (; count > 0; --count) {
+      typename T::key_type key{};
+      read<Fields>(key);
+      demand_state(value.empty() || value.rbegin()->first < key, "its entries are in disorder");
+      read<Fields>(value[key]);
+    }
+  } else if constexpr (kIsArray<T>) {
+    read_all<Fields>(value);
+  } else if constexpr (Foreign<T, StateOf<T>>) {
+    StateOf<T>::read(value, *this);
+  } else if constexpr (HasFields<T>) {
+    for_each_field(value, [&](auto& part) { read<Fields>(part); });
+    if constexpr (requires { StateOf<T>::check(value); }) StateOf<T>::check(value);
+  } else if constexpr (Foreign<T, Fields>) {
+    Fields::read(value, *this);
+  } else {
+    const auto read_each = [&](auto&... field) { (read<Fields>(field), ...); };
+    if constexpr (Listed<T>) {
+      T::fields(value, read_each);
+    } else {
+      Fields::of(value, read_each);
+    }
+    Fields::check(value);
+  }
+}
 
 }  // namespace understudy

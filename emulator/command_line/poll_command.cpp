@@ -80,16 +80,16 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
     throw UsageError("poll: " + quoted(what) +
                      " is a name; expected --model MODEL to look it up, or an address");
   const Model& model = demand_model(arguments.model);
-  if (model.protocol() == Protocol::text) {
-    throw UsageError("poll: " + std::string(model.name) +
-                     " speaks text, no Modbus; expected a model with registers, or a terminal program");
+  if (!model.rtu || model.registers == nullptr) {
+    throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
+                     ", no Modbus; expected a model with registers, or a terminal program");
   }
-  const auto found = model.registers.find(what, model.firmwares.back());
+  const auto found = find_register(model, what, model.firmwares.back());
   if (!found) {
-    throw UsageError("poll: " + model.registers.why_not(what, model.firmwares.back()));
+    throw UsageError("poll: " + why_no_register(model, what, model.firmwares.back()));
   }
   const Place& place = found->place;
-  item.low_word_first = model.registers.policy().low_word_first;
+  item.low_word_first = model.registers->policy().low_word_first;
   item.type = place.part == Place::Part::whole ? place.row->type : Type::u16;
   const bool second =
       place.part != Place::Part::whole && (place.part == Place::Part::high) == item.low_word_first;

@@ -43,7 +43,7 @@ world::Bench bench_of_one(const ServeArguments& arguments) {
   world::DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station.value_or(1);
-  if (arguments.station && device.model->protocol() == Protocol::text) {
+  if (arguments.station && !device.model->line.station_numbers) {
     throw UsageError("--station: " + std::string(device.model->name) +
                      " has no station number; expected none");
   }

@@ -21,6 +21,12 @@ Tick Device::next_event_tick(Tick done, Tick /*most*/, const MachineAhead& /*ahe
 void Device::cross_to(Tick /*done*/, Tick /*tick*/, const MachineAhead& /*ahead*/,
                       std::span<std::int64_t> /*pulses*/) {}
 
+pty::LineSettings Device::line_settings() const {
+  pty::LineSettings line = model_.line.settings;
+  line.baud = settings_.baud;
+  return line;
+}
+
 void Device::prefetch(Tick /*tick*/) const {
   // Of the device itself the beginning; its settings are large, and no tick reads them.
   prefetch_line(this);

@@ -20,6 +20,8 @@
 namespace understudy {
 class StateReader;
 class StateWriter;
+template <class T>
+struct StateOf;
 }  // namespace understudy
 
 namespace understudy::emulator {
@@ -30,6 +32,7 @@ class MachineAhead;
 class ModbusStation;
 class NamedValues;
 class RegisterBank;
+class Terminals;
 class TextSpeaker;
 class UserProgram;
 
@@ -65,12 +68,14 @@ class Device {
   /// The program that it runs by itself (user_program.h).
   virtual UserProgram* user_program() { return nullptr; }
   virtual const UserProgram* user_program() const { return nullptr; }
+  /// What it does with its terminals (terminals.h).
+  virtual const Terminals* terminals() const { return nullptr; }
   /// The axes that it drives (axes.h).
   virtual Axes* axes() { return nullptr; }
   virtual const Axes* axes() const { return nullptr; }
 
-  /// Of the line that it is on.
-  virtual pty::LineSettings line_settings() const = 0;
+  /// Of the line that it is on: its model's, at the speed that its settings say.
+  virtual pty::LineSettings line_settings() const;
 
   // --- power -----------------------------------------------------------------------------------
   /// A device is made without power. Switching it on begins with what its memory has kept.
@@ -78,13 +83,13 @@ class Device {
   void switch_power(bool on);
 
   // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
-  virtual void sample_inputs(Tick tick) = 0;
-  virtual void run_interpreters(Tick tick) = 0;
-  virtual void step_motion(Tick tick) = 0;
-  virtual void update_outputs(Tick tick) = 0;
+  virtual void sample_inputs(Tick /*tick*/) {}
+  virtual void run_interpreters(Tick /*tick*/) {}
+  virtual void step_motion(Tick /*tick*/) {}
+  virtual void update_outputs(Tick /*tick*/) {}
   /// The first tick after `done` at which anything may change without help from outside; kNever if
   /// none. The ticks before it may be left out: the state is then the same as if they had been run.
-  virtual Tick next_active_tick(Tick done) const = 0;
+  virtual Tick next_active_tick(Tick /*done*/) const { return kNever; }
   /// The first tick after `done` that has to be run as it is. Those before it only count on what moves, as
   /// far as each axis has room, and may be made up in one step by cross_to(). Not beyond `most` + 1.
   virtual Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const;
@@ -105,17 +110,17 @@ class Device {
   /// The same at once; when it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
+  /// "axes[0].motor.travel_pulses: 12 against 13": the first field by which two states differ that
+  /// save_state() of devices made alike has given; empty if none does. Throws StateError for other bytes.
+  std::string state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const;
 
-  // --- terminals, by their number in the model's table -----------------------------------------------
-  /// Levels from outside, in the terminal's unit; the device looks at them in sample_inputs().
+  // --- levels from outside, by the terminal's number in the model's table, in its unit -----------------
+  /// The device looks at them in sample_inputs().
   void set_input(int terminal, std::int32_t level) {
     inputs_[static_cast<std::size_t>(terminal)] = level;
     inputs_changed_ = true;
   }
   std::int32_t input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
-  virtual bool output(int terminal) const = 0;
-  /// Of those that the model lists, which this device has: a chain may be shorter.
-  virtual bool has_terminal(int /*terminal*/) const { return true; }
 
   /// The last tick that is over. Set by the world; what a write starts moves from the next one.
   Tick now() const { return now_; }
@@ -131,16 +136,18 @@ class Device {
   bool inputs_changed() const { return inputs_changed_; }
   bool take_inputs_changed() { return std::exchange(inputs_changed_, false); }
   /// The state as it is when the power comes: from what is kept and the inputs.
-  virtual void power_up() = 0;
+  virtual void power_up() {}
   /// Nothing is driven any more, and all that is not kept is lost.
-  virtual void power_down() = 0;
+  virtual void power_down() {}
   /// The state of the model's own.
   virtual void write_own_state(StateWriter& writer) const = 0;
   /// Reads it, and gives what puts it in force, which throws nothing.
   virtual std::function<void()> read_own_state(StateReader& reader) = 0;
+  /// Reads two of it, and tells where they differ (base/state/difference.h).
+  virtual std::string own_difference(StateReader& a, StateReader& b) const = 0;
 
  private:
-  struct CommonFields;  // device_state.cpp
+  friend struct StateOf<Device>;  // device_state.cpp
 
   // What every tick needs, first: the rest lies behind the first cache line.
   const Model& model_;

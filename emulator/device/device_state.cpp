@@ -1,47 +1,84 @@
-// What of a device's state is every model's: its power, its inputs, its time.
+// What of a device's state is every model's: its inputs, its power, its time.
 #include <tuple>
 #include <utility>
 
+#include "base/state/difference.h"
+#include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/device/device.h"
 
-namespace understudy::emulator {
+namespace understudy {
 
-struct Device::CommonFields {
+template <>
+struct StateOf<emulator::Device> {
+  using Value = emulator::Device;
+  static constexpr auto fields = std::tuple{field("inputs", &Value::inputs_),
+                                            field("powered", &Value::powered_), field("now", &Value::now_)};
+  static constexpr std::size_t members = 9;
   /// Model, settings and choices are what it was made from; the log is its user's.
-  static auto of(Like<Device> auto& device, auto visit) {
-    auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned] = device;
-    return visit(inputs, powered, now);
+  static constexpr std::size_t apart = 6;
+  static void name_all(Value& all) {  // does not compile if there are others
+    [[maybe_unused]] auto& [model, now, powered, inputs_changed, choices, inputs, settings, log, mentioned] =
+        all;
   }
 };
+
+}  // namespace understudy
+
+namespace understudy::emulator {
+
+namespace {
+
+using Common = CopiedFields<Device>;
+
+/// `common` is that of such a device.
+void read_common(const Model& model, StateReader& reader, Common& common) {
+  std::apply([&](auto&... field) { (reader.take_value(field), ...); }, common);
+  const auto& inputs = std::get<std::vector<std::int32_t>>(common);
+  demand_state(inputs.size() == model.terminals.size(), "it has other terminals");
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    demand_within(inputs[i], model.terminals[i].lowest, model.terminals[i].highest);
+  }
+  demand_within(std::get<Tick>(common), 0, tick_at(kHorizon));
+}
+
+}  // namespace
 
 std::vector<std::byte> Device::save_state() const {
   constexpr std::size_t kExpectedBytes = 32 * 1024;
   StateWriter writer(kExpectedBytes);
-  CommonFields::of(*this, [&](const auto&... field) { (writer.write<CommonFields>(field), ...); });
+  writer.put_value(*this);
   write_own_state(writer);
   return writer.take();
 }
 
 std::function<void()> Device::read_state(std::span<const std::byte> bytes) {
   StateReader reader(bytes);
-  auto restored = CommonFields::of(*this, [](const auto&... field) { return std::tuple(field...); });
-  std::apply([&](auto&... field) { (reader.read<CommonFields>(field), ...); }, restored);
-  const auto& inputs = std::get<std::vector<std::int32_t>>(restored);
-  demand_state(inputs.size() == model_.terminals.size(), "it has other terminals");
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    demand_within(inputs[i], model_.terminals[i].lowest, model_.terminals[i].highest);
-  }
-  demand_within(std::get<Tick>(restored), 0, tick_at(kHorizon));
+  Common restored = copy_fields(*this);
+  read_common(model_, reader, restored);
   auto put_own = read_own_state(reader);
   reader.demand_end();
   return [this, restored = std::move(restored), put_own = std::move(put_own)] {
-    CommonFields::of(*this, [&](auto&... field) { std::tie(field...) = restored; });
+    assign_fields(*this, restored);
     inputs_changed_ = true;
     put_own();
   };
 }
 
 std::uint64_t Device::state_hash() const { return hash_of(save_state()); }
+
+std::string Device::state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const {
+  StateReader of_a(a);
+  StateReader of_b(b);
+  Common common_a = copy_fields(*this);
+  Common common_b = common_a;
+  read_common(model_, of_a, common_a);
+  read_common(model_, of_b, common_b);
+  const std::string own = own_difference(of_a, of_b);
+  of_a.demand_end();
+  of_b.demand_end();
+  const std::string common = difference_of_copies<Device>(common_a, common_b, "");
+  return common.empty() ? own : common;
+}
 
 }  // namespace understudy::emulator

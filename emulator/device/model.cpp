@@ -32,6 +32,19 @@ int find_axis(const Model& model, std::string_view name) {
   return -1;
 }
 
+std::span<const RegisterRow> register_rows(const Model& model) {
+  return model.registers == nullptr ? std::span<const RegisterRow>() : model.registers->rows();
+}
+
+std::optional<NamedPlace> find_register(const Model& model, std::string_view name, Firmware firmware) {
+  return model.registers == nullptr ? std::nullopt : model.registers->find(name, firmware);
+}
+
+std::string why_no_register(const Model& model, std::string_view name, Firmware firmware) {
+  static const RegisterMap none({}, MapPolicy{});
+  return (model.registers == nullptr ? none : *model.registers).why_not(name, firmware);
+}
+
 Firmware parse_firmware(std::string_view text) {
   if (text.size() != 4 || text[1] != '.') return 0;
   int hundredths = 0;
@@ -66,15 +79,14 @@ void check(const Model& model, const DeviceSettings& settings) {
             (model.most_modules == 0 ? " has no modules; expected none"
                                      : " has 1 to " + std::to_string(model.most_modules) + " of them"));
   }
-  const bool has_address = model.protocol() == Protocol::modbus_rtu;
-  if (has_address &&
-      (settings.address < model.rtu.lowest_address || settings.address > model.rtu.highest_address)) {
+  const auto& numbers = model.line.station_numbers;
+  if (numbers && (settings.address < numbers->lowest || settings.address > numbers->highest)) {
     throw SettingError("address", std::to_string(settings.address) + " is not a station number of " +
                                       std::string(model.name) + "; expected " +
-                                      std::to_string(model.rtu.lowest_address) + " to " +
-                                      std::to_string(model.rtu.highest_address));
+                                      std::to_string(numbers->lowest) + " to " +
+                                      std::to_string(numbers->highest));
   }
-  const auto bauds = model.bauds();
+  const auto bauds = model.line.bauds;
   if (settings.baud != 0 && std::find(bauds.begin(), bauds.end(), settings.baud) == bauds.end()) {
     throw SettingError("baud", std::to_string(settings.baud) + " is not a speed of " +
                                    std::string(model.name) + "; expected one of " +
@@ -107,9 +119,9 @@ void demand_choices(const Model& model, const DeviceSettings& settings) {
 void set_registers(Device& device, const DeviceSettings& settings) {
   for (const auto& [name, value] : settings.set) {
     RegisterBank* const bank = device.register_bank();
-    const auto place = device.model().registers.find(name, settings.firmware);
+    const auto place = find_register(device.model(), name, settings.firmware);
     if (bank == nullptr || !place)
-      throw SettingEntryError("set", name, device.model().registers.why_not(name, settings.firmware));
+      throw SettingEntryError("set", name, why_no_register(device.model(), name, settings.firmware));
     switch (write_value(*bank, *place, value)) {
       case Refusal::none: break;
       case Refusal::no_register:
@@ -141,10 +153,10 @@ void load_memory(Device& device, const NvImage& image) {
 /// What its model's tables list can be reached.
 void demand_facets(const Device& device) {
   const Model& model = device.model();
-  const bool is_whole =
-      (model.registers.rows().empty() || device.register_bank() != nullptr) &&
-      (model.axes.empty() || device.axes() != nullptr) &&
-      (model.protocol() == Protocol::text ? device.speaker() != nullptr : device.modbus() != nullptr);
+  const bool is_whole = (model.registers == nullptr || device.register_bank() != nullptr) &&
+                        (model.terminals.empty() || device.terminals() != nullptr) &&
+                        (model.axes.empty() || device.axes() != nullptr) &&
+                        model.rtu.has_value() == (device.modbus() != nullptr);
   if (!is_whole) throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
 }
 
@@ -155,7 +167,7 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   check(model, given);
   DeviceSettings settings = given;
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
-  if (settings.baud == 0) settings.baud = model.bauds().front();
+  if (settings.baud == 0) settings.baud = model.line.bauds.front();
 
   demand_choices(model, settings);
   std::unique_ptr<Device> device = model.make(settings);

@@ -99,25 +99,30 @@ struct AxisRow {
   int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
 };
 
-/// How the model listens on a Modbus RTU line.
-struct RtuRules {
-  std::span<const int> bauds;               // the speeds it can be set to, the factory's first
-  pty::LineSettings settings;               // the rest; `baud` is replaced by the chosen one
-  pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
-  std::span<const std::uint8_t> functions;  // function codes it knows
-  int lowest_address = 1;
-  int highest_address = 247;
+/// What is spoken on a line: an object for each protocol, beside the facet that speaks it (modbus/, text/).
+/// What it means for a line and its hosts is said once, by the world's object for it (world/speech/).
+struct Protocol {
+  std::string_view name;  // "Modbus", for messages
 };
 
-/// What a line carries between hosts and a model.
-enum class Protocol : std::uint8_t { modbus_rtu, text };
+/// The station numbers that a bench may give to a device.
+struct StationNumbers {
+  int lowest = 1;
+  int highest = 247;
+};
 
-inline constexpr int kTextBauds[] = {9600};
+/// How the model stands on its line, whatever is spoken there.
+struct LineRules {
+  const Protocol& protocol;
+  std::span<const int> bauds;                       // the speeds it can be set to, the factory's first
+  pty::LineSettings settings;                       // the rest; `baud` is replaced by the chosen one
+  std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
+};
 
-/// How the model listens on a line of text. Such a device is alone on its line.
-struct TextPort {
-  std::span<const int> bauds = kTextBauds;  // the speeds it can be set to, the factory's first
-  pty::LineSettings settings{.baud = 9600, .data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1};
+/// How the model takes frames of Modbus RTU.
+struct RtuRules {
+  pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
+  std::span<const std::uint8_t> functions;  // function codes it knows
 };
 
 /// What makes one device of a model.
@@ -139,11 +144,11 @@ struct DeviceSettings {
 struct Model {
   std::string_view name;  // "simple2-r3"
   std::string_view title;
-  std::span<const Firmware> firmwares;  // oldest first; the last is the default
-  const RegisterMap& registers;
-  std::span<const ParameterRow> parameters;
+  std::span<const Firmware> firmwares;     // oldest first; the last is the default
+  const RegisterMap* registers = nullptr;  // null: it has none
+  std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
-  std::span<const InstructionRow> instructions;
+  std::span<const InstructionRow> instructions{};
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
@@ -151,14 +156,11 @@ struct Model {
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that tell best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
-  RtuRules rtu{};
-  std::optional<TextPort> text{};  // it speaks text, and no Modbus
-  int most_modules = 0;            // that one device can consist of; 0: it is not a chain
+  LineRules line;
+  std::optional<RtuRules> rtu{};  // of a model with ModbusStation
+  int most_modules = 0;           // that one device can consist of; 0: it is not a chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
-
-  Protocol protocol() const { return text ? Protocol::text : Protocol::modbus_rtu; }
-  std::span<const int> bauds() const { return text ? text->bauds : rtu.bauds; }
 };
 
 /// Those that benches may name: handed down by whoever knows them.
@@ -169,6 +171,12 @@ const Model* find_model(ModelList models, std::string_view name);
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);
 int find_axis(const Model& model, std::string_view name);
+/// The rows of its registers; none where it has no registers.
+std::span<const RegisterRow> register_rows(const Model& model);
+/// A register by its name; none where the model has no registers.
+std::optional<NamedPlace> find_register(const Model& model, std::string_view name, Firmware firmware);
+/// Why there is none, as one line.
+std::string why_no_register(const Model& model, std::string_view name, Firmware firmware);
 
 /// What is wrong with a device's settings: which of them, and what was expected.
 struct SettingError : std::runtime_error {

@@ -6,6 +6,7 @@
 #include "emulator/world/check_fault.h"
 #include "emulator/world/expression/parser.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/speech/line_speech.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
@@ -34,35 +35,6 @@ void demand_value(const Probes& probes, const Expression::Name& name) {
   } catch (const NameError&) {
     throw NameError(quoted(name.spelling) + " is nothing to wait for; expected what the world itself knows");
   }
-}
-
-/// Which registers a request is about.
-FrameFacts facts_of(const HeardFrame& frame) {
-  if (frame.protocol == Protocol::text) return {.at = frame.now};  // neither station nor function
-  FrameFacts facts{.at = frame.now, .station = frame.bytes[0], .function = frame.bytes[1]};
-  const auto word = [&](std::size_t at) { return frame.bytes[at] << 8 | frame.bytes[at + 1]; };
-  switch (facts.function) {
-    case 0x01:
-    case 0x02:
-    case 0x03:
-    case 0x04:
-    case 0x0F:
-    case 0x10:
-    case 0x17:
-      if (frame.bytes.size() < 8) break;
-      facts.first = word(2);
-      facts.count = word(4);
-      break;
-    case 0x05:
-    case 0x06:
-    case 0x16:
-      if (frame.bytes.size() < 6) break;
-      facts.first = word(2);
-      facts.count = 1;
-      break;
-    default: break;
-  }
-  return facts;
 }
 
 pty::WireFault stage_of(const Fault& fault) {
@@ -107,28 +79,6 @@ bool is_of_replies(const Fault& fault) {
   return is_of_wire(fault.kind) && fault.kind != Kind::slow && fault.side != Fault::Side::request;
 }
 
-/// Lines of text have no functions, no stations, no checksum and no exceptions.
-void demand_of_protocol(const KnownDevice& device, const Fault& fault) {
-  if (device.model->protocol() != Protocol::text) return;
-  const std::string kind(fault_kind(fault.kind).name);
-  switch (fault.kind) {
-    case Kind::busy:
-    case Kind::exception:
-    case Kind::early_reply:
-    case Kind::corrupt_checksum:
-      throw NameError(kind + ": is a fault of Modbus frames, and " + device.name +
-                      " speaks text; expected another one");
-    default: break;
-  }
-  const FaultTrigger& trigger = fault.trigger;
-  for (const auto& [field, value] :
-       {std::pair("function", trigger.function), std::pair("station", trigger.station),
-        std::pair("address", trigger.first_address)}) {
-    if (value < 0) continue;
-    throw FaultFieldError(kind, field, device.name + " speaks text, which has none; expected none");
-  }
-}
-
 }  // namespace
 
 std::int64_t encoder_noise_counts(const Fault& fault, Tick tick) {
@@ -149,7 +99,8 @@ void check_fault(const World& world, const Fault& fault) {
                     std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
                     " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
   }
-  demand_of_protocol(world.known()[fault.device], fault);
+  const KnownDevice& known = world.known()[fault.device];
+  speech_of(*known.model).demand_possible(known.name, fault);
   if (fault.trigger.when.empty()) return;
   try {
     check_condition(world, fault.trigger.when);
@@ -251,7 +202,8 @@ bool FaultWatch::is_at(const Fault& fault, std::size_t device) const {
 }
 
 bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
-  return strikes_frame(armed.fault.trigger, armed.course, facts_of(frame), *this, stream(number));
+  const LineSpeech& speech = world_.line(lines_[frame.device]).speech;
+  return strikes_frame(armed.fault.trigger, armed.course, speech.facts_of(frame), *this, stream(number));
 }
 
 /// Every station of a line hears the same request: it is judged when the first of them asks.

@@ -1,4 +1,5 @@
 #include "emulator/world/outcome_hash.h"
+#include "emulator/device/terminals.h"
 
 #include <array>
 
@@ -66,7 +67,8 @@ void OutcomeHash::on_tick(Tick tick) {
     std::uint64_t outputs = 0;
     const auto terminals = device.model().terminals;
     for (std::size_t i = 0; i < terminals.size(); ++i) {
-      if (!is_input(terminals[i].kind)) outputs = outputs << 1 | (device.output(static_cast<int>(i)) ? 1 : 0);
+      if (!is_input(terminals[i].kind))
+        outputs = outputs << 1 | (device.terminals()->output(static_cast<int>(i)) ? 1 : 0);
     }
     add(outputs);
   }

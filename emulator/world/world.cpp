@@ -9,9 +9,9 @@
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 #include "emulator/world/fault_watch.h"
-#include "emulator/world/stations/rtu_station.h"
-#include "emulator/world/stations/text_station.h"
+#include "emulator/world/speech/line_speech.h"
 
 namespace understudy::emulator::world {
 
@@ -55,29 +55,22 @@ World::World(const Bench& bench, const WorldOptions& options,
                                   .timing = setup.timing,
                                   .enforce_settings = options.enforce_settings,
                                   .baud_tolerance_ppm = setup.baud_tolerance_ppm};
+    const StationConditions conditions{.is_instant = setup.timing == pty::Timing::instant,
+                                       .strict_framing = options.strict_framing,
+                                       .patience = options.patience};
+    const LineSpeech& speech = speech_of(devices_[setup.stations.front()]->model());
     lines_.push_back(
-        std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), {}, {}}));
+        std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}}));
     WorldLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {
       known_[number].line = setup.name;
-      if (devices_[number]->model().protocol() == Protocol::text) {
-        const bool is_instant = setup.timing == pty::Timing::instant;
-        line.stations.push_back(std::make_unique<TextStation>(*devices_[number], is_instant));
-        line.line.attach(*line.stations.back());
-        line.protocol = Protocol::text;
-        text_lines_.push_back(&line);
-        continue;
-      }
-      // Without wire time there is no silence to wait for, unless silence alone ends a frame.
-      const bool no_silence = setup.timing == pty::Timing::instant && !options.strict_framing;
-      const pty::RtuFraming framing{
-          .strict = options.strict_framing,
-          .silence = no_silence ? SimTime{0} : devices_[number]->model().rtu.end_silence,
-          .patience = options.patience};
+      Device& device = *devices_[number];
+      const pty::RtuFraming framing = speech.framing(device.model(), conditions);
       if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
-      line.stations.push_back(std::make_unique<RtuStation>(*devices_[number], framing));
+      line.stations.push_back(speech.make_station(device, conditions));
       line.line.attach(*line.stations.back());
     }
+    if (speech.may_be_unasked()) unasked_lines_.push_back(&line);
   }
   for (const InputSetup& setup : bench.inputs) {
     set_external_input(setup.device, setup.terminal, setup.level);
@@ -148,7 +141,7 @@ void World::advance_to(SimTime time) {
     } else {
       run_tick();
       if (fault_watch_) look_at_faults();
-      if (!text_lines_.empty()) {
+      if (!unasked_lines_.empty()) {
         now_ = std::max(now_, time_of(done_));
         look_for_speech(now_);
         line_time = next_line_time();
@@ -203,7 +196,7 @@ void World::run_lines(SimTime time) {
 
 /// A tick, or an act from outside, may have given a device something to say; its line sends it from now on.
 void World::look_for_speech(SimTime now) {
-  for (WorldLine* line : text_lines_) {
+  for (WorldLine* line : unasked_lines_) {
     for (const auto& station : line->stations) {
       if (station->look_for_speech(now)) line->line.due_changed();
     }
@@ -265,7 +258,7 @@ void World::step_plant(std::size_t number) {
     all_quiet = false;
     DriveInputs outputs;
     if (plant.has_drive()) {
-      const auto driven = [&](int terminal) { return terminal >= 0 && device.output(terminal); };
+      const auto driven = [&](int terminal) { return terminal >= 0 && device.terminals()->output(terminal); };
       outputs = {.servo = driven(axis.servo_output), .alarm_clear = driven(axis.alarm_clear_output)};
     }
     const PlantAxis::State& state = plant.save();
@@ -286,7 +279,7 @@ void World::step_plant(std::size_t number) {
 }
 
 bool World::level_of(const WireSetup& wire) const {
-  if (wire.from_axis < 0) return devices_[wire.from_device]->output(wire.from_terminal);
+  if (wire.from_axis < 0) return devices_[wire.from_device]->terminals()->output(wire.from_terminal);
   return plants_[wire.from_device][static_cast<std::size_t>(wire.from_axis)].contact(wire.from_contact);
 }
 

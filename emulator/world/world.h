@@ -160,7 +160,7 @@ class World final : public WorldView {
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Axes*> axes_;  // of each device
   std::vector<std::unique_ptr<WorldLine>> lines_;
-  std::vector<WorldLine*> text_lines_;              // those of them whose devices may speak unasked
+  std::vector<WorldLine*> unasked_lines_;           // those of them whose devices may speak unasked
   std::vector<std::vector<PlantAxis>> plants_;      // [device][axis]
   std::vector<std::vector<ContactWire>> contacts_;  // by device; as the bench has them
   std::vector<std::vector<std::int64_t>> sent_pulses_;

@@ -9,7 +9,7 @@
 #include "tests/pty/pcapng_reader.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace capture_test {
 
 using pty::contents_of;
 using pty::PcapngFile;
@@ -282,5 +282,5 @@ TEST(Capture, TellsWhatFaultsDid) {
   }
 }
 
-}  // namespace
+}  // namespace capture_test
 }  // namespace understudy::acceptance

@@ -10,7 +10,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace ci_page_test {
 
 namespace fs = std::filesystem;
 
@@ -123,5 +123,5 @@ TEST(CiPage, TheGitlabRecipeRunsInItsImage) {
   EXPECT_TRUE(project.has(job["artifacts"]["reports"]["junit"].as<std::string>()));
 }
 
-}  // namespace
+}  // namespace ci_page_test
 }  // namespace understudy::acceptance

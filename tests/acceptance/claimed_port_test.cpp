@@ -19,7 +19,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace claimed_port_test {
 
 constexpr uid_t kNobody = 65534;
 
@@ -178,5 +178,5 @@ TEST_F(ClaimedPort, IsServedAnewWhenTheDaemonWasKeptOut) {
   expect_idle();
 }
 
-}  // namespace
+}  // namespace claimed_port_test
 }  // namespace understudy::acceptance

@@ -6,7 +6,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace command_line_test {
 
 struct BadUsage {
   const char* name;
@@ -272,5 +272,5 @@ TEST(Check, TellsOfEveryBadFile) {
   EXPECT_NE(finished.output.find("good.yaml"), std::string::npos) << finished.output;
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace understudy::acceptance

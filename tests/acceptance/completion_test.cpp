@@ -6,7 +6,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace completion_test {
 
 bool is_here(const std::string& program) { return run({"which", program}).exit_code == 0; }
 
@@ -107,5 +107,5 @@ TEST_F(Completion, OfAnotherShellIsRefused) {
             "understudy: completion: 'tcsh' is not a shell that is known; expected bash, zsh or fish\n");
 }
 
-}  // namespace
+}  // namespace completion_test
 }  // namespace understudy::acceptance

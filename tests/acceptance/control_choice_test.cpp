@@ -8,7 +8,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace control_choice_test {
 
 namespace fs = std::filesystem;
 
@@ -163,5 +163,5 @@ TEST_F(SeveralDaemons, OneThatStandsStillIsNamedAsWell) {
   EXPECT_NE(refused.errors.find(socket(*still) + " (does not answer)"), std::string::npos) << refused.errors;
 }
 
-}  // namespace
+}  // namespace control_choice_test
 }  // namespace understudy::acceptance

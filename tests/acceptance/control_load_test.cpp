@@ -18,7 +18,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace control_load_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -183,5 +183,5 @@ TEST(ControlLoad, WithoutDescriptorsTheDaemonRestsAndServesItsHosts) {
   EXPECT_TRUE(eventually([&] { return last->hear() > 0; }));
 }
 
-}  // namespace
+}  // namespace control_load_test
 }  // namespace understudy::acceptance

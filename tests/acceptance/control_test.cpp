@@ -11,7 +11,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace control_test {
 
 using Json = nlohmann::json;
 
@@ -333,5 +333,5 @@ TEST(ControlWatch, PrintsTablesOneAfterAnother) {
   expect_refused(daemon, {"watch", "--every", "often"}, "expected 10ms or more");
 }
 
-}  // namespace
+}  // namespace control_test
 }  // namespace understudy::acceptance

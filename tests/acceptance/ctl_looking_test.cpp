@@ -9,7 +9,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace ctl_looking_test {
 
 using Json = nlohmann::json;
 
@@ -147,5 +147,5 @@ TEST(StandardInput, IsAFileWhereAListingIsExpected) {
   EXPECT_NE(daemon.ctl({"program"}).output.find("Out DOUT_0"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace ctl_looking_test
 }  // namespace understudy::acceptance

@@ -10,7 +10,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace drawn_recordings_test {
 
 namespace fs = std::filesystem;
 
@@ -231,5 +231,5 @@ TEST(DrawnRecording, RefusesWhatItCannotDo) {
   EXPECT_EQ(names_in(folder.path()), (Words{"cases", "r"}));
 }
 
-}  // namespace
+}  // namespace drawn_recordings_test
 }  // namespace understudy::acceptance

@@ -8,7 +8,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace examples_test {
 
 namespace fs = std::filesystem;
 
@@ -88,5 +88,5 @@ TEST(Examples, ACTestTest) { expect_project_passes("ctest", 3); }
 
 TEST(Examples, AGoogleTestFixture) { expect_project_passes("googletest", 4); }
 
-}  // namespace
+}  // namespace examples_test
 }  // namespace understudy::acceptance

@@ -6,7 +6,7 @@
 #include "tests/acceptance/at_terminal.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace exec_terminal_test {
 
 class ExecAtTerminal : public testing::Test {
  protected:
@@ -75,5 +75,5 @@ TEST_F(ExecAtTerminal, StopsOnCtrlZAndGoesOn) {
   EXPECT_EQ(shell.wait(kPatience), 0);
 }
 
-}  // namespace
+}  // namespace exec_terminal_test
 }  // namespace understudy::acceptance

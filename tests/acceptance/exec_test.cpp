@@ -10,7 +10,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace exec_test {
 
 namespace fs = std::filesystem;
 
@@ -349,5 +349,5 @@ TEST_F(ExecWith, RefusesAScenarioOfAnotherBench) {
   EXPECT_NE(finished.errors.find("other.yaml: bench: "), std::string::npos) << finished.errors;
 }
 
-}  // namespace
+}  // namespace exec_test
 }  // namespace understudy::acceptance

@@ -7,7 +7,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace faults_control_test {
 
 using Json = nlohmann::json;
 
@@ -221,5 +221,5 @@ TEST(ControlInput, TakesVoltagesWordsAndSwitches) {
   expect_refused(daemon, {"input"}, "input: nothing to do; expected NAME=LEVEL");
 }
 
-}  // namespace
+}  // namespace faults_control_test
 }  // namespace understudy::acceptance

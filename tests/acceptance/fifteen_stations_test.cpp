@@ -13,7 +13,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace fifteen_stations_test {
 
 using Json = nlohmann::json;
 
@@ -276,5 +276,5 @@ TEST_F(FifteenMoves, StopAtOnePlaceWhenTheyAreToldTogether) {
     EXPECT_EQ(position(station), first) << "station " << station;
 }
 
-}  // namespace
+}  // namespace fifteen_stations_test
 }  // namespace understudy::acceptance

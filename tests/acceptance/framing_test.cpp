@@ -7,7 +7,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace framing_test {
 
 /// Sends the request in two parts, 5 ms apart, some times; how many were answered. A busy machine may turn
 /// a pause into a longer one, or hide it: the tests ask for the greater part.
@@ -91,5 +91,5 @@ TEST(WrongChecksum, GetsNoReplyAndTheNextRequestWorks) {
       << "Aaxis_Speed is still 0";
 }
 
-}  // namespace
+}  // namespace framing_test
 }  // namespace understudy::acceptance

@@ -17,7 +17,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace hammering_test {
 
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::json;
@@ -312,5 +312,5 @@ TEST(HammeringFifteenStations, LeavesAllOfThemAlive) {
   }
 }
 
-}  // namespace
+}  // namespace hammering_test
 }  // namespace understudy::acceptance

@@ -6,7 +6,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace hearing_test {
 
 void expect_answer(Host& host) {
   EXPECT_EQ(exchange(host, kReadHardwareCode, kHardwareCodeReply.size()), kHardwareCodeReply);
@@ -114,5 +114,5 @@ TEST(HostWithNearlyTheSpeed, IsHeardAsTheLineChooses) {
   }
 }
 
-}  // namespace
+}  // namespace hearing_test
 }  // namespace understudy::acceptance

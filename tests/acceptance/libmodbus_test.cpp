@@ -5,7 +5,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace libmodbus_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -112,5 +112,5 @@ TEST(ManualsExample, Takes3050MillisecondsByTheHostsClock) {
   EXPECT_EQ(host.read_long(kCordA), 32000);
 }
 
-}  // namespace
+}  // namespace libmodbus_test
 }  // namespace understudy::acceptance

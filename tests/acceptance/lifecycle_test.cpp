@@ -14,7 +14,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace lifecycle_test {
 
 namespace fs = std::filesystem;
 
@@ -191,5 +191,5 @@ TEST(IdleDaemon, DoesNotSpinAfterAHostHasClosed) {
   EXPECT_LE(processor_milliseconds_of_a_second(daemon), 20);
 }
 
-}  // namespace
+}  // namespace lifecycle_test
 }  // namespace understudy::acceptance

@@ -9,7 +9,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace looking_test {
 
 constexpr const char* kScenario =
     "understudy: 1\nname: a move\n"
@@ -227,5 +227,5 @@ TEST(RunJunit, GoesToStandardOutputAndTheRestMakesWay) {
   EXPECT_FALSE(std::filesystem::exists("-"));
 }
 
-}  // namespace
+}  // namespace looking_test
 }  // namespace understudy::acceptance

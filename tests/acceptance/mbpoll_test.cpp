@@ -8,7 +8,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace mbpoll_test {
 
 class Mbpoll : public testing::TestWithParam<int> {
  protected:
@@ -93,5 +93,5 @@ TEST_P(Mbpoll, IsKilledWhilePollingAndComesBack) {
 INSTANTIATE_TEST_SUITE_P(At, Mbpoll, testing::Values(19200, 115200),
                          [](const auto& parameter) { return std::to_string(parameter.param) + "Baud8E1"; });
 
-}  // namespace
+}  // namespace mbpoll_test
 }  // namespace understudy::acceptance

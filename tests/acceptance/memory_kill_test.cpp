@@ -12,7 +12,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace memory_kill_test {
 
 using emulator::NvImage;
 using emulator::read_nv_file;
@@ -126,5 +126,5 @@ TEST(MemoryKill, AtRandomMomentsLeavesAlwaysAnImageThatThereWas) {
   EXPECT_GT(counted, 100);
 }
 
-}  // namespace
+}  // namespace memory_kill_test
 }  // namespace understudy::acceptance

@@ -9,7 +9,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace memory_test {
 
 namespace fs = std::filesystem;
 
@@ -402,5 +402,5 @@ TEST(Memory, OfTwoDaemonsIsNotOneFile) {
   EXPECT_EQ(value(next, "HW_Code"), "49153\n");
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace understudy::acceptance

@@ -12,7 +12,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace output_paths_test {
 
 namespace fs = std::filesystem;
 
@@ -250,5 +250,5 @@ TEST(RunSpool, OfAKilledRunIsRemovedByTheNext) {
   EXPECT_FALSE(fs::exists(fs::path(of_living).parent_path()));
 }
 
-}  // namespace
+}  // namespace output_paths_test
 }  // namespace understudy::acceptance

@@ -14,7 +14,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace packaging_test {
 
 namespace fs = std::filesystem;
 
@@ -258,5 +258,5 @@ TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
     EXPECT_EQ(run({"sh", "-n", folder / (std::string("control/") + script)}).exit_code, 0) << script;
 }
 
-}  // namespace
+}  // namespace packaging_test
 }  // namespace understudy::acceptance

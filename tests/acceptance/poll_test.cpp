@@ -4,7 +4,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace poll_test {
 
 class Poll : public testing::Test {
  protected:
@@ -80,5 +80,5 @@ TEST_F(Poll, FailsOnSilenceWithOneLine) { expect_failed({"--station", "9", "--ti
 
 TEST_F(Poll, WorksWithoutParity) { expect_printed({"--parity", "none", "2"}, "2 152\n"); }
 
-}  // namespace
+}  // namespace poll_test
 }  // namespace understudy::acceptance

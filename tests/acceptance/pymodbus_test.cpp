@@ -7,7 +7,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace pymodbus_test {
 
 // Debian's packages are for this interpreter; another one earlier in PATH does not know them.
 constexpr const char* kPython = "/usr/bin/python3";
@@ -89,5 +89,5 @@ TEST_P(Pymodbus, BroadcastsToEveryStationWithoutWaiting) {
 INSTANTIATE_TEST_SUITE_P(At, Pymodbus, testing::Values(19200, 115200),
                          [](const auto& parameter) { return std::to_string(parameter.param) + "Baud8N1"; });
 
-}  // namespace
+}  // namespace pymodbus_test
 }  // namespace understudy::acceptance

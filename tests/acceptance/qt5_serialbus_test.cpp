@@ -7,7 +7,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace qt5_serialbus_test {
 
 struct QtSetup {
   int baud;
@@ -136,5 +136,5 @@ INSTANTIATE_TEST_SUITE_P(At, Qt5SerialBus,
                                   "1";
                          });
 
-}  // namespace
+}  // namespace qt5_serialbus_test
 }  // namespace understudy::acceptance

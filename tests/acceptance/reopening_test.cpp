@@ -12,7 +12,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace reopening_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -179,5 +179,5 @@ TEST_P(Flood, OfRequestsWhoseRepliesNobodyReadsHarmsNobody) {
 INSTANTIATE_TEST_SUITE_P(With, Flood, testing::Values("wire", "instant"),
                          [](const auto& parameter) { return std::string(parameter.param) + "Timing"; });
 
-}  // namespace
+}  // namespace reopening_test
 }  // namespace understudy::acceptance

@@ -12,7 +12,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace replay_test {
 
 /// The recording of a host that moved axis A by 3200 pulses and watched it until it stood.
 class RecordedDay : public testing::Test {
@@ -128,5 +128,5 @@ TEST_F(RecordedDay, IsRefusedWhereItIsNoRecording) {
   }
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace understudy::acceptance

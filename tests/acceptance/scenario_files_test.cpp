@@ -6,7 +6,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace scenario_files_test {
 
 constexpr const char* kScenario =
     "understudy: 1\n"
@@ -91,5 +91,5 @@ TEST(ScenarioFiles, TheirSchemaIsPrinted) {
   EXPECT_EQ(refused.errors, "understudy: 'recording' has no schema; expected bench or scenario\n");
 }
 
-}  // namespace
+}  // namespace scenario_files_test
 }  // namespace understudy::acceptance

@@ -14,7 +14,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace shipped_scenarios_test {
 
 namespace fs = std::filesystem;
 
@@ -311,5 +311,5 @@ TEST(RunRecordings, AFolderThatCannotBeHadIsToldBeforeAnythingIsPlayed) {
   EXPECT_EQ(finished.errors, "understudy: --record: " + file + "/in cannot be written: Not a directory\n");
 }
 
-}  // namespace
+}  // namespace shipped_scenarios_test
 }  // namespace understudy::acceptance

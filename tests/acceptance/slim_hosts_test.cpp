@@ -10,7 +10,7 @@
 #include "tests/pty/pcapng_reader.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace slim_hosts_test {
 
 // Debian's packages are for this interpreter; another one earlier in PATH does not know them.
 constexpr const char* kPython = "/usr/bin/python3";
@@ -141,5 +141,5 @@ TEST(SlimCommandLine, DescribesEveryFormOfItsCommands) {
   EXPECT_EQ(lines[1].rfind("MA,MA x,", 0), 0U) << lines[1];
 }
 
-}  // namespace
+}  // namespace slim_hosts_test
 }  // namespace understudy::acceptance

@@ -5,7 +5,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace stations_test {
 
 constexpr std::chrono::milliseconds kSilence{150};  // no reply takes so long on these lines
 
@@ -102,5 +102,5 @@ lines:
   EXPECT_EQ(right.read(kAaxisSpeed), Registers{2});
 }
 
-}  // namespace
+}  // namespace stations_test
 }  // namespace understudy::acceptance

@@ -4,7 +4,7 @@
 #include "tests/acceptance/at_terminal.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace terminal_test {
 
 const std::string kBench =
     "understudy: 1\nname: \"day ${i}\"\ncases: [ { i: 1 }, { i: 2 } ]\n"
@@ -62,5 +62,5 @@ TEST_F(Terminal, FramesGoOnUntilCtrlC) {
   EXPECT_EQ(frames.wait(kPatience), 0);
 }
 
-}  // namespace
+}  // namespace terminal_test
 }  // namespace understudy::acceptance

@@ -8,7 +8,7 @@
 #include "tests/pty/pty_host.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace text_line_test {
 
 using namespace std::chrono_literals;
 using pty::Bytes;
@@ -82,5 +82,5 @@ TEST(TextLine, ALongAnswerComesWholeToAHostThatReadsIt) {
   EXPECT_EQ(host.read(wanted.size(), 8000), bytes(wanted));  // 4892 characters take 5.1 s
 }
 
-}  // namespace
+}  // namespace text_line_test
 }  // namespace understudy::acceptance

@@ -13,7 +13,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace tty_shim_test {
 
 std::string shim_path() { return lines_of(understudy({"tty-shim"}).output).at(0); }
 
@@ -293,5 +293,5 @@ TEST(TtyShimWithExec, IsPutInFrontOfWhatIsPreloadedAlready) {
   EXPECT_EQ(understudy(command, {{"LD_PRELOAD", "libm.so.6"}}).output, shim_path() + ":libm.so.6\n");
 }
 
-}  // namespace
+}  // namespace tty_shim_test
 }  // namespace understudy::acceptance

@@ -8,7 +8,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace wire_faults_test {
 
 using Json = nlohmann::json;
 using namespace std::chrono_literals;
@@ -140,5 +140,5 @@ TEST(WireFaults, ThatAreWrongAreRefusedWithOneLine) {
   EXPECT_EQ(obeyed(daemon, {"list"}), "");
 }
 
-}  // namespace
+}  // namespace wire_faults_test
 }  // namespace understudy::acceptance

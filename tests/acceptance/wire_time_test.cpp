@@ -8,7 +8,7 @@
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
-namespace {
+namespace wire_time_test {
 
 using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
@@ -63,5 +63,5 @@ TEST(InstantTime, OfAnExchangeIsFarBelowTheLines) {
   EXPECT_LT(best_median(host, 2.0), 2.0);
 }
 
-}  // namespace
+}  // namespace wire_time_test
 }  // namespace understudy::acceptance

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace understudy {
-namespace {
+namespace complete_table_test {
 
 enum class Verb : unsigned char { go, stop, wait };
 using Rows = std::vector<HandlerRow<Verb, int>>;
@@ -49,5 +49,5 @@ TEST(CompleteTable, AHandlerOfNoKeyIsRefused) {
             "a handler is of something that is not a key");
 }
 
-}  // namespace
+}  // namespace complete_table_test
 }  // namespace understudy

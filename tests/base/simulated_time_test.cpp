@@ -6,7 +6,7 @@
 #include <random>
 
 namespace understudy {
-namespace {
+namespace simulated_time_test {
 
 using namespace std::chrono_literals;
 
@@ -115,5 +115,5 @@ TEST(Ticks, AreMilliseconds) {
   EXPECT_EQ(tick_at(3050ms + 999us), 3050);
 }
 
-}  // namespace
+}  // namespace simulated_time_test
 }  // namespace understudy

@@ -13,7 +13,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator {
-namespace {
+namespace documentation_test {
 
 std::string contents(const std::string& path) {
   std::ifstream file(path);
@@ -63,5 +63,5 @@ TEST(Documentation, TheShippedBenchesAreValid) {
   }
 }
 
-}  // namespace
+}  // namespace documentation_test
 }  // namespace understudy::emulator

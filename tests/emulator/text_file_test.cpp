@@ -17,7 +17,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator {
-namespace {
+namespace text_file_test {
 
 namespace fs = std::filesystem;
 
@@ -160,5 +160,5 @@ TEST_F(TextFile, ALinkStaysAndWhatItLeadsToIsReplaced) {
   EXPECT_EQ(content(path("folder/free")), "made");
 }
 
-}  // namespace
+}  // namespace text_file_test
 }  // namespace understudy::emulator

@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_backlash_test {
 
 constexpr std::int64_t kExtra = 30;
 constexpr AxisSettings kBacklash{.backlash_pulses = kExtra, .backlash_speed_pps = 4'000};
@@ -227,5 +227,5 @@ TEST(AxisBacklash, AllThatComesOutIsTravelAndBacklash) {
   }
 }
 
-}  // namespace
+}  // namespace axis_backlash_test
 }  // namespace understudy::motion

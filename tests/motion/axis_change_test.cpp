@@ -10,7 +10,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_change_test {
 
 TEST(AxisChange, ASpeedChangedInTheMidstIsReachedAlongTheRamp) {
   AxisCourse course;
@@ -374,5 +374,5 @@ TEST(AxisChange, NoChangeEverLosesOrRepeatsOrReversesAPulse) {
   EXPECT_LT(refused, random_cases(3'000));
 }
 
-}  // namespace
+}  // namespace axis_change_test
 }  // namespace understudy::motion

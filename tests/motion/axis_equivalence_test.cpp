@@ -6,7 +6,7 @@
 #include "tests/motion/axis_scenario.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_equivalence_test {
 
 constexpr int kTicks = 1'500;
 
@@ -132,5 +132,5 @@ TEST(AxisEquivalence, AnEdgeAtEveryPulseIsSlowButSure) {
   EXPECT_EQ(course.travel(), -100'000);
 }
 
-}  // namespace
+}  // namespace axis_equivalence_test
 }  // namespace understudy::motion

@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_event_test {
 
 using Relation = Comparator::Relation;
 using Range = Counter::Range;
@@ -320,5 +320,5 @@ TEST(AxisEvent, AnAxisThatDoesNotWaitTakesNoNoticeOfInPosition) {
   EXPECT_FALSE(course.axis.moving());
 }
 
-}  // namespace
+}  // namespace axis_event_test
 }  // namespace understudy::motion

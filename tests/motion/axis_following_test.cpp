@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_following_test {
 
 TEST(AxisFollowing, GoesWhereTheWheelGoes) {
   AxisCourse course;
@@ -259,5 +259,5 @@ TEST(AxisCarried, InvertedItsPulsesComeOutInTheOtherSense) {
   EXPECT_EQ(course.travel(), 3);
 }
 
-}  // namespace
+}  // namespace axis_following_test
 }  // namespace understudy::motion

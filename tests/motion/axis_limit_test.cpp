@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_limit_test {
 
 /// A track with a switch at either end.
 AxisCourse track(std::int64_t low, std::int64_t high) {
@@ -352,5 +352,5 @@ TEST(AxisLimit, TimeRoundingTakesNoPulseBackEvenAfterHours) {
   }
 }
 
-}  // namespace
+}  // namespace axis_limit_test
 }  // namespace understudy::motion

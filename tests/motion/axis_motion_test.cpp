@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_motion_test {
 
 TEST(AxisMotion, AtRestNothingHappens) {
   AxisCourse course;
@@ -290,5 +290,5 @@ TEST(AxisMotion, ASampleTellsPlaceSpeedAndAcceleration) {
   EXPECT_NEAR(now.acceleration_u_s2, 100'000, 1e-6);
 }
 
-}  // namespace
+}  // namespace axis_motion_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "motion/bad_motion.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_play_test {
 
 SpeedLaw law() {
   return {.top_speed_u_s = 10000, .up = RampLaw::by_slope(1e6), .down = RampLaw::by_slope(1e6)};
@@ -124,5 +124,5 @@ TEST(AxisFollowing, AHugeRatioOverADenseIndexDoesNotHang) {
   EXPECT_EQ(course.axis.travel_pulses, std::int64_t{INT32_MAX} * 50);
 }
 
-}  // namespace
+}  // namespace axis_play_test
 }  // namespace understudy::motion

@@ -4,7 +4,7 @@
 #include "motion/axis.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_resume_test {
 
 SpeedLaw by_slope(double speed, double slope) {
   return {.top_speed_u_s = speed, .up = RampLaw::by_slope(slope), .down = RampLaw::by_slope(slope)};
@@ -86,5 +86,5 @@ TEST(AxisResume, OnlyAStopByCommandThatIsUnderWayCanBeTakenBack) {
   EXPECT_FALSE(homes.axis.resume(law, homes.tick));
 }
 
-}  // namespace
+}  // namespace axis_resume_test
 }  // namespace understudy::motion

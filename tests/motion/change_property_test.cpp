@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace change_property_test {
 
 enum Family { kSlopes, kTimes, kJerk, kSections, kMixed };
 constexpr std::array<const char*, 5> kFamilies{"Slopes", "Times", "Jerk", "Sections", "MixedLaws"};
@@ -362,5 +362,5 @@ TEST_P(ChangeProperty, AnEndlessMoveIsStoppedAndGivenATargetAsWell) {
   });
 }
 
-}  // namespace
+}  // namespace change_property_test
 }  // namespace understudy::motion

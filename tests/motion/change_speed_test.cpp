@@ -6,7 +6,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace change_speed_test {
 
 const RampLaw kUp = RampLaw::by_slope(100);
 const RampLaw kDown = RampLaw::by_slope(200);
@@ -117,5 +117,5 @@ TEST(SlowToStop, CoversTheDistanceOfItsRampAndEndsAtTheStartSpeed) {
   }
 }
 
-}  // namespace
+}  // namespace change_speed_test
 }  // namespace understudy::motion

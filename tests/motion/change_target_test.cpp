@@ -6,7 +6,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace change_target_test {
 
 /// From rest to 100 u/s in 1 s and 50 u, and down in 0.5 s and 25 u.
 SpeedLaw slopes() {
@@ -149,5 +149,5 @@ TEST(ChangeTarget, ATargetBehindIsReachedEvenIfTheMoveWouldBeCutOff) {
   EXPECT_LT(profile.sample(profile.duration_s / 2).speed_u_s, 0);
 }
 
-}  // namespace
+}  // namespace change_target_test
 }  // namespace understudy::motion

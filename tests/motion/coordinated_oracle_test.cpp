@@ -7,7 +7,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace coordinated_oracle_test {
 
 /// Bresenham's line from zero in up to four axes, one pulse of the longest at a time.
 class PulseLine {
@@ -173,5 +173,5 @@ TEST(CoordinatedOracle, ACircleGoesByThePulsesOfTheEightOctants) {
   }
 }
 
-}  // namespace
+}  // namespace coordinated_oracle_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace coordinated_path_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kHalf = 0.5 + 1e-6;  // a rounding of the ideal place is not a fault
@@ -243,5 +243,5 @@ TEST(CoordinatedPath, TheLongestAxisHasTheSpeedIfItMeasuresTheLength) {
   EXPECT_NEAR(bench.group.speed_pps(1, bench.tick), -5000, 1e-6);
 }
 
-}  // namespace
+}  // namespace coordinated_path_test
 }  // namespace understudy::motion

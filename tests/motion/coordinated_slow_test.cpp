@@ -8,7 +8,7 @@
 #include "motion/coordinated.h"
 
 namespace understudy::motion {
-namespace {
+namespace coordinated_slow_test {
 
 struct Group {
   std::vector<Axis> axes{2};
@@ -112,5 +112,5 @@ TEST(PathRunRefusal, PathsThatBeginElsewhereAndCreepingLawsAreRefused) {
   EXPECT_NO_THROW(run.set_speed(law, 0));
 }
 
-}  // namespace
+}  // namespace coordinated_slow_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "tests/motion/coordinated_bench.h"
 
 namespace understudy::motion {
-namespace {
+namespace coordinated_stop_test {
 
 /// A line of X and Y, 2 to 1, at 20 pulses of X a tick, begun from the place 0, 0; another waits behind it.
 Bench two_to_one(double sign = 1) {
@@ -212,5 +212,5 @@ TEST(CoordinatedStop, TheNextRunBeginsWhereTheyWereStopped) {
   EXPECT_EQ(bench.travels(), (Travels{0, 0, 0, 0}));
 }
 
-}  // namespace
+}  // namespace coordinated_stop_test
 }  // namespace understudy::motion

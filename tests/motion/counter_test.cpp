@@ -7,7 +7,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace counter_test {
 
 using Range = Counter::Range;
 __extension__ using Wide = __int128;
@@ -190,5 +190,5 @@ TEST(Counter, StepsUntilAtTheEndsOfARange) {
   }
 }
 
-}  // namespace
+}  // namespace counter_test
 }  // namespace understudy::motion

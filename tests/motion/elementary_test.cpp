@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace understudy::motion {
-namespace {
+namespace elementary_test {
 
 // The bounds that the header states.
 constexpr long double kSineCosineAbsolute = 1.2e-16L;
@@ -227,5 +227,5 @@ TEST(ElementaryLogarithm, OfOneIsExactlyZeroAndOfWhatHasNoneNan) {
   }
 }
 
-}  // namespace
+}  // namespace elementary_test
 }  // namespace understudy::motion

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace understudy::motion {
-namespace {
+namespace external_drive_test {
 
 using Mode = ExternalDrive::Mode;
 using What = DriveOrder::What;
@@ -116,5 +116,5 @@ TEST(ExternalDrive, RemembersTheLevelsWhateverTheMode) {
   EXPECT_FALSE(drive.minus_high);
 }
 
-}  // namespace
+}  // namespace external_drive_test
 }  // namespace understudy::motion

@@ -8,7 +8,7 @@
 #include "tests/motion/coordinated_bench.h"
 
 namespace understudy::motion {
-namespace {
+namespace fit_rsm8194h_interpolation_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -270,5 +270,5 @@ TEST(FitRsm8194hInterpolation, AHelixTurnsWhileItsThirdAxisGoesByItsPitch) {
   EXPECT_EQ(bench.travels(), (Travels{0, 0, -6000, 0}));
 }
 
-}  // namespace
+}  // namespace fit_rsm8194h_interpolation_test
 }  // namespace understudy::motion

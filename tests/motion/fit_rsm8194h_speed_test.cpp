@@ -8,7 +8,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace fit_rsm8194h_speed_test {
 
 /// The four modes of speed that the controller knows.
 enum class Mode { t_symmetric = 0, s_symmetric = 1, t_asymmetric = 2, s_asymmetric = 3 };
@@ -159,5 +159,5 @@ TEST(FitRsm8194hSpeed, AMoveOfNoMoreThanItsOffsetIsCreptAtTheStartSpeed) {
   }
 }
 
-}  // namespace
+}  // namespace fit_rsm8194h_speed_test
 }  // namespace understudy::motion

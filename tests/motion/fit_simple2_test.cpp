@@ -7,7 +7,7 @@
 #include "motion/move.h"
 
 namespace understudy::motion {
-namespace {
+namespace fit_simple2_test {
 
 /// The registers of a move: pulses, RPM, pulses per revolution, ramps in units of 10 ms.
 struct Move {
@@ -84,5 +84,5 @@ TEST(FitSimple2, TopSpeedsCruisesAndDurationsAreThoseOfTheManual) {
   }
 }
 
-}  // namespace
+}  // namespace fit_simple2_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "tests/motion/path_shapes.h"
 
 namespace understudy::motion {
-namespace {
+namespace fit_slim_test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTvm = 100;
@@ -221,5 +221,5 @@ TEST(FitSlim, TvmInPauseCountsFromTaredoOn) {
   EXPECT_NEAR(pausing.run.sample(pausing.tick).speed_u_s, 50, 1e-9);
 }
 
-}  // namespace
+}  // namespace fit_slim_test
 }  // namespace understudy::motion

@@ -4,7 +4,7 @@
 #include "tests/motion/coordinated_bench.h"
 
 namespace understudy::motion {
-namespace {
+namespace fit_super40nc_path_test {
 
 constexpr double kSlope = 666'667;  // pulses a second, squared
 constexpr double kMm = 1000;
@@ -165,5 +165,5 @@ TEST(FitSuper40ncPath, APauseInAnArcIsResumedToItsEnd) {
   }
 }
 
-}  // namespace
+}  // namespace fit_super40nc_path_test
 }  // namespace understudy::motion

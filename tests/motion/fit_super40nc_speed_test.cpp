@@ -8,7 +8,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace fit_super40nc_speed_test {
 
 /// The settings of an axis, as the controller has them from the factory.
 struct Settings {
@@ -127,5 +127,5 @@ TEST(FitSuper40ncSpeed, ADecelerationOverTwiceTheAccelerationIsCutOff) {
   }
 }
 
-}  // namespace
+}  // namespace fit_super40nc_speed_test
 }  // namespace understudy::motion

@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace following_test {
 
 __extension__ using Wide = __int128;
 
@@ -266,5 +266,5 @@ TEST(Following, RefusesWhatIsOutOfRange) {
   EXPECT_NO_THROW(widest.check());
 }
 
-}  // namespace
+}  // namespace following_test
 }  // namespace understudy::motion

@@ -2,7 +2,7 @@
 
 // What ends a homing without home.
 namespace understudy::motion {
-namespace {
+namespace homing_failure_test {
 
 struct Journey {
   std::string name;
@@ -336,5 +336,5 @@ TEST(HomingFailure, ATableThatGoesRoundWithoutMovingFails) {
   EXPECT_FALSE(bench.axis.moving());
 }
 
-}  // namespace
+}  // namespace homing_failure_test
 }  // namespace understudy::motion

@@ -2,7 +2,7 @@
 
 // Switches that move while the axis looks for them: the plant changes its surroundings between ticks.
 namespace understudy::motion {
-namespace {
+namespace homing_moving_edges_test {
 
 struct Change {
   const char* name;
@@ -113,5 +113,5 @@ TEST(HomingMovingEdges, ASwitchThatComesOnBeforeTheFirstPulseIsMetThere) {
   expect_ended(bench, {.by = Cause::arrived, .in_row = 2});
 }
 
-}  // namespace
+}  // namespace homing_moving_edges_test
 }  // namespace understudy::motion

@@ -7,7 +7,7 @@
 //   ═══╗           ╔═══════╗        ╔════╗        ╔═════
 //    -20000   0   30000  45000   50000  51000    80000       Z at every 4000
 namespace understudy::motion {
-namespace {
+namespace homing_rsm8194h_test {
 
 constexpr double kDrivePps = 20'000;
 constexpr double kHomePps = 2000;
@@ -182,5 +182,5 @@ TEST(HomingRsm8194h, TakesTheTimeOfItsSteps) {
   EXPECT_NEAR(static_cast<double>(bench.now - begun), seconds * 1000, 3.0);
 }
 
-}  // namespace
+}  // namespace homing_rsm8194h_test
 }  // namespace understudy::motion

@@ -7,7 +7,7 @@
 //   ═══╗                      ╔════╗                    ╔═════
 //    -80000        0       50000  50200               80000
 namespace understudy::motion {
-namespace {
+namespace homing_simple2_test {
 
 constexpr double kPps = 10'000;
 constexpr double kRampS = 0.1;
@@ -162,5 +162,5 @@ TEST(HomingSlim, WithoutHorgItRunsUntilStopped) {
   expect_ended(bench, {.by = Cause::stopped, .in_row = 0});
 }
 
-}  // namespace
+}  // namespace homing_simple2_test
 }  // namespace understudy::motion

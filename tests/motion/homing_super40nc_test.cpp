@@ -3,7 +3,7 @@
 // The 13 modes of SUPER-40NC. Where legs end is reckoned by hand: at 500 rpm it stops v^2 / 2a = 833 pulses
 // behind an edge; at 20 rpm, which stops at once, on it.
 namespace understudy::motion {
-namespace {
+namespace homing_super40nc_test {
 
 /// What a mode does from before the DOG, with three EZ and an offset of -7000.
 struct ModeCase {
@@ -256,5 +256,5 @@ TEST(HomingSuper40nc, ThereAreThirteenModes) {
   EXPECT_THROW(super40nc_homing(super40nc_factory(-1)), BadMotion);
 }
 
-}  // namespace
+}  // namespace homing_super40nc_test
 }  // namespace understudy::motion

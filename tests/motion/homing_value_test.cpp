@@ -4,7 +4,7 @@
 
 // Homing as a value, with backlash, and whatever random machines do to it.
 namespace understudy::motion {
-namespace {
+namespace homing_value_test {
 
 Super40ncHoming thorough(int mode) {
   Super40ncHoming how = super40nc_factory(mode);
@@ -275,5 +275,5 @@ TEST(HomingValue, RandomMachinesNeverHangItNorLoseAPulse) {
   EXPECT_GT(failed, 300);
 }
 
-}  // namespace
+}  // namespace homing_value_test
 }  // namespace understudy::motion

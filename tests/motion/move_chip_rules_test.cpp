@@ -8,7 +8,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace move_chip_rules_test {
 
 /// From 10 u/s to 100 and back at 100 u/s^2: 49.5 u and 0.9 s each way.
 SpeedLaw common() {
@@ -143,5 +143,5 @@ TEST(MoveChipRules, FromAStandstillALateRampIsCutOffAllTheSame) {
   EXPECT_NEAR(profile.end_speed_u_s, 80, 1e-6);
 }
 
-}  // namespace
+}  // namespace move_chip_rules_test
 }  // namespace understudy::motion

@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace move_integration_test {
 
 Fault differs_from_oracle(const Profile& profile, double distance, const SpeedLaw& law) {
   const oracle::Expected expected = oracle::move_of(distance, law);
@@ -158,5 +158,5 @@ TEST_P(MoveIntegration, SlowedDownEarlyOrLate) {
       23, true);
 }
 
-}  // namespace
+}  // namespace move_integration_test
 }  // namespace understudy::motion

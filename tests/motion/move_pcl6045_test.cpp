@@ -6,7 +6,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace move_pcl6045_test {
 
 constexpr double kClock = 19'660'800;
 
@@ -115,5 +115,5 @@ TEST(MovePcl6045, WithoutFhCorrectionTheRampIsBrokenOff) {
   EXPECT_NEAR(static_cast<double>(greatest_speed(corrected)), 871.8806, 1e-3);
 }
 
-}  // namespace
+}  // namespace move_pcl6045_test
 }  // namespace understudy::motion

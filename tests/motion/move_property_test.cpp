@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace move_property_test {
 
 constexpr Long kDurationTolerance = 1e-9L;  // relative
 
@@ -150,5 +150,5 @@ TEST(MoveProperty, AMillionMovesThatKeepHalf) {
       15);
 }
 
-}  // namespace
+}  // namespace move_property_test
 }  // namespace understudy::motion

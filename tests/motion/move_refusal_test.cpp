@@ -11,7 +11,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace move_refusal_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -248,5 +248,5 @@ TEST(MoveRefusal, GarbageGetsARefusalOrAProfileOfFiniteNumbers) {
   EXPECT_GT(refused, tries / 10);
 }
 
-}  // namespace
+}  // namespace move_refusal_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace move_table_test {
 
 const RampLaw kSlope100 = RampLaw::by_slope(100);
 const RampLaw kSlope200 = RampLaw::by_slope(200);
@@ -204,5 +204,5 @@ TEST(MoveTable, AnEndlessMoveRampsUpAndStaysThere) {
   EXPECT_DOUBLE_EQ(flat.sample(7).position_u, 700);
 }
 
-}  // namespace
+}  // namespace move_table_test
 }  // namespace understudy::motion

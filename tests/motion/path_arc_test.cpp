@@ -9,7 +9,7 @@
 #include "motion/path.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_arc_test {
 
 const Point kOrigin = Point::Zero();
 constexpr double kDegree = kPi / 180;
@@ -331,5 +331,5 @@ TEST(PathArcByLongestAxis, WhatTheToleranceForgivesRidesAlong) {
   EXPECT_NEAR(path.at(path.length_u / 2).norm(), 100 + 2.5e-7, 1e-12);
 }
 
-}  // namespace
+}  // namespace path_arc_test
 }  // namespace understudy::motion

@@ -7,7 +7,7 @@
 #include "motion/bad_motion.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_limits_test {
 
 const double kQuarter = std::acos(0.0);
 
@@ -68,5 +68,5 @@ TEST(PathLimits, ALimitOfNothingIsRefusedForAnAxisThatMoves) {
   EXPECT_NO_THROW(speed_within(path, Point(1, 1, 0, 0)));
 }
 
-}  // namespace
+}  // namespace path_limits_test
 }  // namespace understudy::motion

@@ -12,7 +12,7 @@
 #include "tests/motion/path_random.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_oracle_test {
 
 constexpr int kArcsOfAMaker = 14'000;
 constexpr int kLines = 16'000;
@@ -381,5 +381,5 @@ TEST(PathOracle, RandomLinesAreTrue) {
   }
 }
 
-}  // namespace
+}  // namespace path_oracle_test
 }  // namespace understudy::motion

@@ -12,7 +12,7 @@
 #include "motion/path.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_refusal_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -239,5 +239,5 @@ TEST(PathRefusal, NeverComesForCoordinatesOfACentreThatDoNotCount) {
   EXPECT_EQ(arc_by_sweep(kTen, {0, 0, kNan, 1e300}, 1), arc_by_sweep(kTen, kOrigin, 1));
 }
 
-}  // namespace
+}  // namespace path_refusal_test
 }  // namespace understudy::motion

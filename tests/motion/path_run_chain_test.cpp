@@ -7,7 +7,7 @@
 #include "tests/motion/path_shapes.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_run_chain_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr Tick kBegin = 70;
@@ -252,5 +252,5 @@ TEST(PathRunChain, LawsThatNoChainCouldBePlannedWithAreRefusedAtOnce) {
   EXPECT_FALSE(without_law.running());
 }
 
-}  // namespace
+}  // namespace path_run_chain_test
 }  // namespace understudy::motion

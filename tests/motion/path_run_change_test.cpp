@@ -6,7 +6,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_run_change_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -294,5 +294,5 @@ TEST(PathRunChange, ALoweredSpeedOutOfReachStillEndsAtTheEndPoint) {
   EXPECT_EQ(paused.walk.place, paused.walk.shapes.back().end);
 }
 
-}  // namespace
+}  // namespace path_run_change_test
 }  // namespace understudy::motion

@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_run_random_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -233,5 +233,5 @@ TEST(PathRunRandom, PausedAndResumedAtAnyTickItEndsWhereItWouldHave) {
   }
 }
 
-}  // namespace
+}  // namespace path_run_random_test
 }  // namespace understudy::motion

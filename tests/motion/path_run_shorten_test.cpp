@@ -4,7 +4,7 @@
 #include "tests/motion/path_shapes.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_run_shorten_test {
 
 /// Five joined lines of 20 at 100 u/s and 1000 u/s^2: 5 u to speed up or stop.
 PathRun five() {
@@ -66,5 +66,5 @@ TEST(PathRunShorten, WhatIsNotJoinedOrNotBegunIsForgotten) {
   EXPECT_EQ(apart.step(tick + 1), place_of(20, 0));
 }
 
-}  // namespace
+}  // namespace path_run_shorten_test
 }  // namespace understudy::motion

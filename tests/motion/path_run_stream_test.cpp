@@ -5,7 +5,7 @@
 #include "tests/motion/path_shapes.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_run_stream_test {
 
 TEST(PathRunStream, ThousandsOfShortPathsKeepSpeedDuringRefills) {
   // A circle in chords of 0.02, refilled every fourth tick; at 1 a second and tick 5 chords pass in 0.1.
@@ -178,5 +178,5 @@ TEST(PathRunStream, AbandonForgetsEverythingAtOnceAndAnotherRunBegins) {
   EXPECT_EQ(run.step(5000), place_of(0, 0));
 }
 
-}  // namespace
+}  // namespace path_run_stream_test
 }  // namespace understudy::motion

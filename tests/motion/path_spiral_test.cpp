@@ -7,7 +7,7 @@
 #include "motion/path.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_spiral_test {
 
 const Point kOrigin = Point::Zero();
 
@@ -96,5 +96,5 @@ TEST(PathSpiral, GoesForwardInEveryStep) {
   }
 }
 
-}  // namespace
+}  // namespace path_spiral_test
 }  // namespace understudy::motion

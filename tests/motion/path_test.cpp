@@ -12,7 +12,7 @@
 #include "motion/elementary.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_test {
 
 const Point kOrigin = Point::Zero();
 
@@ -148,5 +148,5 @@ TEST(PathCorner, WithAPathOfNoLengthIsNone) {
   EXPECT_EQ(corner_deg(none, east), 0);
 }
 
-}  // namespace
+}  // namespace path_test
 }  // namespace understudy::motion

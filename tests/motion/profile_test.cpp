@@ -10,7 +10,7 @@
 #include "motion/pulse_drive.h"
 
 namespace understudy::motion {
-namespace {
+namespace profile_test {
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
@@ -219,5 +219,5 @@ TEST(Profile, BisectionFindsNeighbouringDoublesIn64Steps) {
   EXPECT_EQ(turnover(-0.0, 1, [](double) { return true; }).before, 0);
 }
 
-}  // namespace
+}  // namespace profile_test
 }  // namespace understudy::motion

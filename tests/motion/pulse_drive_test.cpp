@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace pulse_drive_test {
 
 constexpr RegisterMove kManualExample{32'000, 200, 3200, 5, 5};
 
@@ -307,5 +307,5 @@ TEST(PulseDrive, AnUncountableSpeedStaysAtTheGreatestNumber) {
   EXPECT_EQ(drive.pulses_at(1'000'000), 9'000'000'000'000'000'000);
 }
 
-}  // namespace
+}  // namespace pulse_drive_test
 }  // namespace understudy::motion

@@ -11,7 +11,7 @@
 #include "tests/motion/move_checks.h"
 
 namespace understudy::motion {
-namespace {
+namespace ramp_test {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -261,5 +261,5 @@ TEST(Ramp, WhatIsOutsideALawsDomainIsRefusedByName) {
   EXPECT_THROW(check(RampLaw{}), BadMotion) << "a law that nobody made";
 }
 
-}  // namespace
+}  // namespace ramp_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "tests/motion/state_samples.h"
 
 namespace understudy::motion {
-namespace {
+namespace state_test {
 
 template <class T>
 class State : public testing::Test {};
@@ -194,5 +194,5 @@ TEST(State, WhatRegistersAreMadeOfIsSavedByItself) {
   EXPECT_EQ(laid, path);
 }
 
-}  // namespace
+}  // namespace state_test
 }  // namespace understudy::motion

@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace surroundings_test {
 
 using Zone = Surroundings::Zone;
 
@@ -208,5 +208,5 @@ TEST(Surroundings, OfOneSignalEachAreToldToThePulse) {
   }
 }
 
-}  // namespace
+}  // namespace surroundings_test
 }  // namespace understudy::motion

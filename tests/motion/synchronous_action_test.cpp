@@ -8,7 +8,7 @@
 #include "motion/synchronous.h"
 
 namespace understudy::motion {
-namespace {
+namespace synchronous_action_test {
 
 using Do = SyncAction::Drive;
 
@@ -305,5 +305,5 @@ TEST(SyncPreset, AnEndlessRunGoesByTheSpeedThereWas) {
   EXPECT_EQ(bench.axes[1].travel_pulses, 10);
 }
 
-}  // namespace
+}  // namespace synchronous_action_test
 }  // namespace understudy::motion

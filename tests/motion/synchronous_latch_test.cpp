@@ -5,7 +5,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace synchronous_latch_test {
 
 SpeedLaw at_speed(std::int64_t pps) {
   const auto speed = static_cast<double>(pps);
@@ -168,5 +168,5 @@ TEST(SyncLatch, AStartOrAnEndIsOfTheTicksEnd) {
   EXPECT_EQ(bench.latched(1), 30);
 }
 
-}  // namespace
+}  // namespace synchronous_latch_test
 }  // namespace understudy::motion

@@ -8,7 +8,7 @@
 #include "tests/motion/exact_trapezoid.h"
 
 namespace understudy::motion {
-namespace {
+namespace trapezoid_by_times_test {
 
 // 10 revolutions at 200 RPM with ramps of 50 ms: the manual's own example.
 constexpr RegisterMove kManualExample{32'000, 200, 3200, 5, 5};
@@ -203,5 +203,5 @@ TEST(TrapezoidByTimes, TheLastPulseOfASlowLongRampIsNotSentEarly) {
   }
 }
 
-}  // namespace
+}  // namespace trapezoid_by_times_test
 }  // namespace understudy::motion

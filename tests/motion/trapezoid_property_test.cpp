@@ -6,7 +6,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace trapezoid_property_test {
 
 constexpr std::int64_t kLongestMs = 1'000'000'000;  // eleven days
 
@@ -124,5 +124,5 @@ TEST(TrapezoidProperty, SpeedIntegratesToPositionAndAccelerationToSpeed) {
   }
 }
 
-}  // namespace
+}  // namespace trapezoid_property_test
 }  // namespace understudy::motion

@@ -8,7 +8,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace unit_scale_test {
 
 __extension__ using Wide = __int128;
 
@@ -109,5 +109,5 @@ TEST(UnitScale, DemandsFactorsOfOneToTheGreatestOf32Bits) {
   EXPECT_DOUBLE_EQ(UnitScale::of(8, 5).pulses_per_unit(), 1.6);
 }
 
-}  // namespace
+}  // namespace unit_scale_test
 }  // namespace understudy::motion

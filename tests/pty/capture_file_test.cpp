@@ -10,7 +10,7 @@
 #include "tests/pty/pty_host.h"
 
 namespace understudy::pty {
-namespace {
+namespace capture_file_test {
 
 const Bytes kRequest = hex("01 03 00 01 00 01 D5 CA");
 const std::string kHead = "# simulated seconds, in (from the host) or out, line, bytes, # remark\n";
@@ -133,5 +133,5 @@ TEST_F(CaptureFileTest, ADiskThatCannotBeStartedOnIsRefused) {
   EXPECT_NE(refusal(folder_ / "a.txt").find("File too large"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace capture_file_test
 }  // namespace understudy::pty

@@ -9,7 +9,7 @@
 #include "tests/pty/fake_station.h"
 
 namespace understudy::pty {
-namespace {
+namespace capture_frames_test {
 
 using namespace std::chrono_literals;
 
@@ -239,5 +239,5 @@ TEST(CaptureFrames, ALineDoesTheSameWithAndWithoutACapture) {
   }
 }
 
-}  // namespace
+}  // namespace capture_frames_test
 }  // namespace understudy::pty

@@ -6,7 +6,7 @@
 #include "tests/pty/pcapng_reader.h"
 
 namespace understudy::pty {
-namespace {
+namespace capture_pcapng_test {
 
 const std::vector<CapturedLine> kLines = {{"rs485", 19200}, {"rs232", 115200}};
 const Bytes kRequest = hex("01 03 00 01 00 01 D5 CA");
@@ -93,5 +93,5 @@ TEST(Pcapng, EverySizeOfAFrameIsPaddedRight) {
   }
 }
 
-}  // namespace
+}  // namespace capture_pcapng_test
 }  // namespace understudy::pty

@@ -5,7 +5,7 @@
 #include "tests/pty/wire_examples.h"
 
 namespace understudy::pty {
-namespace {
+namespace capture_text_test {
 
 const std::vector<CapturedLine> kLines = {{"rs485", 19200}, {"rs232", 115200}};
 
@@ -49,5 +49,5 @@ TEST(CaptureText, HasWhatFaultsDid) {
             "0.000000001 out rs485  # fault 1 drop: not said; fault 12 delay: said later\n");
 }
 
-}  // namespace
+}  // namespace capture_text_test
 }  // namespace understudy::pty

@@ -5,7 +5,7 @@
 #include "tests/pty/fake_station.h"
 
 namespace understudy::pty {
-namespace {
+namespace line_departed_test {
 
 using namespace std::chrono_literals;
 
@@ -120,5 +120,5 @@ TEST_P(LineDeparted, WhatItLeftInThePortIsItsOwnEvenWithANewHost) {
   EXPECT_EQ(rig_.out.size(), kReply.size());
 }
 
-}  // namespace
+}  // namespace line_departed_test
 }  // namespace understudy::pty

@@ -5,7 +5,7 @@
 #include "tests/pty/fake_station.h"
 
 namespace understudy::pty {
-namespace {
+namespace line_host_test {
 
 using namespace std::chrono_literals;
 
@@ -264,5 +264,5 @@ TEST(LineHost, AHostThatWritesAndClosesIsHeardWithItsOwnSettings) {
   EXPECT_TRUE(rig.warnings.empty());
 }
 
-}  // namespace
+}  // namespace line_host_test
 }  // namespace understudy::pty

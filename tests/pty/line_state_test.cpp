@@ -9,7 +9,7 @@
 #include "tests/pty/fake_station.h"
 
 namespace understudy::pty {
-namespace {
+namespace line_state_test {
 
 using namespace std::chrono_literals;
 
@@ -280,5 +280,5 @@ TEST(LineState, AnotherSpeedBeginsAfterWhatIsOnItsWay) {
   EXPECT_EQ(slave.heard[11].end, 5'729'166ns + 572'916ns);
 }
 
-}  // namespace
+}  // namespace line_state_test
 }  // namespace understudy::pty

@@ -6,7 +6,7 @@
 #include "tests/pty/fake_station.h"
 
 namespace understudy::pty {
-namespace {
+namespace line_test {
 
 using namespace std::chrono_literals;
 
@@ -326,5 +326,5 @@ TEST(LineInstant, ServesPipelinedRequestsToSeveralStationsInOrder) {
   EXPECT_EQ(rig.line.counters().collisions, 0u);
 }
 
-}  // namespace
+}  // namespace line_test
 }  // namespace understudy::pty

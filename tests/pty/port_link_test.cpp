@@ -15,7 +15,7 @@
 #include "tests/pty/pty_host.h"
 
 namespace understudy::pty {
-namespace {
+namespace port_link_test {
 
 namespace fs = std::filesystem;
 
@@ -184,5 +184,5 @@ TEST(PortLink, CanPointToAnother) {
   EXPECT_TRUE(std::filesystem::is_symlink(path));
 }
 
-}  // namespace
+}  // namespace port_link_test
 }  // namespace understudy::pty

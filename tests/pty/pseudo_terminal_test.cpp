@@ -10,7 +10,7 @@
 #include "tests/pty/pty_host.h"
 
 namespace understudy::pty {
-namespace {
+namespace pseudo_terminal_test {
 
 const Bytes kRequest = hex("01 03 00 01 00 01 D5 CA");
 const Bytes kReply = hex("01 03 02 C0 01 29 84");
@@ -348,5 +348,5 @@ TEST(PseudoTerminalServed, AnswersALongStream) {
   EXPECT_EQ(server.wrong_settings, 0);
 }
 
-}  // namespace
+}  // namespace pseudo_terminal_test
 }  // namespace understudy::pty

@@ -7,7 +7,7 @@
 #include "tests/pty/wire_examples.h"
 
 namespace understudy::pty {
-namespace {
+namespace rtu_crc_test {
 
 /// The definition, bit by bit.
 std::uint16_t crc_by_definition(const Bytes& bytes) {
@@ -66,5 +66,5 @@ TEST(RtuCrc, CompletesAFixedBuffer) {
   EXPECT_EQ(Bytes(buffer.begin(), buffer.begin() + 8), hex("01 03 00 01 00 01 D5 CA"));
 }
 
-}  // namespace
+}  // namespace rtu_crc_test
 }  // namespace understudy::pty

@@ -6,7 +6,7 @@
 #include "tests/pty/wire_examples.h"
 
 namespace understudy::pty {
-namespace {
+namespace rtu_framer_strict_test {
 
 using namespace std::chrono_literals;
 
@@ -137,5 +137,5 @@ TEST(RtuFramerStrict, NoiseJoinedToAFrameSpoilsIt) {
   EXPECT_TRUE(wire.frames.empty());
 }
 
-}  // namespace
+}  // namespace rtu_framer_strict_test
 }  // namespace understudy::pty

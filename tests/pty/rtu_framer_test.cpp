@@ -8,7 +8,7 @@
 #include "tests/pty/wire_examples.h"
 
 namespace understudy::pty {
-namespace {
+namespace rtu_framer_test {
 
 using namespace std::chrono_literals;
 
@@ -401,5 +401,5 @@ TEST(RtuFramerRandom, GoodFramesThatNobodyTakesDropTheOldest) {
   EXPECT_EQ(framer.dropped_bytes(), (count - taken) * 8);
 }
 
-}  // namespace
+}  // namespace rtu_framer_test
 }  // namespace understudy::pty

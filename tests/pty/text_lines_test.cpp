@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace understudy::pty {
-namespace {
+namespace text_lines_test {
 
 using What = HeardText::What;
 
@@ -159,5 +159,5 @@ TEST(TextLines, RefusesStatesThatCannotBe) {
   }
 }
 
-}  // namespace
+}  // namespace text_lines_test
 }  // namespace understudy::pty

@@ -6,7 +6,7 @@
 #include "tests/pty/wire_examples.h"
 
 namespace understudy::pty {
-namespace {
+namespace wire_fault_test {
 
 using namespace std::chrono_literals;
 using Kind = WireFault::Kind;
@@ -80,5 +80,5 @@ TEST(WireFault, OfNoBytesMakesNone) {
   }
 }
 
-}  // namespace
+}  // namespace wire_fault_test
 }  // namespace understudy::pty

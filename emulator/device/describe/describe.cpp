@@ -66,7 +66,7 @@ Sheet registers(const Model& model, SheetFormat format) {
   if (for_people) {
     for (const char* column : {"since", "section", "not modelled"}) sheet.columns.emplace_back(column);
   }
-  for (const RegisterRow& row : model.registers.rows()) {
+  for (const RegisterRow& row : register_rows(model)) {
     for (int index = 0; index < row.count; ++index) {
       sheet.rows.push_back(
           {std::string(to_string(row.table)), hex4(address_of(row, index)), RegisterMap::name_of(row, index),
@@ -100,7 +100,7 @@ Sheet parameters(const Model& model) {
     }
   }
   for (const ParameterRow& parameter : model.parameters) {
-    for (const RegisterRow& row : model.registers.rows()) {
+    for (const RegisterRow& row : register_rows(model)) {
       if (row.name != parameter.register_name) continue;
       for (int i = 0; i < parameter.count; ++i) {
         sheet.rows.push_back({std::to_string(parameter.first + i), RegisterMap::name_of(row, i),

@@ -28,7 +28,7 @@ std::string fidelity_page(const Model& model) {
   }
   page += "\n## Not modelled yet\n\n";
   for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";
-  if (model.protocol() == Protocol::text) return page;
+  if (model.registers == nullptr) return page;
   if (!model.gaps.empty()) page += "\n";
   if (missing.rows.empty()) {
     page += model.gaps.empty() ? "Nothing: every register does what the manual says.\n"

@@ -8,6 +8,11 @@
 
 #include "base/simulated_time.h"
 
+namespace understudy {
+template <class T>
+struct StateOf;
+}  // namespace understudy
+
 namespace understudy::emulator {
 
 class Eeprom {
@@ -40,25 +45,20 @@ class Eeprom {
 
   bool operator==(const Eeprom&) const = default;
 
-  // --- its state as bytes (base/state/state_bytes.h) ---------------------------------------
+  // --- its state as bytes (eeprom_fields.h) ------------------------------------------------
   enum class Slot : std::uint8_t { not_kept, rests, waits };
-  static void fields(auto& self, auto visit) {
-    auto& [done_at, revision, kept, slots, jobs, rewriting] = self;
-    visit(kept, slots, jobs, rewriting, done_at, revision);
-  }
   /// Throws StateError unless it can be a later state of `earlier`: of the same registers, with jobs that can
   /// be done.
   void check_restored(const Eeprom& earlier) const;
 
  private:
+  template <class T>
+  friend struct understudy::StateOf;
+
   struct Job {
     std::uint32_t slot = 0;
     Tick takes = 0;
     bool operator==(const Job&) const = default;
-    static void fields(auto& self, auto visit) {
-      auto& [at, time] = self;
-      visit(at, time);
-    }
   };
   static constexpr std::uint32_t kEverything = UINT32_MAX;
 

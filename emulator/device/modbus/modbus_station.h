@@ -4,7 +4,12 @@
 
 #include <cstdint>
 
+#include "emulator/device/model.h"
+
 namespace understudy::emulator {
+
+/// Frames of Modbus RTU.
+inline constexpr Protocol kModbusRtu{"Modbus"};
 
 /// What a station does with a frame that carries some address.
 enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };

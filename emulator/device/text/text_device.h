@@ -2,6 +2,8 @@
 // rest: power, phases of a tick, terminals, axes, its state, and what it says to what it hears.
 #pragma once
 
+#include <span>
+
 #include "emulator/device/device.h"
 #include "emulator/device/text/text_speaker.h"
 
@@ -13,15 +15,15 @@ class TextDevice : public Device, public TextSpeaker {
 
   TextSpeaker* speaker() final { return this; }
   const TextSpeaker* speaker() const final { return this; }
-
-  pty::LineSettings line_settings() const override {
-    pty::LineSettings line = model().text->settings;
-    line.baud = settings().baud;
-    return line;
-  }
 };
 
-/// The map of all models without registers.
-const RegisterMap& no_registers();
+inline constexpr int kTextBauds[] = {9600};
+
+/// The line of such a model: it has no station number.
+constexpr LineRules line_of_text(std::span<const int> bauds = kTextBauds) {
+  return {.protocol = kTextLines,
+          .bauds = bauds,
+          .settings = {.data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1}};
+}
 
 }  // namespace understudy::emulator

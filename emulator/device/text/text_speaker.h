@@ -6,7 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "emulator/device/model.h"
+
 namespace understudy::emulator {
+
+/// Lines of text.
+inline constexpr Protocol kTextLines{"text"};
 
 /// How it listens at this moment; asked for each character.
 struct TextRules {

@@ -18,7 +18,9 @@ constexpr Tick kAlarmClearTicks = 200;  // 0x1017, 0x1018
 motion::SpeedLaw Simple2R3::law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                                    std::uint32_t deceleration_10ms) const {
   // Times of 0 count as 1 (appendix A): 10 ms, unless it is 1 of something smaller.
-  const double least_s = chose(kLeastRamp1ms) ? 0.001 : chose(kLeastRamp500us) ? 0.0005 : 0.01;
+  const double least_s = chose(option("least_ramp", "1ms"))     ? 0.001
+                         : chose(option("least_ramp", "500us")) ? 0.0005
+                                                                : 0.01;
   const auto by_time = [&](std::uint32_t time_10ms) {
     return motion::RampLaw::by_time(time_10ms == 0 ? least_s : time_10ms / 100.0);
   };
@@ -35,7 +37,7 @@ bool Simple2R3::is_too_fast(int axis, std::int64_t milli_rpm) const {
 
 bool Simple2R3::lacks_ready(int axis) const {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
-  return chose(kReadyNeeded) && assigned(slots.ready_assigned) && !ready(axis);
+  return chose(option("ready_gates", "yes")) && assigned(slots.ready_assigned) && !ready(axis);
 }
 
 bool Simple2R3::lacks_servo(int axis) const {
@@ -48,7 +50,7 @@ std::uint32_t Simple2R3::velocity_step_urpm(int axis) const {
 }
 
 bool Simple2R3::servo_matters(int axis) const {
-  return !chose(kServoWhereAssigned) ||
+  return !chose(option("servo_unassigned", "no_effect")) ||
          assigned(kAxisSlots[static_cast<std::size_t>(axis)].servo_output_assigned);
 }
 
@@ -104,8 +106,11 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   // Whatever the speed, a distance of 0 stops at once (appendix A).
   if (distance_pulses != 0) {
     if (lacks_ready(axis_number)) return;
-    if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm)) return;
-    const bool counts_on = command == Command::incremental && chose(kIncrementalFromOldTarget);
+    if (chose(option("pulse_rate_cap", "command_dropped")) &&
+        is_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm))
+      return;
+    const bool counts_on =
+        command == Command::incremental && chose(option("incremental_while_moving", "old_target"));
     if (counts_on) distance_pulses += remaining_pulses(axis);
   }
   refresh_signals(axis_number);
@@ -131,7 +136,7 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   axis.command = command;
   axis.has_own_speed = move.of_the_axis;
   axis.by_trigger = move.by_trigger;
-  if (chose(kHomeLeftByMotion)) axis.homed = false;
+  if (chose(option("home_bit", "any_motion"))) axis.homed = false;
 }
 
 void Simple2R3::go_home(int axis_number, bool by_trigger) {
@@ -139,8 +144,10 @@ void Simple2R3::go_home(int axis_number, bool by_trigger) {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   const std::uint32_t speed_rpm = state_.image[slots.home_speed];
   if (lacks_ready(axis_number)) return;
-  if (chose(kTooFastDropped) && is_too_fast(axis_number, std::int64_t{1000} * speed_rpm)) return;
-  if (chose(kHomeUnassignedDropped) && !assigned(slots.home_assigned)) return;
+  if (chose(option("pulse_rate_cap", "command_dropped")) &&
+      is_too_fast(axis_number, std::int64_t{1000} * speed_rpm))
+    return;
+  if (chose(option("home_unassigned", "dropped")) && !assigned(slots.home_assigned)) return;
   refresh_signals(axis_number);
   if (!may_begin(axis_number, reaction(axis_number, Event::home),
                  {.command = Command::homing, .move = {.by_trigger = by_trigger}}))
@@ -153,7 +160,8 @@ void Simple2R3::go_home(int axis_number, bool by_trigger) {
   const motion::Simple2Homing how{.way = state_.image[slots.home_direction] != 0 ? +1 : -1,
                                   .speed = law_of(axis_number, speed_rpm, time_10ms, time_10ms)};
   const motion::Cause refused =
-      axis.motor.home(chose(kHomeAtFirstEdge) ? homing_to_first_edge(how) : motion::simple2_homing(how),
+      axis.motor.home(chose(option("homing_sequence", "stops_at_first_edge")) ? homing_to_first_edge(how)
+                                                                              : motion::simple2_homing(how),
                       tick_before_motion());
   if (refused != motion::Cause::none) return;
   axis.command = Command::homing;
@@ -166,7 +174,7 @@ void Simple2R3::speed_changed(int axis_number) {
       axis.has_own_speed && (axis.command == Command::incremental || axis.command == Command::absolute);
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   const std::uint32_t speed_rpm = state_.image[slots.speed];
-  if (!runs_by_it || speed_rpm == 0 || !chose(kSpeedAtOnce)) return;
+  if (!runs_by_it || speed_rpm == 0 || !chose(option("speed_while_moving", "at_once"))) return;
   axis.motor.change_speed(
       law_of(axis_number, speed_rpm, state_.image[slots.acc_time], state_.image[slots.dec_time]), now());
 }
@@ -175,14 +183,16 @@ void Simple2R3::preset_coordinate(int axis_number, std::int32_t pulses) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const std::int64_t more = std::int64_t{pulses} - axis.coordinate_pulses;
   axis.coordinate_pulses = pulses;
-  if (axis.command == Command::absolute && chose(kPresetKeepsTarget)) keep_target(axis, more, now());
+  if (axis.command == Command::absolute && chose(option("preset_while_moving", "keeps_target")))
+    keep_target(axis, more, now());
 }
 
 void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   refresh_signals(axis_number);
-  const bool is_refused = (milli_rpm != 0 && lacks_ready(axis_number)) ||
-                          (chose(kTooFastDropped) && is_too_fast(axis_number, milli_rpm));
+  const bool is_refused =
+      (milli_rpm != 0 && lacks_ready(axis_number)) ||
+      (chose(option("pulse_rate_cap", "command_dropped")) && is_too_fast(axis_number, milli_rpm));
   const Event event = milli_rpm == 0 ? Event::velocity_zero
                                      : way_event(axis_number, milli_rpm < 0 ? -1 : +1,
                                                  Event::velocity_towards, Event::velocity_away);
@@ -193,7 +203,7 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
       simple2_r3::run_velocity(axis, milli_rpm);
       axis.velocity_resolution = resolution_of(state_, axis_number);
       axis.velocity_step_urpm = velocity_step_urpm(axis_number);
-      if (milli_rpm != 0 && chose(kHomeLeftByMotion)) axis.homed = false;
+      if (milli_rpm != 0 && chose(option("home_bit", "any_motion"))) axis.homed = false;
       break;
     case Outcome::waits:
     case Outcome::slows_and_waits: axis.target_urpm = milli_rpm * 1000; break;
@@ -208,19 +218,20 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
     case Outcome::kept:
     case Outcome::ends: (void)may_begin(axis_number, outcome, {.mode = Mode::velocity, .value = milli_rpm});
   }
-  if (chose(kDroppedValueForgotten) && outcome != Outcome::kept) {
+  if (chose(option("dropped_value", "forgotten")) && outcome != Outcome::kept) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].velocity] =
         static_cast<std::uint32_t>(axis.target_urpm / 1000);
   }
 }
 
 void Simple2R3::show_velocity(int axis, std::int32_t milli_rpm) {
-  if (chose(kCommandValuesNotShown)) return;
+  if (chose(option("command_values", "not_shown"))) return;
   state_.image[kAxisSlots[static_cast<std::size_t>(axis)].velocity] = static_cast<std::uint32_t>(milli_rpm);
 }
 
 void Simple2R3::show_pwm(int axis, std::uint8_t percent) {
-  if (!chose(kCommandValuesNotShown)) state_.image[kAxisSlots[static_cast<std::size_t>(axis)].pwm] = percent;
+  if (!chose(option("command_values", "not_shown")))
+    state_.image[kAxisSlots[static_cast<std::size_t>(axis)].pwm] = percent;
 }
 
 void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
@@ -234,7 +245,7 @@ void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
   } else if (may_begin(axis_number, outcome, {.mode = Mode::pwm, .value = percent})) {
     simple2_r3::output_pwm(axis, percent);
   }
-  if (chose(kDroppedValueForgotten) && outcome != Outcome::kept) {
+  if (chose(option("dropped_value", "forgotten")) && outcome != Outcome::kept) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].pwm] = axis.pwm_percent;
   }
 }
@@ -252,21 +263,22 @@ motion::Follower Simple2R3::sync_follower(int axis_number) const {
   SyncSettings sync{.numerator = state_.image[slots.sync_numerator],
                     .denominator = std::max<std::int64_t>(state_.image[slots.sync_denominator], 1),
                     .top_speed_pps = pps(state_.image[slots.sync_speed]),
-                    .catches_up = chose(kSyncCatchesUp)};
-  if (chose(kSyncByRevolutions)) {
+                    .catches_up = chose(option("sync_lost_pulses", "caught_up"))};
+  if (chose(option("sync_ratio", "revolutions"))) {
     sync.numerator *= resolution;
     sync.denominator *= std::max<std::int64_t>(state_.image[slots.encoder_resolution], 1);
   }
   // Of each 5 ms; 0 is without bound.
   const std::uint32_t slope = state_.image[slots.sync_slope];
   if (slope != 0)
-    sync.slope_pps = chose(kSlopeInPulses) ? std::int64_t{slope} * 1000 / kSyncPeriod : pps(slope);
+    sync.slope_pps =
+        chose(option("sync_slope", "pulses")) ? std::int64_t{slope} * 1000 / kSyncPeriod : pps(slope);
   return follower_by(sync);
 }
 
 void Simple2R3::sync_changed(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  if (axis.mode != Mode::sync || !chose(kSyncSettingsAtOnce)) return;
+  if (axis.mode != Mode::sync || !chose(option("sync_settings", "at_once"))) return;
   const motion::Follower by = sync_follower(axis_number);
   motion::Follower& follower = axis.motor.follower;
   follower.numerator = by.numerator;
@@ -282,14 +294,15 @@ void Simple2R3::follow_encoder(int axis_number) {
   refresh_signals(axis_number);
   if (!may_begin(axis_number, reaction(axis_number, Event::sync), {.mode = Mode::sync})) return;
   begin_following(axis_number);
-  if (chose(kHomeLeftByMotion)) axis.homed = false;
+  if (chose(option("home_bit", "any_motion"))) axis.homed = false;
 }
 
 void Simple2R3::begin_following(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   simple2_r3::follow_encoder(axis, sync_follower(axis_number), followed_count(axis_number));
   // Nothing comes out until its first period begins.
-  if (chose(kSyncEveryFifthTick)) axis.motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
+  if (chose(option("sync_period", "every_fifth_tick")))
+    axis.motor.follower.phase = static_cast<int>((now() + 1) % kSyncPeriod);
 }
 
 void Simple2R3::carry_out_kept(int axis) {
@@ -309,14 +322,14 @@ void Simple2R3::stop(int axis_number, Stopping how) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   forget_kept(axis_number);
-  if (chose(kValuesZeroAfterStop)) state_.image[slots.velocity] = state_.image[slots.pwm] = 0;
+  if (chose(option("values_after_stop", "zero"))) state_.image[slots.velocity] = state_.image[slots.pwm] = 0;
   if (how == Stopping::by_register && reaction(axis_number, Event::stop) == Outcome::slows) {
     axis.motor.slow_down(now());
     if (axis.motor.moving()) return;
   }
   const Mode mode = axis.mode;
   stop_drive(axis);
-  if (mode != Mode::sync && chose(kModeStaysAfterStop)) axis.mode = mode;
+  if (mode != Mode::sync && chose(option("mode_after_stop", "stays"))) axis.mode = mode;
 }
 
 void Simple2R3::switch_servo(int axis_number, bool on) {
@@ -329,19 +342,20 @@ void Simple2R3::switch_servo(int axis_number, bool on) {
 
 void Simple2R3::clear_alarm(int axis_number) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  if (alarm_clear(axis_number) && chose(kAclrAgainIgnored)) return;
+  if (alarm_clear(axis_number) && chose(option("aclr_again", "ignored"))) return;
   axis.alarm_latched = false;  // an input that is on says so again
   axis.alarm_clear_until = now() + 1 + kAlarmClearTicks;
 }
 
 void Simple2R3::start_program(std::uint8_t line) {
   interpreter::simple2::Execution& execution = state_.execution;
-  if (execution.running && chose(kStartIgnored)) return;
+  if (execution.running && chose(option("start_while_running", "ignored"))) return;
   const interpreter::simple2::LoopState loop = execution.loop;
   interpreter::simple2::start(execution, line);
-  if (chose(kStartJumps)) execution.loop = loop;  // none of a program that does not run
-  if (chose(kFlagsFoundAtStart)) state_.program.find_flags();
-  if (!chose(kStartClears)) return;
+  if (chose(option("start_while_running", "jumps")))
+    execution.loop = loop;  // none of a program that does not run
+  if (chose(option("flags_found", "at_start"))) state_.program.find_flags();
+  if (!chose(option("program_start", "clears_them"))) return;
   for (Timer& timer : state_.timers) timer = {};
   constexpr std::array kValues{slot("CalcREG"), slot("Counter1_Value"), slot("Counter2_Value")};
   for (const std::size_t value : kValues) state_.image[value] = 0;
@@ -355,9 +369,9 @@ void Simple2R3::stop_program() {
 }
 
 void Simple2R3::program_has_ended() {
-  for (int axis = 0; axis < 2 && chose(kEndStopsMotion); ++axis) stop(axis);
+  for (int axis = 0; axis < 2 && chose(option("program_end", "stops")); ++axis) stop(axis);
   for (Timer& timer : state_.timers) {
-    if (chose(kEndStopsTimers)) run_timer(timer, false);
+    if (chose(option("timers_at_end", "stop"))) run_timer(timer, false);
   }
 }
 

@@ -26,55 +26,59 @@ std::uint32_t resolution_of(const State& state, int axis) {
 
 Simple2R3::Simple2R3(const DeviceSettings& given)
     : Device(simple2_r3::model(), given),
-      RegisterBankOf(*this, simple2_r3::model().registers, given.firmware),
+      RegisterBankOf(*this, *simple2_r3::model().registers, given.firmware),
       KeptMemory(simple2_r3::model().name, given.firmware) {
   dialect_ = dialect_of(*this);
   map_policy_ = chosen_map_policy();
-  timer_unit_ = chose(kTimer10ms) ? 10 : chose(kTimer100ms) ? 100 : 1;
-  assigned_at_power_up_ = chose(kAssignedAtPowerUp);
-  adc_10_bits_ = chose(kAdc10Bits);
-  motion_first_ = chose(kMotionFirst);
-  limits_physical_ = chose(kLimitsPhysical);
-  alarm_latches_ = chose(kAlarmLatched);
-  alarm_takes_servo_ = chose(kAlarmTakesServo);
-  coordinate_saturates_ = chose(kCoordinateSaturates);
-  velocity_unit_urpm_ = chose(kVelocity2RpmPerSecond) ? 1000 : 1;
-  velocity_pulses_first_ = chose(kVelocityPulsesFirst);
-  velocity_settings_latched_ = chose(kVelocitySettingsLatched);
-  stops_with_encoder_ = chose(kStopsWithEncoder);
-  sync_follows_other_ = chose(kSyncFollowsOther);
+  timer_unit_ = chose(option("timer_unit", "10ms")) ? 10 : chose(option("timer_unit", "100ms")) ? 100 : 1;
+  assigned_at_power_up_ = chose(option("assignment_effect", "at_power_up"));
+  adc_10_bits_ = chose(option("adc_width", "10_bits_100_a_volt"));
+  motion_first_ = chose(option("tick_order", "motion"));
+  limits_physical_ = chose(option("limit_sense", "physical"));
+  alarm_latches_ = chose(option("alarm_latch", "latched"));
+  alarm_takes_servo_ = chose(option("alarm_reaction", "stops_and_servo_off"));
+  coordinate_saturates_ = chose(option("coordinate_overflow", "saturates"));
+  velocity_unit_urpm_ = chose(option("velocity_unit", "two_rpm_per_second")) ? 1000 : 1;
+  velocity_pulses_first_ = chose(option("velocity_step", "pulses"));
+  velocity_settings_latched_ = chose(option("velocity_settings", "next_command"));
+  stops_with_encoder_ = chose(option("sync_slope_end", "stops"));
+  sync_follows_other_ = chose(option("sync_encoder", "other"));
   counts_physical_sense_ = firmware() <= 140;
-  boot_ticks_ = chose(kBoot100ms) ? 100 : chose(kBoot1s) ? 1000 : 0;
+  boot_ticks_ = chose(option("boot_time", "100ms")) ? 100 : chose(option("boot_time", "1s")) ? 1000 : 0;
   state_.eeprom = factory_memory();
-  set_input(kFirstSwitch, settings().baud == simple2_r3::model().rtu.bauds.back() ? 1 : 0);  // DIP1
+  set_input(kFirstSwitch, settings().baud == simple2_r3::model().line.bauds.back() ? 1 : 0);  // DIP1
 }
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
   if (now() + 1 < state_.first_tick) return Addressing::ignore;  // not up yet
   const int rotary_switch = settings().address;
   if (rotary_switch == 0) {
-    return address == 0 && chose(kSwitch0Silent) ? Addressing::obey_silently : Addressing::obey_and_reply;
+    return address == 0 && chose(option("switch_0_broadcast", "silent")) ? Addressing::obey_silently
+                                                                         : Addressing::obey_and_reply;
   }
   if (address == rotary_switch) return Addressing::obey_and_reply;
-  if (address == 0 && !chose(kStation0Ignored)) return Addressing::obey_silently;
+  if (address == 0 && !chose(option("station_0_request", "ignored"))) return Addressing::obey_silently;
   return Addressing::ignore;
 }
 
 MapPolicy Simple2R3::chosen_map_policy() const {
   MapPolicy policy = map().policy();
-  if (chose(kUnmappedReadsZero)) policy.unmapped = MapPolicy::Unmapped::reads_zero;
-  if (chose(kWriteToReadOnlyIgnored)) policy.read_only = MapPolicy::ReadOnly::ignores_writes;
-  if (chose(kReadOfWriteOnlyRefused)) policy.write_only = MapPolicy::WriteOnly::refused;
-  if (chose(kHalvesJudged)) policy.halves = MapPolicy::Halves::judged_with_the_other;
-  if (chose(kWriteClamped)) policy.out_of_range = MapPolicy::OutOfRange::clamped;
-  if (chose(kStoredUpToBadWord)) policy.partly = MapPolicy::Partly::up_to_the_refused;
-  if (chose(kEffectsInTurn)) policy.effects = MapPolicy::Effects::one_by_one;
+  if (chose(option("unmapped_addresses", "zero_and_ignored")))
+    policy.unmapped = MapPolicy::Unmapped::reads_zero;
+  if (chose(option("write_to_read_only", "ignored"))) policy.read_only = MapPolicy::ReadOnly::ignores_writes;
+  if (chose(option("read_of_write_only", "exception_02"))) policy.write_only = MapPolicy::WriteOnly::refused;
+  if (chose(option("half_writes", "judged_with_other_half")))
+    policy.halves = MapPolicy::Halves::judged_with_the_other;
+  if (chose(option("write_out_of_range", "clamped"))) policy.out_of_range = MapPolicy::OutOfRange::clamped;
+  if (chose(option("request_with_bad_value", "those_before_stored")))
+    policy.partly = MapPolicy::Partly::up_to_the_refused;
+  if (chose(option("request_effects", "each_in_its_turn"))) policy.effects = MapPolicy::Effects::one_by_one;
   return policy;
 }
 
 pty::LineSettings Simple2R3::line_settings() const {
-  pty::LineSettings line = Device::model().rtu.settings;
-  line.baud = Device::model().rtu.bauds[dip_switch(0) ? 1 : 0];
+  pty::LineSettings line = Device::line_settings();
+  line.baud = Device::model().line.bauds[dip_switch(0) ? 1 : 0];
   return line;
 }
 
@@ -130,7 +134,7 @@ bool Simple2R3::output_level(int number) const {
 
 void Simple2R3::write_outputs(std::uint8_t which, std::uint8_t levels) {
   // DOUT 0 to 3 are the first of the registers that assign functions.
-  for (unsigned n = 0; n < 4 && chose(kWriteUnderFunctionIgnored); ++n) {
+  for (unsigned n = 0; n < 4 && chose(option("write_under_function", "ignored")); ++n) {
     if (assigned(kFirstAssignment + n)) which = static_cast<std::uint8_t>(which & ~(1U << n));
   }
   std::uint8_t& outputs = state_.written_outputs;
@@ -232,7 +236,7 @@ void Simple2R3::step_motion(Tick tick) {
     const std::int64_t counted = quirk_coordinate_counts_physical_sense() ? axis.pulses_this_tick : commanded;
     axis.coordinate_pulses = in_32_bits(axis.coordinate_pulses + counted, coordinate_saturates_);
     const bool home_found = (axis.motor.events & motion::bit(motion::Event::homed)) != 0;
-    if (home_found && !chose(kHomeKeepsCoordinate)) axis.coordinate_pulses = 0;
+    if (home_found && !chose(option("home_coordinate", "kept"))) axis.coordinate_pulses = 0;
   }
   state_.touched = false;
   if (motion_first_) {

@@ -12,6 +12,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/options.h"
@@ -121,6 +122,7 @@ class Simple2R3 final : public Device,
                         public ModbusStation,
                         public KeptMemory,
                         public UserProgram,
+                        public Terminals,
                         public Axes {
  public:
   explicit Simple2R3(const DeviceSettings& given);
@@ -132,13 +134,14 @@ class Simple2R3 final : public Device,
   const KeptMemory* memory() const override { return this; }
   UserProgram* user_program() override { return this; }
   const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
   const MapPolicy& map_policy() const override { return map_policy_; }
-  bool answers_refusals() const override { return !chose(kRefusalsNotAnswered); }
+  bool answers_refusals() const override { return !chose(option("exceptions", "no_answer")); }
   void register_written(const RegisterRow& row, std::size_t slot) override;
   void registers_written() override {
     state_.touched = true;
@@ -231,7 +234,9 @@ class Simple2R3 final : public Device,
   void stop_program();
   /// The clock of the timers, in their unit.
   Tick timer_time() const { return now() / timer_unit_; }
-  void run_timer(Timer& timer, bool on) { timer.run(on, timer_time(), chose(kTimersStay)); }
+  void run_timer(Timer& timer, bool on) {
+    timer.run(on, timer_time(), chose(option("timer_overflow", "stays")));
+  }
   /// The image's cells have changed all at once.
   void reload_program();
   const interpreter::simple2::Dialect& dialect() const { return dialect_; }
@@ -241,6 +246,7 @@ class Simple2R3 final : public Device,
   void power_down() override;
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
+  std::string own_difference(StateReader& a, StateReader& b) const override;
   void write_memory(NvImage& image) const override;
   void read_memory(const NvImage& image) override;
 
@@ -301,7 +307,7 @@ class Simple2R3 final : public Device,
   /// Of the encoder that sync mode follows.
   std::int64_t followed_count(int axis) const;
   /// The tick that a motion commanded now counts as the last one before it.
-  Tick tick_before_motion() const { return chose(kMoveBeginsOneTickIn) ? now() - 1 : now(); }
+  Tick tick_before_motion() const { return chose(option("move_begins", "one_tick_in")) ? now() - 1 : now(); }
   bool starts_by_itself() const;
   void run_program(Tick tick);
   void program_has_ended();

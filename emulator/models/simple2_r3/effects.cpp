@@ -34,7 +34,7 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
 
 /// Only a choice has a set appear in the axis's registers.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
-  if (!device.chose(kSetMoveCopied)) return;
+  if (!device.chose(option("set_move", "copied"))) return;
   auto& image = device.state().image;
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
   image[slots.pulse] = static_cast<std::uint32_t>(set.distance_pulses);
@@ -46,15 +46,16 @@ void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
 /// An axis's bit of STATUS: what the input means by its function, or, where it has none and a choice wants it
 /// so, the pin's level.
 bool shown(const Simple2R3& device, bool by_function, std::size_t assignment_slot, int input) {
-  if (device.assigned(assignment_slot) || !device.chose(kStatusShowsPin)) return by_function;
+  if (device.assigned(assignment_slot) || !device.chose(option("unassigned_input_status", "level_of_pin")))
+    return by_function;
   return ((device.inputs() >> input) & 1) != 0;
 }
 
 /// A trigger that goes on, as it reads.
 Value while_in_progress(const Simple2R3& device, Cell cell, Command command) {
   const AxisState& axis = axis_of(device, cell);
-  const bool is_shown = axis.by_trigger || !device.chose(kTriggersByThemselves);
-  return axis.command == command && is_shown && !device.chose(kTriggersReadZero);
+  const bool is_shown = axis.by_trigger || !device.chose(option("triggers_shown", "those_written_there"));
+  return axis.command == command && is_shown && !device.chose(option("trigger_read_back", "zero"));
 }
 
 MoveParameters parameters_of_set(const Simple2R3& device, Value set) {
@@ -86,11 +87,13 @@ Value read_status(const Simple2R3& device, Cell) {
   for (int axis = 0; axis < 2; ++axis) {
     const AxisState& state = device.state().axes[static_cast<std::size_t>(axis)];
     const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
-    const bool shows_moving = state.mode == Mode::position || !device.chose(kMovingInPositionOnly);
+    const bool shows_moving =
+        state.mode == Mode::position || !device.chose(option("moving_bit", "position_only"));
     const auto bit = [&](int number, bool on) { status |= static_cast<Value>(on) << (number + axis); };
     bit(0, shown(device, device.alarm(axis), slots.alarm_assigned, slots.alarm_input));
     bit(2, shown(device, device.ready(axis), slots.ready_assigned, slots.ready_input));
-    const bool homes_apart = state.command == Command::homing && device.chose(kHomingBitAlone);
+    const bool homes_apart =
+        state.command == Command::homing && device.chose(option("homing_bits", "homing_alone"));
     bit(4, shows_moving && is_moving(state) && !homes_apart);
     bit(6, state.command == Command::homing);
     bit(8, state.homed);
@@ -103,12 +106,13 @@ Value read_status(const Simple2R3& device, Cell) {
 
 Value read_version(const Simple2R3& device, Cell) {
   const Value version = device.firmware();
-  if (!device.chose(kVersionBcd)) return version;
+  if (!device.chose(option("version_encoding", "bcd"))) return version;
   return version / 100 << 8 | version / 10 % 10 << 4 | version % 10;
 }
 
 Value read_output(const Simple2R3& device, Cell cell) {
-  if (device.chose(kOutputReadsWritten)) return (device.state().written_outputs >> cell.index) & 1;
+  if (device.chose(option("output_read_back", "written_level")))
+    return (device.state().written_outputs >> cell.index) & 1;
   return device.output_level(cell.index);
 }
 
@@ -147,22 +151,23 @@ Value read_encoder_speed(const Simple2R3& device, Cell cell) {
   const auto& image = device.state().image;
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(cell.argument)];
   const std::uint32_t resolution = std::max(image[slots.encoder_resolution], 1U);
-  return encoder_rpm(axis_of(device, cell), device.now(),
-                     {.window = device.chose(kEncoderWindow10ms) ? 10 : AxisState::kSpeedWindow,
-                      .counts_per_revolution = resolution,
-                      .wraps = device.chose(kEncoderSpeedWraps)});
+  return encoder_rpm(
+      axis_of(device, cell), device.now(),
+      {.window = device.chose(option("encoder_speed", "window_of_10ms")) ? 10 : AxisState::kSpeedWindow,
+       .counts_per_revolution = resolution,
+       .wraps = device.chose(option("encoder_speed_overflow", "wraps"))});
 }
 
 Value read_now_line(const Simple2R3& device, Cell) {
   const auto& execution = device.state().execution;
-  return execution.running || !device.chose(kLineZeroAfterEnd) ? execution.now_line : 0;
+  return execution.running || !device.chose(option("line_after_end", "zero")) ? execution.now_line : 0;
 }
 
 Value read_program_runs(const Simple2R3& device, Cell) { return device.state().execution.running; }
 
 Value read_timer(const Simple2R3& device, Cell cell) {
-  return device.state().timers[static_cast<std::size_t>(cell.argument)].at(device.timer_time(),
-                                                                           device.chose(kTimersStay));
+  return device.state().timers[static_cast<std::size_t>(cell.argument)].at(
+      device.timer_time(), device.chose(option("timer_overflow", "stays")));
 }
 
 Value read_servo(const Simple2R3& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
@@ -177,7 +182,7 @@ Value read_analog(const Simple2R3& device, Cell cell) {
   const auto& image = device.state().image;
   const auto i = static_cast<std::size_t>(cell.argument);
   const Value at_10v = image[slot("ADC_10V_A") + i];
-  if (device.chose(kAnalogThroughZero)) {
+  if (device.chose(option("analog_scaling", "line_through_zero"))) {
     return at_10v == 0 ? 0 : std::clamp<Value>(read_adc(device, cell) * 2000 / at_10v, 0, 65535);
   }
   // The line through the two points of the calibration: 200 at 1 V, 2000 at 10 V.
@@ -196,7 +201,8 @@ Value read_cell(const Simple2R3& device, Cell cell) {
 Value read_unlocked(const Simple2R3& device, Cell) { return device.unlocked(); }
 
 Value read_password(const Simple2R3& device, Cell) {
-  return device.unlocked() && !device.chose(kPasswordReadsZero) ? device.state().password : 0;
+  return device.unlocked() && !device.chose(option("password_read_back", "zero")) ? device.state().password
+                                                                                  : 0;
 }
 
 Value read_zero(const Simple2R3&, Cell) { return 0; }
@@ -267,7 +273,7 @@ void go_home(Simple2R3& device, Cell cell, Value) {
 
 void command_velocity(Simple2R3& device, Cell cell, Value milli_rpm) {
   // The note that it takes effect stands beside the high word, so a lone low word only waits for it.
-  if (!cell.high_half && !device.chose(kVelocityByLowWord)) return;
+  if (!cell.high_half && !device.chose(option("velocity_commit", "takes_effect"))) return;
   device.run_velocity(cell.argument, milli_rpm);
 }
 
@@ -294,7 +300,7 @@ void preset_timer(Simple2R3& device, Cell cell, Value value) {
 }
 
 void start_program(Simple2R3& device, Cell, Value line) {
-  if (!device.unlocked() && device.chose(kLockedStartIgnored)) return;
+  if (!device.unlocked() && device.chose(option("locked_start", "ignored"))) return;
   device.start_program(static_cast<std::uint8_t>(line));
 }
 
@@ -302,7 +308,7 @@ void stop_program(Simple2R3& device, Cell, Value) { device.stop_program(); }
 
 void write_cell(Simple2R3& device, Cell cell, Value value) {
   const int number = 4 * cell.index + cell.argument;
-  if (!device.unlocked() && device.chose(kLockedWritesIgnored)) {
+  if (!device.unlocked() && device.chose(option("locked_writes", "ignored"))) {
     device.state().image[cell_slot(cell)] = device.state().program.cell(number);
     return;
   }
@@ -316,7 +322,7 @@ void change_password(Simple2R3& device, Cell, Value password) {
 }
 
 void erase_program(Simple2R3& device, Cell, Value) {
-  if (!device.unlocked() && device.chose(kLockedWritesIgnored)) return;
+  if (!device.unlocked() && device.chose(option("locked_writes", "ignored"))) return;
   device.erase_program();
 }
 

@@ -27,14 +27,17 @@ void for_each_slot(Visit visit) {
 }
 
 /// Erase_ALL, Factory_Reset.
-Tick rewrite_ticks(const Simple2R3& device) { return device.chose(kErasure100ms) ? 100 : 500; }
+Tick rewrite_ticks(const Simple2R3& device) {
+  return device.chose(option("eeprom_erasure", "100ms")) ? 100 : 500;
+}
 
 interpreter::simple2::FlagRules flag_rules_of(const Simple2R3& device) {
   using Rules = interpreter::simple2::FlagRules;
   Rules rules;
-  if (device.chose(kFlagLastWritten)) rules.several = Rules::Several::last_written;
-  if (device.chose(kFlagsUpToEnd)) rules.after_end = Rules::AfterEnd::do_not_count;
-  if (device.chose(kFlagsFoundAtStart)) rules.found = Rules::Found::when_told;
+  if (device.chose(option("same_flag_twice", "last_written"))) rules.several = Rules::Several::last_written;
+  if (device.chose(option("flags_after_end", "does_not_count")))
+    rules.after_end = Rules::AfterEnd::do_not_count;
+  if (device.chose(option("flags_found", "at_start"))) rules.found = Rules::Found::when_told;
   return rules;
 }
 
@@ -48,16 +51,17 @@ bool is_useful_guess(const RegisterRow& row) {
 }  // namespace
 
 std::uint32_t Simple2R3::factory_bits(const RegisterRow& row) const {
-  if (chose(kFirstPassword65535) && row.name == "NEW_PWD") return 65535;
-  if (chose(kAdc10Bits) && row.name.starts_with("ADC_1")) return static_cast<std::uint32_t>(row.factory / 4);
-  if (chose(kFactoryValuesLeast) && is_useful_guess(row))
+  if (chose(option("first_password", "65535")) && row.name == "NEW_PWD") return 65535;
+  if (chose(option("adc_width", "10_bits_100_a_volt")) && row.name.starts_with("ADC_1"))
+    return static_cast<std::uint32_t>(row.factory / 4);
+  if (chose(option("factory_values", "least")) && is_useful_guess(row))
     return static_cast<std::uint32_t>(std::max<Value>(row.min, 0));
   return static_cast<std::uint32_t>(row.factory);
 }
 
 bool Simple2R3::keeps(const RegisterRow& row) const {
   // No star is printed at NEW_PWD.
-  return row.persistent || (chose(kPasswordKept) && row.name == "NEW_PWD");
+  return row.persistent || (chose(option("password_kept", "yes")) && row.name == "NEW_PWD");
 }
 
 Eeprom Simple2R3::factory_memory() const {
@@ -73,10 +77,10 @@ Eeprom Simple2R3::factory_memory() const {
 void Simple2R3::register_written(const RegisterRow& row, std::size_t slot) {
   if (!keeps(row)) return;
   if (!was_saving_) was_saving_ = state_.eeprom.writing();
-  if (*was_saving_ && chose(kNotSavedWhileSaving)) return;
-  const Tick ticks_per_word = chose(kEeprom1msAWord) ? 1 : 5;
+  if (*was_saving_ && chose(option("write_while_saving", "not_saved"))) return;
+  const Tick ticks_per_word = chose(option("eeprom_time", "1ms_a_word")) ? 1 : 5;
   state_.eeprom.write(slot, state_.image[slot], ticks_per_word * (is_32_bit(row.type) ? 2 : 1), now(),
-                      chose(kSameValueSaved));
+                      chose(option("eeprom_same_value", "saved_again")));
 }
 
 void Simple2R3::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
@@ -96,7 +100,7 @@ void Simple2R3::blank_state() {
 }
 
 void Simple2R3::power_down() {
-  const bool ends_first = state_.eeprom.writing() && chose(kPowerCutLeavesNew);
+  const bool ends_first = state_.eeprom.writing() && chose(option("power_cut", "new_value"));
   if (ends_first) state_.eeprom.step(state_.eeprom.next_active_tick(), state_.image);
   state_.eeprom.lose_power();
   const std::uint8_t switches = state_.switches;
@@ -119,19 +123,19 @@ void Simple2R3::power_up() {
   judge_lock();
   state_.program = interpreter::simple2::Program({}, flag_rules_of(*this));
   reload_program();
-  if (chose(kFlagsFoundAtStart)) state_.program.find_flags();
+  if (chose(option("flags_found", "at_start"))) state_.program.find_flags();
 
   motion::AxisSettings motor;
   const auto stops_unless = [&](const Option& ignored) {
     return chose(ignored) ? motion::Reaction::ignore : motion::Reaction::stop_at_once;
   };
-  motor.at_limit_plus = motor.at_limit_minus = stops_unless(kLimitsIgnored);
-  motor.at_alarm = stops_unless(kAlarmIgnored);
+  motor.at_limit_plus = motor.at_limit_minus = stops_unless(option("limit_reaction", "none"));
+  motor.at_alarm = stops_unless(option("alarm_reaction", "none"));
   for (int i = 0; i < 2; ++i) {
     AxisState& axis = state_.axes[static_cast<std::size_t>(i)];
     motor.needs_servo = servo_matters(i);
     axis.motor.set(motor);
-    axis.motor.servo_on = chose(kServoOnAtPowerUp);
+    axis.motor.servo_on = chose(option("servo_at_power_up", "on"));
   }
 }
 
@@ -144,23 +148,23 @@ std::uint8_t Simple2R3::switch_levels() const {
 void Simple2R3::reset_timers() {
   for (Timer& timer : state_.timers) {
     timer = {};
-    if (chose(kTimersRunFromPowerUp)) run_timer(timer, true);
+    if (chose(option("timers_at_power_up", "running"))) run_timer(timer, true);
   }
 }
 
 bool Simple2R3::dip_switch(int number) const {
-  const std::uint8_t levels = chose(kSwitchesAlwaysRead) ? switch_levels() : state_.switches;
+  const std::uint8_t levels = chose(option("switches_sampled", "always")) ? switch_levels() : state_.switches;
   return ((levels >> number) & 1) != 0;
 }
 
 // --- factory reset, erasure ------------------------------------------------------------------------
 
 void Simple2R3::reset_to_factory() {
-  if (!unlocked() && chose(kLockedResetRefused)) return;
+  if (!unlocked() && chose(option("locked_reset", "ignored"))) return;
   constexpr std::size_t kFirstSurvivor = slot("ADC_10V_A");
   constexpr std::size_t kLastSurvivor = slot("ADC_1V_B");
   for_each_slot([&](std::size_t slot, const RegisterRow& row) {
-    const bool stays = !keeps(row) && chose(kResetKeepsVolatile);
+    const bool stays = !keeps(row) && chose(option("factory_reset_of_volatile", "kept"));
     if (stays || (slot >= kFirstSurvivor && slot <= kLastSurvivor)) return;
     state_.image[slot] = factory_bits(row);
   });
@@ -170,17 +174,17 @@ void Simple2R3::reset_to_factory() {
   reload_program();
   state_.eeprom.rewrite(state_.image, rewrite_ticks(*this), now());
   for (int axis = 0; axis < 2; ++axis) {
-    if (!chose(kResetLeavesMotion)) switch_servo(axis, false);
+    if (!chose(option("factory_reset_motion", "goes_on"))) switch_servo(axis, false);
     state_.axes[static_cast<std::size_t>(axis)].homed = false;
   }
-  if (chose(kResetKeepsVolatile)) return;
+  if (chose(option("factory_reset_of_volatile", "kept"))) return;
   state_.written_outputs = 0;
   reset_timers();
   for (AxisState& axis : state_.axes) axis.alarm_clear_until = 0;
 }
 
 void Simple2R3::erase_program() {
-  if (!chose(kErasureLeavesProgram)) stop_program();
+  if (!chose(option("erase_while_running", "goes_on"))) stop_program();
   for (const std::size_t column : kColumns) {
     std::fill_n(state_.image.begin() + static_cast<std::ptrdiff_t>(column), interpreter::simple2::kLineCount,
                 0U);
@@ -224,7 +228,7 @@ void Simple2R3::judge_lock() {
 }
 
 bool Simple2R3::unlocked() const {
-  if (!chose(kLockAlwaysJudged)) return state_.unlocked;
+  if (!chose(option("lock_judged", "always"))) return state_.unlocked;
   return firmware() < kFirstWithPassword || state_.image[slot("PWD_Input")] == state_.password;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/choices.h"
 #include "emulator/models/simple2_r3/device.h"
@@ -119,7 +120,7 @@ const Model& model() {
       .name = "simple2-r3",
       .title = "2-axis pulse controller, Modbus RTU on RS485",
       .firmwares = kFirmwares,
-      .registers = registers,
+      .registers = &registers,
       .parameters = kParameters,
       .instructions = instructions,
       .choices = kChoices,
@@ -128,12 +129,12 @@ const Model& model() {
       .axes = kAxes,
       .state_registers = kStateRegisters,
       .gaps = kGaps,
-      .rtu = {.bauds = kBauds,
-              .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
-              .end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
-              .functions = kFunctions,
-              .lowest_address = 0,  // rotary switch 0: every station number
-              .highest_address = 15},
+      .line = {.protocol = kModbusRtu,
+               .bauds = kBauds,
+               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
+               .station_numbers = StationNumbers{0, 15}},             // rotary switch 0: every station number
+      .rtu = RtuRules{.end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
+                      .functions = kFunctions},
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Simple2R3>(settings);
       },

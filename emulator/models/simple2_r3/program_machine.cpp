@@ -21,10 +21,10 @@ const std::vector<NamedPlace>& parameter_places() {
     std::vector<NamedPlace> all(256);
     const Model& mine = simple2_r3::model();
     for (const ParameterRow& row : mine.parameters) {
-      for (const RegisterRow& target : mine.registers.rows()) {
+      for (const RegisterRow& target : mine.registers->rows()) {
         if (target.name != row.register_name) continue;
         for (int i = 0; i < row.count; ++i) {
-          const auto found = mine.registers.find(RegisterMap::name_of(target, i), mine.firmwares.back());
+          const auto found = mine.registers->find(RegisterMap::name_of(target, i), mine.firmwares.back());
           if (found) all[static_cast<std::size_t>(row.first) + static_cast<std::size_t>(i)] = *found;
         }
       }
@@ -35,7 +35,7 @@ const std::vector<NamedPlace>& parameter_places() {
 }
 
 MoveParameters parameters_for(const Simple2R3& device, std::size_t axis, std::int64_t distance_pulses) {
-  if (device.chose(kProgramSpeedOfItsOwn)) {
+  if (device.chose(option("program_speed", "of_its_own"))) {
     const ProgramSpeed& own = device.state().program_speeds[axis];
     return {.distance_pulses = distance_pulses,
             .speed_rpm = own.speed_rpm,
@@ -53,7 +53,7 @@ MoveParameters parameters_for(const Simple2R3& device, std::size_t axis, std::in
 
 /// Only a choice has a program's move appear in the axis's register.
 void show_pulse(Simple2R3& device, std::size_t axis, std::int32_t pulses) {
-  if (!device.chose(kProgramPulseShown)) return;
+  if (!device.chose(option("program_pulse", "shown"))) return;
   device.state().image[kAxisSlots[axis].pulse] = static_cast<std::uint32_t>(pulses);
 }
 
@@ -82,13 +82,15 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
   Value wanted = value;
   if (row.type == Type::u32 && row.min == 0) {
     wanted = static_cast<std::uint32_t>(value);
-  } else if (is_counter && device_.chose(kVarsCountAsCounters)) {
-    wanted = device_.chose(kCountersSaturate) ? std::clamp(value, 0, 65535) : value & 0xFFFF;
+  } else if (is_counter && device_.chose(option("counter_by_var", "as_a_counter"))) {
+    wanted =
+        device_.chose(option("counter_overflow", "saturates")) ? std::clamp(value, 0, 65535) : value & 0xFFFF;
   } else if (row.ranged && row.type == Type::u16) {
     wanted = interpreter::simple2::fitted(device_.dialect(), value, static_cast<std::int32_t>(row.min),
                                           static_cast<std::int32_t>(row.max));
   } else if (row.ranged) {
-    if ((value < row.min || value > row.max) && device_.chose(kProgramValueIgnored)) return;
+    if ((value < row.min || value > row.max) && device_.chose(option("program_value_of_32_bits", "ignored")))
+      return;
     wanted = std::clamp<Value>(value, row.min, row.max);
   }
   write_value(device_, place, wanted);
@@ -124,7 +126,7 @@ bool ProgramMachine::moving_for_wait(Axis axis) const {
   const std::size_t number = number_of(axis);
   const bool homes =
       state.axes[number].command == Command::homing || state.kept[number].command == Command::homing;
-  return moving(axis) && !(homes && device_.chose(kWaitMoveLeavesHoming));
+  return moving(axis) && !(homes && device_.chose(option("wait_move_homing", "does_not_wait")));
 }
 
 bool ProgramMachine::cut_short(Axis axis) const { return device_.state().axes[number_of(axis)].cut_short; }
@@ -132,7 +134,7 @@ bool ProgramMachine::cut_short(Axis axis) const { return device_.state().axes[nu
 void ProgramMachine::set_speed(Axis axis, std::int32_t rpm) {
   const std::size_t number = number_of(axis);
   const auto speed_rpm = static_cast<std::uint32_t>(rpm);
-  if (device_.chose(kProgramSpeedOfItsOwn)) {
+  if (device_.chose(option("program_speed", "of_its_own"))) {
     device_.state().program_speeds[number].speed_rpm = speed_rpm;
     return;
   }
@@ -144,7 +146,7 @@ void ProgramMachine::set_ramps(Axis axis, std::int32_t acceleration_10ms, std::i
   const std::size_t number = number_of(axis);
   const auto up_10ms = static_cast<std::uint32_t>(acceleration_10ms);
   const auto down_10ms = static_cast<std::uint32_t>(deceleration_10ms);
-  if (device_.chose(kProgramSpeedOfItsOwn)) {
+  if (device_.chose(option("program_speed", "of_its_own"))) {
     device_.state().program_speeds[number].acceleration_10ms = up_10ms;
     device_.state().program_speeds[number].deceleration_10ms = down_10ms;
     return;
@@ -174,31 +176,45 @@ void ProgramMachine::follow_encoder(Axis axis) { device_.follow_encoder(static_c
 
 Dialect dialect_of(const Simple2R3& device) {
   Dialect dialect = interpreter::simple2::dialect_of_firmware(device.firmware());
-  const auto take = [&](const Option& option, auto& field, auto value) {
-    if (device.chose(option)) field = value;
-  };
-  take(kWaitMoveBWaits, dialect.quirk_wait_move_b_is_move_inc_b_wait, false);
-  take(kLoopFurtherPasses, dialect.loop_count, Dialect::LoopCount::further_passes);
-  take(kLoopRemembered, dialect.loop_left, Dialect::LoopLeft::remembered);
-  take(kLoopNestingAtStart, dialect.loop_nesting, Dialect::LoopNesting::when_outer_starts);
-  take(kUnknownCommandEnds, dialect.unknown_command, Dialect::UnknownCommand::ends);
-  take(kUndefinedOperandEnds, dialect.undefined_operand, Dialect::UndefinedOperand::ends);
-  take(kUndefinedParameterEnds, dialect.undefined_parameter, Dialect::UndefinedParameter::ends);
-  take(kReadOnlyParameterEnds, dialect.read_only_parameter, Dialect::ReadOnlyParameter::ends);
-  take(kLogicLowestBit, dialect.logic, Dialect::Logic::lowest_bit);
-  take(kLow16Bits, dialect.value_out_of_range, Dialect::ValueOutOfRange::low_16_bits);
-  take(kGoesOnAt0, dialect.after_last_line, Dialect::AfterLastLine::goes_on_at_0);
-  take(kDelayBeforeNextSlot, dialect.delay_counts, Dialect::DelayCounts::before_next_slot);
-  take(kWaitSharesItsSlot, dialect.wait_slot, Dialect::WaitSlot::next_line_runs_in_it);
-  take(kTimer1AlwaysJumps, dialect.timer1_defect, Dialect::Timer1Defect::always_jumps);
-  take(kArithmeticSaturates, dialect.overflow, Dialect::Overflow::saturates);
-  take(kDivisionDownwards, dialect.division, Dialect::Division::downwards);
-  take(kCountersSaturate, dialect.counter_overflow, Dialect::CounterOverflow::saturates);
-  take(kUndefinedFlagVoid, dialect.undefined_flag, Dialect::UndefinedFlag::line_void);
-  take(kTimersWithSign, dialect.timer_compare, Dialect::TimerCompare::with_sign);
-  take(kWaitsForLaterMove, dialect.wait_cut_short, Dialect::WaitCutShort::waits_on);
-  take(kRewrittenWaitsOn, dialect.rewritten_line, Dialect::RewrittenLine::waits_on);
-  take(kCutShortEndsProgram, dialect.wait_cut_short, Dialect::WaitCutShort::program_ends);
+  if (device.chose(option("wait_move_b_139", "waits"))) dialect.quirk_wait_move_b_is_move_inc_b_wait = false;
+  if (device.chose(option("loop_count", "further_passes")))
+    dialect.loop_count = Dialect::LoopCount::further_passes;
+  if (device.chose(option("loop_left", "remembered"))) dialect.loop_left = Dialect::LoopLeft::remembered;
+  if (device.chose(option("loop_nesting", "when_outer_starts")))
+    dialect.loop_nesting = Dialect::LoopNesting::when_outer_starts;
+  if (device.chose(option("unknown_command", "ends")))
+    dialect.unknown_command = Dialect::UnknownCommand::ends;
+  if (device.chose(option("undefined_operand", "ends")))
+    dialect.undefined_operand = Dialect::UndefinedOperand::ends;
+  if (device.chose(option("undefined_parameter", "ends")))
+    dialect.undefined_parameter = Dialect::UndefinedParameter::ends;
+  if (device.chose(option("read_only_parameter", "ends")))
+    dialect.read_only_parameter = Dialect::ReadOnlyParameter::ends;
+  if (device.chose(option("logic_operand", "lowest_bit"))) dialect.logic = Dialect::Logic::lowest_bit;
+  if (device.chose(option("value_out_of_range", "low_16_bits")))
+    dialect.value_out_of_range = Dialect::ValueOutOfRange::low_16_bits;
+  if (device.chose(option("after_last_line", "goes_on_at_0")))
+    dialect.after_last_line = Dialect::AfterLastLine::goes_on_at_0;
+  if (device.chose(option("delay_counts", "before_next_slot")))
+    dialect.delay_counts = Dialect::DelayCounts::before_next_slot;
+  if (device.chose(option("wait_slot", "in_the_same_slot")))
+    dialect.wait_slot = Dialect::WaitSlot::next_line_runs_in_it;
+  if (device.chose(option("timer1_defect", "always_jumps")))
+    dialect.timer1_defect = Dialect::Timer1Defect::always_jumps;
+  if (device.chose(option("arithmetic", "saturates"))) dialect.overflow = Dialect::Overflow::saturates;
+  if (device.chose(option("division", "downwards"))) dialect.division = Dialect::Division::downwards;
+  if (device.chose(option("counter_overflow", "saturates")))
+    dialect.counter_overflow = Dialect::CounterOverflow::saturates;
+  if (device.chose(option("undefined_flag", "line_void")))
+    dialect.undefined_flag = Dialect::UndefinedFlag::line_void;
+  if (device.chose(option("timer_compare", "with_sign")))
+    dialect.timer_compare = Dialect::TimerCompare::with_sign;
+  if (device.chose(option("wait_cut_short", "waits_on")))
+    dialect.wait_cut_short = Dialect::WaitCutShort::waits_on;
+  if (device.chose(option("rewritten_line", "waits_on")))
+    dialect.rewritten_line = Dialect::RewrittenLine::waits_on;
+  if (device.chose(option("wait_cut_short", "program_ends")))
+    dialect.wait_cut_short = Dialect::WaitCutShort::program_ends;
   return dialect;
 }
 

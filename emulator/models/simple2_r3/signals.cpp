@@ -47,8 +47,8 @@ void meet_in_pwm(AxisState& axis, Outcome outcome) {
 
 Outcome Simple2R3::reaction(int axis_number, Event event) const {
   const AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
-  const bool needs_servo =
-      has(reactions::kCommands, event) && !(has(reactions::kDuties, event) && chose(kPwmWithoutServo));
+  const bool needs_servo = has(reactions::kCommands, event) &&
+                           !(has(reactions::kDuties, event) && chose(option("pwm_servo", "not_needed")));
   const bool is_held = needs_servo && lacks_servo(axis_number);
   const ReactionRow* row =
       reaction_row(doing(axis), is_held ? Phase::servo_off : phase_of(axis, now()), event);
@@ -107,7 +107,8 @@ void Simple2R3::meet_in_sync(int axis_number, Outcome outcome) {
 }
 
 bool Simple2R3::ignores(motion::Signal signal) const {
-  return chose(signal == motion::Signal::alarm ? kAlarmIgnored : kLimitsIgnored);
+  return chose(signal == motion::Signal::alarm ? option("alarm_reaction", "none")
+                                               : option("limit_reaction", "none"));
 }
 
 void Simple2R3::refresh_signals(int axis_number) {

@@ -1,80 +1,120 @@
-// What the state of a Simple2-R3 consists of, for state.cpp: all fields, in order, and what a restored one
-// must be so that its ticks can neither leave a table nor run away.
+// What the state of a Simple2-R3 consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <string>
+#include <tuple>
+
+#include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "emulator/device/memory/eeprom_fields.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "interpreter/simple2/state_fields.h"
+#include "motion/state_fields.h"
 
-namespace understudy::emulator::models::simple2_r3 {
+namespace understudy {
 
-struct StateFields {
-  // clang-format off
-  static void of(Like<Timer> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<interpreter::simple2::LoopState> auto& v, auto visit) {
-    auto& [a, b, c, d] = v; visit(a, b, c, d);
-  }
-  static void of(Like<interpreter::simple2::Execution> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
-  }
-  static void of(Like<interpreter::simple2::Line> auto& v, auto visit) {
-    auto& [a, b, c, d] = v; visit(a, b, c, d);
-  }
-  static void of(Like<interpreter::simple2::FlagRules> auto& v, auto visit) {
-    auto& [a, b, c] = v; visit(a, b, c);
-  }
-  static void of(Like<AxisState> auto& v, auto visit) {
-    // As they lie in memory, and as the bytes have them.
-    auto& [motor, mode, command, homed, own_speed, by_trigger, cut_short, alarm_latched, pwm_percent,
-           coordinate, velocity_step, pulses, alarm_clear_until, encoder_raw, encoder_counts, encoder_changed,
-           signals, target, speed, velocity_phase, velocity_resolution, encoder_preset, encoder_followed,
-           encoder_history] = v;
-    visit(motor, signals, mode, command, homed, own_speed, by_trigger, cut_short, alarm_latched, coordinate,
-          pulses, alarm_clear_until, target, speed, velocity_resolution, velocity_step, velocity_phase,
-          pwm_percent, encoder_raw, encoder_counts, encoder_preset, encoder_followed, encoder_history,
-          encoder_changed);
-  }
-  static void of(Like<ProgramSpeed> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<MoveParameters> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
-  }
-  static void of(Like<KeptCommand> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<State> auto& v, auto visit) {
-    // As they lie in memory, and as the bytes have them.
-    auto& [touched, unlocked, switches, written_outputs, inputs, assignments, adc, password, first_tick,
-           execution, eeprom, axes, image, program, timers, program_speeds, kept] = v;
-    visit(image, axes, program, execution, timers, eeprom, first_tick, switches, unlocked, password, adc,
-          inputs, written_outputs, assignments, program_speeds, kept, touched);
-  }
-  // clang-format on
+namespace emulator::models::simple2_r3 {
+/// Which register a slot of the image belongs to: "Aaxis_Speed", "Program+17" of several.
+std::string register_at_slot(std::size_t slot);
+}  // namespace emulator::models::simple2_r3
 
-  static constexpr Mode last(Mode) { return Mode::sync; }
-  static constexpr Command last(Command) { return Command::homing; }
-  static constexpr Eeprom::Slot last(Eeprom::Slot) { return Eeprom::Slot::waits; }
-  static constexpr interpreter::simple2::Ending last(interpreter::simple2::Ending) {
-    return interpreter::simple2::Ending::wait_cut_short;
-  }
-  static constexpr interpreter::simple2::Phase last(interpreter::simple2::Phase) {
-    return interpreter::simple2::Phase::move;
-  }
-  using FlagRules = interpreter::simple2::FlagRules;
-  static constexpr FlagRules::Several last(FlagRules::Several) { return FlagRules::Several::last_written; }
-  static constexpr FlagRules::AfterEnd last(FlagRules::AfterEnd) { return FlagRules::AfterEnd::do_not_count; }
-  static constexpr FlagRules::Found last(FlagRules::Found) { return FlagRules::Found::when_told; }
-
-  // Of other rooms.
-  static void write(const motion::Axis& motor, StateWriter& writer);
-  static void read(motion::Axis& motor, StateReader& reader);
-  static void write(const motion::Surroundings& signals, StateWriter& writer);
-  static void read(motion::Surroundings& signals, StateReader& reader);
-  static void write(const interpreter::simple2::Program& program, StateWriter& writer);
-  static void read(interpreter::simple2::Program& program, StateReader& reader);
-
-  static void check(const Timer& timer) { demand_reach(timer.since); }
-  static void check(const interpreter::simple2::Execution& execution);
-  static void check(const AxisState& axis);
-  static void check(const KeptCommand& kept);
-  static void check(const State& state);
-  static void check(const auto&) {}  // of the memory see Eeprom::check_restored()
+template <>
+struct StateOf<emulator::models::simple2_r3::Mode> {
+  static constexpr auto last = emulator::models::simple2_r3::Mode::sync;
 };
 
-}  // namespace understudy::emulator::models::simple2_r3
+template <>
+struct StateOf<emulator::models::simple2_r3::Command> {
+  static constexpr auto last = emulator::models::simple2_r3::Command::homing;
+};
+
+template <>
+struct StateOf<emulator::models::simple2_r3::Timer> {
+  using Value = emulator::models::simple2_r3::Timer;
+  static constexpr auto fields = std::tuple{field("value", &Value::value), field("since", &Value::since),
+                                            field("running", &Value::running)};
+  static void check(const Value& timer) { demand_reach(timer.since); }
+};
+
+template <>
+struct StateOf<emulator::models::simple2_r3::AxisState> {
+  using Value = emulator::models::simple2_r3::AxisState;
+  static constexpr auto fields = std::tuple{field("motor", &Value::motor),
+                                            field("signals", &Value::signals),
+                                            field("mode", &Value::mode),
+                                            field("command", &Value::command),
+                                            field("homed", &Value::homed),
+                                            field("has_own_speed", &Value::has_own_speed),
+                                            field("by_trigger", &Value::by_trigger),
+                                            field("cut_short", &Value::cut_short),
+                                            field("alarm_latched", &Value::alarm_latched),
+                                            field("coordinate_pulses", &Value::coordinate_pulses),
+                                            field("pulses_this_tick", &Value::pulses_this_tick),
+                                            field("alarm_clear_until", &Value::alarm_clear_until),
+                                            field("target_urpm", &Value::target_urpm),
+                                            field("speed_urpm", &Value::speed_urpm),
+                                            field("velocity_resolution", &Value::velocity_resolution),
+                                            field("velocity_step_urpm", &Value::velocity_step_urpm),
+                                            field("velocity_phase", &Value::velocity_phase),
+                                            field("pwm_percent", &Value::pwm_percent),
+                                            field("encoder_raw", &Value::encoder_raw),
+                                            field("encoder_counts", &Value::encoder_counts),
+                                            field("encoder_preset", &Value::encoder_preset),
+                                            field("encoder_followed", &Value::encoder_followed),
+                                            field("encoder_history", &Value::encoder_history),
+                                            field("encoder_changed", &Value::encoder_changed)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::simple2_r3::ProgramSpeed> {
+  using Value = emulator::models::simple2_r3::ProgramSpeed;
+  static constexpr auto fields =
+      std::tuple{field("speed_rpm", &Value::speed_rpm), field("acceleration_10ms", &Value::acceleration_10ms),
+                 field("deceleration_10ms", &Value::deceleration_10ms)};
+};
+
+template <>
+struct StateOf<emulator::models::simple2_r3::MoveParameters> {
+  using Value = emulator::models::simple2_r3::MoveParameters;
+  static constexpr auto fields = std::tuple{field("distance_pulses", &Value::distance_pulses),
+                                            field("speed_rpm", &Value::speed_rpm),
+                                            field("acceleration_10ms", &Value::acceleration_10ms),
+                                            field("deceleration_10ms", &Value::deceleration_10ms),
+                                            field("of_the_axis", &Value::of_the_axis),
+                                            field("by_trigger", &Value::by_trigger)};
+};
+
+template <>
+struct StateOf<emulator::models::simple2_r3::KeptCommand> {
+  using Value = emulator::models::simple2_r3::KeptCommand;
+  static constexpr auto fields = std::tuple{field("mode", &Value::mode), field("command", &Value::command),
+                                            field("move", &Value::move), field("value", &Value::value)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::simple2_r3::State> {
+  using Value = emulator::models::simple2_r3::State;
+  static constexpr auto fields =
+      std::tuple{field("image", &Value::image, emulator::models::simple2_r3::register_at_slot),
+                 field("axes", &Value::axes),
+                 field("program", &Value::program),
+                 field("execution", &Value::execution),
+                 field("timers", &Value::timers),
+                 field("eeprom", &Value::eeprom),
+                 field("first_tick", &Value::first_tick),
+                 field("switches", &Value::switches),
+                 field("unlocked", &Value::unlocked),
+                 field("password", &Value::password),
+                 field("adc", &Value::adc),
+                 field("inputs", &Value::inputs),
+                 field("written_outputs", &Value::written_outputs),
+                 field("assignments", &Value::assignments),
+                 field("program_speeds", &Value::program_speeds),
+                 field("kept", &Value::kept),
+                 field("touched", &Value::touched)};
+  static void check(const Value& value);
+};
+
+}  // namespace understudy

@@ -191,7 +191,8 @@ class Chain {
   Tick next_active_tick(Tick done) const;
 
  private:
-  friend struct ChainFields;
+  template <class T>
+  friend struct understudy::StateOf;  // chain_fields.h
 
   /// A coordinated motion: the heads of its modules' FIFOs are its paths, one after another.
   struct Group {

@@ -75,7 +75,8 @@ double Chain::end_expected(int module) const {
 }
 
 bool Chain::full(int module) const {
-  return modules_[at(module)].fifo.size() >= static_cast<std::size_t>(options_.number(kBufferLength));
+  return modules_[at(module)].fifo.size() >=
+         static_cast<std::size_t>(options_.number(numbers("buffer_length")));
 }
 
 Error Chain::enqueue(Job job) {

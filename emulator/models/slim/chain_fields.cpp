@@ -5,21 +5,12 @@
 #include <cmath>
 
 #include "emulator/models/slim/parameters.h"
-#include "motion/bad_motion.h"
-#include "motion/state.h"
 
-namespace understudy::emulator::models::slim {
+namespace understudy {
+
+using namespace emulator::models::slim;
 
 namespace {
-
-template <class T>
-void read_motion(T& value, StateReader& reader) {
-  try {
-    reader.take(motion::restore(value, reader.rest()));
-  } catch (const motion::BadMotion& bad) {
-    throw StateError(bad.what());
-  }
-}
 
 void demand_coordinate(double units) {
   demand_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
@@ -31,66 +22,51 @@ void demand_speed(double speed) {
 
 }  // namespace
 
-void ChainFields::write(const motion::Axis& axis, StateWriter& writer) { writer.append(motion::save(axis)); }
-void ChainFields::read(motion::Axis& axis, StateReader& reader) { read_motion(axis, reader); }
-
-void ChainFields::write(const motion::Surroundings& here, StateWriter& writer) {
-  writer.append(motion::save(here));
-}
-void ChainFields::read(motion::Surroundings& here, StateReader& reader) { read_motion(here, reader); }
-
-void ChainFields::write(const Chain::Group& group, StateWriter& writer) {
+void StateOf<Chain::Group>::write(const Chain::Group& group, StateWriter& writer) {
   const auto& [motion, paths, end] = group;
-  writer.write<ChainFields>(motion.engaged);
+  writer.put_value(motion.engaged);
   if (!motion.engaged) return;  // it is as new
-  writer.append(motion::save(motion));
-  writer.write<ChainFields>(paths);
-  for (const double units : end) writer.write<ChainFields>(units);
+  writer.put_value(motion);
+  writer.put_value(paths);
+  writer.put_value(end);
 }
 
-void ChainFields::read(Chain::Group& group, StateReader& reader) {
+void StateOf<Chain::Group>::read(Chain::Group& group, StateReader& reader) {
   auto& [motion, paths, end] = group;
   bool engaged = false;
   group = {};
-  reader.read<ChainFields>(engaged);
+  reader.take_value(engaged);
   if (!engaged) return;
-  read_motion(motion, reader);
+  reader.take_value(motion);
   demand_state(motion.engaged, "a group must be engaged");
-  reader.read<ChainFields>(paths);
-  for (double& units : end) {
-    reader.read<ChainFields>(units);
-    demand_coordinate(units);
-  }
+  reader.take_value(paths);
+  reader.take_value(end);
+  for (const double units : end) demand_coordinate(units);
 }
 
-void ChainFields::write(const Fifo<Job, kFifoLength>& fifo, StateWriter& writer) {
-  writer.write<ChainFields>(static_cast<std::uint8_t>(fifo.size()));
-  for (std::size_t i = 0; i < fifo.size(); ++i) writer.write<ChainFields>(fifo[i]);
+void StateOf<Fifo<Job, kFifoLength>>::write(const Fifo<Job, kFifoLength>& fifo, StateWriter& writer) {
+  writer.put_value(static_cast<std::uint8_t>(fifo.size()));
+  for (std::size_t i = 0; i < fifo.size(); ++i) writer.put_value(fifo[i]);
 }
 
-void ChainFields::read(Fifo<Job, kFifoLength>& fifo, StateReader& reader) {
+void StateOf<Fifo<Job, kFifoLength>>::read(Fifo<Job, kFifoLength>& fifo, StateReader& reader) {
   std::uint8_t count = 0;
-  reader.read<ChainFields>(count);
+  reader.take_value(count);
   demand_state(count <= fifo.capacity(), "a FIFO holds more than it can");
   fifo.truncate(0);
   for (Job job; count > 0; --count) {
-    reader.read<ChainFields>(job);
+    reader.take_value(job);
     fifo.push(job);
   }
 }
 
-void ChainFields::check(const ChainOptions& options) {
+void StateOf<ChainOptions>::check(const ChainOptions& options) {
   for (std::size_t row = 0; row < options.numbers.size(); ++row) {
     demand_within(options.numbers[row], 0, std::ranges::count(kChoices[row].options, '|'));
   }
 }
 
-void ChainFields::check(const motion::UnitScale& scale) {
-  demand_within(scale.multiplier, 1, INT32_MAX);
-  demand_within(scale.divider, 1, INT32_MAX);
-}
-
-void ChainFields::check(const ModuleSettings& settings) {
+void StateOf<ModuleSettings>::check(const ModuleSettings& settings) {
   demand_within(settings.pulses_per_revolution, 1, INT32_MAX);
   for (const double speed :
        {settings.working_speed, settings.acceleration, settings.path_acceleration_units_s2,
@@ -102,7 +78,7 @@ void ChainFields::check(const ModuleSettings& settings) {
                "an angle is beyond its range");
 }
 
-void ChainFields::check(const Output& output) {
+void StateOf<Output>::check(const Output& output) {
   demand_reach(output.since);
   demand_within(output.width, 0, INT32_MAX);
   const bool fits = output.frequency_hz >= 0 && output.frequency_hz <= 1e6 && output.duty_percent >= 0 &&
@@ -111,22 +87,23 @@ void ChainFields::check(const Output& output) {
                "an output's frequency or duty is beyond its range");
 }
 
-void ChainFields::check(const OutputOrder& order) {
+void StateOf<OutputOrder>::check(const OutputOrder& order) {
   demand_within(order.output, 0, kOutputs - 1);
   demand_within(order.trigger, 0, 1);
   demand_coordinate(order.at_units);
-  check(Output{.mode = order.kind == OutputOrder::Kind::pwm ? Output::Mode::pwm : Output::Mode::level,
-               .width = order.width,
-               .frequency_hz = order.frequency_hz,
-               .duty_percent = order.duty_percent});
+  StateOf<Output>::check(
+      Output{.mode = order.kind == OutputOrder::Kind::pwm ? Output::Mode::pwm : Output::Mode::level,
+             .width = order.width,
+             .frequency_hz = order.frequency_hz,
+             .duty_percent = order.duty_percent});
 }
 
-void ChainFields::check(const PositionTrigger& trigger) {
+void StateOf<PositionTrigger>::check(const PositionTrigger& trigger) {
   demand_within(trigger.output, 0, kOutputs - 1);
   demand_coordinate(trigger.at_units);
 }
 
-void ChainFields::check(const Job& job) {
+void StateOf<Job>::check(const Job& job) {
   const int most = job.coordinated() ? kMappable : kModules;
   for (const std::int8_t module : job.module_of) demand_within(module, kNoModule, most - 1);
   demand_state(job.module_of[0] >= 0, "a command must have a module");
@@ -139,7 +116,7 @@ void ChainFields::check(const Job& job) {
   if (job.path_acceleration_units_s2 != 0) demand_speed(job.path_acceleration_units_s2);
 }
 
-void ChainFields::check(const Module& module) {
+void StateOf<Module>::check(const Module& module) {
   demand_within(module.jog_way, -1, 1);
   demand_within(module.next_jog_way, -1, 1);
   demand_within(module.held_jog_way, -1, 1);
@@ -155,7 +132,7 @@ void ChainFields::check(const Module& module) {
   }
 }
 
-void ChainFields::check(const Chain& chain) {
+void StateOf<Chain>::check(const Chain& chain) {
   const auto& [options, modules, axes, here, groups, map, continuous, paused, pz, number, now] = chain;
   for (const std::int8_t module : map) demand_within(module, kNoModule, kMappable - 1);
   demand_reach(now);
@@ -184,4 +161,4 @@ void ChainFields::check(const Chain& chain) {
   }
 }
 
-}  // namespace understudy::emulator::models::slim
+}  // namespace understudy

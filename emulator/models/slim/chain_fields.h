@@ -1,72 +1,194 @@
-// What the state of a chain consists of, in the manner of base/state/state_bytes.h: a device's own list
-// has
-//   static void write(const Chain& chain, StateWriter& writer) { writer.write<ChainFields>(chain); }
-//   static void read(Chain& chain, StateReader& reader) { reader.read<ChainFields>(chain); }
+// What the state of a chain consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <tuple>
+
+#include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/models/slim/chain.h"
+#include "interpreter/slim/state_fields.h"
+#include "motion/state_fields.h"
 
-namespace understudy::emulator::models::slim {
+namespace understudy {
 
-struct ChainFields {
-  // clang-format off
-  static void of(Like<ChainOptions> auto& v, auto visit) {
-    auto& [a] = v; visit(a);
-  }
-  static void of(Like<motion::UnitScale> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<ModuleSettings> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
-  }
-  static void of(Like<Output> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f] = v; visit(a, b, c, d, e, f);
-  }
-  static void of(Like<OutputOrder> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
-  }
-  static void of(Like<PositionTrigger> auto& v, auto visit) {
-    auto& [a, b, c, d] = v; visit(a, b, c, d);
-  }
-  static void of(Like<Job> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
-  }
-  static void of(Like<Module> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
-  }
-  static void of(Like<Chain> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
-  }
-  // clang-format on
-
-  static constexpr SpeedUnit last(SpeedUnit) { return SpeedUnit::rps; }
-  static constexpr Output::Mode last(Output::Mode) { return Output::Mode::pwm; }
-  static constexpr OutputOrder::Kind last(OutputOrder::Kind) { return OutputOrder::Kind::arm; }
-  static constexpr Job::Kind last(Job::Kind) { return Job::Kind::output; }
-  static constexpr ContinuousPath last(ContinuousPath) { return ContinuousPath::by_angle; }
-  static constexpr Activity last(Activity) { return Activity::stopping; }
-  static constexpr Error last(Error) { return Error::address; }
-
-  // Of motion/, and what is saved only as far as it is there.
-  static void write(const motion::Axis& axis, StateWriter& writer);
-  static void read(motion::Axis& axis, StateReader& reader);
-  static void write(const motion::Surroundings& here, StateWriter& writer);
-  static void read(motion::Surroundings& here, StateReader& reader);
-  static void write(const Chain::Group& group, StateWriter& writer);
-  static void read(Chain::Group& group, StateReader& reader);
-  static void write(const Fifo<Job, kFifoLength>& fifo, StateWriter& writer);
-  static void read(Fifo<Job, kFifoLength>& fifo, StateReader& reader);
-
-  static void check(const ChainOptions& options);
-  static void check(const motion::UnitScale& scale);
-  static void check(const ModuleSettings& settings);
-  static void check(const Output& output);
-  static void check(const OutputOrder& order);
-  static void check(const PositionTrigger& trigger);
-  static void check(const Job& job);
-  static void check(const Module& module);
-  static void check(const Chain& chain);
+template <>
+struct StateOf<emulator::models::slim::SpeedUnit> {
+  static constexpr auto last = emulator::models::slim::SpeedUnit::rps;
 };
 
-}  // namespace understudy::emulator::models::slim
+template <>
+struct StateOf<emulator::models::slim::Output::Mode> {
+  static constexpr auto last = emulator::models::slim::Output::Mode::pwm;
+};
+
+template <>
+struct StateOf<emulator::models::slim::OutputOrder::Kind> {
+  static constexpr auto last = emulator::models::slim::OutputOrder::Kind::arm;
+};
+
+template <>
+struct StateOf<emulator::models::slim::Job::Kind> {
+  static constexpr auto last = emulator::models::slim::Job::Kind::output;
+};
+
+template <>
+struct StateOf<emulator::models::slim::ContinuousPath> {
+  static constexpr auto last = emulator::models::slim::ContinuousPath::by_angle;
+};
+
+template <>
+struct StateOf<emulator::models::slim::Activity> {
+  static constexpr auto last = emulator::models::slim::Activity::stopping;
+};
+
+template <>
+struct StateOf<emulator::models::slim::ChainOptions> {
+  using Value = emulator::models::slim::ChainOptions;
+  static constexpr auto fields = std::tuple{field("numbers", &Value::numbers)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::slim::ModuleSettings> {
+  using Value = emulator::models::slim::ModuleSettings;
+  static constexpr auto fields =
+      std::tuple{field("scale", &Value::scale),
+                 field("pulses_per_revolution", &Value::pulses_per_revolution),
+                 field("speed_unit", &Value::speed_unit),
+                 field("working_speed", &Value::working_speed),
+                 field("jog_speed", &Value::jog_speed),
+                 field("acceleration", &Value::acceleration),
+                 field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
+                 field("path_speed_units_s", &Value::path_speed_units_s),
+                 field("smooth_corner_deg", &Value::smooth_corner_deg),
+                 field("line_speed_units_s", &Value::line_speed_units_s)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::slim::Output> {
+  using Value = emulator::models::slim::Output;
+  static constexpr auto fields = std::tuple{field("mode", &Value::mode),
+                                            field("on", &Value::on),
+                                            field("since", &Value::since),
+                                            field("width", &Value::width),
+                                            field("frequency_hz", &Value::frequency_hz),
+                                            field("duty_percent", &Value::duty_percent)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::slim::OutputOrder> {
+  using Value = emulator::models::slim::OutputOrder;
+  static constexpr auto fields = std::tuple{field("kind", &Value::kind),
+                                            field("output", &Value::output),
+                                            field("mask", &Value::mask),
+                                            field("trigger", &Value::trigger),
+                                            field("trigger_sets", &Value::trigger_sets),
+                                            field("width", &Value::width),
+                                            field("frequency_hz", &Value::frequency_hz),
+                                            field("duty_percent", &Value::duty_percent),
+                                            field("at_units", &Value::at_units)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::slim::PositionTrigger> {
+  using Value = emulator::models::slim::PositionTrigger;
+  static constexpr auto fields =
+      std::tuple{field("armed", &Value::armed), field("sets", &Value::sets), field("output", &Value::output),
+                 field("at_units", &Value::at_units)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::slim::Job> {
+  using Value = emulator::models::slim::Job;
+  static constexpr auto fields =
+      std::tuple{field("kind", &Value::kind),
+                 field("number", &Value::number),
+                 field("module_of", &Value::module_of),
+                 field("units", &Value::units),
+                 field("absolute", &Value::absolute),
+                 field("height_absolute", &Value::height_absolute),
+                 field("sweep_deg", &Value::sweep_deg),
+                 field("by_radius", &Value::by_radius),
+                 field("growth_units_turn", &Value::growth_units_turn),
+                 field("ends", &Value::ends),
+                 field("continuous", &Value::continuous),
+                 field("smooth_corner_deg", &Value::smooth_corner_deg),
+                 field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
+                 field("servo_on", &Value::servo_on),
+                 field("begun", &Value::begun),
+                 field("output", &Value::output)};
+  static void check(const Value& value);
+};
+
+/// Only what is in it.
+template <>
+struct StateOf<
+    emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>> {
+  using Value = emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>;
+  static void write(const Value& fifo, StateWriter& writer);
+  static void read(Value& fifo, StateReader& reader);
+};
+
+template <>
+struct StateOf<emulator::models::slim::Module> {
+  using Value = emulator::models::slim::Module;
+  static constexpr auto fields = std::tuple{field("settings", &Value::settings),
+                                            field("linked", &Value::linked),
+                                            field("homed", &Value::homed),
+                                            field("activity", &Value::activity),
+                                            field("jog_way", &Value::jog_way),
+                                            field("next_jog_way", &Value::next_jog_way),
+                                            field("next_thrust", &Value::next_thrust),
+                                            field("held_jog_way", &Value::held_jog_way),
+                                            field("held_thrust", &Value::held_thrust),
+                                            field("analog_speed", &Value::analog_speed),
+                                            field("starved", &Value::starved),
+                                            field("analog", &Value::analog),
+                                            field("thrust", &Value::thrust),
+                                            field("zero_pulses", &Value::zero_pulses),
+                                            field("place_units", &Value::place_units),
+                                            field("sent_pulses", &Value::sent_pulses),
+                                            field("late_error", &Value::late_error),
+                                            field("outputs", &Value::outputs),
+                                            field("triggers", &Value::triggers),
+                                            field("fifo", &Value::fifo)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::slim::Chain::Group> {
+  using Value = emulator::models::slim::Chain::Group;
+  static constexpr auto fields =
+      std::tuple{field("motion", &Value::motion), field("paths", &Value::paths), field("end", &Value::end)};
+  // Only as far as it is there.
+  static void write(const Value& group, StateWriter& writer);
+  static void read(Value& group, StateReader& reader);
+};
+
+template <>
+struct StateOf<emulator::models::slim::Chain> {
+  using Value = emulator::models::slim::Chain;
+  static constexpr auto fields = std::tuple{field("options", &Value::options_),
+                                            field("modules", &Value::modules_),
+                                            field("axes", &Value::axes_),
+                                            field("surroundings", &Value::surroundings_),
+                                            field("groups", &Value::groups_),
+                                            field("map", &Value::map_),
+                                            field("continuous", &Value::continuous_),
+                                            field("paused", &Value::paused_),
+                                            field("queues_paused", &Value::queues_paused_),
+                                            field("last_number", &Value::last_number_),
+                                            field("now", &Value::now_)};
+  static constexpr std::size_t members = 11;
+  static void name_all(Value& all) {  // does not compile if there are others
+    [[maybe_unused]] auto& [options, modules, axes, surroundings, groups, map, continuous, paused,
+                            queues_paused, last_number, now] = all;
+  }
+  static void check(const Value& value);
+};
+
+}  // namespace understudy

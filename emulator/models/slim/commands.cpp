@@ -101,7 +101,7 @@ struct SlimActions {
   // --- outputs ---
 
   static Error pwm(Order& order) {
-    const double unit_hz = order.slim.chose(kPwmInKilohertz) ? 1000 : 1;
+    const double unit_hz = order.slim.chose(option("pwm_units", "khz_and_percent")) ? 1000 : 1;
     return order.chain.pwm(order.module, port(order), amount(order, 1) * unit_hz, amount(order, 2));
   }
   template <bool sets>
@@ -130,7 +130,7 @@ struct SlimActions {
   static Error map_axis(Order& order) {
     Slim& slim = order.slim;
     const Error error = slim.assign_axis(letter_of(order.command), whole(order, 0));
-    if (error == Error::none && slim.chose(kMapIsPn37)) slim.keep_axis_map();
+    if (error == Error::none && slim.chose(option("axis_map_kept", "yes"))) slim.keep_axis_map();
     return error;
   }
   template <bool absolute>
@@ -203,7 +203,8 @@ struct SlimActions {
   static Error set_parameter(Order& order) {
     Slim& slim = order.slim;
     const lang::Command& command = order.command;
-    if (command.name == "TM" && slim.chose(kVariableReceivesClock) && is_variable(command.operands[0].kind)) {
+    if (command.name == "TM" && slim.chose(option("clock_assignment", "the_variable")) &&
+        is_variable(command.operands[0].kind)) {
       return slim.set_variable(command.operands[0], static_cast<double>(slim.clock_s()));
     }
     return slim.set_parameter(order.module, command.name, amount(order, 0));
@@ -338,7 +339,7 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
   Order order = order_of(command);
   const Error error = perform(order, actions_of(command.verb).stored);
   if (is_silence(error)) return lang::kDone;
-  const bool waits_for_pause = error == Error::paused && !chose(kPauseFailsMotion);
+  const bool waits_for_pause = error == Error::paused && !chose(option("pause_in_program", "error_6"));
   if (error == Error::buffer_full || waits_for_pause) return lang::kWaits;
   if (error == Error::none) return order.outcome;
   failed_module_ = module_of(command);
@@ -349,8 +350,8 @@ lang::Outcome Slim::carry_out(const lang::Command& command) {
 /// would go on with the next move. A line of the program's own may have more to say.
 lang::Outcome::Program Slim::program_after_stop(From from) const {
   using Program = lang::Outcome::Program;
-  if (chose(kStopEndsAnyProgram)) return Program::ends;
-  if (chose(kStopLeavesProgram)) return Program::goes_on;
+  if (chose(option("emergency_stop_program", "ends_also_by_its_own_line"))) return Program::ends;
+  if (chose(option("emergency_stop_program", "goes_on"))) return Program::goes_on;
   switch (outcome_of(Doing::program_runs, Meeting::stop, from)) {
     case Outcome::ends: return Program::ends;
     case Outcome::ends_after_routine: return Program::forgets_what_it_interrupted;

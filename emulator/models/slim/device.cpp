@@ -27,52 +27,63 @@ lang::ProgramOptions Slim::program_options() const {
   using Options = lang::ProgramOptions;
   Options options;
   lang::Dialect& dialect = options.dialect;
-  dialect.event_count = chosen_number(kEvents);
-  dialect.longest_line = static_cast<std::size_t>(chosen_number(kLongestLine));
-  if (chose(kHelixOfVariablesOnly)) dialect.helix_constants = false;
-  if (chose(kQueriesAreFunctions)) dialect.quantities = true;
-  if (chose(kIntegersFromMinus32766)) dialect.integer_least = -32766;
-  if (chose(kExternalColumnOnly)) options.columns.external = lang::Columns::External::strict;
-  if (chose(kResetWhileRunning)) options.columns.external = lang::Columns::External::with_reset;
-  if (chose(kImmediateColumnIgnored))
+  dialect.event_count = chosen_number(numbers("events"));
+  dialect.longest_line = static_cast<std::size_t>(chosen_number(numbers("longest_line")));
+  if (chose(option("helix_variables", "four_variables"))) dialect.helix_constants = false;
+  if (chose(option("functions", "what_queries_show_too"))) dialect.quantities = true;
+  if (chose(option("integer_range", "from_minus_32766"))) dialect.integer_least = -32766;
+  if (chose(option("while_program_runs", "external_column_only")))
+    options.columns.external = lang::Columns::External::strict;
+  if (chose(option("while_program_runs", "reset_too")))
+    options.columns.external = lang::Columns::External::with_reset;
+  if (chose(option("immediate_column", "taken")))
     options.columns.variable_forms = lang::Columns::VariableForms::typed_too;
-  if (chose(kSavesInPrograms)) options.columns.saves = lang::Columns::Saves::stored_too;
-  options.capacity = chosen_number(kProgramSize);
-  if (chose(kLinesFrom1)) options.first_number = 1;
-  if (chose(kCheckedAsItRuns)) options.check = Options::Check::as_run;
-  if (chose(kEmptyLinesIgnored)) options.empty_line = Options::EmptyLine::is_ignored;
-  if (chose(kRefusedLineEndsEditing)) options.refused_line = Options::RefusedLine::ends_pe_and_pi;
+  if (chose(option("first_list_columns", "saves_in_programs_too")))
+    options.columns.saves = lang::Columns::Saves::stored_too;
+  options.capacity = chosen_number(numbers("program_size"));
+  if (chose(option("addresses", "line_number_from_1"))) options.first_number = 1;
+  if (chose(option("program_check", "when_it_runs"))) options.check = Options::Check::as_run;
+  if (chose(option("edit_end", "exit_or_esc"))) options.empty_line = Options::EmptyLine::is_ignored;
+  if (chose(option("refused_line", "ends_editing")))
+    options.refused_line = Options::RefusedLine::ends_pe_and_pi;
   options.check_command =
-      chose(kModuleTakenFromLetter)
+      chose(option("axis_values", "is_taken_from_its_letter"))
           ? [](const lang::Command& command) { return check_parameter_line(command, true); }
           : [](const lang::Command& command) { return check_parameter_line(command, false); };
-  if (chose(kFirstLabelCounts)) options.same_label = Options::SameLabel::first_counts;
-  if (chose(kListsTextOnly)) options.listing = Options::Listing::bare;
+  if (chose(option("same_label", "the_first_counts"))) options.same_label = Options::SameLabel::first_counts;
+  if (chose(option("listing", "text"))) options.listing = Options::Listing::bare;
   return options;
 }
 
 lang::FlowOptions Slim::flow_options() const {
   lang::FlowOptions options{.program = program_options()};
-  if (chose(kFourLinesATick)) options.lines_per_tick = 4;
-  if (chose(kLineIn4Ticks)) options.lines_every_ms = 4;
-  if (chose(kTimeUnitOf4Ms)) options.window_unit_ms = 4;
-  options.call_depth = chosen_number(kCallDepth);
-  if (chose(kBareNumberInN0)) options.bare_number = lang::FlowOptions::BareNumber::into_n0_or_r0;
-  if (chose(kEventsRunAlone)) options.events_need_program = false;
-  if (chose(kEventsEach4Ms)) options.events.look_every_ms = 4;
-  if (chose(kFailedLinePassed)) options.failed_line = lang::FlowOptions::FailedLine::is_passed;
-  if (chose(kWaitsHaveGoneOn)) options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
-  if (chose(kEventsWaitForChange)) options.events.at_arming = lang::EventOptions::AtArming::waits_for_change;
-  if (chose(kHeldEventDropped)) options.events.held = lang::EventOptions::Held::is_dropped;
+  if (chose(option("lines_a_tick", "four_a_millisecond"))) options.lines_per_tick = 4;
+  if (chose(option("lines_a_tick", "one_in_4_milliseconds"))) options.lines_every_ms = 4;
+  if (chose(option("time_unit", "4_milliseconds"))) options.window_unit_ms = 4;
+  options.call_depth = chosen_number(numbers("call_depth"));
+  if (chose(option("bare_number", "into_n0_or_r0")))
+    options.bare_number = lang::FlowOptions::BareNumber::into_n0_or_r0;
+  if (chose(option("events_without_program", "run_their_routine"))) options.events_need_program = false;
+  if (chose(option("event_check", "each_4_milliseconds"))) options.events.look_every_ms = 4;
+  if (chose(option("failed_line", "is_passed_over")))
+    options.failed_line = lang::FlowOptions::FailedLine::is_passed;
+  if (chose(option("interrupted_wait", "have_gone_on")))
+    options.interrupted_timer = lang::FlowOptions::InterruptedTimer::goes_on;
+  if (chose(option("event_at_arming", "waits_for_a_change")))
+    options.events.at_arming = lang::EventOptions::AtArming::waits_for_change;
+  if (chose(option("held_event", "is_dropped"))) options.events.held = lang::EventOptions::Held::is_dropped;
   return options;
 }
 
 MemoryForm Slim::memory_form() const {
-  return {.speed_names = chose(kPn14IsVm) ? SpeedNames::pn14_is_vm : SpeedNames::pn10_is_vm,
+  return {.speed_names = chose(option("speed_parameters", "pn14_is_vm")) ? SpeedNames::pn14_is_vm
+                                                                         : SpeedNames::pn10_is_vm,
           .integer_least = of_programs().dialect.integer_least};
 }
 
-Memory Slim::factory() const { return factory_memory(chose(kT0AloneIsLinked) ? 1 : modules_); }
+Memory Slim::factory() const {
+  return factory_memory(chose(option("linked_from_factory", "t0_alone")) ? 1 : modules_);
+}
 
 namespace {
 
@@ -95,7 +106,7 @@ void Slim::power_up() {
   state_.touched = true;
   for (int m = 0; m < kModules; ++m) state_.inputs[static_cast<std::size_t>(m)] = input_levels(m);
   for (int m = 0; m < kModules; ++m) {
-    state_.chain.set_pulses_per_revolution(m, chosen_number(kPulsesPerRevolution));
+    state_.chain.set_pulses_per_revolution(m, chosen_number(numbers("pulses_per_revolution")));
   }
   apply_all_parameters();
   const int map = static_cast<int>(state_.ram.parameters[0][parameter("PN37")]);
@@ -111,7 +122,7 @@ void Slim::power_down() {
   blank.kept_program = std::move(state_.kept_program);
   blank.kept_revision = state_.kept_revision;
   blank.chain.skip_to(now());
-  if (chose(kHistoryIsKept)) {
+  if (chose(option("history_kept", "for_ever"))) {
     for (std::size_t m = 0; m < blank.errors.size(); ++m) {
       blank.errors[m].history = std::move(state_.errors[m].history);
     }
@@ -133,7 +144,7 @@ void Slim::settle_memory() {
 
 void Slim::write_memory(NvImage& image) const {
   write_image(state_.kept, factory(), memory_form(), image);
-  if (chose(kHistoryIsKept)) write_history(image);
+  if (chose(option("history_kept", "for_ever"))) write_history(image);
   image.program = state_.kept_program;
 }
 
@@ -150,7 +161,7 @@ void Slim::write_history(NvImage& image) const {
 /// Takes them out of the image.
 std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
   std::array<Errors, kModules> errors{};
-  if (!chose(kHistoryIsKept)) return errors;
+  if (!chose(option("history_kept", "for_ever"))) return errors;
   for (int m = 0; m < kModules; ++m) {
     for (std::size_t i = 0; i < history_length(); ++i) {
       const auto found = std::ranges::find(image.registers, history_name(m, i),
@@ -183,7 +194,7 @@ void Slim::read_memory(const NvImage& given) {
         "program: holds a line that is not a command of a program; expected lines as ULP shows them");
   }
   state_.kept = std::move(memory);
-  if (chose(kHistoryIsKept)) state_.errors = errors;
+  if (chose(option("history_kept", "for_ever"))) state_.errors = errors;
   state_.kept_program = image.program;
   ++state_.kept_revision;
 }
@@ -243,7 +254,7 @@ void Slim::run_interpreters(Tick tick) {
   const Error error = step(state_.execution, tick, state_.program, flow_options_, *this);
   if (error == Error::none) return;
   // A program that goes on failing is faster than its line: what has no room is remembered only.
-  const bool is_said = chose(kProgramErrorsSaid) && has_room_to_speak();
+  const bool is_said = chose(option("unasked_text", "errors_of_a_program_too")) && has_room_to_speak();
   const int module = is_said ? fail(failed_module_, error) : remember(failed_module_, error);
   // Whoever asks T0 why its program has ended is told, although the motor was another one's.
   if (module != 0 && !state_.execution.running) note_error(0, error);
@@ -254,7 +265,7 @@ void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
 void Slim::update_outputs(Tick) {
   for (int m = 0; m < kModules; ++m) {
     const Error late = state_.chain.take_late_error(m);
-    if (late != Error::none) note_error(chose(kErrorsAreT0s) ? 0 : m, late);
+    if (late != Error::none) note_error(chose(option("error_of", "t0")) ? 0 : m, late);
   }
 }
 

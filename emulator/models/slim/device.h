@@ -17,6 +17,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/terminals.h"
 #include "emulator/device/text/text_device.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/actions.h"
@@ -73,6 +74,7 @@ class Slim final : public TextDevice,
                    public NamedValues,
                    public KeptMemory,
                    public UserProgram,
+                   public Terminals,
                    public Axes,
                    private lang::Machine {
  public:
@@ -84,6 +86,7 @@ class Slim final : public TextDevice,
   const KeptMemory* memory() const override { return this; }
   UserProgram* user_program() override { return this; }
   const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
 
@@ -129,6 +132,7 @@ class Slim final : public TextDevice,
   void power_down() override;
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
+  std::string own_difference(StateReader& a, StateReader& b) const override;
   void write_memory(NvImage& image) const override;
   void read_memory(const NvImage& image) override;
 
@@ -150,14 +154,18 @@ class Slim final : public TextDevice,
   int chosen_number(std::size_t row) const { return number_of(kChoices[row], choice(row)); }
 
   // dialogue.cpp
-  std::string_view line_end() const { return chose(kSaidLinesEndWithCr) ? "\r" : "\r\n"; }
-  bool is_silence(Error error) const { return error == Error::not_linked && chose(kUnlinkedSilent); }
+  std::string_view line_end() const { return chose(option("output_end", "cr")) ? "\r" : "\r\n"; }
+  bool is_silence(Error error) const {
+    return error == Error::not_linked && chose(option("unlinked_module", "silence"));
+  }
   /// As it is shown.
   int code_of(Error error) const;
-  std::size_t history_length() const { return static_cast<std::size_t>(chosen_number(kHistoryLength)); }
+  std::size_t history_length() const {
+    return static_cast<std::size_t>(chosen_number(numbers("history_length")));
+  }
   /// For what a program says of itself: it is faster than its line.
   bool has_room_to_speak() const {
-    return state_.speech.size() < static_cast<std::size_t>(chosen_number(kPrintAhead));
+    return state_.speech.size() < static_cast<std::size_t>(chosen_number(numbers("print_ahead")));
   }
   void say(std::string_view text);
   /// These two give the module that has the error in the end.
@@ -178,7 +186,10 @@ class Slim final : public TextDevice,
   bool would_wait(const lang::Command& command) const;
 
   // values.cpp
-  RealForm real_form() const { return chose(kRealsWithExponent) ? RealForm::exponent : RealForm::plain; }
+  RealForm real_form() const {
+    return chose(option("real_format", "exponent_of_the_large_and_small")) ? RealForm::exponent
+                                                                           : RealForm::plain;
+  }
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
   Error set_variable(const lang::Operand& variable, double value);
@@ -192,8 +203,11 @@ class Slim final : public TextDevice,
     std::size_t units = parameter("PN46");
   };
   UserUnit user_unit() const {
-    if (chose(kUnitOfPn44AndPn45)) return {parameter("PN44"), parameter("PN45")};
-    return chose(kUnitOfPn46AndPn45) ? UserUnit{parameter("PN46"), parameter("PN45")} : UserUnit{};
+    if (chose(option("user_unit", "pn44_pulses_are_pn45_units")))
+      return {parameter("PN44"), parameter("PN45")};
+    return chose(option("user_unit", "pn46_pulses_are_pn45_units"))
+               ? UserUnit{parameter("PN46"), parameter("PN45")}
+               : UserUnit{};
   }
   bool is_of_user_unit(std::size_t number) const {
     return number == user_unit().pulses || number == user_unit().units;
@@ -233,7 +247,7 @@ class Slim final : public TextDevice,
   bool program_is_held() const {
     const bool is_paused =
         state_.chain.queues_paused() || (chose(option("pauses", "one_pause")) && state_.chain.paused());
-    return chose(kPauseHoldsProgram) && is_paused;
+    return chose(option("pause_and_program", "program_pauses_too")) && is_paused;
   }
   void reboot();
   /// As if all ticks up to now had been run one by one.

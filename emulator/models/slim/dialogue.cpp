@@ -12,17 +12,17 @@ bool Slim::is_heard_instead_of_number(std::string_view line) const {
   const lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
   if (!parsed.line.command) return false;
   const lang::Command& command = *parsed.line.command;
-  if (command.verb == lang::Verb::exit) return !chose(kExitIsNoNumber);
+  if (command.verb == lang::Verb::exit) return !chose(option("get_number_exit", "nothing"));
   const bool is_query = lang::kCommands[static_cast<std::size_t>(command.row)].is_query();
-  return !chose(kNumbersOnly) && !is_query &&
+  return !chose(option("lines_for_a_number", "numbers_only")) && !is_query &&
          is_allowed(command, lang::Place::external, of_programs().columns);
 }
 
 TextRules Slim::text_rules() const {
-  return {.echo = chose(kEcho),
+  return {.echo = chose(option("echo", "on")),
           .longest_line = of_programs().dialect.longest_line,
-          .line_feed_ends = !chose(kCrAloneEnds),
-          .has_flow_control = chose(kXonXoff),
+          .line_feed_ends = !chose(option("line_end", "cr_alone")),
+          .has_flow_control = chose(option("flow_control", "xon_xoff")),
           .echoed_end = line_end()};
 }
 
@@ -37,7 +37,7 @@ void Slim::say(std::string_view text) {
 /// is its own, unless nobody could ask: of a module that is not linked the host has it.
 int Slim::remember(int module, Error error) {
   const bool is_of_line = error == Error::syntax || error == Error::range || error == Error::address;
-  if (is_of_line || !state_.chain.linked(module) || chose(kErrorsAreT0s)) module = 0;
+  if (is_of_line || !state_.chain.linked(module) || chose(option("error_of", "t0"))) module = 0;
   note_error(module, error);
   return module;
 }
@@ -45,23 +45,23 @@ int Slim::remember(int module, Error error) {
 void Slim::note_error(int module, Error error) {
   Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   errors.present = error;
-  if (chose(kHistoryIsKept)) ++state_.kept_revision;
+  if (chose(option("history_kept", "for_ever"))) ++state_.kept_revision;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
   if (errors.history.size() > history_length()) errors.history.pop_back();
 }
 
 int Slim::code_of(Error error) const {
-  return error != Error::none && chose(kOneErrorCode) ? 1 : static_cast<int>(error);
+  return error != Error::none && chose(option("error_codes", "1_for_all")) ? 1 : static_cast<int>(error);
 }
 
 int Slim::fail(int module, Error error) {
-  if (!chose(kErrorsNotAnswered)) say("ERR " + std::to_string(code_of(error)));
+  if (!chose(option("error_reply", "nothing"))) say("ERR " + std::to_string(code_of(error)));
   return remember(module, error);
 }
 
 /// After each completed line.
 void Slim::conclude() {
-  if (!chose(kPrompt)) return;
+  if (!chose(option("prompt", "greater_than"))) return;
   if (const auto number = next_line_number(state_.editor, state_.program, of_programs())) {
     state_.speech += std::to_string(*number);
   }
@@ -74,7 +74,7 @@ void Slim::hear_line(std::string_view line) {
     const Error error = enter_line(state_.editor, state_.program, line, of_programs());
     if (error != Error::none) {
       fail(0, error);
-    } else if (chose(kAcknowledges)) {
+    } else if (chose(option("acknowledgement", "ok"))) {
       say("OK");
     }
   } else if (wants_number(state_.execution) && !is_heard_instead_of_number(line)) {
@@ -124,7 +124,7 @@ void Slim::hear_command(std::string_view line) {
     return;
   }
   for (const std::string& text : lines) say(text);
-  if (lines.empty() && chose(kAcknowledges) && powered()) say("OK");
+  if (lines.empty() && chose(option("acknowledgement", "ok")) && powered()) say("OK");
 }
 
 /// A typed command. `lines` is what it has to say.
@@ -138,11 +138,12 @@ Error Slim::obey(lang::Command& command, std::vector<std::string>& lines) {
     Answer answer;
     const Error error = query(command, answer);
     if (error == Error::none) {
-      lines.push_back(chose(kNamesValues) ? answer.name + "=" + answer.text : answer.text);
+      lines.push_back(chose(option("query_reply", "name_and_value")) ? answer.name + "=" + answer.text
+                                                                     : answer.text);
     }
     return error;
   }
-  if (chose(kBusyRefused) && would_wait(command)) return Error::not_allowed;
+  if (chose(option("busy", "error_3")) && would_wait(command)) return Error::not_allowed;
   Order order = order_of(command);
   const Error error = perform(order, actions_of(command.verb).typed);
   lines = std::move(order.lines);

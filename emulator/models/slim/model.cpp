@@ -116,10 +116,7 @@ const Model& model() {
       .name = "slim",
       .title = "chain of up to 8 integrated servos, ASCII commands on RS232",
       .firmwares = kFirmwares,
-      .registers = no_registers(),
-      .parameters = {},
       .named_parameters = parameters,
-      .instructions = {},
       .commands = commands,
       .choices = kChoices,
       .sections = kSections,
@@ -127,7 +124,7 @@ const Model& model() {
       .axes = names.axes,
       .state_registers = kStateNames,
       .gaps = kGaps,
-      .text = TextPort{.bauds = kBauds},
+      .line = line_of_text(kBauds),
       .most_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);

@@ -139,17 +139,19 @@ struct SlimQueries {
   using Row = HandlerRow<Verb, Reply>;
 
   static Error input(const Question& q) {
-    if (q.command.operands.empty() && q.chose(kInputsByNumberOnly)) return Error::syntax;
+    if (q.command.operands.empty() && q.chose(option("input_mask", "error_1"))) return Error::syntax;
     const std::uint8_t levels = q.slim.input_levels(q.module);
     return q.whole(q.command.operands.empty() ? levels : (levels >> (q.number() - 1)) & 1);
   }
   static Error status(const Question& q) {
     const unsigned bits = q.slim.status_bits(q.module);
-    return q.chose(kStatusInHexadecimal) ? q.shown_as(hexadecimal(bits), bits) : q.whole(bits);
+    return q.chose(option("status_bits", "the_same_in_hexadecimal")) ? q.shown_as(hexadecimal(bits), bits)
+                                                                     : q.whole(bits);
   }
   static Error version(const Question& q) {
     const auto firmware = q.slim.firmware();
-    return q.chose(kVersionIsNumber) ? q.whole(firmware) : q.words(version_text(firmware));
+    return q.chose(option("version_shown", "as_a_number")) ? q.whole(firmware)
+                                                           : q.words(version_text(firmware));
   }
   static Error variable(const Question& q) {
     const lang::Operand& operand = q.command.operands.front();
@@ -158,16 +160,19 @@ struct SlimQueries {
   }
   static Error coordinate(const Question& q) {
     const double units = q.chain().coordinate(q.module);
-    return q.chose(kCoordinateOf32Bits) ? q.real(units) : q.shown_as(text_of_coordinate(units), units);
+    return q.chose(option("coordinate_shown", "as_32_bits_hold_it"))
+               ? q.real(units)
+               : q.shown_as(text_of_coordinate(units), units);
   }
   static Error mode(const Question& q) {
     const Mode mode = q.chain().status(q.module).mode;
     const auto code = static_cast<double>(mode);
-    return q.chose(kModeInWords) ? q.shown_as(word_of(mode), code) : q.whole(code);
+    return q.chose(option("mode_codes", "words")) ? q.shown_as(word_of(mode), code) : q.whole(code);
   }
   static Error time(const Question& q) {
     const Tick seconds = (q.slim.now() - q.state().powered_at) / 1000;
-    return q.chose(kTimeInSeconds) ? q.whole(static_cast<double>(seconds)) : q.words(time_text(seconds));
+    return q.chose(option("time_format", "seconds")) ? q.whole(static_cast<double>(seconds))
+                                                     : q.words(time_text(seconds));
   }
   static Error following_error(const Question& q) {
     q.slim.mention_unmodelled(q.command.name, "the servo follows without error");
@@ -178,7 +183,8 @@ struct SlimQueries {
     const auto found = find_parameter(q.slim.meant(q.command.name), q.slim.memory_form().speed_names);
     if (!found || (kParameters[*found].host_only && q.module != 0)) return Error::syntax;
     const double held = q.state().ram.parameters[static_cast<std::size_t>(q.module)][*found];
-    if (*found == parameter("VM") && q.chain().analog_speed(q.module) && q.chose(kShownSpeedIsAnalog)) {
+    if (*found == parameter("VM") && q.chain().analog_speed(q.module) &&
+        q.chose(option("working_speed_shown", "as_the_analog_input_leaves_it"))) {
       return q.real(held * q.chain().analog(q.module) / kFullAnalog);
     }
     return kParameters[*found].type == ParameterDefinition::Type::integer ? q.whole(held) : q.real(held);
@@ -198,9 +204,11 @@ struct SlimQueries {
       {Verb::query_error, [](Q q) { return q.whole(q.slim.code_of(q.errors().present)); }},
       {Verb::query_error_history, [](Q q) { return q.words(q.slim.history_text(q.errors())); }},
       {Verb::query_time, time},
-      {Verb::query_motor_version, [](Q q) { return q.whole(q.slim.chosen_number(kMotorVersion)); }},
-      {Verb::query_voltage, [](Q q) { return q.electrical(q.slim.chosen_number(kVoltage)); }},
-      {Verb::query_temperature, [](Q q) { return q.electrical(q.slim.chosen_number(kTemperature)); }},
+      {Verb::query_motor_version,
+       [](Q q) { return q.whole(q.slim.chosen_number(numbers("motor_version"))); }},
+      {Verb::query_voltage, [](Q q) { return q.electrical(q.slim.chosen_number(numbers("voltage"))); }},
+      {Verb::query_temperature,
+       [](Q q) { return q.electrical(q.slim.chosen_number(numbers("temperature"))); }},
       {Verb::query_peak_current, [](Q q) { return q.electrical(0); }},
       {Verb::query_mean_current, [](Q q) { return q.electrical(0); }},
       {Verb::query_peak_following_error, following_error},
@@ -291,7 +299,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
 
 std::vector<std::string> Slim::names() const {
   std::vector<std::string> all{"PE", "ST", "MD", "ERR", "IN", "AIN", "TM", "N0", "R0"};
-  if (chose(kInputsByNumberOnly)) std::erase(all, "IN");
+  if (chose(option("input_mask", "error_1"))) std::erase(all, "IN");
   for (const ParameterDefinition& row : kParameters)
     all.emplace_back(row.alias.empty() ? row.name : row.alias);
   for (int m = 1; m < kModules; ++m) {

@@ -69,7 +69,8 @@ Error Slim::set_variable(const lang::Operand& variable, double value) {
     }
   };
   store(state_.ram);
-  const bool is_kept = is_array(variable.kind) ? !chose(kArraysBySaveD) : chose(kVariablesWhenWritten);
+  const bool is_kept = is_array(variable.kind) ? !chose(option("arrays_kept", "by_save_d"))
+                                               : chose(option("variables_kept", "when_written"));
   if (!is_kept) return Error::none;
   store(state_.kept);
   ++state_.kept_revision;
@@ -80,7 +81,8 @@ Error Slim::set_parameter(int module, std::string_view given_name, double value)
   const std::string_view name = meant(given_name);
   if (const Error error = linked(module); error != Error::none) return error;
   const SpeedNames names = memory_form().speed_names;
-  if (const Error error = check_parameter(module, name, value, names, chose(kModuleTakenFromLetter));
+  if (const Error error = check_parameter(module, name, value, names,
+                                          chose(option("axis_values", "is_taken_from_its_letter")));
       error != Error::none) {
     return error;
   }
@@ -154,7 +156,8 @@ void Slim::apply_all_parameters() {
 Error Slim::assign_axis(Letter letter, int module) {
   for (const Letter other : {Letter::x, Letter::y, Letter::z, Letter::w}) {
     const bool has_it = module != kUnassigned && state_.chain.assigned(other) == module;
-    if (chose(kModuleTakenFromLetter) && has_it) state_.chain.assign(other, kUnassigned);
+    if (chose(option("axis_values", "is_taken_from_its_letter")) && has_it)
+      state_.chain.assign(other, kUnassigned);
   }
   return state_.chain.assign(letter, module);
 }
@@ -175,7 +178,7 @@ Error Slim::restore_factory_parameters() {
   }
   state_.ram.parameters = factory().parameters;
   apply_all_parameters();
-  if (chose(kDefaultsKeptAtOnce)) keep_parameters();
+  if (chose(option("defaults_kept", "at_once"))) keep_parameters();
   return Error::none;
 }
 

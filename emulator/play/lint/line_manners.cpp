@@ -38,11 +38,12 @@ LineManners::LineManners(world::World& world, std::size_t line)
       // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
       framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
   world::WorldLine& watched = world_.line(line);
-  if (watched.protocol == Protocol::text) return;  // whatever a host does there, the device hears it
+  const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };
+  if (std::none_of(watched.stations.begin(), watched.stations.end(), is_modbus)) return;
   if (has_time()) {
     longest_gap_ = one_and_a_half_characters(options_.settings);
     for (const auto& station : watched.stations) {
-      const SimTime end_silence = station->device().model().rtu.end_silence;
+      const SimTime end_silence = station->device().model().rtu->end_silence;
       silence_ = std::max(silence_, end_silence);
       longest_gap_ = std::min(longest_gap_, end_silence);
     }

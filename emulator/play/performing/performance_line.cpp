@@ -4,7 +4,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/stages/modbus_host.h"
-#include "emulator/world/frames/frame_text.h"
+#include "emulator/world/speech/modbus_words.h"
 
 namespace understudy::emulator::play {
 
@@ -187,7 +187,7 @@ void Performance::perform(const SendStep& step) {
   if (!step.reply || reply == *step.reply) return;
   std::vector<std::string> details;
   stage_->with_world([&](world::World& world) {
-    details.push_back("that is: " + world::reply_text(world, step.line, step.bytes, reply));
+    details.push_back("that is: " + world.line(step.line).reply_text(step.bytes, reply));
   });
   if (reply.empty()) details.clear();
   throw StepError("the reply is " + bytes_text(reply) + "; expected " + bytes_text(*step.reply),

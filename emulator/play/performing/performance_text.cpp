@@ -1,6 +1,6 @@
 // Steps over lines of text.
 #include "emulator/play/performing/performance.h"
-#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/speech/text_lines_heard.h"
 
 namespace understudy::emulator::play {
 

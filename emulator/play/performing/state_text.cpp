@@ -6,6 +6,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 #include "emulator/world/expression/number.h"
 
 namespace understudy::emulator::play {
@@ -48,7 +49,8 @@ std::string terminals_text(const Device& device) {
   for (std::size_t i = 0; i < terminals.size(); ++i) {
     const bool is_output = !is_input(terminals[i].kind);
     const auto number = static_cast<int>(i);
-    const std::int32_t level = is_output ? (device.output(number) ? 1 : 0) : device.input(number);
+    const std::int32_t level =
+        is_output ? (device.terminals()->output(number) ? 1 : 0) : device.input(number);
     if (level == 0) continue;
     text += (text.empty() ? "" : ", ") + std::string(terminals[i].name);
     const world::Unit unit =

@@ -133,7 +133,7 @@ void read_send(StepsReader& reader, const world::YamlFields& step, const world::
   if (value.is_map() && value.has("text")) return read_send_text(reader, step, value);
   value.demand_keys(kSendKeys);
   SendStep send;
-  send.line = read_line_of(reader, value, Protocol::modbus_rtu);
+  send.line = read_line_of(reader, value);
   send.bytes = read_bytes(value.at("bytes"));
   std::string text = "send " + world::on_one_line(value.at("bytes").text());
   if (value.has("reply")) {

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 
-#include "emulator/device/model.h"
-
 namespace understudy::emulator::world {
 class YamlFields;
 }
@@ -21,8 +19,8 @@ void read_send(StepsReader& reader, const world::YamlFields& step, const world::
 // text_steps.cpp
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
-/// The line that a step names, or the only one. Where text is wanted it must carry that.
-std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value, Protocol wanted);
+/// The line that a step names, or the only one.
+std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value);
 
 // truth_steps.cpp
 void read_wait(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);

@@ -2,7 +2,8 @@
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
-#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/text_lines_heard.h"
 
 namespace understudy::emulator::play {
 
@@ -35,30 +36,33 @@ std::vector<std::string> read_texts(const world::YamlFields& field) {
   return lines;
 }
 
+/// The same, of a line that carries text.
+std::size_t read_line_of_text(const StepsReader& reader, const world::YamlFields& value) {
+  const std::size_t number = read_line_of(reader, value);
+  const world::Bench& bench = reader.trial().bench();
+  const world::LineSetup& line = bench.lines[number];
+  const world::LineSpeech& speech = world::speech_of(*bench.devices[line.stations.front()].model);
+  if (!speech.carries_text()) {
+    value.fail("line '" + line.name + "' carries " + std::string(speech.messages()) +
+               "; expected a line of text here, or `bytes`");
+  }
+  return number;
+}
+
 }  // namespace
 
-std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value, Protocol wanted) {
-  const world::Bench& bench = reader.trial().bench();
-  const auto protocol_of = [&](std::size_t line) {
-    return bench.devices[bench.lines[line].stations.front()].model->protocol();
-  };
-  std::size_t line = 0;
-  if (value.has("line")) {
-    line = reader.trial().line(value.at("line"), value.at("line").text());
-  } else if (bench.lines.size() > 1) {
+std::size_t read_line_of(const StepsReader& reader, const world::YamlFields& value) {
+  if (value.has("line")) return reader.trial().line(value.at("line"), value.at("line").text());
+  if (reader.trial().bench().lines.size() > 1) {
     value.fail("'line' is missing, and there are several; expected it here");
   }
-  if (wanted == Protocol::text && protocol_of(line) != Protocol::text) {
-    value.fail("line '" + bench.lines[line].name +
-               "' carries Modbus frames; expected a line of text here, or `bytes`");
-  }
-  return line;
+  return 0;
 }
 
 void read_send_text(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   value.demand_keys(kSendTextKeys);
   TextStep say;
-  say.line = read_line_of(reader, value, Protocol::text);
+  say.line = read_line_of_text(reader, value);
   say.text = read_text(value.at("text"));
   std::string text = "send \"" + *say.text + "\"";
   if (value.has("reply")) {
@@ -72,7 +76,7 @@ void read_send_text(StepsReader& reader, const world::YamlFields& step, const wo
 void read_hear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   value.demand_keys(kHearKeys);
   TextStep hear;
-  hear.line = read_line_of(reader, value, Protocol::text);
+  hear.line = read_line_of_text(reader, value);
   hear.lines = read_texts(value.at("text"));
   if (value.has("within")) hear.within = read_within(value.at("within"));
   const std::string text = "hear " + world::lines_text(*hear.lines);

@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "emulator/device/axes.h"
-#include "emulator/world/frames/frame_text.h"
+#include "emulator/device/terminals.h"
+#include "emulator/world/speech/modbus_words.h"
 
 namespace understudy::emulator::play {
 
@@ -35,7 +36,7 @@ Camera::Camera(world::World& world) : world_(world), probes_(world) {
     for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
       const TerminalRow& row = device.model->terminals[t];
       if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      if (!world.device(d).has_terminal(static_cast<int>(t))) continue;
+      if (!world.device(d).terminals()->has_terminal(static_cast<int>(t))) continue;
       const Kind kind = row.kind == TerminalRow::Kind::analog_in       ? Kind::voltage
                         : row.kind == TerminalRow::Kind::analog_number ? Kind::level
                                                                        : Kind::bit;
@@ -59,9 +60,7 @@ void Camera::add_sight(const std::string& name, Kind kind) {
 void Camera::watch_lines() {
   requests_.assign(world_.line_count(), {});
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
-    framers_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); },
-        world_.line(i).protocol == Protocol::text));
+    framers_.push_back(world_.line(i).packets(i, [this](const pty::CapturedPacket& packet) { add(packet); }));
     world_.line(i).line.add_observer(*framers_.back());
   }
 }
@@ -91,13 +90,14 @@ void Camera::on_tick(Tick tick) {
 void Camera::add(const pty::CapturedPacket& packet) {
   const bool is_from_host = packet.way == pty::Way::from_host;
   const bool is_frame = !packet.bytes.empty();
+  const world::WorldLine& line = world_.line(packet.line);
   auto& request = requests_[packet.line];
   SeenFrame frame{.time = packet.time,
-                  .line = world_.line(packet.line).line.name(),
+                  .line = line.line.name(),
                   .is_from_host = is_from_host,
                   .text = !is_frame      ? std::string()
-                          : is_from_host ? world::request_text(world_, packet.line, packet.bytes)
-                                         : world::reply_text(world_, packet.line, request, packet.bytes),
+                          : is_from_host ? line.request_text(packet.bytes)
+                                         : line.reply_text(request, packet.bytes),
                   .bytes = world::hex_text(packet.bytes),
                   .remark = pty::comment_of(packet),
                   .is_struck = !packet.faults.empty()};

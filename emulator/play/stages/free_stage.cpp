@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "emulator/play/stages/modbus_host.h"
+#include "emulator/world/speech/modbus_words.h"
 
 namespace understudy::emulator::play {
 
@@ -241,7 +242,7 @@ void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
     world_.advance_to(start);  // a station may say something late
   }
   host.discard();
-  if (is_write(bytes)) {
+  if (world::is_write(bytes)) {
     writing_ = &host;
     requests_before_ = host.requests();
   }

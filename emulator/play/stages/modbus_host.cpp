@@ -77,10 +77,4 @@ HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std
   return made;
 }
 
-bool is_write(std::span<const std::uint8_t> frame) {
-  // Coils, registers, one of them masked, and read while writing.
-  constexpr std::array<std::uint8_t, 6> kWrites{0x05, 0x06, 0x0F, 0x10, 0x16, 0x17};
-  return frame.size() >= 2 && std::find(kWrites.begin(), kWrites.end(), frame[1]) != kWrites.end();
-}
-
 }  // namespace understudy::emulator::play

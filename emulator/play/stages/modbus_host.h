@@ -20,7 +20,4 @@ std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const s
 /// What `reply`, all that came, says to a request of read_request() or write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// Whether a frame's function may change something in a device.
-bool is_write(std::span<const std::uint8_t> frame);
-
 }  // namespace understudy::emulator::play

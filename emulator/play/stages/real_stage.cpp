@@ -68,15 +68,15 @@ class RealStage::Look final : public world::TickWatcher {
 };
 
 RealStage::RealStage(serve::Daemon& daemon, RealStageOptions options) : daemon_(daemon), options_(options) {
-  std::vector<bool> is_text;
+  std::vector<bool> has_silences;
   with_world([&](world::World& world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
       lines_.push_back(world.line(i).line.options());
-      is_text.push_back(world.line(i).protocol == Protocol::text);
+      has_silences.push_back(world.line(i).speech.is_framed_by_silence());
     }
   });
   for (std::size_t i = 0; options_.has_hosts && i < lines_.size(); ++i) {
-    const SimTime silence = is_text[i] ? SimTime{0} : silence_between_frames(lines_[i].settings);
+    const SimTime silence = has_silences[i] ? silence_between_frames(lines_[i].settings) : SimTime{0};
     hosts_.push_back(std::make_unique<LibmodbusHost>(
         daemon_.ports()[i]->terminal().path(), lines_[i].settings, options_.timeout, silence + options_.gap));
   }

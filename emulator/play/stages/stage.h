@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/speech/text_lines_heard.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {

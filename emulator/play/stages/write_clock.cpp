@@ -1,10 +1,6 @@
 #include "emulator/play/stages/write_clock.h"
 
-#include <algorithm>
 #include <utility>
-
-#include "emulator/device/modbus/modbus_station.h"
-#include "emulator/play/stages/modbus_host.h"
 
 namespace understudy::emulator::play {
 
@@ -15,9 +11,7 @@ WriteClock::~WriteClock() { ignore(); }
 void WriteClock::watch() {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     world::WorldLine& line = world_.line(i);
-    framers_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this, i](const pty::CapturedPacket& packet) { hear(i, packet); },
-        line.protocol == Protocol::text));
+    framers_.push_back(line.packets(i, [this, i](const pty::CapturedPacket& packet) { hear(i, packet); }));
     line.line.add_observer(*framers_.back());
   }
 }
@@ -36,29 +30,15 @@ void WriteClock::begin_anew() {
 /// A request is heard at the moment at which it is carried out, a reply when it begins.
 void WriteClock::hear(std::size_t line, const pty::CapturedPacket& packet) {
   if (packet.bytes.empty()) return;  // only what a fault has done
-  if (world_.line(line).protocol == Protocol::text) {
-    if (packet.way == pty::Way::from_host) last_ = tick_at(world_.now()) + 1;
-    return;
+  const world::WorldLine& on = world_.line(line);
+  if (packet.way == pty::Way::from_host) {
+    if (!on.speech.may_change(on.stations, packet)) return;
+    before_ = std::exchange(last_, tick_at(world_.now()) + 1);
+    unanswered_ = line;
+  } else if (unanswered_ == line) {
+    if (on.speech.is_refusal(packet.bytes)) last_ = before_;
+    unanswered_ = kNone;
   }
-  if (packet.way == pty::Way::to_host) {
-    const bool is_refused = packet.bytes.size() >= 2 && (packet.bytes[1] & 0x80) != 0;
-    if (std::exchange(unanswered_, unanswered_ == line ? kNone : unanswered_) == line && is_refused)
-      last_ = before_;
-    return;
-  }
-  if (packet.remark != pty::Remark::none || !is_write(packet.bytes)) return;
-  if (!is_for_somebody(line, packet.bytes[0])) return;
-  before_ = std::exchange(last_, tick_at(world_.now()) + 1);
-  unanswered_ = line;
-}
-
-bool WriteClock::is_for_somebody(std::size_t line, std::uint8_t address) const {
-  const auto& stations = world_.line(line).stations;
-  return std::any_of(stations.begin(), stations.end(), [&](const auto& station) {
-    const ModbusStation* const modbus = station->device().modbus();
-    return station->device().powered() && modbus != nullptr &&
-           modbus->addressing(address) != Addressing::ignore;
-  });
 }
 
 }  // namespace understudy::emulator::play

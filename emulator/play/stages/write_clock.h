@@ -28,7 +28,6 @@ class WriteClock {
   void watch();
   void ignore();
   void hear(std::size_t line, const pty::CapturedPacket& packet);
-  bool is_for_somebody(std::size_t line, std::uint8_t address) const;
 
   world::World& world_;
   std::vector<std::unique_ptr<pty::CaptureFrames>> framers_;  // one a line

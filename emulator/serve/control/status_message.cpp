@@ -6,6 +6,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
@@ -34,7 +35,8 @@ Json line_status(const Daemon& daemon, const Port& port) {
   status["stations"] = Json::array();
   for (const auto& station : line.stations) {
     Json entry{{"device", station->device().name()}};
-    if (line.protocol == Protocol::modbus_rtu) entry["address"] = station->device().settings().address;
+    const Device& device = station->device();
+    if (device.model().line.station_numbers) entry["address"] = device.settings().address;
     entry["requests"] = station->counters().requests;
     entry["replies"] = station->counters().replies;
     entry["exceptions"] = station->counters().exceptions;
@@ -71,12 +73,12 @@ Json device_status(const world::World& world, std::size_t number) {
   for (std::size_t i = 0; i < device.model().terminals.size(); ++i) {
     const TerminalRow& terminal = device.model().terminals[i];
     const auto place = static_cast<int>(i);
-    if (!device.has_terminal(place)) continue;
+    if (!device.terminals()->has_terminal(place)) continue;
     const std::string name(terminal.name);
     if (is_input(terminal.kind)) {
       status["inputs"][name] = device.input(place);
     } else {
-      status["outputs"][name] = device.output(place) ? 1 : 0;
+      status["outputs"][name] = device.terminals()->output(place) ? 1 : 0;
     }
   }
   status["axes"] = Json::object();

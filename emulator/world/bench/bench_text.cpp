@@ -56,8 +56,7 @@ Json line_text(const Bench& bench, const LineSetup& line) {
   for (const std::size_t device : line.stations) {
     const DeviceSettings& settings = bench.devices[device].settings;
     Json station{{"device", settings.name}};
-    if (bench.devices[device].model->protocol() == Protocol::modbus_rtu)
-      station["address"] = settings.address;
+    if (bench.devices[device].model->line.station_numbers) station["address"] = settings.address;
     text["stations"].push_back(std::move(station));
   }
   return text;

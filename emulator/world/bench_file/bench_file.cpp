@@ -20,6 +20,7 @@
 #include "emulator/world/bench_file/machine_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/speech/line_speech.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
@@ -200,20 +201,20 @@ class BenchReader {
     on_a_line_[device] = true;
     DeviceSetup& setup = bench_.devices[device];
     setup.settings.baud = line.baud;
-    const bool is_alone = setup.model->protocol() == Protocol::text;
-    const auto is_text = [&](std::size_t other) {
-      return bench_.devices[other].model->protocol() == Protocol::text;
+    const auto is_alone = [&](std::size_t other) {
+      return !bench_.devices[other].model->line.station_numbers.has_value();
     };
-    if (!line.stations.empty() && (is_alone || is_text(line.stations.front()))) {
-      const std::size_t speaker = is_alone ? device : line.stations.front();
-      station.fail(understudy::quoted(bench_.devices[speaker].settings.name) +
-                   " speaks text and must be alone on its line; expected no other station on it");
+    if (!line.stations.empty() && (is_alone(device) || is_alone(line.stations.front()))) {
+      const DeviceSetup& speaker = bench_.devices[is_alone(device) ? device : line.stations.front()];
+      station.fail(understudy::quoted(speaker.settings.name) + " speaks " +
+                   std::string(speaker.model->line.protocol.name) +
+                   " and must be alone on its line; expected no other station on it");
     }
-    if (is_alone && station.has("address")) {
+    if (const auto& numbers = setup.model->line.station_numbers) {
+      setup.settings.address = take_address(station, numbers->lowest, numbers->highest, addresses);
+    } else if (station.has("address")) {
       station.at("address").fail(std::string(setup.model->name) + " has no station number; expected none");
     }
-    setup.settings.address =
-        take_address(station, setup.model->rtu.lowest_address, setup.model->rtu.highest_address, addresses);
     device_fields_[device] = station.has("device") ? device_fields_[device] : station;
     line.stations.push_back(device);
   }
@@ -396,7 +397,7 @@ class BenchReader {
       if (faults.back()) bench_.faults.push_back(*faults.back());
     }
     const auto is_simple = [&](const std::optional<Fault>& fault) {
-      return fault && bench_.devices[fault->device].model->protocol() == Protocol::modbus_rtu &&
+      return fault && speech_of(*bench_.devices[fault->device].model).takes_every_fault() &&
              fault->trigger.when.empty() && fault->kind != Fault::Kind::encoder_noise &&
              fault->kind != Fault::Kind::turn;
     };

@@ -63,7 +63,7 @@ NvImage read_memory(const YamlFields& field, const Model& model, Complaints& com
   complaints.attempt([&] { field.demand_map(); });
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
-      if (model.protocol() == Protocol::text) return read_value_of_memory(name, number, image);
+      if (model.registers == nullptr) return read_value_of_memory(name, number, image);
       image.registers.emplace_back(name, number.integer(kRegisterValueForm));
     });
   }
@@ -96,7 +96,7 @@ void read_set(const YamlFields& field, const Model* model, DeviceSettings& setti
     complaints.attempt([&, &name = register_name, &number = value] {
       if (model == nullptr) {
         demand_real(number);
-      } else if (model->protocol() == Protocol::text) {
+      } else if (model->registers == nullptr) {
         settings.assignments.emplace_back(name, demand_real(number));
       } else {
         settings.set.emplace_back(name, number.integer(kRegisterValueForm));
@@ -118,7 +118,7 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
   if (setting == "modules") {  // those that there may be, for what is said of them
     return std::exchange(settings.modules, model.most_modules) != model.most_modules;
   }
-  if (setting == "address") return std::exchange(settings.address, model.rtu.lowest_address) != 0;
+  if (setting == "address") return std::exchange(settings.address, model.line.station_numbers->lowest) != 0;
   return std::exchange(settings.baud, 0) != 0;  // or switches that say another one
 }
 

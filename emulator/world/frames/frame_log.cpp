@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "emulator/world/frames/frame_text.h"
-
 namespace understudy::emulator::world {
 
 FrameLog::FrameLog(World& world, std::size_t kept) : world_(world), kept_(kept) { watch(); }
@@ -12,9 +10,7 @@ FrameLog::~FrameLog() { ignore(); }
 
 void FrameLog::watch() {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
-    framers_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, world_.line(i).framing, [this](const pty::CapturedPacket& packet) { add(packet); },
-        world_.line(i).protocol == Protocol::text));
+    framers_.push_back(world_.line(i).packets(i, [this](const pty::CapturedPacket& packet) { add(packet); }));
     world_.line(i).line.add_observer(*framers_.back());
   }
 }
@@ -56,20 +52,21 @@ const FrameLog::Frame* FrameLog::request_before(std::size_t reply) const {
 
 FrameLog::Told FrameLog::told(std::size_t place) const {
   const Frame& frame = frames_[place];
+  const WorldLine& line = world_.line(frame.line);
   Told told{.number = next_number_ - frames_.size() + place,
             .time = frame.time,
-            .line = world_.line(frame.line).line.name(),
+            .line = line.line.name(),
             .way = frame.way,
             .text = {},
             .remark = frame.comment};
   if (frame.bytes.empty()) return told;  // only what a fault has done
   if (frame.way == pty::Way::from_host) {
-    told.text = request_text(world_, frame.line, frame.bytes);
+    told.text = line.request_text(frame.bytes);
     return told;
   }
   const Frame* const request = request_before(place);
   const auto bytes = request == nullptr ? std::span<const std::uint8_t>() : request->bytes;
-  told.text = reply_text(world_, frame.line, bytes, frame.bytes);
+  told.text = line.reply_text(bytes, frame.bytes);
   return told;
 }
 

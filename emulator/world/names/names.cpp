@@ -54,7 +54,7 @@ Split split(const KnownDevices& devices, std::string_view name, const HasName& h
 }
 
 bool has_register(const KnownDevice& device, std::string_view name) {
-  return device.model->registers.find(name, device.firmware).has_value();
+  return find_register(*device.model, name, device.firmware).has_value();
 }
 
 constexpr std::string_view kAnyRegister = "REGISTER";
@@ -78,13 +78,13 @@ NameError name_without_device(const KnownDevices& devices, std::string_view name
 RegisterName find_register(const KnownDevices& devices, std::string_view name) {
   const auto [number, rest] = split(devices, name, has_register, kAnyRegister);
   const KnownDevice& device = devices[number];
-  if (const auto place = device.model->registers.find(rest, device.firmware)) return {number, *place};
-  throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
+  if (const auto place = find_register(*device.model, rest, device.firmware)) return {number, *place};
+  throw NameError(device.name + ": " + why_no_register(*device.model, rest, device.firmware));
 }
 
 std::optional<ValueName> find_value(const KnownDevices& devices, std::string_view name) {
   const auto [number, rest] = split(devices, name, has_register, kAnyRegister);
-  if (devices[number].model->protocol() != Protocol::text) return std::nullopt;
+  if (devices[number].model->registers != nullptr) return std::nullopt;
   return ValueName{number, std::string(rest)};
 }
 

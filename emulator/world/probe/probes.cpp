@@ -10,6 +10,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 #include "emulator/world/names/names.h"
 
 namespace understudy::emulator::world {
@@ -37,7 +38,7 @@ constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replie
 /// Registers, terminals, axes (of "A.pulses"), and what every device has.
 bool has_name(const KnownDevice& device, std::string_view name) {
   return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
-         device.model->registers.find(name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
+         find_register(*device.model, name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
          (name.find('.') != std::string_view::npos && find_axis(*device.model, at_dot(name).first) >= 0);
 }
 
@@ -136,7 +137,7 @@ Probes::Probe Probes::find(std::string_view name) const {
   }
   if (find_of_axis(rest, probe)) return probe;
   const KnownDevice& device = known[probe.device];
-  if (const auto place = device.model->registers.find(rest, device.firmware)) {
+  if (const auto place = find_register(*device.model, rest, device.firmware)) {
     probe.what = What::reg;
     probe.reg = *place;
     return probe;
@@ -154,7 +155,7 @@ Probes::Probe Probes::find(std::string_view name) const {
   if (!has_value) find_of_axis(std::string(rest) + ".", probe);  // tells of an axis alone
   if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
   if (there.register_bank() != nullptr) {
-    throw NameError(device.name + ": " + device.model->registers.why_not(rest, device.firmware));
+    throw NameError(device.name + ": " + why_no_register(*device.model, rest, device.firmware));
   }
   if (!has_value) throw NameError(why_no_value(there, rest));
   probe.what = What::named;
@@ -201,7 +202,7 @@ Number Probes::value(std::int32_t handle) const {
       return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
                               : Number(0);
     case What::input: return device.input(probe.place);
-    case What::output: return device.output(probe.place) ? 1 : 0;
+    case What::output: return device.terminals()->output(probe.place) ? 1 : 0;
     case What::power: return device.powered() ? 1 : 0;
     case What::pulse_format: return static_cast<std::int64_t>(device.axes()->pulse_format_number());
     case What::pulses: return view_.sent_pulses(probe.device, probe.place);

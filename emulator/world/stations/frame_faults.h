@@ -6,21 +6,19 @@
 #include <span>
 #include <vector>
 
-#include "emulator/device/model.h"
 #include "pty/line_settings.h"
 #include "pty/wire_fault.h"
 
 namespace understudy::emulator::world {
 
-/// A request as a station has heard it, checksum and all.
+/// A request as a station has heard it: a frame, checksum and all; of text a line without its end, or with it
+/// where the wire is asked.
 struct HeardFrame {
   std::size_t device = 0;  // whose station it is
   std::span<const std::uint8_t> bytes;
   std::uint64_t last_character = 0;
   bool is_for_device = false;  // broadcasts as well
   pty::SimTime now{0};
-  Protocol protocol =
-      Protocol::modbus_rtu;  // text: the line without its end, or with it where the wire is asked
 };
 
 class FrameFaults {

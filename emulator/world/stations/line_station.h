@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/world/stations/frame_faults.h"
@@ -52,5 +54,8 @@ class LineStation : public pty::Station {
   FrameFaults* faults_ = nullptr;
   std::size_t device_number_ = 0;
 };
+
+/// Those on a line.
+using LineStations = std::vector<std::unique_ptr<LineStation>>;
 
 }  // namespace understudy::emulator::world

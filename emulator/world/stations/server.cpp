@@ -82,7 +82,7 @@ ModbusReply write_registers(RegisterBank& bank, std::span<const std::uint8_t> pd
 
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
   const std::uint8_t function = pdu.empty() ? 0 : pdu[0];
-  const auto known = device.model().rtu.functions;
+  const auto known = device.model().rtu->functions;
   if (std::find(known.begin(), known.end(), function) == known.end()) {
     return exception(function, ModbusException::illegal_function);
   }

@@ -154,8 +154,7 @@ HeardFrame TextStation::frame_of(std::span<const std::uint8_t> bytes, std::uint6
           .bytes = bytes,
           .last_character = last_character,
           .is_for_device = true,
-          .now = now,
-          .protocol = Protocol::text};
+          .now = now};
 }
 
 /// What the wire has made of a line, judged as if it had come so.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "emulator/device/axes.h"
+#include "emulator/device/terminals.h"
 
 namespace understudy::emulator::world {
 
@@ -35,12 +36,12 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
     for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
       const TerminalRow& row = device.model->terminals[t];
       if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      if (!world.device(d).has_terminal(static_cast<int>(t))) continue;
+      if (!world.device(d).terminals()->has_terminal(static_cast<int>(t))) continue;
       const bool is_bit = !is_analog(row.kind);
       signals.push_back({.name = device.name + "." + std::string(row.name),
                          .kind = is_bit ? SignalKind::bit : SignalKind::whole});
     }
-    const SignalKind kind = device.model->protocol() == Protocol::text ? SignalKind::real : SignalKind::whole;
+    const SignalKind kind = device.model->registers == nullptr ? SignalKind::real : SignalKind::whole;
     for (const std::string_view name : device.model->state_registers) {
       signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
     }

@@ -24,9 +24,7 @@ void WorldCapture::begin() {
   file_.begin(lines_of(world_));
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     WorldLine& line = world_.line(i);
-    lines_.push_back(std::make_unique<pty::CaptureFrames>(
-        i, line.framing, [this](const pty::CapturedPacket& packet) { file_.add(packet); },
-        line.protocol == Protocol::text));
+    lines_.push_back(line.packets(i, [this](const pty::CapturedPacket& packet) { file_.add(packet); }));
     line.line.add_observer(*lines_.back());
   }
 }

@@ -11,6 +11,7 @@
 #include "emulator/device/device.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/plant/plant.h"
+#include "emulator/world/speech/line_speech.h"
 #include "emulator/world/stations/line_station.h"
 #include "pty/line.h"
 #include "pty/rtu_framer.h"
@@ -20,9 +21,20 @@ namespace understudy::emulator::world {
 /// A line with those who stand on it.
 struct WorldLine {
   pty::Line line;
-  std::vector<std::unique_ptr<LineStation>> stations;
+  const LineSpeech& speech;
+  LineStations stations;
   pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
-  Protocol protocol = Protocol::modbus_rtu;
+
+  /// As of `speech`.
+  std::string request_text(std::span<const std::uint8_t> request) const {
+    return speech.request_text(stations, request);
+  }
+  std::string reply_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) const {
+    return speech.reply_text(stations, request, reply);
+  }
+  std::unique_ptr<pty::CaptureFrames> packets(std::size_t number, pty::CaptureFrames::Sink sink) const {
+    return speech.packets(number, framing, std::move(sink));
+  }
 };
 
 class WorldView {

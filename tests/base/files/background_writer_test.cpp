@@ -6,7 +6,7 @@
 #include <future>
 
 namespace understudy {
-namespace {
+namespace background_writer_test {
 
 using Outcome = BackgroundWriter::Outcome;
 
@@ -74,5 +74,5 @@ TEST(BackgroundWriter, FinishesAtOnceWhenThereIsNothing) {
   writer.finish();
 }
 
-}  // namespace
+}  // namespace background_writer_test
 }  // namespace understudy

@@ -8,7 +8,7 @@
 #include <fstream>
 
 namespace understudy {
-namespace {
+namespace file_claims_test {
 
 namespace fs = std::filesystem;
 
@@ -93,5 +93,5 @@ TEST_F(FileClaimsTest, AFolderIsRefusedForAClaimedFileAmongThoseItGets) {
   EXPECT_EQ(claims_.objection_to_folder(folder_, endings), "");
 }
 
-}  // namespace
+}  // namespace file_claims_test
 }  // namespace understudy

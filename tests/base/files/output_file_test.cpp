@@ -11,7 +11,7 @@
 #include "tests/pty/pty_host.h"
 
 namespace understudy {
-namespace {
+namespace output_file_test {
 
 namespace fs = std::filesystem;
 
@@ -130,5 +130,5 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
             way + " is another user's link in a folder that is open to all; expected a path of ours");
 }
 
-}  // namespace
+}  // namespace output_file_test
 }  // namespace understudy

@@ -55,7 +55,7 @@ struct StateOf<fields_test::Panel> {
                                             field("bytes", &Panel::bytes), field("since", &Panel::since)};
 };
 
-namespace {
+namespace fields_test {
 
 using fields_test::Colour;
 using fields_test::Lamp;
@@ -137,7 +137,7 @@ TEST(Difference, IsToldByTheNamesOfTheFields) {
                   p.is_on = false;
                   p.number = 1;
                 },
-                "is_on: 1 against 0"},
+                "is_on: true against false"},
        }) {
     Panel other = a_panel();
     change(other);
@@ -151,5 +151,5 @@ TEST(Difference, BeginsWithThePathThatIsAskedFor) {
   EXPECT_EQ(first_difference(a_panel(), other, "door.panel"), "door.panel.number: 7 against 0");
 }
 
-}  // namespace
+}  // namespace fields_test
 }  // namespace understudy

@@ -8,7 +8,7 @@
 #include "base/state/base64.h"
 
 namespace understudy {
-namespace {
+namespace state_bytes_test {
 
 using namespace std::chrono_literals;
 
@@ -187,5 +187,5 @@ TEST(Base64, OtherTextIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace state_bytes_test
 }  // namespace understudy

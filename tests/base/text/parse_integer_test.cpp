@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy {
-namespace {
+namespace parse_integer_test {
 
 TEST(ParseInteger, TakesWhatPeopleWrite) {
   struct {
@@ -28,5 +28,5 @@ TEST(ParseInteger, RefusesWhatIsNoWholeNumber) {
   }
 }
 
-}  // namespace
+}  // namespace parse_integer_test
 }  // namespace understudy

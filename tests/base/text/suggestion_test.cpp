@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace understudy {
-namespace {
+namespace suggestion_test {
 
 using Strings = std::vector<std::string>;
 
@@ -57,5 +57,5 @@ TEST(Suggestion, NamesTheNearestOrElseWhatThereIs) {
   EXPECT_EQ(suggestion("DIP3", {}, "it has none"), "; it has none");
 }
 
-}  // namespace
+}  // namespace suggestion_test
 }  // namespace understudy

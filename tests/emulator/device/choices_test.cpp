@@ -10,7 +10,7 @@
 #include "emulator/device/model.h"
 
 namespace understudy::emulator {
-namespace {
+namespace choices_test {
 
 constexpr ChoiceRow kRows[] = {
     {"loop_count", "3.5", "how many passes", "passes|passes_plus_one|endless", Confidence::proposal, "why"},
@@ -93,5 +93,5 @@ TEST(Choices, EveryOptionOfEveryModelMakesADevice) {
   }
 }
 
-}  // namespace
+}  // namespace choices_test
 }  // namespace understudy::emulator

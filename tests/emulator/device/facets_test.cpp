@@ -9,7 +9,7 @@
 #include "tests/emulator/device/register_map/toy_device.h"
 
 namespace understudy::emulator {
-namespace {
+namespace facets_test {
 
 std::unique_ptr<Device> made(const Model& model) {
   DeviceSettings settings;
@@ -59,5 +59,5 @@ TEST(Facets, NoProgramIsTakenWhereThereIsNone) {
   EXPECT_EQ(why_no_value(toy.device, "R0"), "nothing of toy is called 'R0'; there is none");
 }
 
-}  // namespace
+}  // namespace facets_test
 }  // namespace understudy::emulator

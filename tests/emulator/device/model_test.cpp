@@ -10,7 +10,7 @@
 #include "emulator/device/register_map/access.h"
 
 namespace understudy::emulator {
-namespace {
+namespace model_test {
 
 const Model& simple2() { return *find_model(models::all_models(), "simple2-r3"); }
 
@@ -134,5 +134,5 @@ TEST(MakeDevice, RegistersOfNewerFirmwareCannotBeSetInOlderOnes) {
   EXPECT_EQ(error_of(settings), "");
 }
 
-}  // namespace
+}  // namespace model_test
 }  // namespace understudy::emulator

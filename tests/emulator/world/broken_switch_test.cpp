@@ -8,7 +8,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace broken_switch_test {
 
 constexpr int kUpperLimit = 2;
 constexpr int kLowerLimit = 3;
@@ -127,5 +127,5 @@ TEST(BrokenSwitch, ALimitThatNeverComesOnLetsAMoveRunIntoTheStop) {
   EXPECT_FALSE(machine.bit("STATUS.14"));
 }
 
-}  // namespace
+}  // namespace broken_switch_test
 }  // namespace understudy::emulator::models::simple2_r3

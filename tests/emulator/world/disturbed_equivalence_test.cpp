@@ -12,7 +12,7 @@
 #include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace disturbed_equivalence_test {
 
 using namespace std::chrono_literals;
 
@@ -255,5 +255,5 @@ TEST(DisturbedEquivalence, WakingOnlyWhenSomethingIsDueMissesNothing) {
   compare_all(seed() + 2000, by_what_is_due);
 }
 
-}  // namespace
+}  // namespace disturbed_equivalence_test
 }  // namespace understudy::emulator::world

@@ -4,7 +4,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace outcome_hash_test {
 
 const std::string kDay = play::kServoOn + play::kExampleMove +
                          "  - wait: { until: feeder.A.pulses > 1000, within: 1s }\n"
@@ -67,5 +67,5 @@ TEST(OutcomeHash, DiffersWithWhateverComesOut) {
   EXPECT_EQ(outcomes.size(), 10U);
 }
 
-}  // namespace
+}  // namespace outcome_hash_test
 }  // namespace understudy::emulator::world

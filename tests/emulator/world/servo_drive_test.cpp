@@ -8,7 +8,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace servo_drive_test {
 
 struct Wiring {
   Tick ready_after = 50;
@@ -308,5 +308,5 @@ TEST(LostSteps, OpenARegularGapBetweenCoordinateAndEncoder) {
   EXPECT_EQ(servos.machine('B').lost_pulses(), 100);
 }
 
-}  // namespace
+}  // namespace servo_drive_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -7,7 +7,7 @@
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace snapshot_file_test {
 
 std::string complaint(const std::string& text, std::uint64_t bench = 0) {
   try {
@@ -44,5 +44,5 @@ TEST(SnapshotFile, IsOfItsBenchAndAsItWasWritten) {
             "checksum: is not that of the state; expected a file as it was written");
 }
 
-}  // namespace
+}  // namespace snapshot_file_test
 }  // namespace understudy::emulator::world

@@ -16,7 +16,7 @@
 #include "tests/emulator/world/busy_acts.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace snapshot_test {
 
 using namespace std::chrono_literals;
 
@@ -391,5 +391,5 @@ TEST(Snapshot, AFlippedByteIsRefusedOrCanBeLivedOn) {
   EXPECT_GT(taken, 500);
 }
 
-}  // namespace
+}  // namespace snapshot_test
 }  // namespace understudy::emulator::world

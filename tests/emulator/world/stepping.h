@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/device/terminals.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
@@ -66,7 +67,7 @@ inline testing::AssertionResult same(World& one, World& other) {
     if (!device.same_state(twin)) return differ(device.name());
     for (int i = 0; i < static_cast<int>(device.model().terminals.size()); ++i) {
       if (device.input(i) != twin.input(i)) return differ("an input");
-      if (device.output(i) != twin.output(i)) return differ("an output");
+      if (device.terminals()->output(i) != twin.terminals()->output(i)) return differ("an output");
       if (one.external_input(d, i) != other.external_input(d, i)) return differ("an external input");
     }
     for (int axis = 0; axis < static_cast<int>(device.model().axes.size()); ++axis) {

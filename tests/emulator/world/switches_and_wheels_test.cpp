@@ -7,7 +7,7 @@
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace switches_and_wheels_test {
 
 /// Two Simple2-R3s, x and y; the machine on x.A; steps.
 std::string text_of(const std::string& machine, const std::string& wires, const std::string& steps) {
@@ -189,5 +189,5 @@ TEST(HandWheels, ThatAreNotThereAreNotTurned) {
   }
 }
 
-}  // namespace
+}  // namespace switches_and_wheels_test
 }  // namespace understudy::emulator::world

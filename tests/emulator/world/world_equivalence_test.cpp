@@ -10,7 +10,7 @@
 #include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace world_equivalence_test {
 
 using namespace std::chrono_literals;
 
@@ -84,5 +84,5 @@ TEST(WorldEquivalence, FramesGivenInAdvanceAreServedAtTheirTimes) {
   }
 }
 
-}  // namespace
+}  // namespace world_equivalence_test
 }  // namespace understudy::emulator::world

@@ -1,11 +1,12 @@
 #include "emulator/world/world.h"
+#include "emulator/device/terminals.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace world_test {
 
 using namespace std::chrono_literals;
 
@@ -136,7 +137,7 @@ TEST(Wires, CarryWhatADeviceDoesByItselfWithTheSameTick) {
   set(world, "feeder.Aaxis_ACLR", 1);  // on in ticks 11 to 210
   for (const Tick tick : {11, 12, 13, 209, 210, 211, 212, 213}) {
     world.advance_to(time_of(tick));
-    EXPECT_EQ(world.device(0).output(11 + 1), tick < 211) << tick;
+    EXPECT_EQ(world.device(0).terminals()->output(11 + 1), tick < 211) << tick;
     EXPECT_EQ(get(world, "turner.DIN_0"), tick >= 12 && tick < 212) << tick;
   }
 }
@@ -223,5 +224,5 @@ TEST(World, DevicesOfOtherSettingsAreOfAnotherState) {
   EXPECT_FALSE(a.device(0).same_state(b.device(0)));
 }
 
-}  // namespace
+}  // namespace world_test
 }  // namespace understudy::emulator::world

@@ -7,7 +7,7 @@
 #include "tests/interpreter/simple2/instruction_cases.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace every_instruction_test {
 
 std::vector<InstructionCase> all_cases() {
   std::vector<InstructionCase> all;
@@ -70,5 +70,5 @@ TEST(Simple2Instruction, ThatTheManualDoesNotListDoesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace every_instruction_test
 }  // namespace understudy::interpreter::simple2

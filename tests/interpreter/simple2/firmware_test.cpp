@@ -2,7 +2,7 @@
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace firmware_test {
 
 constexpr int kVersions[] = {130, 139, 140, 141, 142, 150, 151, 152};
 
@@ -88,5 +88,5 @@ TEST(Simple2Firmware, From142NothingIsLeftOfTheDefects) {
   EXPECT_EQ(dialect_of_firmware(152), Dialect{});
 }
 
-}  // namespace
+}  // namespace firmware_test
 }  // namespace understudy::interpreter::simple2

@@ -8,7 +8,7 @@
 #include "tests/interpreter/facts.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace instructions_test {
 
 std::vector<Fact> facts() { return read_facts(std::string(TEST_FACTS) + "/simple2/instructions.csv"); }
 
@@ -71,5 +71,5 @@ TEST(Simple2Instructions, EveryKindOfOperandHasAWordingOfItsOwn) {
   }
 }
 
-}  // namespace
+}  // namespace instructions_test
 }  // namespace understudy::interpreter::simple2

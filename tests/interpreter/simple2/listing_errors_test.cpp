@@ -6,7 +6,7 @@
 #include "interpreter/simple2/listing.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace listing_errors_test {
 
 std::vector<std::string> errors_of(std::string_view text) {
   const Assembly assembly = assemble(text);
@@ -182,5 +182,5 @@ TEST(Simple2ListingError, ComesFromAnyTextThatIsNoListingAndNothingWorseDoes) {
   }
 }
 
-}  // namespace
+}  // namespace listing_errors_test
 }  // namespace understudy::interpreter::simple2

@@ -9,7 +9,7 @@
 #include "tests/interpreter/facts.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace listing_test {
 
 /// The lines of a listing without errors.
 Lines lines_of(std::string_view text) {
@@ -216,5 +216,5 @@ TEST(Simple2ListingRoundTrip, KeepsEveryValueOfEveryCellOfEveryCommand) {
   }
 }
 
-}  // namespace
+}  // namespace listing_test
 }  // namespace understudy::interpreter::simple2

@@ -3,7 +3,7 @@
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace loop_test {
 
 /// Counts its passes in MEM0 and ends.
 Program passes_of(std::uint8_t count) {
@@ -269,5 +269,5 @@ TEST(Simple2Loop, WithADelayInItsBodyKeepsItsCount) {
   EXPECT_EQ(run.next_slot_ms, 3 * (2 + 50 + 2) + 2);
 }
 
-}  // namespace
+}  // namespace loop_test
 }  // namespace understudy::interpreter::simple2

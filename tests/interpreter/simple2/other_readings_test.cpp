@@ -2,7 +2,7 @@
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace other_readings_test {
 
 /// Counts its passes in MEM0: endlessly, where the jump leads back to line 0.
 int passes_with_jump_to(std::uint8_t flag, Dialect::UndefinedFlag reading) {
@@ -60,23 +60,41 @@ ProgramRun waiting(std::uint8_t opcode, Dialect::WaitCutShort reading) {
   return run;
 }
 
+/// A line that waits for one axis, and what the machine says of that axis and of the other one.
+struct WaitingLine {
+  std::uint8_t opcode;
+  bool ScriptedMachine::*moving;
+  bool ScriptedMachine::*cut_short;
+  bool ScriptedMachine::*other_cut_short;
+};
+
+constexpr WaitingLine kWaitsForOneAxis[] = {
+    {0x24, &ScriptedMachine::moving_a, &ScriptedMachine::cut_short_a,
+     &ScriptedMachine::cut_short_b},  // Wait_Move_A
+    {0x25, &ScriptedMachine::moving_a, &ScriptedMachine::cut_short_a,
+     &ScriptedMachine::cut_short_b},  // Move_INC_A_Wait
+    {0x34, &ScriptedMachine::moving_b, &ScriptedMachine::cut_short_b,
+     &ScriptedMachine::cut_short_a},  // Wait_Move_B
+    {0x35, &ScriptedMachine::moving_b, &ScriptedMachine::cut_short_b,
+     &ScriptedMachine::cut_short_a},  // Move_INC_B_Wait
+};
+
 TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
   using enum Dialect::WaitCutShort;
-  constexpr std::uint8_t kMoveAndWait = 0x25, kWaitMove = 0x24;
   for (const auto reading : {line_is_over, waits_on, program_ends}) {
-    for (const std::uint8_t opcode : {kMoveAndWait, kWaitMove}) {
+    for (const auto& [opcode, moving, cut_short, other_cut_short] : kWaitsForOneAxis) {
       for (const bool is_cut : {false, true}) {
         ProgramRun run = waiting(opcode, reading);
-        run.machine.moving_a = true;
+        run.machine.*moving = true;
         run.until(20);
         EXPECT_TRUE(run.execution.running) << int{opcode};
-        run.machine.moving_a = false;
-        run.machine.cut_short_a = is_cut;
+        run.machine.*moving = false;
+        run.machine.*cut_short = is_cut;
         run.until(40);
         if (is_cut && reading == waits_on) {
           EXPECT_TRUE(run.execution.running) << int{opcode};
           EXPECT_EQ(next_active_slot_ms(run.execution, 40, run.program, run.dialect, run.machine), kNoSlot);
-          run.machine.cut_short_a = false;  // a later move has got to its end
+          run.machine.*cut_short = false;  // a later move has got to its end
           run.until(60);
         }
         const bool ends = is_cut && reading == program_ends;
@@ -85,13 +103,13 @@ TEST(Simple2OtherReadings, AWaitThatIsCutShortIsOverOrEndsTheProgram) {
       }
       // What was cut before does not matter: the line has waited for nothing. Nor is the other axis.
       ProgramRun before = waiting(opcode, reading);
-      before.machine.cut_short_a = true;
+      before.machine.*cut_short = true;
       before.until(40);
       EXPECT_EQ(before.machine.parameters[0], 1) << int{opcode};
       ProgramRun other = waiting(opcode, reading);
-      other.machine.moving_a = other.machine.cut_short_b = true;
+      other.machine.*moving = other.machine.*other_cut_short = true;
       other.until(20);
-      other.machine.moving_a = false;
+      other.machine.*moving = false;
       other.until(40);
       EXPECT_EQ(other.machine.parameters[0], 1) << int{opcode};
     }
@@ -154,5 +172,5 @@ TEST(Simple2OtherReadings, ALineInPlaceOfAWaitingOneRuns) {
   }
 }
 
-}  // namespace
+}  // namespace other_readings_test
 }  // namespace understudy::interpreter::simple2

@@ -8,7 +8,7 @@
 #include "tests/interpreter/facts.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace parameter_names_test {
 
 bool is_defined(int number) { return number <= 158 || (number >= 167 && number <= 182); }
 
@@ -52,5 +52,5 @@ TEST(Simple2ParameterNames, RefuseNumbersThatBelongToAnotherName) {
   }
 }
 
-}  // namespace
+}  // namespace parameter_names_test
 }  // namespace understudy::interpreter::simple2

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace program_test {
 
 TEST(Simple2Program, IsEmptyAtFirst) {
   const Program program;
@@ -45,5 +45,5 @@ TEST(Simple2Program, KnowsOnlyFlags1To64) {
   }
 }
 
-}  // namespace
+}  // namespace program_test
 }  // namespace understudy::interpreter::simple2

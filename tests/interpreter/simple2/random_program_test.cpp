@@ -5,7 +5,7 @@
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace random_program_test {
 
 using Random = std::mt19937;
 
@@ -170,5 +170,5 @@ TEST(Simple2NextActiveSlot, ComesForAWaitMoveBThatMovesUpTo139) {
   EXPECT_EQ(next_active_slot_ms(run.execution, 0, run.program, run.dialect, run.machine), kNoSlot);
 }
 
-}  // namespace
+}  // namespace random_program_test
 }  // namespace understudy::interpreter::simple2

@@ -2,7 +2,7 @@
 #include "tests/interpreter/simple2/scripted_machine.h"
 
 namespace understudy::interpreter::simple2 {
-namespace {
+namespace timing_test {
 
 using Trace = std::vector<std::pair<std::int64_t, int>>;  // ms, line; when the line at work changed
 
@@ -215,5 +215,5 @@ TEST(Simple2Timing, ALineRewrittenWhileItWaitsIsReadAgain) {
   }
 }
 
-}  // namespace
+}  // namespace timing_test
 }  // namespace understudy::interpreter::simple2

@@ -6,7 +6,7 @@
 #include "tests/interpreter/facts.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace commands_test {
 
 std::string_view mark(Printed printed) {
   switch (printed) {
@@ -34,5 +34,5 @@ TEST(SlimCommands, AreTheManualsInItsOrder) {
   }
 }
 
-}  // namespace
+}  // namespace commands_test
 }  // namespace understudy::interpreter::slim

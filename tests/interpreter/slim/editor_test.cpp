@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace editor_test {
 
 using Lines = std::vector<std::string>;
 
@@ -136,5 +136,5 @@ TEST(SlimProgram, IsRestoredFromItsTexts) {
   EXPECT_EQ(restored, desk.program);
 }
 
-}  // namespace
+}  // namespace editor_test
 }  // namespace understudy::interpreter::slim

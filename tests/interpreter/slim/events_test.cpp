@@ -4,7 +4,7 @@
 #include "tests/interpreter/slim/scripted_machine.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace events_test {
 
 using InterruptedTimer = FlowOptions::InterruptedTimer;
 
@@ -213,5 +213,5 @@ TEST(SlimEvents, WithoutARoutineEndTheProgram) {
   EXPECT_EQ(out_of_range.errors, std::vector{Error::range});
 }
 
-}  // namespace
+}  // namespace events_test
 }  // namespace understudy::interpreter::slim

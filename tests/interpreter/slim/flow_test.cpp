@@ -5,7 +5,7 @@
 #include "tests/interpreter/slim/scripted_machine.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace flow_test {
 
 TEST(SlimFlow, OneLineATickUntilTheEnd) {
   ProgramRun run({"MA 100", "$HERE", "SET P1"});
@@ -272,5 +272,5 @@ TEST(SlimFlow, ToldFromWhatNoRunComesTo) {
   EXPECT_FALSE(still_sound([](Execution& e) { e.events[0].address.kind = Operand::Kind::port; }));
 }
 
-}  // namespace
+}  // namespace flow_test
 }  // namespace understudy::interpreter::slim

@@ -4,7 +4,7 @@
 #include "tests/interpreter/slim/scripted_machine.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace machine_and_program_test {
 
 TEST(SlimMachine, MayEndTheProgramByACommand) {
   ProgramRun run({"SET P1", "TASTOP", "SET P2"});
@@ -110,5 +110,5 @@ TEST(SlimProgram, ALabelStandsOnce) {
   EXPECT_EQ(program.size(), 2);
 }
 
-}  // namespace
+}  // namespace machine_and_program_test
 }  // namespace understudy::interpreter::slim

@@ -8,7 +8,7 @@
 #include "tests/interpreter/slim/scripted_machine.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace mutated_lines_test {
 
 /// The same numbers everywhere (the constants are Knuth's, MMIX).
 class Dice {
@@ -84,5 +84,5 @@ TEST(SlimMutatedLines, MakeProgramsThatComeToNoHarm) {
   }
 }
 
-}  // namespace
+}  // namespace mutated_lines_test
 }  // namespace understudy::interpreter::slim

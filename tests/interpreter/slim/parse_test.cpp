@@ -7,7 +7,7 @@
 #include "interpreter/slim/text_of.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace parse_test {
 
 Command command_of(std::string_view text, const Dialect& dialect = {}) {
   const ParseResult result = parse_line(text, dialect);
@@ -236,5 +236,5 @@ TEST(SlimAvailability, ByPlace) {
   EXPECT_FALSE(is_allowed(command_of("XDN"), Place::immediate, typed));
 }
 
-}  // namespace
+}  // namespace parse_test
 }  // namespace understudy::interpreter::slim

@@ -6,7 +6,7 @@
 #include "tests/interpreter/slim/scripted_machine.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace program_options_test {
 
 using Lines = std::vector<std::string>;
 
@@ -336,5 +336,5 @@ TEST(SlimProgramOptions, SavesInPrograms) {
   }
 }
 
-}  // namespace
+}  // namespace program_options_test
 }  // namespace understudy::interpreter::slim

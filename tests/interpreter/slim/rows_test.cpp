@@ -10,7 +10,7 @@
 #include "tests/interpreter/slim/row_cases.h"
 
 namespace understudy::interpreter::slim {
-namespace {
+namespace rows_test {
 
 TEST(SlimRows, AllHaveACase) {
   std::set<std::string_view> with_case;
@@ -51,5 +51,5 @@ TEST(SlimRows, ReadBackFromTheirText) {
   }
 }
 
-}  // namespace
+}  // namespace rows_test
 }  // namespace understudy::interpreter::slim

@@ -12,7 +12,7 @@
 #include "tests/emulator/device/register_map/register_facts.h"
 
 namespace understudy::emulator {
-namespace {
+namespace describe_test {
 
 const Model& simple2() { return *find_model(models::all_models(), "simple2-r3"); }
 
@@ -141,7 +141,7 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
   };
   for (const Model* const model : models::all_models()) {
     std::set<std::string_view> sections;
-    for (const RegisterRow& row : model->registers.rows()) sections.insert(row.section);
+    for (const RegisterRow& row : register_rows(*model)) sections.insert(row.section);
     for (const ChoiceRow& row : model->choices) sections.insert(row.section);
     std::erase_if(sections, is_ascii);
     std::set<std::string_view> translated;
@@ -283,5 +283,5 @@ TEST(Describe, TheTableForPeopleTellsWhatIsNotModelled) {
   EXPECT_NE(table.substr(0, table.find('\n')).find("not modelled"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace describe_test
 }  // namespace understudy::emulator

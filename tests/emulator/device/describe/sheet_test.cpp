@@ -8,7 +8,7 @@
 #include "tests/interpreter/facts.h"
 
 namespace understudy::emulator {
-namespace {
+namespace sheet_test {
 
 const Sheet kSheet{.columns = {"name", "count", "remark"},
                    .rows = {{"plain", "12", "nothing special"},
@@ -92,5 +92,5 @@ TEST(SheetFormats, ASheetWithoutRowsIsItsHeader) {
   EXPECT_EQ(nlohmann::json::parse(format_sheet(sheet, SheetFormat::json)), nlohmann::json::array());
 }
 
-}  // namespace
+}  // namespace sheet_test
 }  // namespace understudy::emulator

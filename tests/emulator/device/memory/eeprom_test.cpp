@@ -11,7 +11,7 @@
 #include <random>
 
 namespace understudy::emulator {
-namespace {
+namespace eeprom_test {
 
 using Image = std::vector<std::uint32_t>;
 
@@ -360,5 +360,5 @@ TEST(Eeprom, MatchesASlowModelAndNeedsSteppingOnlyWhenDue) {
   EXPECT_GT(rewrites_interrupted, 100);
 }
 
-}  // namespace
+}  // namespace eeprom_test
 }  // namespace understudy::emulator

@@ -19,7 +19,7 @@
 #include "tests/ordinary_user.h"
 
 namespace understudy::emulator {
-namespace {
+namespace nv_file_test {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
@@ -356,5 +356,5 @@ TEST_F(NvFile, InAFolderThatMayNotBeWrittenIsTold) {
   fs::permissions(path("."), fs::perms::owner_all);
 }
 
-}  // namespace
+}  // namespace nv_file_test
 }  // namespace understudy::emulator

@@ -14,7 +14,7 @@
 #include "emulator/models/simple2_r3/model.h"
 
 namespace understudy::emulator {
-namespace {
+namespace nv_image_test {
 
 const NvImage kExample{.model = "simple2-r3",
                        .firmware = "1.52",
@@ -319,5 +319,5 @@ TEST(NvImageOfADevice, IsRefusedWhereItSuitsAnotherOne) {
   }
 }
 
-}  // namespace
+}  // namespace nv_image_test
 }  // namespace understudy::emulator

@@ -6,7 +6,7 @@
 #include "tests/emulator/device/register_map/toy_device.h"
 
 namespace understudy::emulator {
-namespace {
+namespace access_test {
 
 constexpr Refusal kOk = Refusal::none;
 constexpr Refusal kBad = Refusal::bad_value;
@@ -172,5 +172,5 @@ TEST(ReadWords, FollowsTheOrderOfWordsThatTheDeviceHasNow) {
   EXPECT_EQ(toy.value("Target"), -16);
 }
 
-}  // namespace
+}  // namespace access_test
 }  // namespace understudy::emulator

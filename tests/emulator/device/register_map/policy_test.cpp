@@ -6,7 +6,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator {
-namespace {
+namespace policy_test {
 
 using Events = std::vector<std::string>;
 
@@ -87,7 +87,7 @@ TEST(Policy, WhereNothingIsMayReadAsZeroAndSwallowWrites) {
   EXPECT_EQ(write(toy, 0x0022, {1, 2, 3}), Refusal::none);  // a half, a hole, a cell
   EXPECT_EQ(toy.value("Far1"), 65536);
   EXPECT_EQ(toy.value("Cell2"), 3);
-  EXPECT_EQ(world::answer(toy.device, world::read_request(3, 0xFFFF, 2)), "83 02")
+  EXPECT_EQ(world::answer(toy.device, world::read_pdu(3, 0xFFFF, 2)), "83 02")
       << "past the last address is not a hole";
   EXPECT_EQ(world::answer(toy.device, world::write_request(0xFFFF, world::Words{1, 2})), "90 02");
 }
@@ -96,8 +96,8 @@ TEST(Policy, WhatCanOnlyBeWrittenMayRefuseToBeRead) {
   Toy open(kToyRows);
   EXPECT_EQ(world::read(open.device, 0x0015, 3), (world::Words{0, 0, 0x8421}));
   Toy strict(kToyRows, {.write_only = MapPolicy::WriteOnly::refused});
-  EXPECT_EQ(world::answer(strict.device, world::read_request(3, 0x0016, 1)), "83 02");
-  EXPECT_EQ(world::answer(strict.device, world::read_request(3, 0x0015, 3)), "83 02");
+  EXPECT_EQ(world::answer(strict.device, world::read_pdu(3, 0x0016, 1)), "83 02");
+  EXPECT_EQ(world::answer(strict.device, world::read_pdu(3, 0x0015, 3)), "83 02");
   EXPECT_EQ(world::read(strict.device, 0x0017, 1), world::Words{0x8421});
   EXPECT_EQ(write(strict, 0x0016, {1}), Refusal::none);
 }
@@ -161,5 +161,5 @@ TEST(Unmodelled, IsMentionedOnceForEachRow) {
   EXPECT_EQ(world::read(toy.device, 0x10, 2), (world::Words{1, 2}));
 }
 
-}  // namespace
+}  // namespace policy_test
 }  // namespace understudy::emulator

@@ -6,7 +6,7 @@
 #include "tests/emulator/device/register_map/toy_device.h"
 
 namespace understudy::emulator {
-namespace {
+namespace register_map_test {
 
 using Part = Place::Part;
 
@@ -223,5 +223,5 @@ TEST(RegisterMap, SuggestsANameWithoutItsBit) {
   EXPECT_EQ(end("Goall"), "; the nearest is 'Goal'");
 }
 
-}  // namespace
+}  // namespace register_map_test
 }  // namespace understudy::emulator

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_map.h"
 
@@ -26,8 +27,8 @@ inline constexpr Firmware kToyFirmwares[] = {100, 200};
 class ToyDevice final : public Device, public RegisterBankOf<ToyDevice> {
  public:
   ToyDevice(const Model& model, const DeviceSettings& settings)
-      : Device(model, settings), RegisterBankOf(*this, model.registers, settings.firmware) {
-    for (const RegisterRow& row : model.registers.rows()) {
+      : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
+    for (const RegisterRow& row : model.registers->rows()) {
       for (int i = 0; i < row.count; ++i) image_.push_back(static_cast<std::uint32_t>(row.factory));
     }
   }
@@ -41,25 +42,17 @@ class ToyDevice final : public Device, public RegisterBankOf<ToyDevice> {
   void mention_unmodelled(const RegisterRow& row) const override {
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
-  pty::LineSettings line_settings() const override { return {}; }
-  void sample_inputs(Tick) override {}
-  void run_interpreters(Tick) override {}
-  void step_motion(Tick) override {}
-  void update_outputs(Tick) override {}
-  Tick next_active_tick(Tick) const override { return kNever; }
   bool same_state(const Device&) const override { return false; }
-  bool output(int) const override { return false; }
 
   bool is_low_word_first = true;
   std::vector<std::string> events;  // effects in the order in which they came
 
  protected:
-  void power_up() override {}
-  void power_down() override {}
   void write_own_state(StateWriter&) const override {}
   std::function<void()> read_own_state(StateReader&) override {
     return [] {};
   }
+  std::string own_difference(StateReader&, StateReader&) const override { return ""; }
 
  private:
   std::vector<std::uint32_t> image_;
@@ -80,7 +73,7 @@ struct Toy {
         model{.name = "toy",
               .title = "",
               .firmwares = kToyFirmwares,
-              .registers = map,
+              .registers = &map,
               .parameters = {},
               .instructions = {},
               .choices = {},
@@ -88,7 +81,8 @@ struct Toy {
               .axes = {},
               .state_registers = {},
               .gaps = {},
-              .rtu = {.bauds = kToyBauds, .settings = {}, .functions = kToyFunctions},
+              .line = {.protocol = kModbusRtu, .bauds = kToyBauds, .settings = {}},
+              .rtu = RtuRules{.functions = kToyFunctions},
               .make = nullptr},
         device(model, settings(firmware)) {
     device.is_low_word_first = policy.low_word_first;

@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace analog_test {
 
 struct Measuring : Switched {
   using Switched::Switched;
@@ -219,5 +219,5 @@ TEST(Analog, ComesBackWithThePower) {
   EXPECT_EQ(feeder.get("Analog_A"), 1400);
 }
 
-}  // namespace
+}  // namespace analog_test
 }  // namespace understudy::emulator::models::simple2_r3

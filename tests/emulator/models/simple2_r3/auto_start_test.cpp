@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/switched_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace auto_start_test {
 
 /// Out 3 ON; Counter_Increase 1; Delay 10 ms; Out 4 ON; Wait_IO DIN 0 ON; Jump to line 1
 const std::vector<std::uint16_t> kProgram{0x05, 3, 1, 0, 0x51, 1, 0, 1, 0x02, 10, 0, 0,
@@ -98,5 +98,5 @@ TEST(AutoStart, OfAnEmptyProgramRunsThroughItsLinesAndEnds) {
   EXPECT_FALSE(feeder.bit("PROG_MAIN_RunTime_Status"));
 }
 
-}  // namespace
+}  // namespace auto_start_test
 }  // namespace understudy::emulator::models::simple2_r3

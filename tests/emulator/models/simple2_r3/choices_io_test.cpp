@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_io_test {
 
 TEST(ChoicesRegisters, VersionIsInHundredthsOrBcd) {
   for (const auto& [option, version] :
@@ -240,5 +240,5 @@ TEST(ChoicesInputs, EncoderSpeedSaturatesOrWraps) {
   }
 }
 
-}  // namespace
+}  // namespace choices_io_test
 }  // namespace understudy::emulator::models::simple2_r3

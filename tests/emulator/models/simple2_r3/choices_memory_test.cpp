@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_memory_test {
 
 TEST(ChoicesMemory, FactoryResetOfVolatileResetsOrKeepsIt) {
   for (const auto& [option, kept] :
@@ -211,5 +211,5 @@ TEST(ChoicesPassword, LockedStartIsAllowedOrIgnored) {
   }
 }
 
-}  // namespace
+}  // namespace choices_memory_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_modes_test {
 
 std::uint8_t pwm_percent(OneSimple2& feeder) {
   return static_cast<const Simple2R3&>(feeder.device()).state().axes[0].pwm_percent;
@@ -316,5 +316,5 @@ TEST(ChoicesModes, EncoderSpeedIsOver100Or10Milliseconds) {
   }
 }
 
-}  // namespace
+}  // namespace choices_modes_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -5,7 +5,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_motion_test {
 
 /// Half-way through a move of 100 pulses: 50 are out.
 struct HalfWay : ReadySimple2 {
@@ -344,5 +344,5 @@ TEST(ChoicesMotion, PresetInMotionKeepsTheRemainingPulsesOrTheTarget) {
   }
 }
 
-}  // namespace
+}  // namespace choices_motion_test
 }  // namespace understudy::emulator::models::simple2_r3

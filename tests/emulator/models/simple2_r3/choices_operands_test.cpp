@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_operands_test {
 
 // CMD of the lines used here.
 constexpr std::uint16_t kWaitIo = 0x01, kJump = 0x03, kOut = 0x05, kOutAll = 0x06, kOutSelect = 0x09;
@@ -86,7 +86,7 @@ TEST(ChoicesProgram, AReadOnlyWriteIsIgnoredOrEndsTheProgram) {
 
 TEST(ChoicesProgram, TheReadOnlyParametersAreThoseOfReadOnlyRegisters) {
   for (const ParameterRow& parameters : model().parameters) {
-    for (const RegisterRow& target : model().registers.rows()) {
+    for (const RegisterRow& target : model().registers->rows()) {
       if (target.name != parameters.register_name) continue;
       for (int i = 0; i < parameters.count; ++i) {
         const auto number = static_cast<std::uint8_t>(parameters.first + i);
@@ -96,5 +96,5 @@ TEST(ChoicesProgram, TheReadOnlyParametersAreThoseOfReadOnlyRegisters) {
   }
 }
 
-}  // namespace
+}  // namespace choices_operands_test
 }  // namespace understudy::emulator::models::simple2_r3

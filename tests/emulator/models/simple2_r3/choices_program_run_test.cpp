@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_program_run_test {
 
 // CMD of the lines used here.
 constexpr std::uint16_t kDelay = 0x02, kJump = 0x03, kLoop = 0x04, kOut = 0x05, kEnd = 0xFF;
@@ -225,5 +225,5 @@ TEST(ChoicesProgramRun, ErasingARunningProgramStopsItOrRunsOverNothing) {
   }
 }
 
-}  // namespace
+}  // namespace choices_program_run_test
 }  // namespace understudy::emulator::models::simple2_r3

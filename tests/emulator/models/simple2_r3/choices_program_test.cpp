@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_program_test {
 
 // CMD of the lines used here.
 constexpr std::uint16_t kWaitIo = 0x01, kJump = 0x03, kOut = 0x05, kEnd = 0xFF;
@@ -273,5 +273,5 @@ TEST(ChoicesProgram, CountersWrapOrSaturate) {
   }
 }
 
-}  // namespace
+}  // namespace choices_program_test
 }  // namespace understudy::emulator::models::simple2_r3

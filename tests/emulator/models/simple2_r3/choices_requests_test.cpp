@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_requests_test {
 
 Refusal try_write(OneSimple2& feeder, std::uint16_t first, const std::vector<std::uint16_t>& words) {
   return write_words(*feeder.device().register_bank(), Table::holding, first, words);
@@ -144,5 +144,5 @@ TEST(ChoicesRequests, HalfAValueIsStoredOrJudgedWithTheOtherHalf) {
   }
 }
 
-}  // namespace
+}  // namespace choices_requests_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -11,7 +11,7 @@
 #include "tests/emulator/world/busy_acts.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_state_test {
 
 constexpr int kActs = 40;
 constexpr std::size_t kActsBetweenSaves = 7;
@@ -86,5 +86,5 @@ TEST(ChoicesState, EveryOptionsStateIsSavedAndNeedsNoTickThatIsQuiet) {
   EXPECT_GT(lives, 150u);
 }
 
-}  // namespace
+}  // namespace choices_state_test
 }  // namespace understudy::emulator::models::simple2_r3

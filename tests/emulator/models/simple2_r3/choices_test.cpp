@@ -8,7 +8,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace choices_test {
 
 // Aaxis_SVON = 1 to station 1, and the same to station 0.
 const std::vector<std::uint8_t> kServoOnTo1{0x01, 0x06, 0x10, 0x14, 0x00, 0x01, 0x0C, 0xCE};
@@ -142,5 +142,5 @@ TEST(Choices, ThoseOfTheLanguageReachTheInterpreter) {
   }
 }
 
-}  // namespace
+}  // namespace choices_test
 }  // namespace understudy::emulator::models::simple2_r3

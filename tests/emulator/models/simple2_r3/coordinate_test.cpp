@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace coordinate_test {
 
 TEST(Coordinate, IsZeroAtPowerUpAndTakesAnyPreset) {
   OneSimple2 feeder;
@@ -214,5 +214,5 @@ TEST(Encoder, WithoutOneReadsZeroAndKeepsAPreset) {
   EXPECT_EQ(feeder.get("ENCA"), 5);
 }
 
-}  // namespace
+}  // namespace coordinate_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -7,7 +7,7 @@
 #include "tests/emulator/models/simple2_r3/choice_cases.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace duty_test {
 
 world::Number value_of(const world::Probes& probes, std::string_view name) {
   return probes.value(probes.resolve(name).handle);
@@ -73,5 +73,5 @@ TEST(Duty, IsAColumnOfEveryTrace) {
   }
 }
 
-}  // namespace
+}  // namespace duty_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace eeprom_time_test {
 
 using Words = std::vector<std::uint16_t>;
 
@@ -223,5 +223,5 @@ TEST(EepromTime, AQuietDeviceWakesForItsEndOnly) {
   EXPECT_EQ(feeder.world().next_due(), std::nullopt);
 }
 
-}  // namespace
+}  // namespace eeprom_time_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -9,7 +9,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace firmware_direction_test {
 
 constexpr Firmware kVersions[] = {139, 140, 141, 142, 150, 151, 152};
 
@@ -180,5 +180,5 @@ TEST(FirmwareDirection, ThePolarityCountsFromWhenItIsWritten) {
   }
 }
 
-}  // namespace
+}  // namespace firmware_direction_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -5,7 +5,7 @@
 #include "tests/emulator/models/simple2_r3/program_host.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace firmware_test {
 
 using namespace opcode;
 
@@ -13,9 +13,9 @@ TEST(FirmwareVersions, TellTheirNumberOverBothReadFunctions) {
   for (const Firmware firmware : kVersions) {
     ProgramHost host(firmware);
     const std::string number = world::text(world::Bytes{0, static_cast<std::uint8_t>(firmware)});
-    EXPECT_EQ(host.ask(world::read_request(0x03, 0x0002, 1)), "03 02 " + number);
-    EXPECT_EQ(host.ask(world::read_request(0x04, 0x0002, 1)), "04 02 " + number);
-    EXPECT_EQ(host.ask(world::read_request(0x03, 0x0001, 2)), "03 04 C0 01 " + number);
+    EXPECT_EQ(host.ask(world::read_pdu(0x03, 0x0002, 1)), "03 02 " + number);
+    EXPECT_EQ(host.ask(world::read_pdu(0x04, 0x0002, 1)), "04 02 " + number);
+    EXPECT_EQ(host.ask(world::read_pdu(0x03, 0x0001, 2)), "03 04 C0 01 " + number);
     EXPECT_EQ(host.ask(world::write_request(0x0002, firmware)), "86 02");
   }
   EXPECT_EQ(ProgramHost(Given{}.firmware).word(0x0002), 152);
@@ -67,18 +67,18 @@ TEST(FirmwareVersions, ThePasswordRegistersAreThereFrom151On) {
     for (const std::uint8_t function : {0x03, 0x04}) {
       const std::string refused = world::text(world::Bytes{static_cast<std::uint8_t>(function | 0x80), 2});
       for (const std::size_t address : {0xFF07, 0xFF08, 0xFF09}) {
-        const std::string reply = host.ask(world::read_request(function, address, 1));
+        const std::string reply = host.ask(world::read_pdu(function, address, 1));
         EXPECT_EQ(reply == refused, !there) << reply;
         if (there) {
           EXPECT_EQ(reply.substr(0, 5), world::text(world::Bytes{function, 2}));
         }
       }
       // One more than there is.
-      EXPECT_EQ(host.ask(world::read_request(function, 0xFF07, 4)), refused);
-      EXPECT_EQ(host.ask(world::read_request(function, 0xFF00, 11)), refused);
+      EXPECT_EQ(host.ask(world::read_pdu(function, 0xFF07, 4)), refused);
+      EXPECT_EQ(host.ask(world::read_pdu(function, 0xFF00, 11)), refused);
       // 0xFF00 to 0xFF06 are there in all.
-      EXPECT_NE(host.ask(world::read_request(function, 0xFF00, 7)), refused);
-      EXPECT_EQ(host.ask(world::read_request(function, 0xFF00, 8)) == refused, !there);
+      EXPECT_NE(host.ask(world::read_pdu(function, 0xFF00, 7)), refused);
+      EXPECT_EQ(host.ask(world::read_pdu(function, 0xFF00, 8)) == refused, !there);
     }
     EXPECT_EQ(host.ask(world::write_request(0xFF08, 1)), "86 02") << "read only, or not there";
     for (const std::size_t address : {0xFF07, 0xFF09}) {
@@ -92,9 +92,9 @@ TEST(FirmwareVersions, ThePasswordRegistersAreThereFrom151On) {
     }
     // The program can be read.
     host.write(0x4000, world::Words{kOut, 1, 1, 7});
-    EXPECT_EQ(host.ask(world::read_request(0x03, 0x4000, 4)), "03 08 00 05 00 01 00 01 00 07");
+    EXPECT_EQ(host.ask(world::read_pdu(0x03, 0x4000, 4)), "03 08 00 05 00 01 00 01 00 07");
   }
 }
 
-}  // namespace
+}  // namespace firmware_test
 }  // namespace understudy::emulator::models::simple2_r3

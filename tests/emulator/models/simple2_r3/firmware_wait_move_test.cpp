@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/program_host.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace firmware_wait_move_test {
 
 using namespace opcode;
 
@@ -182,5 +182,5 @@ TEST(FirmwareWaitMove, TheChoiceToBelieveThatItWaitsIsOneFor139Only) {
   }
 }
 
-}  // namespace
+}  // namespace firmware_wait_move_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace homing_commands_test {
 
 constexpr int kOn = +1;
 constexpr int kBack = -1;
@@ -353,5 +353,5 @@ TEST(HomingCommands, AProgramWaitsForItInEitherWay) {
   }
 }
 
-}  // namespace
+}  // namespace homing_commands_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -8,7 +8,7 @@
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace homing_from_everywhere_test {
 
 constexpr int kOn = +1;  // along the direction of GoHome_DIR
 constexpr int kBack = -1;
@@ -252,5 +252,5 @@ TEST(HomingFromEverywhere, BothAxesAtOnceEachTakeTheirOwn) {
   }
 }
 
-}  // namespace
+}  // namespace homing_from_everywhere_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -7,7 +7,7 @@
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace homing_interrupted_test {
 
 constexpr int kOn = +1;
 constexpr int kBack = -1;
@@ -270,5 +270,5 @@ TEST(HomingInterrupted, AnAlarmStopsNothingWithAlarmReactionNone) {
   EXPECT_TRUE(machine.homed());
 }
 
-}  // namespace
+}  // namespace homing_interrupted_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace homing_switches_test {
 
 constexpr int kOn = +1;
 constexpr int kBack = -1;
@@ -278,5 +278,5 @@ TEST(HomingSwitches, WithLimitReactionNoneItPassesThem) {
   }
 }
 
-}  // namespace
+}  // namespace homing_switches_test
 }  // namespace understudy::emulator::models::simple2_r3

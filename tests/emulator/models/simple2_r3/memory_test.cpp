@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace memory_test {
 
 struct Written {
   std::string_view name;
@@ -181,5 +181,5 @@ TEST(Firmware, ARequestReachingThePasswordOf150IsRefusedWhole) {
   EXPECT_EQ(feeder.get("ADC_10V_A"), 4000);
 }
 
-}  // namespace
+}  // namespace memory_test
 }  // namespace understudy::emulator::models::simple2_r3

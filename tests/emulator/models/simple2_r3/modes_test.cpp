@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace modes_test {
 
 const Simple2R3& inside(OneSimple2& feeder) { return static_cast<const Simple2R3&>(feeder.device()); }
 
@@ -261,5 +261,5 @@ TEST(Modes, TheLastCommandWins) {
   EXPECT_EQ(feeder.coordinate('A'), here + 1000);
 }
 
-}  // namespace
+}  // namespace modes_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace move_commands_test {
 
 struct AxisCase {
   char axis;
@@ -352,5 +352,5 @@ TEST(MoveCommands, ServoOnWhileOnDisturbsNothing) {
   EXPECT_FALSE(feeder.moving('A'));
 }
 
-}  // namespace
+}  // namespace move_commands_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace move_timing_test {
 
 /// The manual's example, floor(s(t)) in whole numbers: V = 32/3 pulses/ms, ramps of 50 ms.
 std::int64_t example_position(Tick t) {
@@ -178,5 +178,5 @@ TEST(MoveTiming, AHalfWrittenExcessiveResolutionCountsAsTheMaximum) {
   EXPECT_EQ(feeder.try_set("Aaxis_Resoultion", 0x8000'0001), Refusal::bad_value);
 }
 
-}  // namespace
+}  // namespace move_timing_test
 }  // namespace understudy::emulator::models::simple2_r3

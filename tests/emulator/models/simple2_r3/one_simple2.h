@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/terminals.h"
 #include "emulator/models/simple2_r3/model.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/world.h"
@@ -87,7 +88,7 @@ class OneSimple2 {
     return now() - begin;
   }
   void input(int number, bool on) { world_.set_external_input(0, number, on); }
-  bool output(int number) const { return world_.device(0).output(11 + number); }
+  bool output(int number) const { return world_.device(0).terminals()->output(11 + number); }
 
  private:
   static world::Bench bench(const Given& given) {

@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace outputs_test {
 
 TEST(Outputs, AreDrivenAtOnceOneByOneAndTogether) {
   OneSimple2 feeder;
@@ -98,5 +98,5 @@ TEST(Outputs, OneRequestOverAllRegistersWritesThemAll) {
   EXPECT_EQ(feeder.get("DOUT_ALL"), 0x55);
 }
 
-}  // namespace
+}  // namespace outputs_test
 }  // namespace understudy::emulator::models::simple2_r3

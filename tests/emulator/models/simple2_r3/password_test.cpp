@@ -5,7 +5,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace password_test {
 
 constexpr std::size_t kPwdInput = 0xFF07;
 constexpr std::size_t kUnlock = 0xFF08;
@@ -81,7 +81,7 @@ TEST(Password, HidesTheProgramFromEveryWayOfReading) {
   load(feeder, filled_program());
   feeder.run(6000);
   feeder.lock_with(7);
-  EXPECT_EQ(world::answer(feeder.device(), world::read_request(0x04, 0x4000, 3)), "04 06 00 00 00 00 00 00");
+  EXPECT_EQ(world::answer(feeder.device(), world::read_pdu(0x04, 0x4000, 3)), "04 06 00 00 00 00 00 00");
   EXPECT_EQ(feeder.words(0x43FF), world::Words{0});
   EXPECT_EQ(feeder.get("MAIN_LINE255_JMP"), 0);
   for (const char* open : {"PROG_MEM0", "PROG_VAR0", "Parms_Speed1"}) {
@@ -248,7 +248,7 @@ TEST(Password, IsNoneBefore151WhoeverSetOneLater) {
     Locked feeder({.firmware = firmware});
     load(feeder, {1, 2, 3, 4});
     for (const std::size_t address : {kPwdInput, kUnlock, kNewPwd}) {
-      EXPECT_EQ(world::answer(feeder.device(), world::read_request(0x03, address, 1)), "83 02") << firmware;
+      EXPECT_EQ(world::answer(feeder.device(), world::read_pdu(0x03, address, 1)), "83 02") << firmware;
       EXPECT_EQ(world::answer(feeder.device(), world::write_request(address, 1)), "86 02") << firmware;
     }
     feeder.run(100);
@@ -268,5 +268,5 @@ TEST(Password, IsNoneBefore151WhoeverSetOneLater) {
   EXPECT_EQ(world::read(*world::make_simple2(settings), 0x4000, 1), world::Words{0});
 }
 
-}  // namespace
+}  // namespace password_test
 }  // namespace understudy::emulator::models::simple2_r3

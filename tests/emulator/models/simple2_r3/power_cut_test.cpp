@@ -4,7 +4,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace power_cut_test {
 
 // -----------------------------------------------------------------------------------------
 
@@ -92,5 +92,5 @@ TEST(PowerCut, AtTheSameInstantMayComeAgainAndAgain) {
   EXPECT_EQ(feeder.get("Aaxis_Speed"), 7);
 }
 
-}  // namespace
+}  // namespace power_cut_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -9,7 +9,7 @@
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace power_cycle_line_test {
 
 using namespace std::chrono_literals;
 
@@ -241,5 +241,5 @@ TEST(PowerCycleOnTheLine, PulseFormatIsThatOfTheSwitchWhenThePowerComes) {
   EXPECT_EQ(feeder.line_settings().baud, 19'200) << "DIP1 is another one";
 }
 
-}  // namespace
+}  // namespace power_cycle_line_test
 }  // namespace understudy::emulator::models::simple2_r3

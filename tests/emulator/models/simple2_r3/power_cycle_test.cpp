@@ -8,7 +8,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace power_cycle_test {
 
 constexpr Value kForeverSpeedMilliRpm = 60'000;
 
@@ -298,5 +298,5 @@ TEST(PowerCycle, AMoveIsCutToThePulse) {
   }
 }
 
-}  // namespace
+}  // namespace power_cycle_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -8,10 +8,11 @@
 #include <random>
 
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/terminals.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace power_cycle_world_test {
 
 std::uint64_t seed() {
   const char* given = std::getenv("UNDERSTUDY_SEED");
@@ -125,7 +126,8 @@ testing::AssertionResult same(world::World& one, world::World& other) {
     if (one.device(d).memory()->nv_image() != other.device(d).memory()->nv_image()) return differ("a memory");
     for (int i = 0; i < 18; ++i) {
       if (one.device(d).input(i) != other.device(d).input(i)) return differ("an input");
-      if (one.device(d).output(i) != other.device(d).output(i)) return differ("an output");
+      if (one.device(d).terminals()->output(i) != other.device(d).terminals()->output(i))
+        return differ("an output");
     }
     for (int axis = 0; axis < 2; ++axis) {
       if (one.plant(d, axis).position_pulses() != other.plant(d, axis).position_pulses())
@@ -231,5 +233,5 @@ TEST(PowerCycleInAWorld, InputsAreLookedAtAnewByADeviceThatComesBack) {
   EXPECT_EQ(world::get(world, "feeder.STATUS.0"), 1);
 }
 
-}  // namespace
+}  // namespace power_cycle_world_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace protection_test {
 
 struct Limit {
   char axis;
@@ -289,5 +289,5 @@ TEST(AlarmClear, ClearsNoAlarmByItselfAndStopsNoMotion) {
   EXPECT_EQ(feeder.get("STATUS.0"), 1);
 }
 
-}  // namespace
+}  // namespace protection_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -7,7 +7,7 @@
 #include "tests/emulator/models/simple2_r3/reaction_rig.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace reactions_test {
 
 // --- outcomes ----------------------------------------------------------------------------------------
 
@@ -311,5 +311,5 @@ TEST(Reactions, ANewPolarityCountsNothing) {
   EXPECT_EQ(rig.get("ENCA"), 0);
 }
 
-}  // namespace
+}  // namespace reactions_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -3,7 +3,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace running_program_test {
 
 using Words = std::vector<std::uint16_t>;
 
@@ -99,5 +99,5 @@ TEST(RunningProgram, CrossesManyTicksAtOnceToTheSameState) {
   EXPECT_TRUE(stepped.device().same_state(leaping.device()));
 }
 
-}  // namespace
+}  // namespace running_program_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -10,7 +10,7 @@
 #include "tests/emulator/device/register_map/register_facts.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace simple2_r3_table_test {
 
 const Model& simple2() { return *find_model(all_models(), "simple2-r3"); }
 
@@ -38,7 +38,7 @@ TEST(Simple2Registers, ExactlyTheManualsAddressesExistInEveryFirmware) {
       const auto fact = since.find(static_cast<std::uint16_t>(address));
       const bool wanted = fact != since.end() && firmware >= fact->second;
       const Place place =
-          simple2().registers.at(Table::holding, static_cast<std::uint16_t>(address), firmware, true);
+          simple2().registers->at(Table::holding, static_cast<std::uint16_t>(address), firmware, true);
       EXPECT_EQ(static_cast<bool>(place), wanted) << std::hex << address << " in firmware " << firmware;
       if (place) ++there;
     }
@@ -49,7 +49,7 @@ TEST(Simple2Registers, ExactlyTheManualsAddressesExistInEveryFirmware) {
 TEST(Simple2Registers, NoOtherTableHasAnything) {
   for (const Table table : {Table::input, Table::coil, Table::discrete}) {
     for (unsigned address = 0; address <= 0xFFFF; ++address) {
-      EXPECT_FALSE(simple2().registers.at(table, static_cast<std::uint16_t>(address), kNewest, true));
+      EXPECT_FALSE(simple2().registers->at(table, static_cast<std::uint16_t>(address), kNewest, true));
     }
   }
 }
@@ -57,7 +57,7 @@ TEST(Simple2Registers, NoOtherTableHasAnything) {
 TEST(Simple2Registers, EachHasTheAttributesThatTheManualGives) {
   for (const RegisterFact& fact : simple2_r3_registers()) {
     SCOPED_TRACE(fact.name);
-    const Place place = simple2().registers.at(Table::holding, fact.address, kNewest, true);
+    const Place place = simple2().registers->at(Table::holding, fact.address, kNewest, true);
     ASSERT_TRUE(place);
     const RegisterRow& row = *place.row;
     EXPECT_EQ(row.access, fact.access());
@@ -81,18 +81,18 @@ TEST(Simple2Registers, EachHasTheAttributesThatTheManualGives) {
 
 TEST(Simple2Registers, EachIsFoundByEverySpellingOfTheManual) {
   for (const RegisterFact& fact : simple2_r3_registers()) {
-    const Place there = simple2().registers.at(Table::holding, fact.address, kNewest, true);
+    const Place there = simple2().registers->at(Table::holding, fact.address, kNewest, true);
     ASSERT_TRUE(there);
     for (const std::string& name : {fact.name, fact.other_name}) {
       // 0xF02A is printed with the name of 0xF029 again; that name means the first one.
       if (name.empty() || (fact.address == 0xF02A && name == "Axis_SyncRPM")) continue;
-      const auto found = simple2().registers.find(name, kNewest);
+      const auto found = simple2().registers->find(name, kNewest);
       ASSERT_TRUE(found) << name;
       EXPECT_EQ(found->place.slot, there.slot) << name;
       EXPECT_EQ(found->place.part, there.part) << name;
       EXPECT_EQ(found->bit, -1) << name;
       if (!fact.is_32_bit) continue;
-      const auto whole = simple2().registers.find(without_half(name), kNewest);
+      const auto whole = simple2().registers->find(without_half(name), kNewest);
       ASSERT_TRUE(whole) << without_half(name);
       EXPECT_EQ(whole->place.slot, there.slot) << name;
       EXPECT_EQ(whole->place.part, Place::Part::whole) << name;
@@ -102,10 +102,10 @@ TEST(Simple2Registers, EachIsFoundByEverySpellingOfTheManual) {
 
 TEST(Simple2Registers, NamesOfNewerFirmwareAreUnknownToOlderOnes) {
   for (const char* name : {"PWD_Input", "PWD_INPUT", "PROG_UNLOCK", "NEW_PWD"}) {
-    EXPECT_TRUE(simple2().registers.find(name, kNewest)) << name;
-    EXPECT_TRUE(simple2().registers.find(name, 151)) << name;
-    EXPECT_FALSE(simple2().registers.find(name, 150)) << name;
-    EXPECT_FALSE(simple2().registers.find(name, kOldest)) << name;
+    EXPECT_TRUE(simple2().registers->find(name, kNewest)) << name;
+    EXPECT_TRUE(simple2().registers->find(name, 151)) << name;
+    EXPECT_FALSE(simple2().registers->find(name, 150)) << name;
+    EXPECT_FALSE(simple2().registers->find(name, kOldest)) << name;
   }
 }
 
@@ -113,25 +113,25 @@ TEST(Simple2Registers, EveryQuantityHasAPlaceOfItsOwnInTheImage) {
   std::map<int, std::string> owners;
   for (const RegisterFact& fact : simple2_r3_registers()) {
     if (fact.half == 'H') continue;
-    const Place place = simple2().registers.at(Table::holding, fact.address, kNewest, true);
+    const Place place = simple2().registers->at(Table::holding, fact.address, kNewest, true);
     ASSERT_TRUE(place);
     EXPECT_GE(place.slot, 0);
-    EXPECT_LT(place.slot, simple2().registers.slot_count());
+    EXPECT_LT(place.slot, simple2().registers->slot_count());
     const auto [owner, is_new] = owners.emplace(place.slot, fact.name);
     EXPECT_TRUE(is_new) << fact.name << " and " << owner->second;
   }
   EXPECT_EQ(owners.size(), 1418u - 111u);  // 111 quantities take two addresses
-  EXPECT_EQ(simple2().registers.slot_count(), 1418 - 111);
+  EXPECT_EQ(simple2().registers->slot_count(), 1418 - 111);
 }
 
 TEST(Simple2Parameters, AreThe175NumbersOfTheManual) {
   std::map<int, Place> places;
   for (const ParameterRow& row : simple2().parameters) {
     for (int i = 0; i < row.count; ++i) {
-      for (const RegisterRow& candidate : simple2().registers.rows()) {
+      for (const RegisterRow& candidate : simple2().registers->rows()) {
         if (candidate.name != row.register_name) continue;
         const auto at = static_cast<std::uint16_t>(candidate.address + i * candidate.stride);
-        const Place place = simple2().registers.at(Table::holding, at, kNewest, true);
+        const Place place = simple2().registers->at(Table::holding, at, kNewest, true);
         EXPECT_TRUE(place) << row.register_name << " " << i;
         EXPECT_TRUE(places.emplace(row.first + i, place).second) << row.first + i << " is there twice";
       }
@@ -150,5 +150,5 @@ TEST(Simple2Parameters, AreThe175NumbersOfTheManual) {
   }
 }
 
-}  // namespace
+}  // namespace simple2_r3_table_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -7,7 +7,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace simple2_r3_wire_test {
 
 constexpr const char* kReadNoAddress = "83 02";
 constexpr const char* kWriteNoAddress = "86 02";
@@ -52,8 +52,7 @@ TEST(Simple2Wire, EveryAddressReadsItsFactoryWordOrIsRefused) {
         world::put(reply, fact->second.readable ? fact->second.factory_word : 0);
         wanted = world::text(reply);
       }
-      ASSERT_EQ(world::answer(*device, world::read_request(function, address, 1)), wanted)
-          << std::hex << address;
+      ASSERT_EQ(world::answer(*device, world::read_pdu(function, address, 1)), wanted) << std::hex << address;
     }
   }
 }
@@ -206,5 +205,5 @@ TEST(Simple2Wire, AWriteTouchesNoOtherRegister) {
   }
 }
 
-}  // namespace
+}  // namespace simple2_r3_wire_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace status_test {
 
 struct InputCase {
   int input;
@@ -149,5 +149,5 @@ TEST(Inputs, AreLookedAtInTicksSoAShorterPulseIsNotSeen) {
   EXPECT_EQ(feeder.get("DIN_10"), 0);
 }
 
-}  // namespace
+}  // namespace status_test
 }  // namespace understudy::emulator::models::simple2_r3

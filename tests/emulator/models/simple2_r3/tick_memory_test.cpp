@@ -8,7 +8,7 @@
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace tick_memory_test {
 
 /// How many cache lines some objects lie on, each with its last byte.
 class CacheLines {
@@ -87,5 +87,5 @@ TEST(Simple2TickMemory, InputsHeldOverPowerOffAreSeen) {
   EXPECT_EQ(one.get("DIN_10"), 1);
 }
 
-}  // namespace
+}  // namespace tick_memory_test
 }  // namespace understudy::emulator::models::simple2_r3

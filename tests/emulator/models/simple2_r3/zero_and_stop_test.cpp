@@ -8,7 +8,7 @@
 #include "tests/emulator/models/simple2_r3/reaction_rig.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace zero_and_stop_test {
 
 // --- 0 -------------------------------------------------------------------------------------------------
 
@@ -217,6 +217,18 @@ TEST(KeptMove, IsWaitedForByALine) {
   }
 }
 
+TEST(WaitMoveHoming, DoesNotMatterToAMove) {
+  for (const auto& [option, is_over] :
+       each_option<bool>("wait_move_homing", {{"waits", false}, {"does_not_wait", false}})) {
+    Rig rig(with("wait_move_homing", option));
+    rig.move(kDistance);
+    run_waiting(rig, 0x24);
+    EXPECT_EQ(rig.output(0), is_over) << option;
+    rig.watch(300);
+    EXPECT_TRUE(rig.output(0)) << option;
+  }
+}
+
 TEST(KeptMove, ThatStopForgetsIsCutShort) {
   for (const auto& [option, goes_on] : each_option<bool>(
            "wait_cut_short", {{"goes_on", true}, {"waits_on", false}, {"program_ends", false}})) {
@@ -258,5 +270,5 @@ TEST(Inputs, AreLookedAtAtPowerUp) {
   EXPECT_EQ(feeder.get("DIN_ALL"), 0x400);
 }
 
-}  // namespace
+}  // namespace zero_and_stop_test
 }  // namespace understudy::emulator::models::simple2_r3

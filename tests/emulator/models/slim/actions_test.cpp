@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace actions_test {
 
 using lang::Columns;
 using lang::Place;
@@ -72,6 +72,6 @@ TEST(SlimActions, EachQueryHasAnAnswer) {
   EXPECT_GT(asked, 15);
 }
 
-}  // namespace
+}  // namespace actions_test
 
 }  // namespace understudy::emulator::models::slim

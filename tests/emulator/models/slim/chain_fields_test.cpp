@@ -5,17 +5,17 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace chain_fields_test {
 
 std::vector<std::byte> saved(const Chain& chain) {
   StateWriter writer;
-  writer.write<ChainFields>(chain);
+  writer.put_value(chain);
   return writer.take();
 }
 Chain restored(std::span<const std::byte> bytes) {
   Chain chain;
   StateReader reader(bytes);
-  reader.read<ChainFields>(chain);
+  reader.take_value(chain);
   reader.demand_end();
   return chain;
 }
@@ -108,5 +108,5 @@ TEST(SlimChainFields, TicksLeftOutWhereNothingHappensMakeNoDifference) {
   EXPECT_LT(steps, 19'000);
 }
 
-}  // namespace
+}  // namespace chain_fields_test
 }  // namespace understudy::emulator::models::slim

@@ -3,7 +3,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace dialogue_options_test {
 
 TEST(SlimDialogue, SpeaksAsItsOptionsSay) {
   const auto all_said = [](DialogueScript& script, const std::string& line) {
@@ -83,6 +83,6 @@ TEST(SlimDialogue, ToleratesWhatTerminalsDo) {
   }
 }
 
-}  // namespace
+}  // namespace dialogue_options_test
 
 }  // namespace understudy::emulator::models::slim

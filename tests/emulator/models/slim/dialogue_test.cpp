@@ -4,7 +4,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace dialogue_test {
 
 TEST(SlimDialogue, AnswersQueriesWithTheBareValue) {
   DialogueScript script;
@@ -321,6 +321,6 @@ TEST(SlimDialogue, IsReadAndWrittenByNamePastTheLine) {
   EXPECT_EQ(script.ask("?R0"), "2.5");
 }
 
-}  // namespace
+}  // namespace dialogue_test
 
 }  // namespace understudy::emulator::models::slim

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/device/terminals.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -107,7 +108,7 @@ inline void check_output(DialogueScript& script, const std::string& step) {
   const auto terminals = model().terminals;
   for (std::size_t i = 0; i < terminals.size(); ++i) {
     if (terminals[i].name != name) continue;
-    EXPECT_EQ(script.device().output(static_cast<int>(i)), step.back() == '1') << step;
+    EXPECT_EQ(script.device().terminals()->output(static_cast<int>(i)), step.back() == '1') << step;
     return;
   }
   ADD_FAILURE() << "no output " << name;

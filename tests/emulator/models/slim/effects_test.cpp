@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace effects_test {
 
 std::vector<Effect> all_effects() {
   std::vector<Effect> all(std::begin(kOneMotorEffects), std::end(kOneMotorEffects));
@@ -121,6 +121,6 @@ TEST(SlimEffects, WhatCannotBeTyped) {
   EXPECT_EQ(not_allowed(nothing, {}), stored);
 }
 
-}  // namespace
+}  // namespace effects_test
 
 }  // namespace understudy::emulator::models::slim

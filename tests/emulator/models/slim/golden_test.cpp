@@ -7,7 +7,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace golden_test {
 
 constexpr double kTvm = 100;
 constexpr double kTva = 1000;
@@ -206,5 +206,5 @@ TEST(SlimGolden, WhatCannotBeIsRefusedAndChangesNothing) {
   EXPECT_TRUE(bench.all_done());
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace understudy::emulator::models::slim

@@ -6,7 +6,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace groups_test {
 
 TEST(SlimGroups, ThreeOfTwoAxesRunAtTheSameTimeEachOnItsOwnPath) {
   OneChain bench;
@@ -165,5 +165,5 @@ TEST(SlimGroups, AThousandCommandsInAnyOrderLoseNothing) {
   EXPECT_GT(refused, 0);
 }
 
-}  // namespace
+}  // namespace groups_test
 }  // namespace understudy::emulator::models::slim

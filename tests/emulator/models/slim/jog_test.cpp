@@ -4,7 +4,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace jog_test {
 
 OneChain jogging() {
   OneChain bench;
@@ -186,5 +186,5 @@ TEST(SlimJog, VjOfZeroIsOfTheNextJogAlsoWhereSpeedsCountAtOnce) {
   EXPECT_DOUBLE_EQ(bench.chain.speed_pps(0), 1000);
 }
 
-}  // namespace
+}  // namespace jog_test
 }  // namespace understudy::emulator::models::slim

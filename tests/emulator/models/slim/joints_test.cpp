@@ -6,7 +6,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace joints_test {
 
 constexpr int kPulses = 1000;
 
@@ -165,5 +165,5 @@ TEST(SlimJoints, ThirtyTwoShortPiecesAreOneMotion) {
   EXPECT_EQ(bench.finish() - 1, ticks_of(Trapezoid{16, 100, 1000}.duration_s()));
 }
 
-}  // namespace
+}  // namespace joints_test
 }  // namespace understudy::emulator::models::slim

@@ -1,6 +1,7 @@
 // Every cell of meetings.h, brought about from the host, from a program's own line and from an event's
 // routine.
 #include "emulator/models/slim/meetings.h"
+#include "emulator/device/terminals.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace meetings_test {
 
 using Lines = std::vector<std::string>;
 
@@ -154,7 +155,7 @@ class Cell {
     EXPECT_EQ(script_.next(), "(nothing)");
     EXPECT_EQ(execution().running, expected == Outcome::goes_on);
     if (row_.doing != Doing::program_runs || expected != Outcome::goes_on) return;
-    const auto level = [&] { return script_.device().output(terminal(0, kFirstOutput)); };
+    const auto level = [&] { return script_.device().terminals()->output(terminal(0, kFirstOutput)); };
     const bool before = level();
     script_.pass(2);  // CHG and JP
     EXPECT_NE(level(), before);
@@ -191,6 +192,6 @@ TEST(SlimMeetings, NameTheListOrARowOfTheChoices) {
   }
 }
 
-}  // namespace
+}  // namespace meetings_test
 
 }  // namespace understudy::emulator::models::slim

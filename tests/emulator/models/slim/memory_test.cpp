@@ -5,7 +5,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace memory_test {
 
 TEST(SlimMemory, RefusesAnImageThatDoesNotFit) {
   const auto refusal = [](const NvImage& image) -> std::string {
@@ -137,6 +137,6 @@ TEST(SlimMemory, IsKeptInAnImage) {
   EXPECT_EQ(world.device(0).named_values()->value_named("T1VM"), 77);
 }
 
-}  // namespace
+}  // namespace memory_test
 
 }  // namespace understudy::emulator::models::slim

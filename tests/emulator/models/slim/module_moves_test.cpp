@@ -4,7 +4,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace module_moves_test {
 
 TEST(SlimMove, TakesTheTimeOfATrapezoid) {
   struct Row {
@@ -247,5 +247,5 @@ TEST(SlimMapped, AnUnlinkedModuleTakesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace module_moves_test
 }  // namespace understudy::emulator::models::slim

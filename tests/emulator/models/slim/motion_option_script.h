@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "emulator/device/terminals.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -21,7 +22,7 @@ class MotionScript : public DialogueScript {
     }
   }
 
-  bool output(int number) { return device().output(terminal(0, kFirstOutput + number - 1)); }
+  bool output(int number) { return device().terminals()->output(terminal(0, kFirstOutput + number - 1)); }
 
   /// How long it moves from now on.
   Tick finish_ms() {

@@ -6,7 +6,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace numbers_and_errors_test {
 
 TEST(SlimNumbers, ACoordinateIsExactToThePulse) {
   for (const std::string units : {"16777217", "33333333", "-33333333", "123456789", "2147483647"}) {
@@ -217,6 +217,6 @@ TEST(SlimEntry, AModuleBeyondTheEighthIsOutOfRange) {
   play({}, "> T8H\n< ERR 2\n> T15H\n< ERR 2\n> ?T15PE\n< ERR 2\n> T15PR3=5\n< ERR 2\n> T15FOO\n< ERR 1\n");
 }
 
-}  // namespace
+}  // namespace numbers_and_errors_test
 
 }  // namespace understudy::emulator::models::slim

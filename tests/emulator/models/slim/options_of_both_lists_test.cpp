@@ -5,7 +5,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_both_lists_test {
 
 const std::string kMap = "> TX=0\n> TY=1\n";
 
@@ -205,6 +205,6 @@ TEST(SlimListOptions, TheFormOfSaa) {
             {"four_variables", form + "< ERR 1\n" + both + ">\n"}});
 }
 
-}  // namespace
+}  // namespace options_of_both_lists_test
 
 }  // namespace understudy::emulator::models::slim

@@ -5,7 +5,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_motion_test {
 
 TEST(SlimMotionOptions, CommandsWhileSomethingMoves) {
   const std::string begin = "> TX=0\n> TY=1\n> MA 1000\n@ 501\n";
@@ -394,6 +394,6 @@ TEST(SlimMotionOptions, AnalogSpeedNeitherBreaksNorRevivesAJog) {
              "> ?PE\n< 56\n> ?ST\n< 1\n"}});
 }
 
-}  // namespace
+}  // namespace options_of_motion_test
 
 }  // namespace understudy::emulator::models::slim

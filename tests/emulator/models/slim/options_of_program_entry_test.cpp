@@ -9,7 +9,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_program_entry_test {
 
 TEST(SlimProgramEntryChoices, ProgramSize) {
   const auto lines = [](int count) {
@@ -236,6 +236,6 @@ TEST(SlimProgramEntryChoices, Addresses) {
   }
 }
 
-}  // namespace
+}  // namespace options_of_program_entry_test
 
 }  // namespace understudy::emulator::models::slim

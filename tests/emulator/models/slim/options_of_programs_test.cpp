@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_programs_test {
 
 const std::string kAsking = R"(
 > PG
@@ -322,6 +322,6 @@ TEST(SlimProgramChoices, QuietTicksAndSavedStates) {
   EXPECT_GT(crossed, 1000u);
 }
 
-}  // namespace
+}  // namespace options_of_programs_test
 
 }  // namespace understudy::emulator::models::slim

@@ -4,7 +4,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_stops_test {
 
 // The first move is under way, and the program waits for its end.
 const std::string kAtDone = R"(
@@ -79,6 +79,6 @@ TEST(SlimStopOptions, NumbersOnlyMeansNumbersOnly) {
   strict.play(kAtNumber + "> TAPZ\n> TAREDO\n< ERR 1\n> EXIT\n> TAREDO\n> ?MD\n< 4\n");
 }
 
-}  // namespace
+}  // namespace options_of_stops_test
 
 }  // namespace understudy::emulator::models::slim

@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_the_dialogue_test {
 
 struct Case {
   const char* title;
@@ -345,6 +345,6 @@ lines:
   EXPECT_EQ(ask("?PN37"), "34945\r\n");
 }
 
-}  // namespace
+}  // namespace options_of_the_dialogue_test
 
 }  // namespace understudy::emulator::models::slim

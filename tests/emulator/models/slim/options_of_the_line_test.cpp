@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace options_of_the_line_test {
 
 using namespace std::chrono_literals;
 /// A line as it is, without any idea of where lines end.
@@ -170,6 +170,6 @@ TEST(SlimLineOptions, OnAWireXoffHoldsFromTheNextCharacterOn) {
   EXPECT_EQ(wire.heard(), "00\r\n");
 }
 
-}  // namespace
+}  // namespace options_of_the_line_test
 
 }  // namespace understudy::emulator::models::slim

@@ -1,11 +1,12 @@
 // Outputs: in their turn and at once, pulses, PWM, and by position.
 #include <gtest/gtest.h>
 
+#include "emulator/device/terminals.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace outputs_test {
 
 int levels(const Chain& chain, int module) {
   int mask = 0;
@@ -90,7 +91,7 @@ TEST(SlimOutputs, APulseOfAProgramLastsAsLong) {
     int on = 0;
     for (int i = 0; i < 200; ++i) {
       script.pass(1);
-      on += script.device().output(terminal(0, kFirstOutput)) ? 1 : 0;
+      on += script.device().terminals()->output(terminal(0, kFirstOutput)) ? 1 : 0;
     }
     EXPECT_EQ(on, 4 * units);
   }
@@ -187,5 +188,5 @@ TEST(SlimTriggers, FollowTheCoordinateAndWorkInCoordinatedMotion) {
   EXPECT_EQ(bench.chain.arm(1, 3, 1, true, 1), Error::range);
 }
 
-}  // namespace
+}  // namespace outputs_test
 }  // namespace understudy::emulator::models::slim

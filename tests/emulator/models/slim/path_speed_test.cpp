@@ -6,7 +6,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace path_speed_test {
 
 constexpr int kPulses = 1000;
 
@@ -110,5 +110,5 @@ TEST(SlimTvm, NeitherMayBeZeroOrLess) {
   }
 }
 
-}  // namespace
+}  // namespace path_speed_test
 }  // namespace understudy::emulator::models::slim

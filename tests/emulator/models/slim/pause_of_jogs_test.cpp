@@ -4,7 +4,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace pause_of_jogs_test {
 
 /// At 1000 pulses a second, reached within 0.1 s and 50 pulses.
 OneChain at_jog(const ChainOptions& options = {}) {
@@ -130,5 +130,5 @@ TEST(SlimPauseTable, AThrustGoesOnAfterThePause) {
   }
 }
 
-}  // namespace
+}  // namespace pause_of_jogs_test
 }  // namespace understudy::emulator::models::slim

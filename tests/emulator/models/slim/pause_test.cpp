@@ -6,7 +6,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace pause_test {
 
 constexpr int kPulses = 1000;
 
@@ -290,5 +290,5 @@ TEST(SlimPauseTable, PauseAndTastopIsIdleAndNotPaused) {
   EXPECT_EQ(bench.line({1, 1}), Error::none);
 }
 
-}  // namespace
+}  // namespace pause_test
 }  // namespace understudy::emulator::models::slim

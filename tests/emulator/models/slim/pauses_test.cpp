@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace pauses_test {
 
 const std::string kPauseNames[kPauses] = {"no pause", "PZ's pause", "TAPZ's pause", "both pauses"};
 const std::string kWhatNames[kInPause] = {"PZ",    "REDO",   "CLR BUF", "TAPZ",     "TAREDO",
@@ -236,6 +236,6 @@ TEST(SlimPauses, ResetOfAnotherModuleEndsNone) {
   EXPECT_FALSE(bench.chain.busy(5));
 }
 
-}  // namespace
+}  // namespace pauses_test
 
 }  // namespace understudy::emulator::models::slim

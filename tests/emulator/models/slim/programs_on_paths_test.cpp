@@ -4,7 +4,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace programs_on_paths_test {
 
 TEST(SlimPrograms, PalletisingWithArcs) {
   // 100 along x: 1.1 s. Half a circle of radius 50: 157.08, 1.6708 s. Back: 1.1 s. 3.8708 s in all.
@@ -148,6 +148,6 @@ TEST(SlimPrograms, APausedProgramGoesOnOnItsPath) {
 )");
 }
 
-}  // namespace
+}  // namespace programs_on_paths_test
 
 }  // namespace understudy::emulator::models::slim

@@ -3,11 +3,12 @@
 // is 1000 RPM x 10000 / 60 = 166667 pulses/s and a ten times that a second; for coordinated ones 100 and 1000
 // units. A line takes 1 ms; the scripts look a few lines' time before and after each moment.
 #include "emulator/device/named_values.h"
+#include "emulator/device/terminals.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace programs_test {
 
 TEST(SlimPrograms, PickAndPlace) {
   // 10000 pulses: 2 sqrt(10000 / 1666667) = 0.1549 s. Twice, and 50 ms between: 0.360 s and 8 lines.
@@ -262,7 +263,9 @@ TEST(SlimPrograms, OutputsOnTheWay) {
 >
 > G
 )");
-  const auto level = [&](int number) { return script.device().output(kFirstOutput + number - 1); };
+  const auto level = [&](int number) {
+    return script.device().terminals()->output(kFirstOutput + number - 1);
+  };
   script.pass(10);
   EXPECT_TRUE(level(1));
   EXPECT_FALSE(level(3));
@@ -349,6 +352,6 @@ TEST(SlimPrograms, AnEmergencyStopLeavesNothing) {
   EXPECT_EQ(script.device().named_values()->value_named("PE"), stopped);
 }
 
-}  // namespace
+}  // namespace programs_test
 
 }  // namespace understudy::emulator::models::slim

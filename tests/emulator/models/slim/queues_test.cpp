@@ -4,7 +4,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace queues_test {
 
 OneChain two_moves() {
   OneChain bench;
@@ -127,5 +127,5 @@ TEST(SlimQueues, BothPausesMustBeLifted) {
   EXPECT_EQ(bench.travel(0), 0);
 }
 
-}  // namespace
+}  // namespace queues_test
 }  // namespace understudy::emulator::models::slim

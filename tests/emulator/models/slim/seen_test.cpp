@@ -11,7 +11,7 @@
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace seen_test {
 
 std::set<std::string> names_of(const world::World& world) {
   std::set<std::string> names;
@@ -62,6 +62,6 @@ TEST(SlimSeen, TheAnalogInputIsANumber) {
   EXPECT_EQ(bench("1001"), "b.yaml:3: inputs.robot.AIN: robot.AIN: 1001 is not a level; expected 0 to 1000");
 }
 
-}  // namespace
+}  // namespace seen_test
 
 }  // namespace understudy::emulator::models::slim

@@ -4,7 +4,7 @@
 #include "tests/emulator/models/slim/one_chain.h"
 
 namespace understudy::emulator::models::slim {
-namespace {
+namespace servo_and_home_test {
 
 OneChain jogging() {
   OneChain bench;
@@ -168,5 +168,5 @@ TEST(SlimHome, PausedItBeginsAnew) {
   EXPECT_TRUE(bench.chain.status(0).homed);
 }
 
-}  // namespace
+}  // namespace servo_and_home_test
 }  // namespace understudy::emulator::models::slim

@@ -8,11 +8,12 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/terminals.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
 
-namespace {
+namespace state_test {
 
 /// A script up to a moment in the middle of something, and what goes on from there.
 struct Moment {
@@ -101,7 +102,8 @@ std::string seen_of(DialogueScript& script) {
       const auto value = device.named_values()->value_named(prefix + name);
       seen += value ? std::to_string(*value) + " " : "- ";
     }
-    for (int i = 0; i < kOutputs; ++i) seen += device.output(terminal(m, kFirstOutput + i)) ? "1" : "0";
+    for (int i = 0; i < kOutputs; ++i)
+      seen += device.terminals()->output(terminal(m, kFirstOutput + i)) ? "1" : "0";
     seen += " ";
   }
   return seen + std::to_string(device.state_hash());
@@ -261,7 +263,8 @@ TEST(SlimState, APowerCutLeavesOnlyWhatIsKept) {
     EXPECT_EQ(cut.ask("?PE"), "(nothing)");
     EXPECT_EQ(cut.device().named_values()->value_named("PE"), std::nullopt);
     for (int m = 0; m < kModulesHere; ++m) {
-      for (int i = 0; i < kOutputs; ++i) EXPECT_FALSE(cut.device().output(terminal(m, kFirstOutput + i)));
+      for (int i = 0; i < kOutputs; ++i)
+        EXPECT_FALSE(cut.device().terminals()->output(terminal(m, kFirstOutput + i)));
       EXPECT_EQ(cut.device().axes()->pulses_this_tick(m), 0);
     }
     EXPECT_EQ(cut.device().memory()->nv_image(), kept);
@@ -322,6 +325,6 @@ on
 )");
 }
 
-}  // namespace
+}  // namespace state_test
 
 }  // namespace understudy::emulator::models::slim

@@ -11,7 +11,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace lint_test {
 
 using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
@@ -215,5 +215,5 @@ TEST(LintOfScenarios, ChangesNothing) {
   EXPECT_EQ(played(steps, "", with_lint(true)).outcome_hash, without.outcome_hash);
 }
 
-}  // namespace
+}  // namespace lint_test
 }  // namespace understudy::emulator::play

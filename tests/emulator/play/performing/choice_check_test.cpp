@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy::emulator::play {
-namespace {
+namespace choice_check_test {
 
 const ChoiceRow kRow{.id = "version_encoding",
                      .section = "",
@@ -95,5 +95,5 @@ TEST(ChoiceCheck, LooksIntoBranchesAndBehindRawReplies) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace choice_check_test
 }  // namespace understudy::emulator::play

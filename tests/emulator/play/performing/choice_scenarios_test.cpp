@@ -11,7 +11,7 @@
 #include "tests/emulator/play/performing/choice_check.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace choice_scenarios_test {
 
 namespace fs = std::filesystem;
 
@@ -55,5 +55,5 @@ TEST(ChoiceScenarios, AreOfRowsThatThereAre) {
   }
 }
 
-}  // namespace
+}  // namespace choice_scenarios_test
 }  // namespace understudy::emulator::play

@@ -12,7 +12,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace companion_test {
 
 using namespace std::chrono_literals;
 
@@ -102,5 +102,5 @@ TEST(Daemon, DropsWhatWasPostedTooLate) {
   EXPECT_EQ(held.use_count(), 1);
 }
 
-}  // namespace
+}  // namespace companion_test
 }  // namespace understudy::emulator::play

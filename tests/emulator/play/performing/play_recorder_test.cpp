@@ -11,7 +11,7 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace play_recorder_test {
 
 /// The results of a scenario and its branches, each with a recording.
 std::vector<ScenarioResult> recorded(const Scenario& scenario, const ScenarioFolder& folder) {
@@ -103,5 +103,5 @@ TEST(PlayRecorder, BeginsAnewWhereAStateIsRestored) {
   EXPECT_EQ(replayed.result.bytes_said, 8U);  // of the last write alone
 }
 
-}  // namespace
+}  // namespace play_recorder_test
 }  // namespace understudy::emulator::play

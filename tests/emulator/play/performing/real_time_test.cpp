@@ -4,7 +4,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace real_time_test {
 
 ScenarioResult played_in_real_time(const std::string& steps) {
   PlayOptions options;
@@ -48,5 +48,5 @@ TEST_F(WriteClockTest, TellsTheTickThatAWriteActsFrom) {
   EXPECT_EQ(after({0x01, 0x06, 0x10, 0x02, 0x00, 0xC8, 0x2D, 0x5C}), 206);
 }
 
-}  // namespace
+}  // namespace real_time_test
 }  // namespace understudy::emulator::play

@@ -5,7 +5,7 @@
 #include "tests/emulator/world/bench_file/without_columns.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace runner_faults_test {
 
 TEST(ScenarioFaults, OfTheWireAreSeenByTheHost) {
   passing(
@@ -89,5 +89,5 @@ TEST(ScenarioFaults, ThatAreWrongAreErrorsOfTheFile) {
             at + ".name: 'all' is not a name of a fault; expected another");
 }
 
-}  // namespace
+}  // namespace runner_faults_test
 }  // namespace understudy::emulator::play

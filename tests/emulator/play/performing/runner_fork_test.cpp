@@ -2,7 +2,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace runner_fork_test {
 
 using Verdict = ScenarioResult::Verdict;
 
@@ -171,5 +171,5 @@ TEST(RunnerForks, ASnapshotFromBeforeIsKnownInABranch) {
   EXPECT_EQ(verdicts(results), (std::vector<std::string>{"passed test", "passed test / back"}));
 }
 
-}  // namespace
+}  // namespace runner_fork_test
 }  // namespace understudy::emulator::play

@@ -3,7 +3,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace runner_line_test {
 
 /// A free stage whose host's requests are written down: "write 1 0x1002: 200 5", "read 1 0x0E04: 2".
 class WrittenDown final : public Stage {
@@ -262,5 +262,5 @@ TEST(RunnerLine, AFailureTellsWhatFaultsDid) {
   EXPECT_EQ(failure.state.back(), "fault 2 stall feeder.A: in force");
 }
 
-}  // namespace
+}  // namespace runner_line_test
 }  // namespace understudy::emulator::play

@@ -6,7 +6,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace runner_outside_test {
 
 /// A folder of the test's own; a scenario's paths are relative to it.
 class Folder {
@@ -117,5 +117,5 @@ TEST(RunnerOutside, AMemoryIsSavedAndComparedWithAFile) {
   EXPECT_TRUE(has_passed(result)) << why(result);
 }
 
-}  // namespace
+}  // namespace runner_outside_test
 }  // namespace understudy::emulator::play

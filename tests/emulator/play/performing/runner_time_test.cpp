@@ -2,7 +2,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace runner_time_test {
 
 const std::string kEnds = "  - wait: { until: feeder.STATUS.4 == 0, within: 4s, takes: 3050ms +- 2ms }\n";
 
@@ -228,5 +228,5 @@ TEST(RunnerPeaks, AreThoseOfTheProfile) {
           "  - assert: feeder.A.greatest_acceleration == 53333.333 +- 0.1\n");
 }
 
-}  // namespace
+}  // namespace runner_time_test
 }  // namespace understudy::emulator::play

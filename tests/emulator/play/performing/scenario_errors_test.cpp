@@ -4,7 +4,7 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace scenario_errors_test {
 
 struct Bad {
   std::string text;
@@ -397,5 +397,5 @@ TEST_F(ScenarioErrors, AreOneLineWhateverIsQuotedInThem) {
   }
 }
 
-}  // namespace
+}  // namespace scenario_errors_test
 }  // namespace understudy::emulator::play

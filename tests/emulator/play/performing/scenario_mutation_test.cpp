@@ -8,7 +8,7 @@
 #include "tests/emulator/world/bench_file/mutated_text.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace scenario_mutation_test {
 
 const std::string kFull = R"(understudy: 1
 name: everything at ${speed}
@@ -116,5 +116,5 @@ TEST_F(ScenarioMutation, StepsWithoutEndAreRefused) {
   refuse(bomb);
 }
 
-}  // namespace
+}  // namespace scenario_mutation_test
 }  // namespace understudy::emulator::play

@@ -10,7 +10,7 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace scenario_outputs_test {
 
 class ScenarioOutputs : public testing::Test {
  protected:
@@ -150,5 +150,5 @@ TEST_F(ScenarioOutputs, ABenchIsNoScenarioAndAScenarioNoBench) {
             "play.yaml:1: bench: is a scenario; expected a bench (`understudy run` plays scenarios)");
 }
 
-}  // namespace
+}  // namespace scenario_outputs_test
 }  // namespace understudy::emulator::play

@@ -4,7 +4,7 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace scenario_steps_test {
 
 using namespace std::chrono_literals;
 using Strings = std::vector<std::string>;
@@ -212,5 +212,5 @@ TEST_F(ScenarioSteps, KnowWhereTheyStand) {
   EXPECT_EQ(steps[3].line, 7);
 }
 
-}  // namespace
+}  // namespace scenario_steps_test
 }  // namespace understudy::emulator::play

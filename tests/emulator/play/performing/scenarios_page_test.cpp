@@ -11,7 +11,7 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace scenarios_page_test {
 
 std::vector<std::string> examples() {
   std::ifstream file(PROJECT_FOLDER "/docs/scenarios.md");
@@ -82,5 +82,5 @@ TEST(ScenariosPage, EveryKindOfStepHasAnExample) {
   }
 }
 
-}  // namespace
+}  // namespace scenarios_page_test
 }  // namespace understudy::emulator::play

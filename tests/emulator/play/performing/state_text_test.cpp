@@ -7,7 +7,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace state_text_test {
 
 TEST(StateText, SaysThatAnInputIsYetToBeRead) {
   world::World world(
@@ -24,5 +24,5 @@ TEST(StateText, SaysThatAnInputIsYetToBeRead) {
   EXPECT_EQ(state_text(world).back(), "x: DIN_1 on, DIN_4 on");
 }
 
-}  // namespace
+}  // namespace state_text_test
 }  // namespace understudy::emulator::play

@@ -8,7 +8,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace suite_test {
 
 std::vector<Scenario> named(const std::vector<std::string>& names) {
   std::vector<Scenario> scenarios;
@@ -150,5 +150,5 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
   EXPECT_LT(made, 48);  // the rest is not played
 }
 
-}  // namespace
+}  // namespace suite_test
 }  // namespace understudy::emulator::play

@@ -3,13 +3,13 @@
 
 #include "emulator/models/models.h"
 #include "emulator/play/stages/real_stage.h"
-#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/speech/text_lines_heard.h"
 #include "tests/emulator/play/performing/played.h"
 #include "tests/emulator/world/bench_file/without_columns.h"
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace text_lines_test {
 
 using Strings = std::vector<std::string>;
 
@@ -182,5 +182,5 @@ TEST(TextSteps, WhatTheyCannotSayIsToldBeforehand) {
   }
 }
 
-}  // namespace
+}  // namespace text_lines_test
 }  // namespace understudy::emulator::play

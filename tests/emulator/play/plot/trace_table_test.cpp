@@ -6,7 +6,7 @@
 #include "emulator/play/plot/plot_script.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace trace_table_test {
 
 template <typename Act>
 std::string complaint_of(Act act) {
@@ -105,5 +105,5 @@ TEST(PlotScript, RefusesWhatCannotBeDrawn) {
   EXPECT_EQ(script({"f.A.position"}), "nothing");
 }
 
-}  // namespace
+}  // namespace trace_table_test
 }  // namespace understudy::emulator::play

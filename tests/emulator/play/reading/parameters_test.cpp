@@ -7,7 +7,7 @@
 #include "emulator/world/names/names.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace parameters_test {
 
 class ParametersTest : public testing::Test {
  protected:
@@ -107,5 +107,5 @@ TEST_F(ParametersTest, DoNotGrowWithoutEnd) {
   EXPECT_THROW(inner.apply(many), world::NameError);
 }
 
-}  // namespace
+}  // namespace parameters_test
 }  // namespace understudy::emulator::play

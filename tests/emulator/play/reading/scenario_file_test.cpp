@@ -4,7 +4,7 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace scenario_file_test {
 
 using namespace std::chrono_literals;
 using Strings = std::vector<std::string>;
@@ -177,5 +177,5 @@ TEST_F(ScenarioFile, KindsAreToldByTheirKeys) {
   EXPECT_EQ(kind("understudy: 1\n"), FileKind::bench);
 }
 
-}  // namespace
+}  // namespace scenario_file_test
 }  // namespace understudy::emulator::play

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy::emulator::play {
-namespace {
+namespace axis_scale_test {
 
 std::string marks_of(const AxisScale& scale) {
   std::string text;
@@ -54,5 +54,5 @@ TEST(AxisScale, WritesNumbersAsPeopleDo) {
   EXPECT_EQ(fixed_number(-0.006, 2), "-0.01");
 }
 
-}  // namespace
+}  // namespace axis_scale_test
 }  // namespace understudy::emulator::play

@@ -4,7 +4,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace camera_test {
 
 PlayOptions filmed(bool with_hash = false) {
   PlayOptions options{.with_hash = with_hash};
@@ -146,5 +146,5 @@ TEST(Camera, SeesWhatFaultsDidToFrames) {
   EXPECT_EQ(frames[3].text, "feeder.HW_Code = 49153") << "read by the request before it";
 }
 
-}  // namespace
+}  // namespace camera_test
 }  // namespace understudy::emulator::play

@@ -10,7 +10,7 @@ namespace understudy::emulator::play {
 
 void PrintTo(const Envelope::Point& point, std::ostream* out) { *out << point.tick << ":" << point.value; }
 
-namespace {
+namespace envelope_test {
 
 using Points = std::vector<Envelope::Point>;
 
@@ -84,5 +84,5 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
   }
 }
 
-}  // namespace
+}  // namespace envelope_test
 }  // namespace understudy::emulator::play

@@ -12,7 +12,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace page_test {
 
 PlayOptions filmed() {
   PlayOptions options;
@@ -262,5 +262,5 @@ TEST(ReportPage, MarksWhatFaultsStruck) {
   EXPECT_EQ(complaints_of_a_parser(page), "");
 }
 
-}  // namespace
+}  // namespace page_test
 }  // namespace understudy::emulator::play

@@ -9,7 +9,7 @@
 #include <fstream>
 
 namespace understudy::emulator::play {
-namespace {
+namespace junit_test {
 
 using Verdict = ScenarioResult::Verdict;
 
@@ -124,5 +124,5 @@ TEST(Junit, NoByteMakesItUnreadable) {
   EXPECT_EQ(text.find("testsuites"), 0U);
 }
 
-}  // namespace
+}  // namespace junit_test
 }  // namespace understudy::emulator::play

@@ -13,7 +13,7 @@
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace json_schema_test {
 
 std::string contents(const std::string& path) {
   std::ifstream file(path);
@@ -133,5 +133,5 @@ TEST(JsonSchema, DescribesEveryKindOfStep) {
   }
 }
 
-}  // namespace
+}  // namespace json_schema_test
 }  // namespace understudy::emulator::play

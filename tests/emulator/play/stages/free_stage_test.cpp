@@ -9,7 +9,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::play {
-namespace {
+namespace free_stage_test {
 
 using Kind = HostReply::Kind;
 
@@ -288,5 +288,5 @@ TEST(ModbusHost, JudgesReplies) {
   for (const Case& c : cases) EXPECT_EQ(judge_reply(c.request, c.reply).kind, c.kind) << c.name;
 }
 
-}  // namespace
+}  // namespace free_stage_test
 }  // namespace understudy::emulator::play

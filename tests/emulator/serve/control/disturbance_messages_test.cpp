@@ -5,7 +5,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace disturbance_messages_test {
 
 const std::string kDone = R"({"ok":true})";
 constexpr Speed kManual{.kind = Speed::Kind::manual};
@@ -321,5 +321,5 @@ TEST(DisturbanceMessages, ThatAreWrongGetOneLineAndChangeNothing) {
   }
 }
 
-}  // namespace
+}  // namespace disturbance_messages_test
 }  // namespace understudy::emulator::serve

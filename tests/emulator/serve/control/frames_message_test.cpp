@@ -3,7 +3,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace frames_message_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -67,5 +67,5 @@ TEST(FramesMessage, KeepsABoundedNumberAndTellsSoManyAtATime) {
   EXPECT_EQ(rig.ask(R"({"do":"frames"})")["frames"][0]["number"], 1801);
 }
 
-}  // namespace
+}  // namespace frames_message_test
 }  // namespace understudy::emulator::serve

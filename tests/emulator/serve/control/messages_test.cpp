@@ -7,7 +7,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace messages_test {
 
 TEST(ControlMessages, StatusTellsTimeLinesStationsAndDevices) {
   DaemonRig rig;
@@ -353,5 +353,5 @@ TEST(ControlMessages, WhateverGoesWrongIsAReply) {
   EXPECT_EQ(replies[1], R"({"ok":false,"error":"too long"})");
 }
 
-}  // namespace
+}  // namespace messages_test
 }  // namespace understudy::emulator::serve

@@ -13,7 +13,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace running_daemon_test {
 
 /// The daemon's loop in a thread of its own, until the end of the test.
 struct Running {
@@ -251,5 +251,5 @@ TEST(RunningDaemon, WhatIsNoSnapshotIsRefusedAndChangesNothing) {
   EXPECT_EQ(daemon.get("time"), 0);
 }
 
-}  // namespace
+}  // namespace running_daemon_test
 }  // namespace understudy::emulator::serve

@@ -15,7 +15,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace server_test {
 
 sockaddr_un address_of(const std::string& path) {
   sockaddr_un address{};
@@ -442,5 +442,5 @@ TEST(ControlServer, WithoutDescriptorsItTriesAgainByItself) {
   EXPECT_EQ(waiting.hear(), "you said: is there room?\n");
 }
 
-}  // namespace
+}  // namespace server_test
 }  // namespace understudy::emulator::serve

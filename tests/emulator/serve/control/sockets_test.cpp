@@ -10,7 +10,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace sockets_test {
 
 /// XDG_RUNTIME_DIR is a folder of the test's own while this lives.
 struct RuntimeFolder {
@@ -85,5 +85,5 @@ TEST(ControlSockets, AFolderThatOthersMayOpenIsRefused) {
   EXPECT_THROW(live_control_sockets(), ControlError);
 }
 
-}  // namespace
+}  // namespace sockets_test
 }  // namespace understudy::emulator::serve

@@ -6,7 +6,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace watch_table_test {
 
 TEST(WatchTable, ShowsWhatMovesAndWhatIsOn) {
   DaemonRig rig;
@@ -153,5 +153,5 @@ TEST(ScrolledView, MovesByTheUsualKeys) {
   EXPECT_EQ(view.fit(lines, 1, 80).size(), 1U);
 }
 
-}  // namespace
+}  // namespace watch_table_test
 }  // namespace understudy::emulator::serve

@@ -9,7 +9,7 @@
 #include "tests/emulator/serve/control/daemon_rig.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace nv_keeper_test {
 
 using namespace std::chrono_literals;
 namespace fs = std::filesystem;
@@ -345,5 +345,5 @@ TEST(NvKeeper, IsTheOnlyOneOfAFile) {
   }
 }
 
-}  // namespace
+}  // namespace nv_keeper_test
 }  // namespace understudy::emulator::serve

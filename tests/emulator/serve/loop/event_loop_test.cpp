@@ -11,7 +11,7 @@
 #include <system_error>
 
 namespace understudy::emulator::serve {
-namespace {
+namespace event_loop_test {
 
 using namespace std::chrono_literals;
 
@@ -232,5 +232,5 @@ TEST(EventLoop, WhatMayWaitGetsASliceAndEachItsTurn) {
       << "they take turns";
 }
 
-}  // namespace
+}  // namespace event_loop_test
 }  // namespace understudy::emulator::serve

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 namespace understudy::emulator::serve {
-namespace {
+namespace pacer_test {
 
 using namespace std::chrono_literals;
 
@@ -202,5 +202,5 @@ TEST(Lateness, ForgetsAllButTheLast4096ExceptTheGreatest) {
   EXPECT_EQ(lateness.count(), 4097u);
 }
 
-}  // namespace
+}  // namespace pacer_test
 }  // namespace understudy::emulator::serve

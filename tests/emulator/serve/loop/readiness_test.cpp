@@ -14,7 +14,7 @@
 #include "base/files/descriptor.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace readiness_test {
 
 /// The service manager's end of the protocol. `name` is as in NOTIFY_SOCKET.
 class ListeningManager {
@@ -76,5 +76,5 @@ TEST(Readiness, IsKeptToItselfWhereNobodyListens) {
   notify_service_manager("READY=1");
 }
 
-}  // namespace
+}  // namespace readiness_test
 }  // namespace understudy::emulator::serve

@@ -7,7 +7,7 @@
 #include "pty/pseudo_terminal.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace port_group_test {
 
 TEST(FindGroup, KnowsNamesAndNumbers) {
   EXPECT_EQ(find_group("root"), 0U);
@@ -38,5 +38,5 @@ TEST(SharePort, SaysWhichPortCouldNotBeShared) {
   }
 }
 
-}  // namespace
+}  // namespace port_group_test
 }  // namespace understudy::emulator::serve

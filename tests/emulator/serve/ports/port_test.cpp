@@ -10,7 +10,7 @@
 #include "tests/ordinary_user.h"
 
 namespace understudy::emulator::serve {
-namespace {
+namespace port_test {
 
 using namespace std::chrono_literals;
 
@@ -120,5 +120,5 @@ TEST(PortOfADaemon, InAFolderThatCannotBeWrittenTellsOfLinks) {
   EXPECT_EQ(message("none/port").find("--links"), std::string::npos) << "that is another trouble";
 }
 
-}  // namespace
+}  // namespace port_test
 }  // namespace understudy::emulator::serve

@@ -9,7 +9,7 @@
 #include <fstream>
 
 namespace understudy::emulator::serve {
-namespace {
+namespace private_folder_test {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -74,5 +74,5 @@ TEST_F(LeftOvers, OfALivingOwnerStay) {
   fs::remove(path + "/recording");
 }
 
-}  // namespace
+}  // namespace private_folder_test
 }  // namespace understudy::emulator::serve

@@ -7,7 +7,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace bench_text_test {
 
 // Everything that a bench can say.
 const std::string kFull = R"(
@@ -117,5 +117,5 @@ TEST(BenchText, OfAFactoryBenchIsShort) {
             R"("devices":{"x":{"model":"simple2-r3"}}})");
 }
 
-}  // namespace
+}  // namespace bench_text_test
 }  // namespace understudy::emulator::world

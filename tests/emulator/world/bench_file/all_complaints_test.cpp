@@ -6,7 +6,7 @@
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace all_complaints_test {
 
 FileError error_at(int line, int column, const std::string& text) {
   return {FilePlace{"a.yaml", line, column}, text};
@@ -269,5 +269,5 @@ TEST(AllComplaints, OfCasesAreToldForTheFirstOne) {
       "expected one of feeder, turner  (a=y)");
 }
 
-}  // namespace
+}  // namespace all_complaints_test
 }  // namespace understudy::emulator::world

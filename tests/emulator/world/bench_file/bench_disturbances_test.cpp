@@ -10,7 +10,7 @@
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace bench_disturbances_test {
 
 TEST(BenchFile, MachinesHaveHysteresisAReversedEncoderAndADrive) {
   const Bench bench = parse(kDisturbedBench);
@@ -257,5 +257,5 @@ TEST(BenchErrors, OfDisturbancesAreOneLineToo) {
   }
 }
 
-}  // namespace
+}  // namespace bench_disturbances_test
 }  // namespace understudy::emulator::world

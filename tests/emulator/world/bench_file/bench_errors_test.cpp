@@ -4,7 +4,7 @@
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace bench_errors_test {
 
 struct Bad {
   std::string text;
@@ -290,5 +290,5 @@ TEST(BenchErrors, AreOneLineWhateverIsQuotedInThem) {
   }
 }
 
-}  // namespace
+}  // namespace bench_errors_test
 }  // namespace understudy::emulator::world

@@ -12,7 +12,7 @@
 #include "tests/emulator/world/bench_file/bench_texts.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace bench_file_test {
 
 TEST(BenchFile, LinesHaveTheirLinkSpeedTimingAndStationsInOrder) {
   const Bench bench = parse(kFullBench);
@@ -169,5 +169,5 @@ TEST(FindTerminal, KnowsTheModelsTerminalsAndAxes) {
   for (const char* name : {"a", "C", "", "AB"}) EXPECT_EQ(find_axis(model, name), -1);
 }
 
-}  // namespace
+}  // namespace bench_file_test
 }  // namespace understudy::emulator::world

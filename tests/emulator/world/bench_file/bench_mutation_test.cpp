@@ -7,7 +7,7 @@
 #include "tests/emulator/world/bench_file/mutated_text.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace bench_mutation_test {
 
 /// True if it is a bench or gets a complaint that begins with file and line.
 bool is_handled(const std::string& text) {
@@ -114,5 +114,5 @@ TEST(BenchMutation, ReferencesToReferencesDoNotExplode) {
   EXPECT_TRUE(is_handled("&a { understudy: 1, lines: *a, devices: *a }\n"));
 }
 
-}  // namespace
+}  // namespace bench_mutation_test
 }  // namespace understudy::emulator::world

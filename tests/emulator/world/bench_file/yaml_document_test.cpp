@@ -13,7 +13,7 @@
 #include "base/files/file_error.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace yaml_document_test {
 
 /// What is said of a text; empty if nothing is.
 std::string complaint(const std::string& text) {
@@ -122,5 +122,5 @@ TEST(YamlDocument, AllFilesOfThreeTokensAreReadAtOnce) {
   EXPECT_EQ(status, 0);
 }
 
-}  // namespace
+}  // namespace yaml_document_test
 }  // namespace understudy::emulator::world

@@ -14,7 +14,7 @@
 #endif
 
 namespace understudy::emulator::world {
-namespace {
+namespace c_compiler_test {
 
 constexpr std::int64_t x = 37;
 constexpr std::int64_t y = -5;
@@ -112,5 +112,5 @@ TEST(ExpressionAsInC, GivesWhatTheCompilerGives) {
   EXPECT_EQ(compared, 64);
 }
 
-}  // namespace
+}  // namespace c_compiler_test
 }  // namespace understudy::emulator::world

@@ -7,7 +7,7 @@
 #include "tests/emulator/world/expression/bench_of_names.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace documented_expressions_test {
 
 struct Row {
   std::string written;
@@ -80,5 +80,5 @@ TEST(DocumentedExpressions, EveryToleranceOnThePageIsAccepted) {
   }
 }
 
-}  // namespace
+}  // namespace documented_expressions_test
 }  // namespace understudy::emulator::world

@@ -6,7 +6,7 @@
 #include "tests/emulator/world/expression/bench_of_names.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace expression_test {
 
 struct Case {
   std::string_view text;
@@ -298,5 +298,5 @@ TEST(Expression, CanBeCopiedAndOutlivesItsText) {
   EXPECT_EQ(evaluate(expression, bench), 0);
 }
 
-}  // namespace
+}  // namespace expression_test
 }  // namespace understudy::emulator::world

@@ -7,7 +7,7 @@
 #include "tests/emulator/world/expression/bench_of_names.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace mutated_expressions_test {
 
 const std::vector<std::string> kGood = {
     "feeder.STATUS.4 == 0 && time >= 250ms",
@@ -115,5 +115,5 @@ TEST(MutatedExpressions, AreAcceptedOrRefusedInOneLine) {
   RecordProperty("ranges", ranges);
 }
 
-}  // namespace
+}  // namespace mutated_expressions_test
 }  // namespace understudy::emulator::world

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy::emulator::world {
-namespace {
+namespace number_test {
 
 TEST(Number, TextIsExactAndInItsUnit) {
   struct {
@@ -115,5 +115,5 @@ TEST(Number, BoundsBeyond64BitsExcludeNoWholeNumber) {
   EXPECT_THROW(bounds_around(1e308, 1e308), ArithmeticError);
 }
 
-}  // namespace
+}  // namespace number_test
 }  // namespace understudy::emulator::world

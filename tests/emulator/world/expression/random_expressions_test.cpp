@@ -9,7 +9,7 @@
 #include "tests/emulator/world/expression/bench_of_names.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace random_expressions_test {
 
 __extension__ using Wide = __int128;
 
@@ -292,5 +292,5 @@ TEST(RandomExpressions, NamesInListsAllThatCanChangeTheResult) {
   }
 }
 
-}  // namespace
+}  // namespace random_expressions_test
 }  // namespace understudy::emulator::world

@@ -4,7 +4,7 @@
 #include "tests/emulator/world/expression/bench_of_names.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace refusals_test {
 
 struct Refusal {
   std::string text;
@@ -217,5 +217,5 @@ TEST(ExpressionRefusals, WhatIsTooLongOrTooDeepIsRefused) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace refusals_test
 }  // namespace understudy::emulator::world

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace understudy::emulator::world {
-namespace {
+namespace tolerance_test {
 
 struct Case {
   std::string_view text;
@@ -113,5 +113,5 @@ TEST(Tolerance, RefusesInOneLine) {
   }
 }
 
-}  // namespace
+}  // namespace tolerance_test
 }  // namespace understudy::emulator::world

@@ -13,7 +13,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace fault_test {
 
 const KnownDevices& two() {
   static const Model* const model = find_model(models::all_models(), "simple2-r3");
@@ -277,5 +277,5 @@ TEST(FaultText, WithControlCharactersIsRefusedInOneLine) {
   }
 }
 
-}  // namespace
+}  // namespace fault_test
 }  // namespace understudy::emulator::world

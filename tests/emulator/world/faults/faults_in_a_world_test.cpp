@@ -6,7 +6,7 @@
 #include "tests/emulator/world/faults/faulty_world.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace faults_in_a_world_test {
 
 using namespace std::chrono_literals;
 
@@ -246,5 +246,5 @@ TEST(ClearFaults, OfThousandsCostsLessThanInjectingThem) {
   EXPECT_TRUE(world.faults().empty());
 }
 
-}  // namespace
+}  // namespace faults_in_a_world_test
 }  // namespace understudy::emulator::world

@@ -10,7 +10,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace faults_page_test {
 
 std::string page() {
   std::ifstream file(PROJECT_FOLDER "/docs/faults.md");
@@ -55,5 +55,5 @@ TEST(FaultsPage, ExamplesAreRead) {
   EXPECT_EQ(examples, 9);
 }
 
-}  // namespace
+}  // namespace faults_page_test
 }  // namespace understudy::emulator::world

@@ -8,7 +8,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace mutated_frames_test {
 
 /// Whether any run of bytes in it is a frame with a right checksum: then it is not a mutant but another
 /// request.
@@ -91,5 +91,5 @@ TEST(MutatedFrames, OfAHostThatIsHeardStrictlyToo) {
   for (const std::uint64_t seed : {3u, 4u}) expect_unmoved(seed, true);
 }
 
-}  // namespace
+}  // namespace mutated_frames_test
 }  // namespace understudy::emulator::world

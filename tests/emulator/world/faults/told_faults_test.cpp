@@ -7,7 +7,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace told_faults_test {
 
 using Lines = std::vector<std::string>;
 
@@ -180,5 +180,5 @@ TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
   EXPECT_GT(lines.size(), 4u) << "the second answer comes";
 }
 
-}  // namespace
+}  // namespace told_faults_test
 }  // namespace understudy::emulator::world

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace understudy::emulator::world {
-namespace {
+namespace trigger_test {
 
 using namespace std::chrono_literals;
 
@@ -204,5 +204,5 @@ TEST(Trigger, ThatHasHadItsHitsNeedsNoMoreLooks) {
   EXPECT_EQ(next_moment(trigger, course), kForever);
 }
 
-}  // namespace
+}  // namespace trigger_test
 }  // namespace understudy::emulator::world

@@ -9,7 +9,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace triggered_faults_test {
 
 using namespace std::chrono_literals;
 
@@ -373,5 +373,5 @@ TEST(TriggeredFaults, AreTheSameWhetherQuietTicksAreRunOrCrossed) {
   }
 }
 
-}  // namespace
+}  // namespace triggered_faults_test
 }  // namespace understudy::emulator::world

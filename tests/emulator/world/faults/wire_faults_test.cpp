@@ -8,7 +8,7 @@
 #include "tests/emulator/world/faults/faulty_line.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace wire_faults_test {
 
 using namespace std::chrono_literals;
 
@@ -369,5 +369,5 @@ TEST(WireFaults, AtMostSoMuchIsLate) {
             RtuStation::kMostLate);
 }
 
-}  // namespace
+}  // namespace wire_faults_test
 }  // namespace understudy::emulator::world

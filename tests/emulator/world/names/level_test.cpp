@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace understudy::emulator::world {
-namespace {
+namespace level_test {
 
 using Kind = TerminalRow::Kind;
 
@@ -81,5 +81,5 @@ TEST(Level, OfAnAnalogInputIsAVoltage) {
   EXPECT_EQ(level_example(Kind::analog_in), "a voltage such as 2.5V");
 }
 
-}  // namespace
+}  // namespace level_test
 }  // namespace understudy::emulator::world

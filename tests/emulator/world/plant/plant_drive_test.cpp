@@ -6,7 +6,7 @@
 #include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_drive_test {
 
 PlantSetup with_drive(const DriveSetup& drive) {
   PlantSetup setup;
@@ -154,5 +154,5 @@ TEST(PlantDrive, WithoutOneAnAlarmFollowsItsCauseAndReadyStaysOff) {
   EXPECT_EQ(axis.lost_pulses(), 5);
 }
 
-}  // namespace
+}  // namespace plant_drive_test
 }  // namespace understudy::emulator::world

@@ -7,7 +7,7 @@
 #include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_encoder_test {
 
 PlantSetup with_encoder(int counts, int pulses, bool reversed) {
   PlantSetup setup;
@@ -91,5 +91,5 @@ TEST(PlantEncoder, OfTheFinestKindIsExactAsFarAsAMachineGoes) {
   EXPECT_EQ(reversed.encoder_counts(), 1'864'712'049'423'024'128);
 }
 
-}  // namespace
+}  // namespace plant_encoder_test
 }  // namespace understudy::emulator::world

@@ -7,7 +7,7 @@
 #include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_fault_test {
 
 class Machine {
  public:
@@ -171,5 +171,5 @@ TEST(PlantSlip, MovesAStalledMachineToo) {
   EXPECT_EQ(machine.lost(), 9);
 }
 
-}  // namespace
+}  // namespace plant_fault_test
 }  // namespace understudy::emulator::world

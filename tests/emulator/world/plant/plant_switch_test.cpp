@@ -7,7 +7,7 @@
 #include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_switch_test {
 
 enum Switch : int { kHome = 1, kLower = 2, kUpper = 4 };
 
@@ -148,5 +148,5 @@ TEST(PlantHysteresis, APulseAtATimeIsSeenByTheLastEdgeThatWasCrossed) {
   }
 }
 
-}  // namespace
+}  // namespace plant_switch_test
 }  // namespace understudy::emulator::world

@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_test {
 
 PlantSetup with_travel(std::int64_t first, std::int64_t last) {
   PlantSetup setup;
@@ -146,5 +146,5 @@ TEST(PlantAxis, AnEncoderDoesNotTurnWhereTheMachineStands) {
   EXPECT_EQ(axis.encoder_counts(), 20);
 }
 
-}  // namespace
+}  // namespace plant_test
 }  // namespace understudy::emulator::world

@@ -8,7 +8,7 @@
 #include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace plant_tick_test {
 
 class Random {
  public:
@@ -177,5 +177,5 @@ TEST(PlantTicks, AreWantedForASlipAndForReadyAlone) {
   EXPECT_EQ(axis.next_active_tick(50), kNever);
 }
 
-}  // namespace
+}  // namespace plant_tick_test
 }  // namespace understudy::emulator::world

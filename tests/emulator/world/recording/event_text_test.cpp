@@ -7,7 +7,7 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace event_text_test {
 
 constexpr const char* kBench =
     "understudy: 1\nlines:\n"
@@ -48,5 +48,5 @@ TEST(EventText, SaysWhatCameFromOutsideBesideBytes) {
   }
 }
 
-}  // namespace
+}  // namespace event_text_test
 }  // namespace understudy::emulator::world

@@ -12,7 +12,7 @@
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace recording_spool_test {
 
 namespace fs = std::filesystem;
 
@@ -96,5 +96,5 @@ TEST(RecordingSpool, ThatCannotBePutAsideEndsWithAWord) {
   EXPECT_NE(rig.log[0].find("the recording ends here: it cannot be put aside as "), std::string::npos);
 }
 
-}  // namespace
+}  // namespace recording_spool_test
 }  // namespace understudy::emulator::world

@@ -10,7 +10,7 @@
 #include "tests/emulator/world/recording/busy_world.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace replay_test {
 
 using Verdict = ReplayResult::Verdict;
 
@@ -227,5 +227,5 @@ TEST(Replay, ARecordingNamesNoPaths) {
       std::string::npos);
 }
 
-}  // namespace
+}  // namespace replay_test
 }  // namespace understudy::emulator::world

@@ -14,16 +14,49 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/state/difference.h"
+#include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/terminals.h"
 #include "emulator/device/text/text_device.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
+#include "emulator/world/bench/bench.h"
+
+namespace understudy::emulator::world {
+
+/// All that it is.
+struct EchoState {
+  std::string speech{};
+  Tick speaks_at = kNever;
+  std::int32_t n0 = 0;
+  double r0 = 0;
+  bool echo = false;
+  std::vector<std::string> program{};
+  bool operator==(const State&) const = default;
+};
+
+}  // namespace understudy::emulator::world
+
+namespace understudy {
+
+template <>
+struct StateOf<emulator::world::EchoState> {
+  using Value = emulator::world::EchoState;
+  static constexpr auto fields =
+      std::tuple{field("speech", &Value::speech), field("speaks_at", &Value::speaks_at),
+                 field("n0", &Value::n0),         field("r0", &Value::r0),
+                 field("echo", &Value::echo),     field("program", &Value::program)};
+};
+
+}  // namespace understudy
 
 namespace understudy::emulator::world {
 
@@ -36,7 +69,11 @@ inline constexpr CommandRow kEchoCommands[] = {
 inline constexpr TerminalRow kEchoTerminals[] = {{TerminalRow::Kind::digital_in, "IN_1"},
                                                  {TerminalRow::Kind::digital_out, "OUT_1"}};
 
-class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, public UserProgram {
+class EchoBox final : public TextDevice,
+                      public NamedValues,
+                      public KeptMemory,
+                      public UserProgram,
+                      public Terminals {
  public:
   EchoBox(const Model& model, const DeviceSettings& settings)
       : TextDevice(model, settings), KeptMemory(model.name, settings.firmware) {}
@@ -47,6 +84,7 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
   const KeptMemory* memory() const override { return this; }
   UserProgram* user_program() override { return this; }
   const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
 
   // --- the dialogue ----------------------------------------------------------------------------
   TextRules text_rules() const override { return {.echo = state_.echo, .longest_line = 20}; }
@@ -124,14 +162,11 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
   }
 
   // --- the rest of a device ----------------------------------------------------------------------
-  void sample_inputs(Tick) override {}
   void run_interpreters(Tick tick) override {
     if (tick != state_.speaks_at) return;
     state_.speaks_at = kNever;
     say("TICK " + std::to_string(tick));
   }
-  void step_motion(Tick) override {}
-  void update_outputs(Tick) override {}
   Tick next_active_tick(Tick done) const override {
     return state_.speaks_at > done ? state_.speaks_at : kNever;
   }
@@ -149,11 +184,14 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
     state_.speaks_at = kNever;
     state_.echo = false;
   }
-  void write_own_state(StateWriter& writer) const override { writer.write<Fields>(state_); }
+  void write_own_state(StateWriter& writer) const override { writer.put_value(state_); }
   std::function<void()> read_own_state(StateReader& reader) override {
-    State state;
-    reader.read<Fields>(state);
+    EchoState state;
+    reader.take_value(state);
     return [this, state = std::move(state)] { state_ = state; };
+  }
+  std::string own_difference(StateReader& a, StateReader& b) const override {
+    return difference_of_saved<EchoState>(a, b);
   }
   void write_memory(NvImage& image) const override {
     if (state_.n0 != 0) image.registers.emplace_back("N0", state_.n0);
@@ -161,7 +199,7 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
     image.program = state_.program;
   }
   void read_memory(const NvImage& image) override {
-    State state;
+    EchoState state;
     for (const auto& [name, value] : image.registers) {
       if (name != "N0") throw NvError("registers: '" + name + "' is not a name here; expected N0");
       state.n0 = static_cast<std::int32_t>(value);
@@ -175,23 +213,6 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
   }
 
  private:
-  struct State {
-    std::string speech{};
-    Tick speaks_at = kNever;
-    std::int32_t n0 = 0;
-    double r0 = 0;
-    bool echo = false;
-    std::vector<std::string> program{};
-    bool operator==(const State&) const = default;
-  };
-  struct Fields {
-    static void of(Like<State> auto& v, auto visit) {
-      auto& [a, b, c, d, e, f] = v;
-      visit(a, b, c, d, e, f);
-    }
-    static void check(const auto&) {}
-  };
-
   static std::string text_of(double value) {
     std::ostringstream text;
     text << value;
@@ -199,7 +220,7 @@ class EchoBox final : public TextDevice, public NamedValues, public KeptMemory, 
   }
   void say(const std::string& line) { state_.speech += line + "\r\n"; }
 
-  State state_;
+  EchoState state_;
   std::uint64_t revision_ = 0;
 };
 
@@ -208,16 +229,13 @@ inline const Model& echo_box() {
       .name = "echo-box",
       .title = "says back what it is told",
       .firmwares = kEchoFirmwares,
-      .registers = no_registers(),
-      .parameters = {},
-      .instructions = {},
       .commands = kEchoCommands,
       .choices = {},
       .terminals = kEchoTerminals,
       .axes = {},
       .state_registers = {},
       .gaps = {},
-      .text = TextPort{},
+      .line = line_of_text(),
       .most_modules = 8,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<EchoBox>(echo_box(), settings);

@@ -47,7 +47,7 @@ inline void put(Bytes& bytes, std::size_t word) {
   bytes.push_back(static_cast<std::uint8_t>(word));
 }
 
-inline Bytes read_request(std::uint8_t function, std::size_t address, std::size_t quantity) {
+inline Bytes read_pdu(std::uint8_t function, std::size_t address, std::size_t quantity) {
   Bytes pdu{function};
   put(pdu, address);
   put(pdu, quantity);
@@ -78,7 +78,7 @@ inline std::string answer(Device& device, const Bytes& pdu) {
 
 /// The words at an address, or none if reading them is refused.
 inline Words read(Device& device, std::size_t address, std::size_t quantity) {
-  const ModbusReply reply = serve(device, read_request(0x03, address, quantity));
+  const ModbusReply reply = serve(device, read_pdu(0x03, address, quantity));
   Words words;
   if (reply.pdu[0] != 0x03) return words;
   for (std::size_t i = 2; i + 1 < reply.size; i += 2) {

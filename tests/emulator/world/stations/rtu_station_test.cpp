@@ -9,7 +9,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace rtu_station_test {
 
 using namespace std::chrono_literals;
 using pty::SimTime;
@@ -113,7 +113,7 @@ TEST(WireExamples, TheCoordinateOfThePrintedReplyIs32000) {
 
 TEST(RtuStation, TheLongestReplyIsARightFrameOf255Bytes) {
   StationRig rig;
-  const Said said = rig.exchange(framed(1, read_request(3, 0x4000, 125)));
+  const Said said = rig.exchange(framed(1, read_pdu(3, 0x4000, 125)));
   ASSERT_EQ(said.size(), 1u);
   const Bytes reply = hex(said[0]);
   EXPECT_EQ(reply.size(), 255u);
@@ -294,5 +294,5 @@ TEST(StrictFraming, TheReplyBeginsNoEarlierThanTheEndTime) {
   EXPECT_EQ(text(line.output()), "01");
 }
 
-}  // namespace
+}  // namespace rtu_station_test
 }  // namespace understudy::emulator::world

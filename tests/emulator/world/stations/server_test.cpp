@@ -7,7 +7,7 @@
 #include "tests/emulator/world/stations/pdus.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace server_test {
 
 constexpr std::uint16_t kStatus = 0x0000;
 constexpr std::uint16_t kPulse = 0x1000;
@@ -101,7 +101,7 @@ TEST(ModbusServer, ReadsUpTo125RegistersAndWritesUpTo123) {
   const auto device = make_simple2();
   EXPECT_EQ(read(*device, 0x4000, 125).size(), 125u);
   EXPECT_TRUE(read(*device, 0x4000, 126).empty());
-  EXPECT_EQ(serve(*device, read_request(0x04, 0x4000, 125)).size, 252u);
+  EXPECT_EQ(serve(*device, read_pdu(0x04, 0x4000, 125)).size, 252u);
 
   Words words(123);
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = static_cast<std::uint16_t>(i + 1);
@@ -115,7 +115,7 @@ TEST(ModbusServer, ReadsUpTo125RegistersAndWritesUpTo123) {
 TEST(ModbusServer, TheLastAddressesMayBeReadToTheEnd) {
   const auto device = make_simple2();
   EXPECT_EQ(read(*device, 0xFF00, 10).size(), 10u);
-  EXPECT_EQ(answer(*device, read_request(3, 0xFF00, 11)), "83 02");
+  EXPECT_EQ(answer(*device, read_pdu(3, 0xFF00, 11)), "83 02");
 }
 
 TEST(ModbusServer, BothReadFunctionsReadTheSameRegisters) {
@@ -210,5 +210,5 @@ TEST(ModbusServer, AZeroToATriggerIsAcceptedAndDoesNothing) {
   EXPECT_EQ(read(*device, kStatus, 1), Words{0});
 }
 
-}  // namespace
+}  // namespace server_test
 }  // namespace understudy::emulator::world

@@ -24,7 +24,7 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace text_bench_test {
 
 using namespace std::chrono_literals;
 
@@ -50,8 +50,8 @@ std::string refusal(const std::string& bench) {
 TEST(TextBench, ADeviceThatSpeaksTextStandsOnALineOfItsOwn) {
   const Bench bench = parse_bench(models_and_echo_box(), kBench, "b.yaml", ".");
   World world(bench, {}, {});
-  EXPECT_EQ(world.line(0).protocol, Protocol::text);
-  EXPECT_EQ(world.line(1).protocol, Protocol::modbus_rtu);
+  EXPECT_EQ(world.line(0).speech.messages(), "lines of text");
+  EXPECT_EQ(world.line(1).speech.messages(), "Modbus frames");
   EXPECT_EQ(pty::to_string(world.line(0).line.options().settings), "9600 8N1");
   EXPECT_EQ(world.device(0).named_values()->value_named("N0"), -7);
   EXPECT_EQ(world.device(0).named_values()->value_named("R0"), 0.25);
@@ -264,5 +264,5 @@ TEST(TextBench, AnImageThatDoesNotSuitIsRefused) {
   EXPECT_EQ(parse(R"("program":["A",1])"), "program: is not a list of lines; expected one");
 }
 
-}  // namespace
+}  // namespace text_bench_test
 }  // namespace understudy::emulator::world

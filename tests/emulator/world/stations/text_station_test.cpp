@@ -7,7 +7,7 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace text_station_test {
 
 using namespace std::chrono_literals;
 
@@ -235,5 +235,5 @@ TEST(TextStation, RefusesStatesThatCannotBe) {
   }
 }
 
-}  // namespace
+}  // namespace text_station_test
 }  // namespace understudy::emulator::world

@@ -13,7 +13,7 @@
 #include "tests/emulator/play/performing/played.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace trace_test {
 
 /// Traces while a scenario is played.
 class TracingOnlooker final : public play::Onlooker {
@@ -211,5 +211,5 @@ TEST_F(VcdFile, IsTakenByGtkwavesTools) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace trace_test
 }  // namespace understudy::emulator::world

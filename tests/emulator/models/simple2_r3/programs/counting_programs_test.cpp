@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace counting_programs_test {
 
 // The pusher: 300 RPM = 16 pulses/ms, TA = TD = 40 ms, stroke 1609: TT = 1609 / 16 + 40 = 140.5625, so it is
 // over in ms 141. In ms 140 it has 0.5625 ms to go, that is 16 * 0.5625^2 / 80 = 0.06 pulses: 1608 are out.
@@ -192,5 +192,5 @@ TEST(Program, MixerNeverEndsWithFirmware141) {
 )");
 }
 
-}  // namespace
+}  // namespace counting_programs_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -6,7 +6,7 @@
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace following_programs_test {
 
 // The line's encoder: at rest, 2 counts a ms from 104 to 600, at rest, then from 704 on 1 a ms, from 800 on
 // back by 1 a ms, at rest from 850 on, and from 1004 on 20 a ms.
@@ -124,5 +124,5 @@ TEST(Program, AnalogSpeedFollowsThePotentiometer) {
 )");
 }
 
-}  // namespace
+}  // namespace following_programs_test
 }  // namespace understudy::emulator::models::simple2_r3

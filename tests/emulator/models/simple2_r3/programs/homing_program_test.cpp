@@ -2,7 +2,7 @@
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace homing_program_test {
 
 // 3000 pulses a revolution: homing at 20 RPM is 1 pulse/ms, its ramps of 10 ms take 5 pulses, so
 // s(j) = j - 5 from 10 ms on. The way to work is 200 RPM = 10 pulses/ms with ramps of 20 ms:
@@ -130,5 +130,5 @@ TEST(Program, HomingWithoutASwitchGivesUpAtTheSecondLimit) {
 )");
 }
 
-}  // namespace
+}  // namespace homing_program_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -12,7 +12,7 @@
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace positioning_programs_test {
 
 // 600 RPM * 3200 / 60 s = 32 pulses/ms; TA 100 ms, TD 200 ms: 32 * 150 = 4800 pulses of ramps; of 8000 the
 // other 3200 take 100 ms: TT = 400.
@@ -185,5 +185,5 @@ TEST(Program, PickAndPlaceCarriesTwoPartsAndLosesOne) {
 )");
 }
 
-}  // namespace
+}  // namespace positioning_programs_test
 }  // namespace understudy::emulator::models::simple2_r3

@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace recipe_program_test {
 
 // What a parameter cannot hold becomes the nearest that it can. The encoder of B has turned back by 300
 // counts within the last 100 ms, half a revolution of 600: -300 RPM.
@@ -72,5 +72,5 @@ TEST(Program, ChangeoverMakesEveryKindOfParameterFromARecipe) {
 )");
 }
 
-}  // namespace
+}  // namespace recipe_program_test
 }  // namespace understudy::emulator::models::simple2_r3

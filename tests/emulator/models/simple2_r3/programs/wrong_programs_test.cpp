@@ -4,7 +4,7 @@
 #include "tests/emulator/models/simple2_r3/programs/course.h"
 
 namespace understudy::emulator::models::simple2_r3 {
-namespace {
+namespace wrong_programs_test {
 
 // "No LOOP inside a LOOP; if there is one the program is forcibly terminated": when it is met.
 TEST(WrongProgram, WithNestedLoopsEndsWhereTheInnerLoopIsMetAgain) {
@@ -250,5 +250,5 @@ TEST(WrongMoment, MadeAJumpToItselfItRunsUntilTheHostEndsIt) {
 )");
 }
 
-}  // namespace
+}  // namespace wrong_programs_test
 }  // namespace understudy::emulator::models::simple2_r3

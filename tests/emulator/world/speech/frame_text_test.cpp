@@ -1,14 +1,15 @@
 // Frames in words.
-#include "emulator/world/frames/frame_text.h"
 #include "emulator/models/models.h"
 
 #include <gtest/gtest.h>
 
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace frame_text_test {
 
 class FrameText : public testing::Test {
  protected:
@@ -55,7 +56,7 @@ TEST_F(FrameText, RequestsNameTheirRegisters) {
       {{0xFF}, "FF"},
       {{}, ""},
   };
-  for (const Case& c : cases) EXPECT_EQ(request_text(world_, 0, c.request), c.text);
+  for (const Case& c : cases) EXPECT_EQ(world_.line(0).request_text(c.request), c.text);
 }
 
 TEST_F(FrameText, RepliesSayWhatTheRequestAskedFor) {
@@ -77,12 +78,12 @@ TEST_F(FrameText, RepliesSayWhatTheRequestAskedFor) {
       {read, {1, 3, 4}, "01 03 04"},
   };
   for (const Case& c : cases)
-    EXPECT_EQ(reply_text(world_, 0, c.request, c.reply).substr(0, c.text.size()), c.text);
+    EXPECT_EQ(world_.line(0).reply_text(c.request, c.reply).substr(0, c.text.size()), c.text);
 }
 
 TEST_F(FrameText, LongNoiseIsCut) {
   EXPECT_EQ(hex_text(Bytes(300, 0x55)).substr(90), "55 55 ... (300 bytes)");
 }
 
-}  // namespace
+}  // namespace frame_text_test
 }  // namespace understudy::emulator::world

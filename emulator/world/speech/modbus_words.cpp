@@ -1,12 +1,12 @@
-#include "emulator/world/frames/frame_text.h"
+#include "emulator/world/speech/modbus_words.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <optional>
 
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
-#include "emulator/world/frames/text_lines_heard.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::world {
@@ -26,8 +26,8 @@ std::string number_of(int address) {
 }
 
 /// Null if no device on the line listens to that address.
-const Device* device_at(const World& world, std::size_t line, std::uint8_t address) {
-  for (const auto& station : world.line(line).stations) {
+const Device* device_at(const LineStations& stations, std::uint8_t address) {
+  for (const auto& station : stations) {
     const ModbusStation* const modbus = station->device().modbus();
     if (modbus != nullptr && modbus->addressing(address) != Addressing::ignore) return &station->device();
   }
@@ -89,16 +89,6 @@ class WordsText {
   std::span<const std::uint8_t> values_;
 };
 
-/// Lines of text side by side, each in quotes.
-std::string quoted_text(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kMostCharacters = 200;
-  std::string text(bytes.begin(), bytes.end());
-  const bool is_cut = text.size() > kMostCharacters;
-  if (is_cut) text.resize(kMostCharacters);
-  if (text.starts_with('\n')) text.erase(0, 1);
-  return lines_text(lines_in(text).lines) + (is_cut ? " ..." : "");
-}
-
 bool is_read(std::uint8_t function) { return function == 0x03 || function == 0x04; }
 
 }  // namespace
@@ -127,10 +117,15 @@ std::string exception_text(int exception) {
          (is_named ? std::string(" (") + kNames[static_cast<std::size_t>(exception)] + ")" : std::string());
 }
 
-std::string request_text(const World& world, std::size_t line, std::span<const std::uint8_t> request) {
-  if (world.line(line).protocol == Protocol::text) return quoted_text(request);
+bool is_write(std::span<const std::uint8_t> frame) {
+  // Coils, registers, one of them masked, and read while writing.
+  constexpr std::array<std::uint8_t, 6> kWrites{0x05, 0x06, 0x0F, 0x10, 0x16, 0x17};
+  return frame.size() >= 2 && std::find(kWrites.begin(), kWrites.end(), frame[1]) != kWrites.end();
+}
+
+std::string modbus_request_text(const LineStations& stations, std::span<const std::uint8_t> request) {
   if (request.size() < 8 || !pty::rtu_crc_ok(request)) return hex_text(request);
-  const Device* const device = device_at(world, line, request[0]);
+  const Device* const device = device_at(stations, request[0]);
   const std::string whom =
       device == nullptr || request[0] == 0 ? "station " + std::to_string(request[0]) + ": " : std::string();
   const int first = frame_word(request, 2);
@@ -148,15 +143,14 @@ std::string request_text(const World& world, std::size_t line, std::span<const s
          WordsText(device, first, static_cast<int>(values.size() / 2), values).text();
 }
 
-std::string reply_text(const World& world, std::size_t line, std::span<const std::uint8_t> request,
-                       std::span<const std::uint8_t> reply) {
-  if (world.line(line).protocol == Protocol::text) return quoted_text(reply);
+std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
+                              std::span<const std::uint8_t> reply) {
   if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
   if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
   const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
   if (is_read(reply[1]) && is_asked && reply[2] == 2 * frame_word(request, 4) &&
       reply.size() == 5U + reply[2]) {
-    return WordsText(device_at(world, line, reply[0]), frame_word(request, 2), frame_word(request, 4),
+    return WordsText(device_at(stations, reply[0]), frame_word(request, 2), frame_word(request, 4),
                      reply.subspan(3, reply[2]))
         .text();
   }

@@ -1,4 +1,4 @@
-#include "emulator/world/frames/text_lines_heard.h"
+#include "emulator/world/speech/text_lines_heard.h"
 
 #include "base/text/one_line.h"
 

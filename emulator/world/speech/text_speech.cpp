@@ -1,0 +1,88 @@
+// Lines of text: one device, which may say something unasked.
+#include <stdexcept>
+
+#include "emulator/device/text/text_speaker.h"
+#include "emulator/world/faults/kinds.h"
+#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/stations/text_station.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+class TextSpeech final : public LineSpeech {
+ public:
+  const Protocol& protocol() const override { return kTextLines; }
+  std::string_view messages() const override { return "lines of text"; }
+
+  std::unique_ptr<LineStation> make_station(Device& device,
+                                            const StationConditions& conditions) const override {
+    if (device.speaker() == nullptr)
+      throw std::logic_error(device.name() + ": speaks text, but is not a TextSpeaker");
+    return std::make_unique<TextStation>(device, conditions.is_instant);
+  }
+  bool may_be_unasked() const override { return true; }
+
+  bool carries_text() const override { return true; }
+  bool may_change(const LineStations& /*stations*/, const pty::CapturedPacket& /*message*/) const override {
+    return true;  // nothing but the device itself could tell
+  }
+
+  std::unique_ptr<pty::CaptureFrames> packets(std::size_t line, pty::RtuFraming framing,
+                                              pty::CaptureFrames::Sink sink) const override {
+    return std::make_unique<pty::CaptureFrames>(line, framing, std::move(sink), true);
+  }
+  std::string request_text(const LineStations& /*stations*/,
+                           std::span<const std::uint8_t> request) const override {
+    return quoted(request);
+  }
+  std::string reply_text(const LineStations& /*stations*/, std::span<const std::uint8_t> /*request*/,
+                         std::span<const std::uint8_t> reply) const override {
+    return quoted(reply);
+  }
+
+  /// Lines have neither station nor function.
+  FrameFacts facts_of(const HeardFrame& frame) const override { return {.at = frame.now}; }
+  bool takes_every_fault() const override { return false; }
+  /// They have no functions, no stations, no checksum and no exceptions.
+  void demand_possible(const std::string& device, const Fault& fault) const override {
+    const std::string kind(fault_kind(fault.kind).name);
+    switch (fault.kind) {
+      case Fault::Kind::busy:
+      case Fault::Kind::exception:
+      case Fault::Kind::early_reply:
+      case Fault::Kind::corrupt_checksum:
+        throw NameError(kind + ": is a fault of Modbus frames, and " + device +
+                        " speaks text; expected another one");
+      default: break;
+    }
+    const FaultTrigger& trigger = fault.trigger;
+    for (const auto& [field, value] :
+         {std::pair("function", trigger.function), std::pair("station", trigger.station),
+          std::pair("address", trigger.first_address)}) {
+      if (value < 0) continue;
+      throw FaultFieldError(kind, field, device + " speaks text, which has none; expected none");
+    }
+  }
+
+ private:
+  /// Side by side, each in quotes.
+  static std::string quoted(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kMostCharacters = 200;
+    std::string text(bytes.begin(), bytes.end());
+    const bool is_cut = text.size() > kMostCharacters;
+    if (is_cut) text.resize(kMostCharacters);
+    if (text.starts_with('\n')) text.erase(0, 1);
+    return lines_text(lines_in(text).lines) + (is_cut ? " ..." : "");
+  }
+};
+
+}  // namespace
+
+const LineSpeech& text_speech() {
+  static const TextSpeech speech;
+  return speech;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,52 @@
+#include "interpreter/slim/state_fields.h"
+
+#include <cmath>
+
+namespace understudy {
+
+namespace lang = interpreter::slim;
+
+namespace {
+
+/// Holds whatever any device may hold.
+constexpr lang::ProgramOptions kAnyProgram{
+    .dialect = lang::kWidestDialect, .capacity = 4000, .check = lang::ProgramOptions::Check::as_run};
+
+}  // namespace
+
+void StateOf<lang::Operand>::check(const lang::Operand& operand) {
+  using Kind = lang::Operand::Kind;
+  demand_state(std::isfinite(operand.number), "a number is not finite");
+  const bool of_array = is_array(operand.kind) && !operand.index_is_variable;
+  const bool of_variables = is_variable(operand.kind) && !of_array;
+  const int most = of_array                          ? lang::kArrayCount - 1
+                   : of_variables                    ? lang::kVariableCount - 1
+                   : operand.kind == Kind::condition ? static_cast<int>(lang::Condition::not_greater)
+                                                     : 8;
+  demand_within(operand.index, 0, most);
+}
+
+void StateOf<lang::Event>::check(const lang::Event& event) {
+  // As many operands as its condition looks at.
+  const bool compares = event.condition >= lang::Condition::equal;
+  demand_state(!event.has_condition || event.operands.size() == (compares ? 2U : 1U),
+               "an event looks at something else");
+}
+
+void StateOf<lang::Execution>::check(const lang::Execution& execution) {
+  demand_reach(execution.until_ms);
+  demand_state(execution.stack.size() <= 1000, "a program is nested too deep");
+  demand_state(std::isfinite(execution.number), "a number is not finite");
+}
+
+void StateOf<lang::Program>::write(const lang::Program& program, StateWriter& writer) {
+  writer.put_value(program.texts());
+}
+
+void StateOf<lang::Program>::read(lang::Program& program, StateReader& reader) {
+  std::vector<std::string> texts;
+  reader.take_value(texts);
+  demand_state(program.set_texts(texts, kAnyProgram), "a line is not a line of a program");
+}
+
+}  // namespace understudy

@@ -1,0 +1,107 @@
+// What of a program and its run a state consists of (base/state/fields.h), in the order of the bytes.
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+#include "interpreter/slim/editor.h"
+#include "interpreter/slim/flow.h"
+
+namespace understudy {
+
+template <>
+struct StateOf<interpreter::slim::Operand::Kind> {
+  static constexpr auto last = interpreter::slim::Operand::Kind::quantity;
+};
+
+template <>
+struct StateOf<interpreter::slim::Hold> {
+  static constexpr auto last = interpreter::slim::Hold::number;
+};
+
+template <>
+struct StateOf<interpreter::slim::Ending> {
+  static constexpr auto last = interpreter::slim::Ending::failed;
+};
+
+template <>
+struct StateOf<interpreter::slim::Error> {
+  static constexpr auto last = interpreter::slim::Error::address;
+};
+
+template <>
+struct StateOf<interpreter::slim::Condition> {
+  static constexpr auto last = interpreter::slim::Condition::not_greater;
+};
+
+template <>
+struct StateOf<interpreter::slim::Editor::Mode> {
+  static constexpr auto last = interpreter::slim::Editor::Mode::download;
+};
+
+template <>
+struct StateOf<interpreter::slim::Operand> {
+  using Value = interpreter::slim::Operand;
+  static constexpr auto fields =
+      std::tuple{field("kind", &Value::kind), field("number", &Value::number), field("index", &Value::index),
+                 field("index_is_variable", &Value::index_is_variable), field("text", &Value::text)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<interpreter::slim::Frame> {
+  using Value = interpreter::slim::Frame;
+  static constexpr auto fields = std::tuple{field("line", &Value::line), field("of_event", &Value::of_event),
+                                            field("hold", &Value::hold), field("until_ms", &Value::until_ms)};
+  static void check(const Value& frame) { demand_reach(frame.until_ms); }
+};
+
+template <>
+struct StateOf<interpreter::slim::Event> {
+  using Value = interpreter::slim::Event;
+  static constexpr auto fields = std::tuple{field("has_condition", &Value::has_condition),
+                                            field("condition", &Value::condition),
+                                            field("operands", &Value::operands),
+                                            field("has_address", &Value::has_address),
+                                            field("address", &Value::address),
+                                            field("armed", &Value::armed),
+                                            field("pending", &Value::pending)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<interpreter::slim::Execution> {
+  using Value = interpreter::slim::Execution;
+  static constexpr auto fields = std::tuple{field("running", &Value::running),
+                                            field("ending", &Value::ending),
+                                            field("error", &Value::error),
+                                            field("line", &Value::line),
+                                            field("hold", &Value::hold),
+                                            field("until_ms", &Value::until_ms),
+                                            field("stack", &Value::stack),
+                                            field("events", &Value::events),
+                                            field("has_number", &Value::has_number),
+                                            field("number", &Value::number)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<interpreter::slim::Editor> {
+  using Value = interpreter::slim::Editor;
+  static constexpr auto fields = std::tuple{field("mode", &Value::mode), field("line", &Value::line)};
+};
+
+/// Its lines as they were entered. Read, it holds whatever any dialect knows: set_texts() again makes of it
+/// what the device's own options do.
+template <>
+struct StateOf<interpreter::slim::Program> {
+  static void write(const interpreter::slim::Program& program, StateWriter& writer);
+  static void read(interpreter::slim::Program& program, StateReader& reader);
+  /// By which two are told apart.
+  static std::vector<std::string> told(const interpreter::slim::Program& program) { return program.texts(); }
+};
+
+}  // namespace understudy

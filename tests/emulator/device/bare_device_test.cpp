@@ -1,0 +1,137 @@
+// A device that has no facet stubs none: what it has no registers, terminals, axes, memory, program or motion
+// for, it does not speak of.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "base/state/state_bytes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/terminals.h"
+#include "tests/emulator/device/register_map/toy_device.h"
+
+namespace understudy::emulator {
+namespace {
+
+constexpr Protocol kSmokeSigns{"smoke signs"};
+constexpr int kBauds[] = {300, 1200};
+constexpr TerminalRow kLamp[] = {{TerminalRow::Kind::digital_out, "LAMP"}};
+constexpr AxisRow kWheel[] = {{.name = "A"}};
+
+/// Nothing but its state, which is nothing.
+class BareDevice final : public Device {
+ public:
+  using Device::Device;
+  bool same_state(const Device&) const override { return true; }
+
+ protected:
+  void write_own_state(StateWriter&) const override {}
+  std::function<void()> read_own_state(StateReader&) override {
+    return [] {};
+  }
+};
+
+template <const Model& (*model_of)()>
+std::unique_ptr<Device> make_bare(const DeviceSettings& settings) {
+  return std::make_unique<BareDevice>(model_of(), settings);
+}
+
+Model bare_model() {
+  return {.name = "bare",
+          .title = "",
+          .firmwares = kToyFirmwares,
+          .choices = {},
+          .terminals = {},
+          .axes = {},
+          .state_registers = {},
+          .gaps = {},
+          .line = {.protocol = kSmokeSigns, .bauds = kBauds, .settings = {}},
+          .make = nullptr};
+}
+
+const Model& bare() {
+  static const Model model = [] {
+    Model made = bare_model();
+    made.make = make_bare<bare>;
+    return made;
+  }();
+  return model;
+}
+
+DeviceSettings settings_at(int address) {
+  DeviceSettings settings;
+  settings.name = "it";
+  settings.address = address;
+  return settings;
+}
+
+std::string complaint_of_making(const Model& model, const DeviceSettings& settings = settings_at(1)) {
+  try {
+    make_device(model, settings);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(BareDevice, LivesWithoutAnyFacet) {
+  const auto device = make_device(bare(), settings_at(1));
+  EXPECT_EQ(device->line_settings().baud, 300);
+  device->sample_inputs(1);
+  device->run_interpreters(1);
+  device->step_motion(1);
+  device->update_outputs(1);
+  EXPECT_EQ(device->next_active_tick(1), kNever);
+  const auto before = device->save_state();
+  device->switch_power(false);
+  device->switch_power(true);
+  EXPECT_EQ(device->save_state(), before);
+  EXPECT_EQ(device->terminals(), nullptr);
+}
+
+TEST(BareDevice, RefusesWhatItHasNoFacetFor) {
+  EXPECT_FALSE(find_register(bare(), "Speed", 100));
+  EXPECT_TRUE(register_rows(bare()).empty());
+  EXPECT_EQ(complaint_of_making(bare(), settings_at(1000)), "");  // it has no station number
+  DeviceSettings settings = settings_at(1);
+  settings.set.emplace_back("Speed", 1);
+  EXPECT_EQ(complaint_of_making(bare(), settings), "set: no register is called 'Speed'; there is none");
+}
+
+const Model& with_lamp() {
+  static const Model model = [] {
+    Model made = bare_model();
+    made.terminals = kLamp;
+    made.make = make_bare<with_lamp>;
+    return made;
+  }();
+  return model;
+}
+
+const Model& with_wheel() {
+  static const Model model = [] {
+    Model made = bare_model();
+    made.axes = kWheel;
+    made.make = make_bare<with_wheel>;
+    return made;
+  }();
+  return model;
+}
+
+const Model& with_frames() {
+  static const Model model = [] {
+    Model made = bare_model();
+    made.rtu = RtuRules{.functions = kToyFunctions};
+    made.make = make_bare<with_frames>;
+    return made;
+  }();
+  return model;
+}
+
+TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
+  for (const Model* model : {&with_lamp(), &with_wheel(), &with_frames()}) {
+    EXPECT_EQ(complaint_of_making(*model), "bare: lacks a facet that its tables need");
+  }
+}
+
+}  // namespace
+}  // namespace understudy::emulator

@@ -1,0 +1,85 @@
+// What differs from one protocol to another is asked of one object.
+#include "emulator/world/speech/line_speech.h"
+
+#include <gtest/gtest.h>
+
+#include "emulator/models/models.h"
+#include "tests/emulator/world/stations/echo_box.h"
+
+namespace understudy::emulator::world {
+namespace {
+
+TEST(LineSpeech, IsThatOfItsModelsProtocol) {
+  for (const Model* model : models_and_echo_box()) {
+    const LineSpeech& speech = speech_of(*model);
+    EXPECT_EQ(&speech.protocol(), &model->line.protocol) << model->name;
+    EXPECT_EQ(&speech, model->rtu ? &modbus_speech() : &text_speech()) << model->name;
+  }
+}
+
+TEST(LineSpeech, DiffersInAllThatHostsMeet) {
+  EXPECT_NE(modbus_speech().protocol().name, text_speech().protocol().name);
+  EXPECT_EQ(modbus_speech().messages(), "Modbus frames");
+  EXPECT_EQ(text_speech().messages(), "lines of text");
+  EXPECT_TRUE(modbus_speech().is_framed_by_silence());
+  EXPECT_FALSE(text_speech().is_framed_by_silence());
+  EXPECT_FALSE(modbus_speech().carries_text());
+  EXPECT_TRUE(text_speech().carries_text());
+  EXPECT_FALSE(modbus_speech().may_be_unasked());
+  EXPECT_TRUE(text_speech().may_be_unasked());
+}
+
+TEST(LineSpeech, KnowsARefusalWhereThereIsOne) {
+  constexpr std::uint8_t kException[] = {0x01, 0x83, 0x02};
+  constexpr std::uint8_t kAnswer[] = {0x01, 0x03, 0x02};
+  EXPECT_TRUE(modbus_speech().is_refusal(kException));
+  EXPECT_FALSE(modbus_speech().is_refusal(kAnswer));
+  EXPECT_FALSE(modbus_speech().is_refusal(std::span(kException).first(1)));
+  EXPECT_FALSE(text_speech().is_refusal(kException));
+}
+
+TEST(LineSpeech, IsRefusedWhereTheWorldHasNone) {
+  static constexpr Protocol kSmokeSigns{"smoke signs"};
+  const Model model{.name = "chief",
+                    .title = "",
+                    .firmwares = kEchoFirmwares,
+                    .choices = {},
+                    .terminals = {},
+                    .axes = {},
+                    .state_registers = {},
+                    .gaps = {},
+                    .line = {.protocol = kSmokeSigns, .bauds = kTextBauds, .settings = {}},
+                    .make = nullptr};
+  std::string complaint;
+  try {
+    speech_of(model);
+  } catch (const std::logic_error& error) {
+    complaint = error.what();
+  }
+  EXPECT_EQ(complaint, "chief: no line of a world carries smoke signs");
+}
+
+/// What it is spoken to in, it does not speak.
+class Mute final : public Device {
+ public:
+  using Device::Device;
+  bool same_state(const Device&) const override { return true; }
+
+ protected:
+  void write_own_state(StateWriter&) const override {}
+  std::function<void()> read_own_state(StateReader&) override {
+    return [] {};
+  }
+};
+
+TEST(LineSpeech, MakesAStationOnlyOfADeviceThatSpeaks) {
+  Mute mute(echo_box(), {});
+  EXPECT_THROW(text_speech().make_station(mute, {}), std::logic_error);
+  EXPECT_THROW(modbus_speech().make_station(mute, {}), std::logic_error);
+  EchoBox box(echo_box(), {});
+  EXPECT_NE(text_speech().make_station(box, {}), nullptr);
+  EXPECT_THROW(modbus_speech().make_station(box, {}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace understudy::emulator::world
