@@ -129,7 +129,8 @@ void World::advance_to(SimTime time) {
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
     const Tick reachable = tick_at(std::min(time, line_time));
     const Tick active = bulk_ticks_ ? std::min(next_active_tick(), next_fault_tick()) : done_ + 1;
-    const Tick crossed = active > done_ + 1 ? done_ : last_tick_to_cross(reachable);
+    const bool tries = active == done_ + 1 && may_cross(reachable);
+    const Tick crossed = tries ? last_tick_to_cross(reachable) : done_;
     if (crossed > done_) {
       cross_to(crossed);
     } else if (active > done_ + 1) {
@@ -162,7 +163,10 @@ void World::show_tick() {
 }
 
 std::optional<SimTime> World::next_due() const {
-  const SimTime due = std::min(next_line_time(), time_of(std::min(next_active_tick(), next_fault_tick())));
+  Tick tick = std::min(next_active_tick(), next_fault_tick());
+  // Where axes only go on, nobody needs to be woken for it; watchers want to see it.
+  if (tick == done_ + 1 && !disturbed_ && watchers_.empty()) tick = next_event_tick(kNever);
+  const SimTime due = std::min(next_line_time(), time_of(tick));
   if (due == kForever) return std::nullopt;
   return due;
 }

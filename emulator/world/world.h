@@ -121,6 +121,7 @@ class World final : public WorldView {
   /// Where nothing could be crossed it is not tried again in each tick. Only what that costs depends on
   /// these.
   struct CrossingTries {
+    static constexpr Tick kMostApart = 64;
     Tick next = 0;
     Tick apart = 1;
   };
@@ -136,6 +137,14 @@ class World final : public WorldView {
   void run_lines(SimTime time);
   Tick next_active_tick() const;
   Tick next_event_tick(Tick most) const;
+  /// Fewer ticks are run one by one sooner than crossed.
+  static constexpr Tick kWorthCrossing = 4;
+  bool may_cross(Tick most) const {
+    // A world may have been taken back to a time long before.
+    const bool is_too_soon =
+        done_ < crossing_tries_.next && crossing_tries_.next - done_ <= CrossingTries::kMostApart;
+    return !is_too_soon && most - done_ >= kWorthCrossing && bulk_ticks_ && !disturbed_ && watchers_.empty();
+  }
   Tick last_tick_to_cross(Tick most);
   void cross_to(Tick tick);
   SimTime next_line_time() const;

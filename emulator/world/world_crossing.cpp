@@ -33,7 +33,8 @@ class Machines final : public MachineAhead {
 
 /// The first tick at which something happens but that what moves goes on; not beyond `most` + 1.
 Tick World::next_event_tick(Tick most) const {
-  Tick last = std::min(most, next_fault_tick() - 1);
+  constexpr Tick kFarAhead = 1'000'000'000'000;  // so that closed forms stay within their numbers
+  Tick last = std::min({most, next_fault_tick() - 1, done_ + kFarAhead});
   for (std::size_t d = 0; d < devices_.size() && last > done_; ++d) {
     for (const PlantAxis& plant : plants_[d]) last = std::min(last, plant.next_active_tick(done_) - 1);
     if (last <= done_ || !devices_[d]->powered()) continue;
@@ -44,19 +45,13 @@ Tick World::next_event_tick(Tick most) const {
 
 /// The tick to which a crossing brings the world; done_ where it is not worth one.
 Tick World::last_tick_to_cross(Tick most) {
-  constexpr Tick kWorth = 4;  // fewer are quicker one by one
-  constexpr Tick kMostApart = 32;
-  if (!bulk_ticks_ || disturbed_ || !watchers_.empty()) return done_;
-  // A world may have been taken back to a time long before.
-  const bool is_too_soon = done_ < crossing_tries_.next && crossing_tries_.next - done_ <= kMostApart;
-  if (is_too_soon || most - done_ < kWorth) return done_;
   const Tick last = next_event_tick(most) - 1;
-  if (last - done_ >= kWorth) {
+  if (last - done_ >= kWorthCrossing) {
     crossing_tries_.apart = 1;
     return last;
   }
   crossing_tries_.next = done_ + crossing_tries_.apart;
-  crossing_tries_.apart = std::min(2 * crossing_tries_.apart, kMostApart);
+  crossing_tries_.apart = std::min(2 * crossing_tries_.apart, CrossingTries::kMostApart);
   return done_;
 }
 

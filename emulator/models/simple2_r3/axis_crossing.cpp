@@ -22,7 +22,7 @@ Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick most)
   const std::int64_t change = change_of_speed(axis, settings);
   if (change == 0) return most;
   const std::int64_t left = final_urpm(axis, settings) - axis.speed_urpm;
-  Tick steps = left / change;
+  Tick steps = (left - (change < 0 ? -1 : 1)) / change;
   if (axis.speed_urpm != 0 && (axis.speed_urpm < 0) != (change < 0)) {
     steps = std::min(steps, -axis.speed_urpm / change);
   }
@@ -40,6 +40,7 @@ Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick tick
 /// The pulses of so many ticks, in the commanded sense. Phases have one sign, or come to it without a pulse,
 /// so that whole pulses come out as by single steps.
 std::int64_t pulses_ahead(const AxisState& axis, const Crossing& crossing, Tick tick) {
+  if (tick == crossing.done) return 0;
   if (runs_velocity(axis)) {
     const Wide phase = phase_after(axis, crossing.settings, tick - crossing.done);
     return static_cast<std::int64_t>(phase / kVelocityPhase);

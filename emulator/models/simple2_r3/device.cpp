@@ -253,13 +253,22 @@ void Simple2R3::update_outputs(Tick tick) {
   state_.eeprom.step(tick, state_.image);
 }
 
+/// The next tick in which the program does anything. One that waits is asked only until it is found to wait
+/// on: what it waits for is a tick of its own.
+Tick Simple2R3::next_slot(Tick done) const {
+  if (state_.execution.held.command == 0) {
+    return done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
+  }
+  // It is only looked at.
+  const ProgramMachine machine(const_cast<Simple2R3&>(*this));
+  return interpreter::simple2::next_active_slot_ms(state_.execution, done, state_.program, dialect_, machine);
+}
+
 Tick Simple2R3::next_tick_without_axes(Tick done) const {
   if (state_.touched) return done + 1;
   if (done < state_.first_tick && starts_by_itself()) return state_.first_tick;
   Tick next = state_.eeprom.next_active_tick();
-  if (state_.execution.running) {
-    next = std::min(next, done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs);
-  }
+  if (state_.execution.running) next = std::min(next, next_slot(done));
   for (const AxisState& axis : state_.axes) {
     if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);
   }

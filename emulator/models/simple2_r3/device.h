@@ -262,6 +262,7 @@ class Simple2R3 final : public Device,
   bool sees_something_new() const;
   /// The next active tick of all but the axes.
   Tick next_tick_without_axes(Tick done) const;
+  Tick next_slot(Tick done) const;
   DriveSettings drive_settings(int axis) const;
   Crossing crossing(int axis, Tick done, const MachineAhead& ahead) const;
   Eeprom factory_memory() const;

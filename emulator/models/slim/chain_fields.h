@@ -128,7 +128,8 @@ struct StateOf<emulator::models::slim::Job> {
 template <>
 struct StateOf<
     emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>> {
-  using Value = emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>;
+  using Value =
+      emulator::models::slim::Fifo<emulator::models::slim::Job, emulator::models::slim::kFifoLength>;
   static void write(const Value& fifo, StateWriter& writer);
   static void read(Value& fifo, StateReader& reader);
 };
