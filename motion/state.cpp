@@ -8,7 +8,7 @@ namespace understudy::motion {
 template <class T>
 std::vector<std::byte> save(const T& value) {
   StateWriter writer(sizeof value);
-  writer.put_value(value);
+  writer.write(value);
   return writer.take();
 }
 
@@ -18,7 +18,7 @@ std::size_t restore(T& value, std::span<const std::byte> bytes) {
   StateReader reader(bytes);
   const auto refuse = [](const char* what) { throw BadMotion(Refusal::out_of_range, "saved state", what); };
   try {
-    reader.take_value(restored);
+    reader.read(restored);
   } catch (const StateError& error) {
     refuse(error.what());
   }
@@ -56,9 +56,9 @@ UNDERSTUDY_STATE(UnitScale);
 
 namespace understudy {
 
-#define UNDERSTUDY_STATE_HERE(Type)                            \
-  template void StateWriter::write<void>(const motion::Type&); \
-  template void StateReader::read<void>(motion::Type&);        \
+#define UNDERSTUDY_STATE_HERE(Type)                      \
+  template void StateWriter::write(const motion::Type&); \
+  template void StateReader::read(motion::Type&);        \
   template std::string first_difference(const motion::Type&, const motion::Type&, const std::string&)
 
 UNDERSTUDY_STATE_HERE(Axis);

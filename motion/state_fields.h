@@ -22,10 +22,10 @@ namespace understudy {
 template <>
 struct StateOf<motion::Point> {
   static void write(const motion::Point& point, StateWriter& writer) {
-    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) writer.put_value(point[i]);
+    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) writer.write(point[i]);
   }
   static void read(motion::Point& point, StateReader& reader) {
-    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) reader.take_value(point[i]);
+    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) reader.read(point[i]);
   }
 };
 
@@ -377,9 +377,9 @@ struct StateOf<motion::Coordinated> {
 };
 
 // Those that other rooms hold are made once, in state.cpp.
-#define UNDERSTUDY_STATE_ELSEWHERE(Type)                              \
-  extern template void StateWriter::write<void>(const motion::Type&); \
-  extern template void StateReader::read<void>(motion::Type&);        \
+#define UNDERSTUDY_STATE_ELSEWHERE(Type)                        \
+  extern template void StateWriter::write(const motion::Type&); \
+  extern template void StateReader::read(motion::Type&);        \
   extern template std::string first_difference(const motion::Type&, const motion::Type&, const std::string&)
 
 UNDERSTUDY_STATE_ELSEWHERE(Axis);

@@ -118,6 +118,12 @@ class Line {
     std::int64_t count = 0;
     SimTime end{0};
   };
+  /// What depends on whoever reads the line, or looks at it: the stations never notice.
+  struct Edge {
+    std::vector<std::uint8_t> output;
+    LineCounters counters;
+    SimTime clock{0};
+  };
   /// What changes as the line works. Its stations and observers have states of their own.
   struct State {
     struct Member {
@@ -137,10 +143,7 @@ class Line {
     Burst arriving;
     bool is_heard = true;
     std::vector<TimedByte> leaving;
-    // From here on what depends on whoever reads the line, or looks at it: the stations never notice.
-    std::vector<std::uint8_t> output;
-    LineCounters counters;
-    SimTime clock{0};
+    Edge edge;
   };
   State save() const;
   /// Throws std::invalid_argument for what this line cannot be.

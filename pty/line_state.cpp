@@ -25,9 +25,9 @@ Line::State Line::save() const {
               .arriving = arriving,
               .is_heard = is_heard,
               .leaving = {leaving.begin() + static_cast<std::ptrdiff_t>(leaving_first), leaving.end()},
-              .output = {output.begin() + static_cast<std::ptrdiff_t>(output_first), output.end()},
-              .counters = counters,
-              .clock = clock};
+              .edge = {.output = {output.begin() + static_cast<std::ptrdiff_t>(output_first), output.end()},
+                       .counters = counters,
+                       .clock = clock}};
   for (const Member& member : members) {
     const auto& [station, is_deaf, speech, noticed_at] = member;
     state.members.push_back({.is_deaf = is_deaf, .speech = speech, .noticed_at = noticed_at});
@@ -47,7 +47,7 @@ void Line::check(const State& state) const {
   demand(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
              settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
          "its settings are none of a line");
-  demand(state.input.size() <= kInputCapacity && state.output.size() <= kOutputCapacity,
+  demand(state.input.size() <= kInputCapacity && state.edge.output.size() <= kOutputCapacity,
          "more bytes wait than it holds");
   const auto demand_burst = [&](const Burst& burst) {
     demand(is_within_reach(burst.start) && is_within_reach(burst.end) && burst.count >= 0 &&
@@ -67,7 +67,7 @@ void Line::check(const State& state) const {
   };
   demand_characters(state.input);
   demand_characters(state.leaving);
-  demand(is_within_reach(state.clock), "its clock is beyond the end of time");
+  demand(is_within_reach(state.edge.clock), "its clock is beyond the end of time");
 }
 
 void Line::restore(const State& state) {
@@ -96,10 +96,10 @@ void Line::restore(const State& state) {
   is_heard_ = state.is_heard;
   leaving_.assign(state.leaving.begin(), state.leaving.end());
   leaving_first_ = 0;
-  output_.assign(state.output.begin(), state.output.end());
+  output_.assign(state.edge.output.begin(), state.edge.output.end());
   output_first_ = 0;
-  counters_ = state.counters;
-  clock_ = state.clock;
+  counters_ = state.edge.counters;
+  clock_ = state.edge.clock;
 }
 
 }  // namespace understudy::pty

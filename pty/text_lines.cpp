@@ -24,50 +24,45 @@ TextLines::Outcome TextLines::push(const TimedByte& byte, const TextLineRules& r
     outcome.heard = HeardText{.what = what, .end = byte.end, .last_character = byte.number};
     return outcome;
   }
-  const bool is_behind_return = std::exchange(was_return_, character == '\r');
+  const bool is_behind_return = std::exchange(state_.was_return, character == '\r');
   if (character == '\n' && !rules.line_feed_ends) return outcome;
   const auto hear = [&](HeardText::What what) {
     outcome.heard = HeardText{
-        .what = what, .text = std::exchange(text_, {}), .end = byte.end, .last_character = byte.number};
-    is_overlong_ = false;
+        .what = what, .text = std::exchange(state_.text, {}), .end = byte.end, .last_character = byte.number};
+    state_.is_overlong = false;
   };
 
   if (character == '\r' || character == '\n') {
-    const bool is_empty = text_.empty() && !is_overlong_;
+    const bool is_empty = state_.text.empty() && !state_.is_overlong;
     if (character == '\n' && (is_behind_return || is_empty)) return outcome;
-    hear(is_overlong_ ? HeardText::What::overlong : HeardText::What::line);
+    hear(state_.is_overlong ? HeardText::What::overlong : HeardText::What::line);
     outcome.echo = rules.echoed_end;
     return outcome;
   }
   if (character == kEscape) {
-    dropped_ += std::exchange(text_, {}).size();
+    state_.dropped += std::exchange(state_.text, {}).size();
     hear(HeardText::What::escape);
     return outcome;
   }
   if (rules.echoes && (character == kBackspace || character == kDelete)) {
-    if (text_.empty()) return outcome;
-    text_.pop_back();
+    if (state_.text.empty()) return outcome;
+    state_.text.pop_back();
     outcome.echo = "\b \b";
     return outcome;
   }
   outcome.echo = character;
-  if (is_overlong_ || text_.size() >= std::min(rules.longest, kLongest)) {
-    dropped_ += 1 + std::exchange(text_, {}).size();
-    is_overlong_ = true;
+  if (state_.is_overlong || state_.text.size() >= std::min(rules.longest, kLongest)) {
+    state_.dropped += 1 + std::exchange(state_.text, {}).size();
+    state_.is_overlong = true;
   } else {
-    text_ += character;
+    state_.text += character;
   }
   return outcome;
 }
 
 void TextLines::reset() {
-  text_.clear();
-  is_overlong_ = was_return_ = false;
-}
-
-TextLines::State TextLines::save() const {
-  const auto& [text, is_overlong, was_return, dropped] = *this;
-  return {.text = text, .is_overlong = is_overlong, .was_return = was_return, .dropped = dropped};
+  state_.text.clear();
+  state_.is_overlong = state_.was_return = false;
 }
 
 void TextLines::check(const State& state) {
@@ -79,10 +74,7 @@ void TextLines::check(const State& state) {
 
 void TextLines::restore(const State& state) {
   check(state);
-  text_ = state.text;
-  is_overlong_ = state.is_overlong;
-  was_return_ = state.was_return;
-  dropped_ = state.dropped;
+  state_ = state;
 }
 
 }  // namespace understudy::pty

@@ -46,7 +46,7 @@ class TextLines {
   void reset();
 
   /// Characters that were given in no line: of overlong ones, and forgotten for an ESC.
-  std::uint64_t dropped_bytes() const { return dropped_; }
+  std::uint64_t dropped_bytes() const { return state_.dropped; }
 
   // --- its state -----------------------------------------------------------------------------
   /// No line may be longer than this, whatever the rules say.
@@ -58,17 +58,14 @@ class TextLines {
     std::uint64_t dropped = 0;
     bool operator==(const State&) const = default;
   };
-  State save() const;
+  const State& save() const { return state_; }
   /// Throws std::invalid_argument for what cannot be.
   static void check(const State& state);
   /// The same, and nothing has changed then.
   void restore(const State& state);
 
  private:
-  std::string text_;
-  bool is_overlong_ = false;
-  bool was_return_ = false;
-  std::uint64_t dropped_ = 0;
+  State state_;
 };
 
 }  // namespace understudy::pty

@@ -23,7 +23,7 @@ std::string path_to_element(const std::string& path, const std::string& name) {
   return path + "[" + name + "]";
 }
 
-std::string quoted(std::string_view text) {
+std::string text_in_quotes(std::string_view text) {
   std::string shown = "\"";
   for (const char each : text) {
     const bool is_shown = each >= ' ' && each <= '~' && each != '"' && each != '\\';

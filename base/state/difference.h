@@ -27,7 +27,7 @@ std::string told(const std::string& path, const std::string& what);
 std::string path_to(const std::string& path, std::string_view name);
 std::string path_to_element(const std::string& path, const std::string& name);
 /// In quotes, what cannot be printed as \x07.
-std::string quoted(std::string_view text);
+std::string text_in_quotes(std::string_view text);
 std::string number_text(std::int64_t value);
 std::string number_text(std::uint64_t value);
 std::string number_text(double value);
@@ -144,7 +144,7 @@ std::string first_difference(const T& a, const T& b, const std::string& path) {
     }
     return a ? first_difference(*a, *b, path) : "";
   } else if constexpr (std::is_same_v<T, std::string>) {
-    return a == b ? "" : told(path, quoted(a), quoted(b));
+    return a == b ? "" : told(path, text_in_quotes(a), text_in_quotes(b));
   } else if constexpr (kIsMap<T>) {
     return difference_in_map(a, b, path);
   } else if constexpr (HasFields<T>) {
@@ -170,8 +170,8 @@ template <class T>
 std::string difference_of_saved(StateReader& a, StateReader& b, const std::string& path = "") {
   const auto of_a = std::make_unique<T>();
   const auto of_b = std::make_unique<T>();
-  a.take_value(*of_a);
-  b.take_value(*of_b);
+  a.read(*of_a);
+  b.read(*of_b);
   return first_difference(*of_a, *of_b, path);
 }
 

@@ -1,10 +1,5 @@
 // State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding.
 // What a value consists of is said by its StateOf (fields.h), by which it is saved, restored and hashed.
-//
-// Older lists are being replaced by it: a type `Fields` with `of(value, visit)`, where a structured binding
-// names every field, `last(Enumeration)`, `check(value)`, and for what another room saves by itself a pair
-// `write(const T&, StateWriter&)` and `read(T&, StateReader&)`; a class with private fields has a list of its
-// own, `static void fields(auto& self, auto visit)`.
 #pragma once
 
 #include <array>
@@ -28,9 +23,6 @@ namespace understudy {
 
 class StateWriter;
 class StateReader;
-
-template <class T, class Wanted>
-concept Like = std::same_as<std::remove_const_t<T>, Wanted>;  // the type, const or not
 
 /// FNV-1a.
 std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t onto = 0xcbf29ce484222325);
@@ -57,21 +49,11 @@ inline constexpr bool kIsTime = false;
 template <class Count, class Period>
 inline constexpr bool kIsTime<std::chrono::duration<Count, Period>> = true;
 
-struct AnyVisit {
-  void operator()(const auto&...) const {}
-};
-/// Has a list of its own.
-template <class T>
-concept Listed = requires(T& value) {
-  T::fields(value, AnyVisit{});
-};
-
 /// Is saved by functions of its own.
-template <class T, class Fields>
-concept Foreign = !std::is_void_v<Fields> &&
-                  requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
-  Fields::write(value, writer);
-  Fields::read(restored, reader);
+template <class T>
+concept SavesItself = requires(const T& value, T& restored, StateWriter& writer, StateReader& reader) {
+  StateOf<T>::write(value, writer);
+  StateOf<T>::read(restored, reader);
 };
 
 template <class T>
@@ -106,13 +88,8 @@ class StateWriter {
  public:
   explicit StateWriter(std::size_t expected_bytes = 0) { bytes_.reserve(expected_bytes); }
 
-  template <class Fields, class T>
-  void write(const T& value);
-  /// Of a type whose parts all have a StateOf.
   template <class T>
-  void put_value(const T& value) {
-    write<void>(value);
-  }
+  void write(const T& value);
   /// What has been saved already.
   void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
 
@@ -137,7 +114,7 @@ class StateWriter {
     }
   }
 
-  template <class Fields, class Values>
+  template <class Values>
   void write_all(const Values& values) {
     using T = typename Values::value_type;
     if constexpr (state_bytes::Numeric<T>) {
@@ -149,7 +126,7 @@ class StateWriter {
       }
       for (std::size_t i = 0; i < values.size(); ++i) put(to + i * kSize, values[i]);
     } else {
-      for (const T& value : values) write<Fields>(value);
+      for (const T& value : values) write(value);
     }
   }
 
@@ -162,14 +139,8 @@ class StateReader {
  public:
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-  template <class Fields, class T>
-  void read(T& value);
-
-  /// Of a type whose parts all have a StateOf.
   template <class T>
-  void take_value(T& value) {
-    read<void>(value);
-  }
+  void read(T& value);
 
   std::span<const std::byte> rest() const { return rest_; }
   std::span<const std::byte> take(std::size_t count) {
@@ -181,7 +152,7 @@ class StateReader {
   void demand_end() const { demand_state(rest_.empty(), "there are more bytes than it takes"); }
 
  private:
-  template <class Fields, class T>
+  template <class T>
   static T get(const std::byte* from) {
     using namespace state_bytes;
     if constexpr (kIsAsInMemory<T>) {
@@ -199,16 +170,12 @@ class StateReader {
     } else if constexpr (std::is_same_v<T, bool>) {
       demand_state(bits <= 1, "a yes or no must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {
-      if constexpr (requires { StateOf<T>::last; }) {
-        demand_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
-      } else {
-        demand_state(bits <= as_bits(Fields::last(T{})), "an enumeration has no such value");
-      }
+      demand_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
     }
     return static_cast<T>(bits);
   }
 
-  template <class Fields, class Values>
+  template <class Values>
   void read_all(Values& values) {
     using T = typename Values::value_type;
     if constexpr (state_bytes::Numeric<T>) {
@@ -218,9 +185,9 @@ class StateReader {
         if (!values.empty()) std::memcpy(values.data(), from, values.size() * kSize);
         return;
       }
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<Fields, T>(from + i * kSize);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = get<T>(from + i * kSize);
     } else {
-      for (T& value : values) read<Fields>(value);
+      for (T& value : values) read(value);
     }
   }
 
@@ -229,88 +196,73 @@ class StateReader {
 
 // Outside of their classes, so that a room can have those of its big types made once (motion/state_fields.h).
 
-template <class Fields, class T>
+template <class T>
 void StateWriter::write(const T& value) {
   using namespace state_bytes;
   if constexpr (Numeric<T>) {
     put(room_for(sizeof(Bits<T>)), value);
   } else if constexpr (kIsTime<T>) {
-    write<Fields>(std::int64_t{value.count()});
+    write(std::int64_t{value.count()});
   } else if constexpr (kIsOptional<T>) {
-    write<Fields>(value.has_value());
-    if (value) write<Fields>(*value);
+    write(value.has_value());
+    if (value) write(*value);
   } else if constexpr (kIsVector<T>) {
-    write<Fields>(static_cast<std::uint32_t>(value.size()));
-    write_all<Fields>(value);
+    write(static_cast<std::uint32_t>(value.size()));
+    write_all(value);
   } else if constexpr (kIsMap<T>) {
-    write<Fields>(static_cast<std::uint32_t>(value.size()));
+    write(static_cast<std::uint32_t>(value.size()));
     for (const auto& [key, entry] : value) {
-      write<Fields>(key);
-      write<Fields>(entry);
+      write(key);
+      write(entry);
     }
   } else if constexpr (kIsArray<T>) {
-    write_all<Fields>(value);
-  } else if constexpr (Foreign<T, StateOf<T>>) {
+    write_all(value);
+  } else if constexpr (SavesItself<T>) {
     StateOf<T>::write(value, *this);
-  } else if constexpr (HasFields<T>) {
-    for_each_field(value, [&](const auto& part) { write<Fields>(part); });
-  } else if constexpr (Foreign<T, Fields>) {
-    Fields::write(value, *this);
-  } else if constexpr (Listed<T>) {
-    T::fields(value, [&](const auto&... field) { (write<Fields>(field), ...); });
   } else {
-    Fields::of(value, [&](const auto&... field) { (write<Fields>(field), ...); });
+    static_assert(HasFields<T>, "a part of a state has no StateOf");
+    for_each_field(value, [&](const auto& part) { write(part); });
   }
 }
 
-template <class Fields, class T>
+template <class T>
 void StateReader::read(T& value) {
   using namespace state_bytes;
   if constexpr (Numeric<T>) {
-    value = get<Fields, T>(take(sizeof(Bits<T>)).data());
+    value = get<T>(take(sizeof(Bits<T>)).data());
   } else if constexpr (kIsTime<T>) {
     std::int64_t count = 0;
-    read<Fields>(count);
+    read(count);
     value = T{count};
   } else if constexpr (kIsOptional<T>) {
     bool has = false;
-    read<Fields>(has);
+    read(has);
     value.reset();
-    if (has) read<Fields>(value.emplace());
+    if (has) read(value.emplace());
   } else if constexpr (kIsVector<T>) {
     std::uint32_t count = 0;
-    read<Fields>(count);
+    read(count);
     // Each takes a byte at least: what is not there needs no room.
     demand_state(count <= rest_.size(), "the bytes end too early");
     value.assign(count, {});
-    read_all<Fields>(value);
+    read_all(value);
   } else if constexpr (kIsMap<T>) {
     std::uint32_t count = 0;
-    read<Fields>(count);
+    read(count);
     value.clear();
     for (; count > 0; --count) {
       typename T::key_type key{};
-      read<Fields>(key);
+      read(key);
       demand_state(value.empty() || value.rbegin()->first < key, "its entries are in disorder");
-      read<Fields>(value[key]);
+      read(value[key]);
     }
   } else if constexpr (kIsArray<T>) {
-    read_all<Fields>(value);
-  } else if constexpr (Foreign<T, StateOf<T>>) {
+    read_all(value);
+  } else if constexpr (SavesItself<T>) {
     StateOf<T>::read(value, *this);
-  } else if constexpr (HasFields<T>) {
-    for_each_field(value, [&](auto& part) { read<Fields>(part); });
-    if constexpr (requires { StateOf<T>::check(value); }) StateOf<T>::check(value);
-  } else if constexpr (Foreign<T, Fields>) {
-    Fields::read(value, *this);
   } else {
-    const auto read_each = [&](auto&... field) { (read<Fields>(field), ...); };
-    if constexpr (Listed<T>) {
-      T::fields(value, read_each);
-    } else {
-      Fields::of(value, read_each);
-    }
-    Fields::check(value);
+    for_each_field(value, [&](auto& part) { read(part); });
+    if constexpr (requires { StateOf<T>::check(value); }) StateOf<T>::check(value);
   }
 }
 

@@ -26,7 +26,7 @@ class Axes {
   /// What an axis puts out in PWM mode, 0 in all others; nothing if it has no such mode.
   virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
   /// The count of the encoder on the axis, absolute, as the plant sees it.
-  virtual void set_encoder(int /*axis*/, std::int64_t /*counts*/) {}
+  virtual void set_encoder(int axis, std::int64_t counts) = 0;
 
  protected:
   ~Axes() = default;

@@ -27,6 +27,12 @@ pty::LineSettings Device::line_settings() const {
   return line;
 }
 
+void Device::sample_inputs(Tick /*tick*/) {}
+void Device::run_interpreters(Tick /*tick*/) {}
+void Device::step_motion(Tick /*tick*/) {}
+void Device::update_outputs(Tick /*tick*/) {}
+Tick Device::next_active_tick(Tick /*done*/) const { return kNever; }
+
 void Device::prefetch(Tick /*tick*/) const {
   // Of the device itself the beginning; its settings are large, and no tick reads them.
   prefetch_line(this);

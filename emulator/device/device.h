@@ -83,13 +83,15 @@ class Device {
   void switch_power(bool on);
 
   // --- time: the phases of a tick, in this order; devices meet between ticks only ---------------------
-  virtual void sample_inputs(Tick /*tick*/) {}
-  virtual void run_interpreters(Tick /*tick*/) {}
-  virtual void step_motion(Tick /*tick*/) {}
-  virtual void update_outputs(Tick /*tick*/) {}
+  // Where a device has nothing to do in a phase, nothing is done. (Not here: the compiler would guess at each
+  // call that it is the empty one.)
+  virtual void sample_inputs(Tick tick);
+  virtual void run_interpreters(Tick tick);
+  virtual void step_motion(Tick tick);
+  virtual void update_outputs(Tick tick);
   /// The first tick after `done` at which anything may change without help from outside; kNever if
   /// none. The ticks before it may be left out: the state is then the same as if they had been run.
-  virtual Tick next_active_tick(Tick /*done*/) const { return kNever; }
+  virtual Tick next_active_tick(Tick done) const;
   /// The first tick after `done` that has to be run as it is. Those before it only count on what moves, as
   /// far as each axis has room, and may be made up in one step by cross_to(). Not beyond `most` + 1.
   virtual Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const;

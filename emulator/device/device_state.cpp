@@ -33,7 +33,7 @@ using Common = CopiedFields<Device>;
 
 /// `common` is that of such a device.
 void read_common(const Model& model, StateReader& reader, Common& common) {
-  std::apply([&](auto&... field) { (reader.take_value(field), ...); }, common);
+  std::apply([&](auto&... field) { (reader.read(field), ...); }, common);
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);
   demand_state(inputs.size() == model.terminals.size(), "it has other terminals");
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -47,7 +47,7 @@ void read_common(const Model& model, StateReader& reader, Common& common) {
 std::vector<std::byte> Device::save_state() const {
   constexpr std::size_t kExpectedBytes = 32 * 1024;
   StateWriter writer(kExpectedBytes);
-  writer.put_value(*this);
+  writer.write(*this);
   write_own_state(writer);
   return writer.take();
 }

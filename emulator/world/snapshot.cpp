@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/state/difference.h"
 #include "emulator/world/check_fault.h"
 #include "emulator/world/state_fields.h"
 
@@ -14,21 +15,27 @@ namespace {
 using Machines = std::vector<std::vector<PlantAxis::State>>;
 using LineStates = std::vector<pty::Line::State>;
 
+using OfWorld = StateOf<World>;
 /// The world's own fields, as values.
-auto values_of(const World& world) {
-  return WorldFields::of(world, [](const auto&... field) { return std::tuple(field...); });
-}
-using WorldValues = decltype(values_of(std::declval<const World&>()));
+using WorldValues = CopiedFields<World>;
 
 enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone };
+static_assert(std::get<kSentPulses>(OfWorld::fields).name == "sent_pulses");
+static_assert(std::get<kInputs>(OfWorld::fields).name == "inputs");
+static_assert(std::get<kSupplies>(OfWorld::fields).name == "supplies");
+static_assert(std::get<kFaults>(OfWorld::fields).name == "faults");
+static_assert(std::get<kNextFault>(OfWorld::fields).name == "next_fault");
+static_assert(std::get<kDisturbed>(OfWorld::fields).name == "disturbed");
+static_assert(std::get<kNow>(OfWorld::fields).name == "now");
+static_assert(std::get<kDone>(OfWorld::fields).name == "done");
 
 // --- saving ----------------------------------------------------------------------------------------
 
 WorldState::Part world_part(const World& world) {
   StateWriter writer(1024);
-  WorldFields::of(world, [&](const auto&... field) { (writer.write<WorldFields>(field), ...); });
-  for (const auto& axes : WorldFields::plants(world)) {
-    for (const PlantAxis& plant : axes) writer.write<WorldFields>(plant.save());
+  writer.write(world);
+  for (const auto& axes : OfWorld::plants(world)) {
+    for (const PlantAxis& plant : axes) writer.write(plant.save());
   }
   return {"world", writer.take()};
 }
@@ -44,17 +51,17 @@ Hearing hearing_of(const WorldLine& line) {
 
 WorldState::Part line_part(const WorldLine& line) {
   StateWriter writer(1024);
-  writer.write<WorldFields>(hearing_of(line).is_strict);
-  writer.write<WorldFields>(hearing_of(line).enforces_settings);
-  writer.write<WorldFields>(line.line.save());
+  writer.write(hearing_of(line).is_strict);
+  writer.write(hearing_of(line).enforces_settings);
+  writer.write(line.line.save());
   for (const auto& station : line.stations) station->write_state(writer);
   return {"line " + line.line.name(), writer.take()};
 }
 
 WorldState::Part edge_part(const World& world) {
   StateWriter writer(256);
-  EdgeFields::of(world, [&](const auto&... field) { (writer.write<EdgeFields>(field), ...); });
-  for (std::size_t i = 0; i < world.line_count(); ++i) writer.write<EdgeFields>(world.line(i).line.save());
+  writer.write(OfWorld::ticks(world));
+  for (std::size_t i = 0; i < world.line_count(); ++i) writer.write(world.line(i).line.save().edge);
   return {"edge", writer.take()};
 }
 
@@ -110,8 +117,8 @@ void check_faults(const World& world, const WorldValues& values) {
 }
 
 WorldValues read_values(const World& world, StateReader& reader) {
-  WorldValues values = values_of(world);
-  std::apply([&](auto&... field) { (reader.read<WorldFields>(field), ...); }, values);
+  WorldValues values = copy_fields(world);
+  std::apply([&](auto&... field) { (reader.read(field), ...); }, values);
   check_inputs(world, values);
   demand_state(std::get<kSupplies>(values).size() == world.device_count(), "it has other devices");
   check_pulses(world, values);
@@ -124,10 +131,10 @@ WorldValues read_values(const World& world, StateReader& reader) {
 
 Machines read_machines(const World& world, StateReader& reader) {
   Machines machines;
-  for (const auto& axes : WorldFields::plants(world)) {
+  for (const auto& axes : OfWorld::plants(world)) {
     auto& states = machines.emplace_back(axes.size());
     for (PlantAxis::State& state : states) {
-      reader.read<WorldFields>(state);
+      reader.read(state);
       PlantAxis::check(state);
     }
   }
@@ -136,8 +143,8 @@ Machines read_machines(const World& world, StateReader& reader) {
 
 void read_hearing(const WorldLine& line, StateReader& reader) {
   Hearing its;
-  reader.read<WorldFields>(its.is_strict);
-  reader.read<WorldFields>(its.enforces_settings);
+  reader.read(its.is_strict);
+  reader.read(its.enforces_settings);
   const Hearing ours = hearing_of(line);
   if (its.is_strict != ours.is_strict) {
     throw StateError(its.is_strict
@@ -150,13 +157,6 @@ void read_hearing(const WorldLine& line, StateReader& reader) {
             ? "was saved where a host of another speed is not heard; expected a world where it is not"
             : "was saved where a host of any speed is heard; expected a world where it is");
   }
-}
-
-/// What the edge part holds besides lines.
-auto read_ticks(const World& world, StateReader& reader) {
-  auto ticks = EdgeFields::of(world, [](const auto&... field) { return std::tuple(field...); });
-  std::apply([&](auto&... field) { (reader.read<EdgeFields>(field), ...); }, ticks);
-  return ticks;
 }
 
 /// The parts one after another, by the names that such a world's have.
@@ -223,16 +223,17 @@ std::function<void()> read_state(World& world, const WorldState& state) {
     parts.read("line " + line.line.name(), [&](std::span<const std::byte> bytes) {
       StateReader reader(bytes);
       read_hearing(line, reader);
-      reader.read<WorldFields>(lines[i]);
+      reader.read(lines[i]);
       for (const auto& station : line.stations) put_stations.push_back(station->read_state(reader));
       reader.demand_end();
     });
   }
   auto ticks = parts.read("edge", [&](std::span<const std::byte> bytes) {
     StateReader reader(bytes);
-    auto of_world = read_ticks(world, reader);
+    auto of_world = OfWorld::ticks(world);
+    reader.read(of_world);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      reader.read<EdgeFields>(lines[i]);
+      reader.read(lines[i].edge);
       world.line(i).line.check(lines[i]);
     }
     reader.demand_end();
@@ -243,12 +244,12 @@ std::function<void()> read_state(World& world, const WorldState& state) {
   return [&world, values = std::move(values), machines = std::move(machines),
           put_devices = std::move(put_devices), lines = std::move(lines),
           put_stations = std::move(put_stations), ticks = std::move(ticks)] {
-    WorldFields::of(world, [&](auto&... field) { std::tie(field...) = values; });
-    EdgeFields::of(world, [&](auto&... field) { std::tie(field...) = ticks; });
-    WorldFields::rearm(world);
+    assign_fields(world, values);
+    OfWorld::ticks(world) = ticks;
+    OfWorld::rearm(world);
     for (std::size_t d = 0; d < machines.size(); ++d) {
       for (std::size_t a = 0; a < machines[d].size(); ++a) {
-        WorldFields::plants(world)[d][a].restore(machines[d][a]);
+        OfWorld::plants(world)[d][a].restore(machines[d][a]);
       }
     }
     for (std::size_t i = 0; i < put_devices.size(); ++i) {
@@ -264,6 +265,84 @@ std::function<void()> read_state(World& world, const WorldState& state) {
 }
 
 void restore(World& world, const WorldState& state) { read_state(world, state)(); }
+
+std::string difference(const World& world, const WorldState& a, const WorldState& b) {
+  Parts of_a(a);
+  Parts of_b(b);
+  // The first is told, and all is read: a state that is not one is refused wherever it differs.
+  std::string first;
+  const auto look = [&](const std::string& name, auto differ) {
+    of_a.read(name, [&](std::span<const std::byte> bytes_a) {
+      of_b.read(name, [&](std::span<const std::byte> bytes_b) {
+        std::string found = differ(bytes_a, bytes_b);
+        if (first.empty()) first = std::move(found);
+      });
+    });
+  };
+  const auto look_with_readers = [&](const std::string& name, auto differ) {
+    look(name, [&](std::span<const std::byte> bytes_a, std::span<const std::byte> bytes_b) {
+      StateReader reader_a(bytes_a);
+      StateReader reader_b(bytes_b);
+      std::string found = differ(reader_a, reader_b);
+      reader_a.demand_end();
+      reader_b.demand_end();
+      return found;
+    });
+  };
+  const auto or_else = [](std::string& found, std::string next) {
+    if (found.empty()) found = std::move(next);
+  };
+
+  look_with_readers("world", [&](StateReader& reader_a, StateReader& reader_b) {
+    const WorldValues values_a = read_values(world, reader_a);
+    const WorldValues values_b = read_values(world, reader_b);
+    std::string found = difference_of_copies<World>(values_a, values_b, "world");
+    const Machines machines_a = read_machines(world, reader_a);
+    const Machines machines_b = read_machines(world, reader_b);
+    for (std::size_t d = 0; d < machines_a.size(); ++d) {
+      const Device& device = world.device(d);
+      for (std::size_t i = 0; i < machines_a[d].size(); ++i) {
+        or_else(found, first_difference(
+                           machines_a[d][i], machines_b[d][i],
+                           device.name() + "." + std::string(device.model().axes[i].name) + ".machine"));
+      }
+    }
+    return found;
+  });
+  for (std::size_t i = 0; i < world.device_count(); ++i) {
+    const Device& device = world.device(i);
+    look("device " + device.name(),
+         [&](std::span<const std::byte> bytes_a, std::span<const std::byte> bytes_b) {
+           const std::string found = device.state_difference(bytes_a, bytes_b);
+           return found.empty() ? found : device.name() + "." + found;
+         });
+  }
+  for (std::size_t i = 0; i < world.line_count(); ++i) {
+    const WorldLine& line = world.line(i);
+    look_with_readers("line " + line.line.name(), [&](StateReader& reader_a, StateReader& reader_b) {
+      read_hearing(line, reader_a);
+      read_hearing(line, reader_b);
+      std::string found = difference_of_saved<pty::Line::State>(reader_a, reader_b, line.line.name());
+      for (const auto& station : line.stations) {
+        or_else(found,
+                station->difference(reader_a, reader_b, line.line.name() + "." + station->device().name()));
+      }
+      return found;
+    });
+  }
+  look_with_readers("edge", [&](StateReader& reader_a, StateReader& reader_b) {
+    std::string found = difference_of_saved<std::remove_cvref_t<decltype(OfWorld::ticks(world))>>(
+        reader_a, reader_b, "world.ticks");
+    for (std::size_t i = 0; i < world.line_count(); ++i) {
+      or_else(found,
+              difference_of_saved<pty::Line::Edge>(reader_a, reader_b, world.line(i).line.name() + ".edge"));
+    }
+    return found;
+  });
+  of_a.demand_end();
+  of_b.demand_end();
+  return first;
+}
 
 std::uint64_t hash(const World& world) {
   std::uint64_t sum = hash_of({});

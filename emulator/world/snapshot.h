@@ -43,6 +43,11 @@ std::function<void()> read_state(World& world, const WorldState& state);
 /// The same at once; when it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
+/// "feeder.axes[0].motor.travel_pulses: 12 against 13", "rs485.feeder.counters.replies: 1 against 2": the
+/// first field by which two states of such a world differ, by its path and name; empty if none does. Throws
+/// StateError for what cannot be read as such a one.
+std::string difference(const World& world, const WorldState& a, const WorldState& b);
+
 /// Of all that the model does things by, and of nothing else: not of bytes that a host has not taken yet, of
 /// whether quiet ticks were crossed in bulk, or of what is counted of that.
 std::uint64_t hash(const World& world);

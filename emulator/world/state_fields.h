@@ -1,83 +1,155 @@
-// What the state of a world consists of, for snapshot.cpp: all fields, in order. A field that is added and
-// not listed here is a compile error, because a structured binding names every field.
+// What the state of a world consists of, for snapshot.cpp (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <tuple>
+
+#include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/world/world.h"
+#include "pty/state_fields.h"
 
-namespace understudy::emulator::world {
+namespace understudy {
 
-/// A world, its machines and lines; devices and stations have lists of their own.
-struct WorldFields {
-  static auto of(Like<World> auto& world, auto visit) {
-    // What it is made of, and who looks at it, is not a state. Devices, machines and lines are parts of their
-    // own, how often ticks were run is of the edge.
-    auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
-           watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
-           ticks_crossed, bulk_ticks, crossing_tries] = world;
-    return visit(sent_pulses, inputs, supplies, faults, next_fault, disturbed, now, done);
-  }
-  static auto& plants(Like<World> auto& world) { return world.plants_; }
-  // clang-format off
-  static void of(Like<World::Input> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<World::Supply> auto& v, auto visit) { auto& [a] = v; visit(a); }
-  static void of(Like<Fault> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k] = v; visit(a, b, c, d, e, f, g, h, i, j, k);
-  }
-  static void of(Like<FaultTrigger> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v; visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
-  }
-  static void of(Like<FaultCourse> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = v; visit(a, b, c, d, e, f, g, h, i, j);
-  }
-  static void of(Like<ArmedFault> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<MachineFaults> auto& v, auto visit) { auto& [a, b, c, d, e] = v; visit(a, b, c, d, e); }
-  static void of(Like<PlantAxis::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
-  }
-
-  static void of(Like<pty::LineSettings> auto& v, auto visit) {
-    auto& [a, b, c, d] = v; visit(a, b, c, d);
-  }
-  static void of(Like<pty::HostSettings> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<pty::TimedByte> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<pty::Line::Burst> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<pty::Line::State::Member> auto& v, auto visit) {
-    auto& [a, b, c] = v; visit(a, b, c);
-  }
-  static void of(Like<pty::Line::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, output, counters, clock] = v;
-    visit(a, b, c, d, e, f, g, h, i, j, k, l);
-  }
-  // clang-format on
-
-  static void rearm(World& world) { world.arm_faults(); }
-
-  static constexpr Fault::Kind last(Fault::Kind) { return Fault::Kind::collision; }
-  static constexpr Fault::Side last(Fault::Side) { return Fault::Side::both; }
-  static constexpr pty::Parity last(pty::Parity) { return pty::Parity::even; }
-
-  static void check(const auto&) {}  // only the whole tells what may be: snapshot.cpp
+template <>
+struct StateOf<emulator::world::Fault::Kind> {
+  static constexpr auto last = emulator::world::Fault::Kind::collision;
 };
 
-/// What the model does not do things by: what hosts and observers leave behind, and how ticks were run.
-struct EdgeFields {
-  static auto of(Like<World> auto& world, auto visit) {
-    auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs, supplies, wires,
-           watchers, listener, faults, next_fault, fault_watch, seed, disturbed, now, done, ticks_run,
-           ticks_crossed, bulk_ticks, crossing_tries] = world;
-    return visit(ticks_run, ticks_crossed);
-  }
-  static void of(Like<pty::Line::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j, k, l, output, counters, clock] = v;
-    visit(output, counters, clock);
-  }
-  static void of(Like<pty::LineCounters> auto& v, auto visit) {
-    auto& [a, b, c, d, e] = v;
-    visit(a, b, c, d, e);
-  }
-  static void check(const auto&) {}
+template <>
+struct StateOf<emulator::world::Fault::Side> {
+  static constexpr auto last = emulator::world::Fault::Side::both;
 };
 
-}  // namespace understudy::emulator::world
+template <>
+struct StateOf<emulator::world::World::Input> {
+  using Value = emulator::world::World::Input;
+  static constexpr auto fields =
+      std::tuple{field("external", &Value::external), field("wired", &Value::wired),
+                 field("plant", &Value::plant), field("stuck", &Value::stuck)};
+};
+
+template <>
+struct StateOf<emulator::world::World::Supply> {
+  using Value = emulator::world::World::Supply;
+  static constexpr auto fields = std::tuple{field("is_switched_on", &Value::is_switched_on)};
+};
+
+template <>
+struct StateOf<emulator::world::FaultTrigger> {
+  using Value = emulator::world::FaultTrigger;
+  static constexpr auto fields = std::tuple{field("function", &Value::function),
+                                            field("station", &Value::station),
+                                            field("first_address", &Value::first_address),
+                                            field("last_address", &Value::last_address),
+                                            field("at", &Value::at),
+                                            field("from", &Value::from),
+                                            field("to", &Value::to),
+                                            field("when", &Value::when),
+                                            field("first_nth", &Value::first_nth),
+                                            field("last_nth", &Value::last_nth),
+                                            field("every", &Value::every),
+                                            field("chance", &Value::chance),
+                                            field("seed", &Value::seed),
+                                            field("times", &Value::times),
+                                            field("lasts", &Value::lasts)};
+};
+
+template <>
+struct StateOf<emulator::world::FaultCourse> {
+  using Value = emulator::world::FaultCourse;
+  static constexpr auto fields = std::tuple{field("seen", &Value::seen),
+                                            field("matched", &Value::matched),
+                                            field("hits", &Value::hits),
+                                            field("until", &Value::until),
+                                            field("looked_at", &Value::looked_at),
+                                            field("was_met", &Value::was_met),
+                                            field("in_force", &Value::in_force),
+                                            field("is_news", &Value::is_news),
+                                            field("judged_character", &Value::judged_character),
+                                            field("was_hit", &Value::was_hit)};
+};
+
+template <>
+struct StateOf<emulator::world::Fault> {
+  using Value = emulator::world::Fault;
+  static constexpr auto fields = std::tuple{field("kind", &Value::kind),
+                                            field("device", &Value::device),
+                                            field("place", &Value::place),
+                                            field("amount", &Value::amount),
+                                            field("period_ticks", &Value::period_ticks),
+                                            field("over_ticks", &Value::over_ticks),
+                                            field("on_line", &Value::on_line),
+                                            field("side", &Value::side),
+                                            field("before", &Value::before),
+                                            field("after", &Value::after),
+                                            field("trigger", &Value::trigger)};
+};
+
+template <>
+struct StateOf<emulator::world::ArmedFault> {
+  using Value = emulator::world::ArmedFault;
+  static constexpr auto fields = std::tuple{field("fault", &Value::fault), field("course", &Value::course)};
+};
+
+template <>
+struct StateOf<emulator::world::MachineFaults> {
+  using Value = emulator::world::MachineFaults;
+  static constexpr auto fields =
+      std::tuple{field("stalled", &Value::stalled), field("loses_one_in", &Value::loses_one_in),
+                 field("slipped_pulses", &Value::slipped_pulses), field("alarm", &Value::alarm),
+                 field("encoder_noise_counts", &Value::encoder_noise_counts)};
+};
+
+template <>
+struct StateOf<emulator::world::PlantAxis::State> {
+  using Value = emulator::world::PlantAxis::State;
+  static constexpr auto fields = std::tuple{field("position_pulses", &Value::position_pulses),
+                                            field("lost_pulses", &Value::lost_pulses),
+                                            field("pulses_to_lose", &Value::pulses_to_lose),
+                                            field("loses_one_in", &Value::loses_one_in),
+                                            field("at_home", &Value::at_home),
+                                            field("at_lower_limit", &Value::at_lower_limit),
+                                            field("at_upper_limit", &Value::at_upper_limit),
+                                            field("alarm_latched", &Value::alarm_latched),
+                                            field("ready", &Value::ready),
+                                            field("enabled_at", &Value::enabled_at),
+                                            field("faults", &Value::faults),
+                                            field("wheel_counts", &Value::wheel_counts),
+                                            field("turn_counts", &Value::turn_counts),
+                                            field("turn_ticks", &Value::turn_ticks),
+                                            field("ticks_to_turn", &Value::ticks_to_turn)};
+};
+
+/// A world's own; its devices, machines and lines are parts by themselves.
+template <>
+struct StateOf<emulator::world::World> {
+  using Value = emulator::world::World;
+  static constexpr auto fields = std::tuple{field("sent_pulses", &Value::sent_pulses_),
+                                            field("inputs", &Value::inputs_),
+                                            field("supplies", &Value::supplies_),
+                                            field("faults", &Value::faults_),
+                                            field("next_fault", &Value::next_fault_),
+                                            field("disturbed", &Value::disturbed_),
+                                            field("now", &Value::now_),
+                                            field("done", &Value::done_)};
+  static constexpr std::size_t members = 23;
+  /// What it is made of, who looks at it, and how ticks were run.
+  static constexpr std::size_t apart = 15;
+  static void name_all(Value& all) {  // does not compile if there are others
+    [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs,
+                            supplies, wires, watchers, listener, faults, next_fault, fault_watch, seed,
+                            disturbed, now, done, ticks, bulk_ticks, crossing_tries] = all;
+  }
+
+  static auto& plants(auto& world) { return world.plants_; }
+  static auto& ticks(auto& world) { return world.ticks_; }
+  static void rearm(Value& world) { world.arm_faults(); }
+};
+
+template <>
+struct StateOf<emulator::world::World::TickCounts> {
+  using Value = emulator::world::World::TickCounts;
+  static constexpr auto fields = std::tuple{field("run", &Value::run), field("crossed", &Value::crossed)};
+};
+
+}  // namespace understudy

@@ -136,7 +136,7 @@ void World::advance_to(SimTime time) {
     } else if (active > done_ + 1) {
       // Watchers see each of them.
       const Tick last_quiet = watchers_.empty() ? std::min(reachable, active - 1) : done_ + 1;
-      ticks_crossed_ += static_cast<std::uint64_t>(last_quiet - done_);
+      ticks_.crossed += static_cast<std::uint64_t>(last_quiet - done_);
       done_ = last_quiet;
       for (const auto& device : devices_) device->set_now(done_);
     } else {
@@ -217,7 +217,7 @@ void World::run_tick() {
     run_device(d);
   }
   latch_wires();
-  ++ticks_run_;
+  ++ticks_.run;
 }
 
 /// What run_device() needs, and the first memory of the device two later, which tells where the rest of it

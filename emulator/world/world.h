@@ -47,8 +47,8 @@ class World final : public WorldView {
   void advance_to(SimTime time);
   /// When something will happen by itself next; nothing if only the outside can change anything.
   std::optional<SimTime> next_due() const;
-  std::uint64_t ticks_run() const { return ticks_run_; }          // one by one
-  std::uint64_t ticks_crossed() const { return ticks_crossed_; }  // in bulk
+  std::uint64_t ticks_run() const { return ticks_.run; }          // one by one
+  std::uint64_t ticks_crossed() const { return ticks_.crossed; }  // in bulk
 
   /// Run every tick, quiet or not; results are the same (that is what it is for: to prove it).
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
@@ -101,8 +101,8 @@ class World final : public WorldView {
   const std::map<std::size_t, ArmedFault>& faults() const { return faults_; }
 
  private:
-  friend struct WorldFields;  // state_fields.h: what of all this is state
-  friend struct EdgeFields;
+  template <class T>
+  friend struct understudy::StateOf;  // state_fields.h: what of all this is state
 
   struct Input {
     std::int32_t external = 0;
@@ -124,6 +124,11 @@ class World final : public WorldView {
     static constexpr Tick kMostApart = 64;
     Tick next = 0;
     Tick apart = 1;
+  };
+
+  struct TickCounts {
+    std::uint64_t run = 0;
+    std::uint64_t crossed = 0;
   };
 
   /// Of a device's power.
@@ -185,8 +190,7 @@ class World final : public WorldView {
   bool disturbed_ = false;  // from outside, in a way that devices do not see: the next tick is run
   SimTime now_{0};
   Tick done_ = 0;  // the last tick that is over
-  std::uint64_t ticks_run_ = 0;
-  std::uint64_t ticks_crossed_ = 0;
+  TickCounts ticks_;
   bool bulk_ticks_ = true;
   CrossingTries crossing_tries_;
 };

@@ -66,7 +66,7 @@ void World::cross_to(Tick tick) {
     }
     devices_[d]->set_now(tick);
   }
-  ticks_crossed_ += static_cast<std::uint64_t>(tick - done_);
+  ticks_.crossed += static_cast<std::uint64_t>(tick - done_);
   done_ = tick;
 }
 

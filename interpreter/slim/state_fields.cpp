@@ -40,12 +40,12 @@ void StateOf<lang::Execution>::check(const lang::Execution& execution) {
 }
 
 void StateOf<lang::Program>::write(const lang::Program& program, StateWriter& writer) {
-  writer.put_value(program.texts());
+  writer.write(program.texts());
 }
 
 void StateOf<lang::Program>::read(lang::Program& program, StateReader& reader) {
   std::vector<std::string> texts;
-  reader.take_value(texts);
+  reader.read(texts);
   demand_state(program.set_texts(texts, kAnyProgram), "a line is not a line of a program");
 }
 

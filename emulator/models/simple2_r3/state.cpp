@@ -77,11 +77,11 @@ void StateOf<State>::check(const State& state) {
 
 namespace understudy::emulator::models::simple2_r3 {
 
-void Simple2R3::write_own_state(StateWriter& writer) const { writer.put_value(state_); }
+void Simple2R3::write_own_state(StateWriter& writer) const { writer.write(state_); }
 
 std::function<void()> Simple2R3::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
-  reader.take_value(*restored);
+  reader.read(*restored);
   restored->eeprom.check_restored(state_.eeprom);
   std::size_t slot = 0;
   for (const RegisterRow& row : map().rows()) {

@@ -8,7 +8,7 @@
 #include "base/state/state_bytes.h"
 #include "emulator/device/memory/eeprom_fields.h"
 #include "emulator/models/simple2_r3/device.h"
-#include "interpreter/simple2/state_fields.h"
+#include "interpreter/simple2/execution/state_fields.h"
 #include "motion/state_fields.h"
 
 namespace understudy {

@@ -24,38 +24,38 @@ void demand_speed(double speed) {
 
 void StateOf<Chain::Group>::write(const Chain::Group& group, StateWriter& writer) {
   const auto& [motion, paths, end] = group;
-  writer.put_value(motion.engaged);
+  writer.write(motion.engaged);
   if (!motion.engaged) return;  // it is as new
-  writer.put_value(motion);
-  writer.put_value(paths);
-  writer.put_value(end);
+  writer.write(motion);
+  writer.write(paths);
+  writer.write(end);
 }
 
 void StateOf<Chain::Group>::read(Chain::Group& group, StateReader& reader) {
   auto& [motion, paths, end] = group;
   bool engaged = false;
   group = {};
-  reader.take_value(engaged);
+  reader.read(engaged);
   if (!engaged) return;
-  reader.take_value(motion);
+  reader.read(motion);
   demand_state(motion.engaged, "a group must be engaged");
-  reader.take_value(paths);
-  reader.take_value(end);
+  reader.read(paths);
+  reader.read(end);
   for (const double units : end) demand_coordinate(units);
 }
 
 void StateOf<Fifo<Job, kFifoLength>>::write(const Fifo<Job, kFifoLength>& fifo, StateWriter& writer) {
-  writer.put_value(static_cast<std::uint8_t>(fifo.size()));
-  for (std::size_t i = 0; i < fifo.size(); ++i) writer.put_value(fifo[i]);
+  writer.write(static_cast<std::uint8_t>(fifo.size()));
+  for (std::size_t i = 0; i < fifo.size(); ++i) writer.write(fifo[i]);
 }
 
 void StateOf<Fifo<Job, kFifoLength>>::read(Fifo<Job, kFifoLength>& fifo, StateReader& reader) {
   std::uint8_t count = 0;
-  reader.take_value(count);
+  reader.read(count);
   demand_state(count <= fifo.capacity(), "a FIFO holds more than it can");
   fifo.truncate(0);
   for (Job job; count > 0; --count) {
-    reader.take_value(job);
+    reader.read(job);
     fifo.push(job);
   }
 }

@@ -47,11 +47,11 @@ void settle_programs(State& state, const lang::FlowOptions& options) {
 
 }  // namespace
 
-void Slim::write_own_state(StateWriter& writer) const { writer.put_value(settled()); }
+void Slim::write_own_state(StateWriter& writer) const { writer.write(settled()); }
 
 std::function<void()> Slim::read_own_state(StateReader& reader) {
   const auto restored = std::make_shared<State>();
-  reader.take_value(*restored);
+  reader.read(*restored);
   settle_programs(*restored, flow_options_);
   // What else only this bench's choices tell.
   for (const Errors& errors : restored->errors) {

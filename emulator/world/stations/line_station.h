@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "emulator/device/device.h"
-#include "emulator/world/stations/frame_faults.h"
+#include "emulator/world/stations/faulty_wire.h"
 #include "pty/station.h"
 
 namespace understudy::emulator::world {
@@ -18,8 +19,11 @@ struct StationCounters {
   std::uint64_t exceptions = 0;  // of the replies
 };
 
-class LineStation : public pty::Station {
+class LineStation : public pty::Station, private FaultyWire::End {
  public:
+  LineStation(const LineStation&) = delete;
+  LineStation& operator=(const LineStation&) = delete;
+
   pty::LineSettings settings() const final { return device_.line_settings(); }
 
   /// What it was hearing, and what it has still to say, is forgotten.
@@ -27,10 +31,7 @@ class LineStation : public pty::Station {
 
   /// Where something is broken that frames meet; null: nothing is. The device's number is told with each
   /// frame.
-  void set_faults(FrameFaults* faults, std::size_t device) {
-    faults_ = faults;
-    device_number_ = device;
-  }
+  void set_faults(FrameFaults* faults, std::size_t device) { wire_.set_faults(faults, device); }
 
   /// The device may have come to speak unasked. True if it has something to say: then due() has changed.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
@@ -45,14 +46,15 @@ class LineStation : public pty::Station {
   /// Reads it, and gives what puts it in force, which throws nothing. Throws StateError or
   /// std::invalid_argument for what this station cannot be.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
+  /// Reads two, and tells where they differ (base/state/difference.h).
+  virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
-  explicit LineStation(Device& device) : device_(device) {}
+  explicit LineStation(Device& device) : device_(device), wire_(*this) {}
 
   Device& device_;
   StationCounters counters_;
-  FrameFaults* faults_ = nullptr;
-  std::size_t device_number_ = 0;
+  FaultyWire wire_;  // all that it hears and says goes through it
 };
 
 /// Those on a line.

@@ -10,9 +10,6 @@ namespace understudy::emulator::world {
 
 class RtuStation final : public LineStation {
  public:
-  /// Requests and replies that are late; what is more is lost.
-  static constexpr std::size_t kMostLate = 256;
-
   RtuStation(Device& device, pty::RtuFraming framing) : LineStation(device), framer_(framing) {}
 
   // Without power it hears nothing.
@@ -22,11 +19,11 @@ class RtuStation final : public LineStation {
   void hear(const pty::TimedByte& byte) override {
     if (!device_.powered()) return;
     framer_.push(byte);
-    if (faults_ != nullptr) look_for_early_frame(byte);
+    if (wire_.is_broken()) look_at_completed(byte.number, byte.end);
   }
   void hear_other_station() override {
     framer_.reset();
-    is_early_ = false;
+    wire_.forget_early_frame();
   }
   void hear_nothing_more() override { framer_.give_up_waiting(); }
   std::optional<pty::SimTime> due() const override;
@@ -36,19 +33,13 @@ class RtuStation final : public LineStation {
   std::uint64_t dropped_bytes() const override { return framer_.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
+  std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// A message that a fault has made late.
-  struct Late {
-    pty::SimTime at{0};
-    bool is_reply = false;  // else a request
-    std::uint64_t last_character = 0;
-    std::vector<std::uint8_t> bytes{};
-  };
   /// What it hears and has counted; the device's state is its own.
   struct State {
     pty::RtuFramer::State framer;
     StationCounters counters;
-    std::vector<Late> late{};  // in the order of time
+    std::vector<FaultyWire::Late> late{};
   };
   State save() const;
   /// Throws std::invalid_argument for what this station cannot be.
@@ -57,18 +48,15 @@ class RtuStation final : public LineStation {
   void restore(const State& state);
 
  private:
-  HeardFrame heard(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::SimTime now) const;
-  void look_for_early_frame(const pty::TimedByte& byte);
+  HeardFrame heard(const pty::RtuFrame& frame, pty::SimTime now) const;
+  void look_at_completed(std::uint64_t last_character, pty::SimTime now);
   void take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out);
   void serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out);
-  void serve_garbled(const std::vector<std::uint8_t>& bytes, std::uint64_t last_character, pty::SimTime now,
-                     pty::Transmitter& out);
-  void keep_late(Late message);
-  void run_late(pty::SimTime now, pty::Transmitter& out);
+  void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::SimTime now,
+                   pty::Transmitter& out) override;
+  void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::Transmitter& out) override;
 
   pty::RtuFramer framer_;
-  std::vector<Late> late_;
-  bool is_early_ = false;  // what the framer holds is served at once: within the event that brought it
 };
 
 }  // namespace understudy::emulator::world

@@ -1,47 +1,75 @@
-// What the states of stations consist of (base/state/state_bytes.h).
+// What the states of stations consist of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
+#include <functional>
+#include <tuple>
+#include <utility>
+
+#include "base/state/difference.h"
+#include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/world/stations/rtu_station.h"
 #include "emulator/world/stations/text_station.h"
+#include "pty/state_fields.h"
+
+namespace understudy {
+
+template <>
+struct StateOf<emulator::world::StationCounters> {
+  using Value = emulator::world::StationCounters;
+  static constexpr auto fields =
+      std::tuple{field("requests", &Value::requests), field("replies", &Value::replies),
+                 field("exceptions", &Value::exceptions)};
+};
+
+template <>
+struct StateOf<emulator::world::FaultyWire::Late> {
+  using Value = emulator::world::FaultyWire::Late;
+  static constexpr auto fields =
+      std::tuple{field("at", &Value::at), field("is_reply", &Value::is_reply),
+                 field("last_character", &Value::last_character), field("bytes", &Value::bytes)};
+};
+
+template <>
+struct StateOf<emulator::world::RtuStation::State> {
+  using Value = emulator::world::RtuStation::State;
+  static constexpr auto fields = std::tuple{field("framer", &Value::framer),
+                                            field("counters", &Value::counters), field("late", &Value::late)};
+};
+
+template <>
+struct StateOf<emulator::world::TextStation::Waiting> {
+  using Value = emulator::world::TextStation::Waiting;
+  static constexpr auto fields = std::tuple{field("has_heard", &Value::has_heard),
+                                            field("heard", &Value::heard), field("echo", &Value::echo)};
+};
+
+template <>
+struct StateOf<emulator::world::TextStation::Outgoing> {
+  using Value = emulator::world::TextStation::Outgoing;
+  static constexpr auto fields =
+      std::tuple{field("last_character", &Value::last_character), field("text", &Value::text)};
+};
+
+template <>
+struct StateOf<emulator::world::TextStation::State> {
+  using Value = emulator::world::TextStation::State;
+  static constexpr auto fields =
+      std::tuple{field("lines", &Value::lines),         field("counters", &Value::counters),
+                 field("waiting", &Value::waiting),     field("late", &Value::late),
+                 field("outgoing", &Value::outgoing),   field("free_at", &Value::free_at),
+                 field("speaks_at", &Value::speaks_at), field("is_held", &Value::is_held)};
+};
+
+}  // namespace understudy
 
 namespace understudy::emulator::world {
-
-struct StationFields {
-  // clang-format off
-  static void of(Like<StationCounters> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-
-  static void of(Like<pty::RtuFramer::State::Character> auto& v, auto visit) {
-    auto& [a, b, c] = v; visit(a, b, c);
-  }
-  static void of(Like<pty::RtuFramer::State::Frame> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<pty::RtuFramer::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i] = v; visit(a, b, c, d, e, f, g, h, i);
-  }
-  static void of(Like<RtuStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<RtuStation::State> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-
-  static void of(Like<pty::TextLines::State> auto& v, auto visit) {
-    auto& [a, b, c, d] = v; visit(a, b, c, d);
-  }
-  static void of(Like<pty::HeardText> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<TextStation::Waiting> auto& v, auto visit) { auto& [a, b, c] = v; visit(a, b, c); }
-  static void of(Like<TextStation::Late> auto& v, auto visit) { auto& [a, b, c, d] = v; visit(a, b, c, d); }
-  static void of(Like<TextStation::Outgoing> auto& v, auto visit) { auto& [a, b] = v; visit(a, b); }
-  static void of(Like<TextStation::State> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h] = v; visit(a, b, c, d, e, f, g, h);
-  }
-  // clang-format on
-
-  static constexpr pty::HeardText::What last(pty::HeardText::What) { return pty::HeardText::What::go_on; }
-  static void check(const auto&) {}  // only the station tells what may be
-};
 
 /// Reads a state of `station` and checks it; the result puts it in force.
 template <class OneStation>
 std::function<void()> read_state_of(OneStation& station, StateReader& reader) {
   typename OneStation::State state;
-  reader.read<StationFields>(state);
+  reader.read(state);
   station.check(state);
   return [&station, state = std::move(state)] { station.restore(state); };
 }

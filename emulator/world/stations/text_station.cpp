@@ -14,7 +14,14 @@ using Heard = pty::HeardText::What;
 
 namespace {
 
-std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// A line as the wire is asked about it, with its end, or the device, without.
+HeardFrame frame_of(std::string_view text, std::uint64_t last_character, pty::SimTime now) {
+  return {.bytes = bytes_of(text), .last_character = last_character, .is_for_device = true, .now = now};
+}
 
 pty::TextLineRules rules_of(const TextSpeaker& speaker) {
   const TextRules rules = speaker.text_rules();
@@ -47,10 +54,9 @@ void TextStation::hear(const pty::TimedByte& byte) {
 }
 
 std::optional<pty::SimTime> TextStation::due() const {
-  std::optional<pty::SimTime> due;
+  std::optional<pty::SimTime> due = wire_.due();
   const auto offer = [&](pty::SimTime at) { due = std::min(due.value_or(at), at); };
   if (!waiting_.empty()) offer(waiting_.front().heard.end);
-  if (!late_.empty()) offer(late_.front().at);
   if (is_held_) return due;
   if (!outgoing_.empty()) offer(free_at_);
   if (speaks_at_) offer(*speaks_at_);
@@ -58,10 +64,10 @@ std::optional<pty::SimTime> TextStation::due() const {
 }
 
 void TextStation::run(pty::SimTime now, pty::Transmitter& out) {
-  run_late(now);
+  wire_.run(now, out);
   for (const Waiting& waiting : std::exchange(waiting_, {})) {
     if (!waiting.echo.empty()) echo(waiting, out);
-    if (waiting.has_heard) carry_out(waiting.heard, now);
+    if (waiting.has_heard) carry_out(waiting.heard, now, out);
   }
   send(now, out);
   if (is_held_ || !speaks_at_ || *speaks_at_ > now) return;
@@ -77,7 +83,7 @@ void TextStation::run(pty::SimTime now, pty::Transmitter& out) {
 void TextStation::reset() {
   lines_.reset();
   waiting_.clear();
-  late_.clear();
+  wire_.reset();
   outgoing_.clear();
   free_at_ = pty::SimTime{0};
   speaks_at_.reset();
@@ -97,96 +103,48 @@ void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
   if (outgoing_size() < kMostOutgoing) outgoing_.push_back({waiting.heard.last_character, waiting.echo});
 }
 
-void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now) {
-  if (faults_ == nullptr || heard.what != Heard::line) return serve(heard, now);
-  const std::vector<std::uint8_t> bytes = bytes_of(heard.text + '\r');
-  const auto stages = faults_->on_request(frame_of(bytes, heard.last_character, now));
-  if (stages.empty()) return serve(heard, now);
-  for (const pty::WirePiece& piece : pty::through_faults(bytes, stages)) {
-    const std::string text(piece.bytes.begin(), piece.bytes.end());
-    if (piece.late == pty::SimTime{0}) {
-      serve_garbled(text, heard.last_character, now);
-    } else {
-      keep_late({now + piece.late, false, heard.last_character, text});
-    }
+void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out) {
+  const bool is_whole =
+      heard.what != Heard::line || wire_.passes(frame_of(heard.text + '\r', heard.last_character, now), out);
+  if (is_whole) serve(heard, now, out);
+}
+
+void TextStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                              pty::SimTime now, pty::Transmitter& out) {
+  for (const std::uint8_t value : bytes) {
+    auto outcome =
+        lines_.push({.start = now, .end = now, .value = value, .number = last_character}, rules_of(speaker_));
+    if (outcome.heard) serve(*outcome.heard, now, out);
   }
 }
 
-void TextStation::serve(const pty::HeardText& heard, pty::SimTime now) {
+void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out) {
+  const HeardFrame request = frame_of(heard.text, heard.last_character, now);
   FrameFaults::Treatment treatment;
   switch (heard.what) {
-    case Heard::line: {
+    case Heard::line:
       ++counters_.requests;
-      const std::vector<std::uint8_t> bytes = bytes_of(heard.text);
-      if (faults_ != nullptr) treatment = faults_->on_serving(frame_of(bytes, heard.last_character, now));
+      treatment = wire_.treatment_of(request);
       speaker_.hear_line(heard.text);
       break;
-    }
     case Heard::overlong: speaker_.hear_overlong(); break;
     case Heard::escape: speaker_.hear_escape(); break;
     case Heard::hold: is_held_ = true; return;
     case Heard::go_on: is_held_ = false; return;
   }
   if (!speaker_.has_speech() || outgoing_size() >= kMostOutgoing) return;
-  std::string text = speaker_.take_speech();
+  const std::string text = speaker_.take_speech();
   if (!treatment.is_answered || text.empty()) return;
   ++counters_.replies;
-  answer(std::move(text), heard, now);
-}
-
-void TextStation::answer(std::string text, const pty::HeardText& heard, pty::SimTime now) {
-  const std::vector<std::uint8_t> request = bytes_of(heard.text);
-  const auto stages = faults_ == nullptr ? std::vector<pty::WireFault>{}
-                                         : faults_->on_reply(frame_of(request, heard.last_character, now));
-  if (stages.empty()) {
-    outgoing_.push_back({heard.last_character, std::move(text)});
-    return;
-  }
-  for (const pty::WirePiece& piece : pty::through_faults(bytes_of(text), stages)) {
-    keep_late({now + piece.late, true, heard.last_character, {piece.bytes.begin(), piece.bytes.end()}});
-  }
-  run_late(now);
-}
-
-HeardFrame TextStation::frame_of(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
-                                 pty::SimTime now) const {
-  return {.device = device_number_,
-          .bytes = bytes,
-          .last_character = last_character,
-          .is_for_device = true,
-          .now = now};
-}
-
-/// What the wire has made of a line, judged as if it had come so.
-void TextStation::serve_garbled(const std::string& text, std::uint64_t last_character, pty::SimTime now) {
-  for (const char character : text) {
-    const auto value = static_cast<std::uint8_t>(character);
-    auto outcome =
-        lines_.push({.start = now, .end = now, .value = value, .number = last_character}, rules_of(speaker_));
-    if (outcome.heard) serve(*outcome.heard, now);
-  }
-}
-
-void TextStation::keep_late(Late message) {
-  if (late_.size() == kMostLate) return;
-  const auto place = std::upper_bound(late_.begin(), late_.end(), message.at,
-                                      [](pty::SimTime at, const Late& other) { return at < other.at; });
-  late_.insert(place, std::move(message));
-}
-
-void TextStation::run_late(pty::SimTime now) {
-  while (!late_.empty() && late_.front().at <= now) {
-    Late message = std::move(late_.front());
-    late_.erase(late_.begin());
-    if (message.is_reply) {
-      outgoing_.push_back({message.last_character, std::move(message.text)});
-    } else {
-      serve_garbled(message.text, message.last_character, now);
-    }
-  }
+  wire_.answer(request, bytes_of(text), out);
 }
 
 // --- what it says --------------------------------------------------------------------------------
+
+void TextStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
+                      pty::Transmitter& /*out*/) {
+  outgoing_.push_back({last_character, {bytes.begin(), bytes.end()}});
+}
 
 void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
   const std::size_t piece =
@@ -194,7 +152,7 @@ void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
   while (!is_held_ && !outgoing_.empty() && free_at_ <= now) {
     Outgoing& first = outgoing_.front();
     const std::size_t size = std::min(first.text.size(), piece);
-    const std::vector<std::uint8_t> bytes = bytes_of(std::string_view(first.text).substr(0, size));
+    const auto bytes = bytes_of(std::string_view(first.text).substr(0, size));
     if (first.last_character == 0) {
       out.transmit(bytes);
     } else {
@@ -220,7 +178,7 @@ TextStation::State TextStation::save() const {
   return {.lines = lines_.save(),
           .counters = counters_,
           .waiting = waiting_,
-          .late = late_,
+          .late = wire_.late(),
           .outgoing = outgoing_,
           .free_at = free_at_,
           .speaks_at = speaks_at_,
@@ -234,12 +192,7 @@ void TextStation::check(const State& state) const {
   pty::TextLines::check(state.lines);
   demand(state.waiting.size() <= 1);
   for (const Waiting& waiting : state.waiting) demand(pty::is_within_reach(waiting.heard.end));
-  demand(state.late.size() <= kMostLate);
-  pty::SimTime before{0};
-  for (const Late& message : state.late) {
-    demand(message.at >= before && pty::is_within_reach(message.at) && !message.text.empty());
-    before = message.at;
-  }
+  FaultyWire::check(state.late);
   for (const Outgoing& outgoing : state.outgoing) demand(!outgoing.text.empty());
   demand(state.free_at >= pty::SimTime{0} && pty::is_within_reach(state.free_at));
   demand(!state.speaks_at || pty::is_within_reach(*state.speaks_at));
@@ -249,15 +202,19 @@ void TextStation::restore(const State& state) {
   lines_.restore(state.lines);
   counters_ = state.counters;
   waiting_ = state.waiting;
-  late_ = state.late;
+  wire_.restore(state.late);
   outgoing_ = state.outgoing;
   free_at_ = state.free_at;
   speaks_at_ = state.speaks_at;
   is_held_ = state.is_held;
 }
 
-void TextStation::write_state(StateWriter& writer) const { writer.write<StationFields>(save()); }
+void TextStation::write_state(StateWriter& writer) const { writer.write(save()); }
 
 std::function<void()> TextStation::read_state(StateReader& reader) { return read_state_of(*this, reader); }
+
+std::string TextStation::difference(StateReader& a, StateReader& b, const std::string& path) const {
+  return difference_of_saved<State>(a, b, path);
+}
 
 }  // namespace understudy::emulator::world

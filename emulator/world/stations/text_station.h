@@ -26,8 +26,6 @@ class TextStation final : public LineStation {
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
   /// Beyond that many characters it takes no more from the device, until some have gone.
   static constexpr std::size_t kMostOutgoing = 64 * 1024;
-  /// Lines and answers that are late; what is more is lost.
-  static constexpr std::size_t kMostLate = 256;
 
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
   TextStation(Device& device, bool is_instant);
@@ -42,19 +40,13 @@ class TextStation final : public LineStation {
   std::uint64_t dropped_bytes() const override { return lines_.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
+  std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
   /// What has been heard and is still to be carried out: at its time, within the event that brought it.
   struct Waiting {
     bool has_heard = false;  // false: the character is only echoed
     pty::HeardText heard;
     std::string echo{};
-  };
-  /// What a fault has made late.
-  struct Late {
-    pty::SimTime at{0};
-    bool is_reply = false;  // else characters to the device
-    std::uint64_t last_character = 0;
-    std::string text{};
   };
   struct Outgoing {
     std::uint64_t last_character = 0;  // of the line that it answers; 0: it is said unasked
@@ -64,7 +56,7 @@ class TextStation final : public LineStation {
     pty::TextLines::State lines;
     StationCounters counters;
     std::vector<Waiting> waiting{};  // one at most
-    std::vector<Late> late{};        // in the order of time
+    std::vector<FaultyWire::Late> late{};
     std::vector<Outgoing> outgoing{};
     pty::SimTime free_at{0};                  // the wire has carried what it was given
     std::optional<pty::SimTime> speaks_at{};  // what the device says unasked is taken
@@ -78,22 +70,18 @@ class TextStation final : public LineStation {
 
  private:
   void echo(const Waiting& waiting, pty::Transmitter& out);
-  void carry_out(const pty::HeardText& heard, pty::SimTime now);
-  void serve(const pty::HeardText& heard, pty::SimTime now);
-  void answer(std::string text, const pty::HeardText& heard, pty::SimTime now);
-  void serve_garbled(const std::string& text, std::uint64_t last_character, pty::SimTime now);
-  void keep_late(Late message);
-  void run_late(pty::SimTime now);
+  void carry_out(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out);
+  void serve(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out);
+  void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::SimTime now,
+                   pty::Transmitter& out) override;
+  void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::Transmitter& out) override;
   void send(pty::SimTime now, pty::Transmitter& out);
   std::size_t outgoing_size() const;
-  HeardFrame frame_of(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
-                      pty::SimTime now) const;
 
   TextSpeaker& speaker_;
   bool is_instant_;
   pty::TextLines lines_;
   std::vector<Waiting> waiting_;
-  std::vector<Late> late_;
   std::vector<Outgoing> outgoing_;
   pty::SimTime free_at_{0};
   std::optional<pty::SimTime> speaks_at_;

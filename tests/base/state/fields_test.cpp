@@ -33,6 +33,45 @@ struct Panel {
   bool is_on = false;
 };
 
+struct Shelf {
+  std::string label{};
+  std::map<std::int32_t, Lamp> lamps{};
+  std::array<std::uint8_t, 3> drawers{};
+};
+
+/// Saved otherwise than it lies in memory, and not to be copied.
+class Ring {
+ public:
+  Ring() = default;
+  Ring(const Ring&) = delete;
+  Ring& operator=(const Ring&) = delete;
+  std::size_t size() const { return 2; }
+  std::uint8_t operator[](std::size_t i) const { return items_[(first_ + i) % 2]; }
+  void turn() { first_ = 1 - first_; }
+  void set(std::size_t i, std::uint8_t value) { items_[i] = value; }
+
+ private:
+  friend struct StateOf<Ring>;
+  std::array<std::uint8_t, 2> items_{1, 2};
+  std::size_t first_ = 0;
+};
+
+/// Some of it is its state.
+class Counter {
+ public:
+  Counter() = default;
+  Counter(const Counter&) = delete;
+  Counter& operator=(const Counter&) = delete;
+  std::int32_t count = 0;
+  bool runs = false;
+
+ private:
+  friend struct StateOf<Counter>;
+  int watchers_ = 0;
+};
+
+inline std::string drawer(std::size_t number) { return number == 2 ? "lowest" : std::to_string(number); }
+
 }  // namespace fields_test
 
 template <>
@@ -55,11 +94,31 @@ struct StateOf<fields_test::Panel> {
                                             field("bytes", &Panel::bytes), field("since", &Panel::since)};
 };
 
-namespace fields_test {
+template <>
+struct StateOf<fields_test::Shelf> {
+  using Shelf = fields_test::Shelf;
+  static constexpr auto fields = std::tuple{field("label", &Shelf::label), field("lamps", &Shelf::lamps),
+                                            field("drawers", &Shelf::drawers, fields_test::drawer)};
+};
+template <>
+struct StateOf<fields_test::Ring> {
+  static void write(const fields_test::Ring& ring, StateWriter& writer) {
+    for (std::size_t i = 0; i < ring.size(); ++i) writer.write(ring[i]);
+  }
+  static void read(fields_test::Ring& ring, StateReader& reader) {
+    reader.read(ring.items_);
+    ring.first_ = 0;
+  }
+};
+template <>
+struct StateOf<fields_test::Counter> {
+  using Counter = fields_test::Counter;
+  static constexpr auto fields = std::tuple{field("runs", &Counter::runs), field("count", &Counter::count)};
+  static constexpr std::size_t members = 3;
+  static constexpr std::size_t apart = 1;
+};
 
-using fields_test::Colour;
-using fields_test::Lamp;
-using fields_test::Panel;
+namespace fields_test {
 
 Panel a_panel() {
   return {.number = 7,
@@ -72,7 +131,7 @@ Panel a_panel() {
 
 std::vector<std::byte> bytes_of(const Panel& panel) {
   StateWriter writer;
-  writer.put_value(panel);
+  writer.write(panel);
   return writer.take();
 }
 
@@ -80,7 +139,7 @@ std::string refusal_of(const std::vector<std::byte>& bytes) {
   Panel panel;
   StateReader reader(bytes);
   try {
-    reader.take_value(panel);
+    reader.read(panel);
     return "";
   } catch (const StateError& error) {
     return error.what();
@@ -99,7 +158,7 @@ TEST(Fields, AreSavedInTheOrderOfTheirListAndComeBack) {
   EXPECT_EQ(bytes[1], std::byte{7});
   Panel restored;
   StateReader reader(bytes);
-  reader.take_value(restored);
+  reader.read(restored);
   reader.demand_end();
   EXPECT_EQ(first_difference(restored, a_panel()), "");
   EXPECT_EQ(bytes_of(restored), bytes);
@@ -143,6 +202,60 @@ TEST(Difference, IsToldByTheNamesOfTheFields) {
     change(other);
     EXPECT_EQ(first_difference(a_panel(), other), told);
   }
+}
+
+TEST(Difference, OfTextMapsAndNamedElements) {
+  using fields_test::Shelf;
+  const Shelf shelf{.label = "left", .lamps = {{3, {Colour::green, 1}}, {5, {}}}, .drawers = {0, 1, 2}};
+  struct Case {
+    void (*change)(Shelf& shelf);
+    const char* told;
+  };
+  for (const auto& [change, told] : {
+           Case{[](Shelf&) {}, ""},
+           Case{[](Shelf& s) { s.label = "l\"\r"; }, R"(label: "left" against "l\x22\x0d")"},
+           Case{[](Shelf& s) { s.lamps.erase(5); }, "lamps[5]: something against nothing"},
+           Case{[](Shelf& s) { s.lamps.erase(3); }, "lamps[3]: something against nothing"},
+           Case{[](Shelf& s) { s.lamps[4]; }, "lamps[4]: nothing against something"},
+           Case{[](Shelf& s) { s.lamps[9]; }, "lamps[9]: nothing against something"},
+           Case{[](Shelf& s) { s.lamps[5].brightness = 2; }, "lamps[5].brightness: 0 against 2"},
+           Case{[](Shelf& s) { s.drawers[1] = 8; }, "drawers[1]: 1 against 8"},
+           Case{[](Shelf& s) { s.drawers[2] = 8; }, "drawers[lowest]: 2 against 8"},
+       }) {
+    Shelf other = shelf;
+    change(other);
+    EXPECT_EQ(first_difference(shelf, other), told);
+  }
+}
+
+TEST(Difference, OfWhatSavesItselfIsOfWhatIsInIt) {
+  using fields_test::Ring;
+  Ring one;
+  Ring other;
+  one.turn();
+  one.set(1, 1);
+  one.set(0, 2);
+  EXPECT_EQ(first_difference(one, other), "") << "where it lies does not matter";
+  other.set(1, 9);
+  EXPECT_EQ(first_difference(one, other, "ring"), "ring[1]: 2 against 9");
+  StateWriter writer;
+  writer.write(other);
+  const std::vector<std::byte> bytes = writer.take();
+  EXPECT_EQ(bytes, (std::vector<std::byte>{std::byte{1}, std::byte{9}}));
+  StateReader reader(bytes);
+  reader.read(one);
+  EXPECT_EQ(first_difference(one, other), "");
+}
+
+TEST(Fields, OfAClassThatCannotBeCopiedAreReadAndThenPutInForce) {
+  using fields_test::Counter;
+  Counter counter;
+  const CopiedFields<Counter> before = copy_fields(counter);
+  counter.count = 5;
+  EXPECT_EQ(difference_of_copies<Counter>(before, copy_fields(counter), "a"), "a.count: 0 against 5");
+  assign_fields(counter, CopiedFields<Counter>{true, 8});
+  EXPECT_TRUE(counter.runs);
+  EXPECT_EQ(counter.count, 8);
 }
 
 TEST(Difference, BeginsWithThePathThatIsAskedFor) {

@@ -4,21 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <string_view>
+#include <tuple>
 
 #include "base/state/base64.h"
 
 namespace understudy {
+
 namespace state_bytes_test {
-
-using namespace std::chrono_literals;
-
-std::vector<std::byte> bytes(std::initializer_list<int> values) {
-  std::vector<std::byte> made;
-  for (const int value : values) made.push_back(static_cast<std::byte>(value));
-  return made;
-}
-
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 enum class Colour : std::uint8_t { red, green, blue };
 
@@ -48,33 +40,56 @@ class Secret {
   Secret() = default;
   explicit Secret(std::uint8_t value) : value_(value) {}
   std::uint8_t value() const { return value_; }
-  static void fields(auto& self, auto visit) {
-    auto& [value] = self;
-    visit(value);
-  }
 
  private:
+  friend struct understudy::StateOf<Secret>;
   std::uint8_t value_ = 0;
 };
 
-struct Fields {
-  static void of(Like<Point> auto& v, auto visit) {
-    auto& [a, b] = v;
-    visit(a, b);
-  }
-  static void of(Like<Sample> auto& v, auto visit) {
-    auto& [a, b, c, d, e, f, g, h, i, j] = v;
-    visit(a, b, c, d, e, f, g, h, i, j);
-  }
-  static constexpr Colour last(Colour) { return Colour::blue; }
-  static void check(const Point& point) { demand_within(point.x, -100, 100); }
-  static void check(const auto&) {}
+}  // namespace state_bytes_test
+
+template <>
+struct StateOf<state_bytes_test::Colour> {
+  static constexpr auto last = state_bytes_test::Colour::blue;
 };
+template <>
+struct StateOf<state_bytes_test::Point> {
+  using Value = state_bytes_test::Point;
+  static constexpr auto fields = std::tuple{field("x", &Value::x), field("y", &Value::y)};
+  static void check(const Value& point) { demand_within(point.x, -100, 100); }
+};
+template <>
+struct StateOf<state_bytes_test::Sample> {
+  using Value = state_bytes_test::Sample;
+  static constexpr auto fields = std::tuple{
+      field("byte", &Value::byte),      field("number", &Value::number), field("yes", &Value::yes),
+      field("colour", &Value::colour),  field("real", &Value::real),     field("time", &Value::time),
+      field("maybe", &Value::maybe),    field("pair", &Value::pair),     field("points", &Value::points),
+      field("entries", &Value::entries)};
+};
+template <>
+struct StateOf<state_bytes_test::Secret> {
+  using Value = state_bytes_test::Secret;
+  static constexpr auto fields = std::tuple{field("value", &Value::value_)};
+  static constexpr std::size_t members = 1;
+};
+
+namespace state_bytes_test {
+
+using namespace std::chrono_literals;
+
+std::vector<std::byte> bytes(std::initializer_list<int> values) {
+  std::vector<std::byte> made;
+  for (const int value : values) made.push_back(static_cast<std::byte>(value));
+  return made;
+}
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 template <class T>
 std::vector<std::byte> saved(const T& value) {
   StateWriter writer;
-  writer.write<Fields>(value);
+  writer.write(value);
   return writer.take();
 }
 
@@ -82,7 +97,7 @@ template <class T>
 T restored(const std::vector<std::byte>& from) {
   StateReader reader(from);
   T value;
-  reader.read<Fields>(value);
+  reader.read(value);
   reader.demand_end();
   return value;
 }

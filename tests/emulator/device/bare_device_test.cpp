@@ -10,7 +10,7 @@
 #include "tests/emulator/device/register_map/toy_device.h"
 
 namespace understudy::emulator {
-namespace {
+namespace bare_device_test {
 
 constexpr Protocol kSmokeSigns{"smoke signs"};
 constexpr int kBauds[] = {300, 1200};
@@ -133,5 +133,5 @@ TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
   }
 }
 
-}  // namespace
+}  // namespace bare_device_test
 }  // namespace understudy::emulator

@@ -13,6 +13,7 @@
 
 #include "base/state/state_bytes.h"
 #include "emulator/world/stations/rtu_station.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/busy_acts.h"
 
 namespace understudy::emulator::world {
@@ -174,7 +175,7 @@ TEST(Snapshot, EqualBytesAreEqualStates) {
         equal += same ? 1 : 0;
       }
       if (hash(world) == hash(twin)) {
-        EXPECT_TRUE(world.device(0).same_state(twin.device(0)));
+        EXPECT_TRUE(same_state(world.device(0), twin.device(0)));
       } else if (random.between(0, 3) == 0) {
         restore(twin, save(world));
       }

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "emulator/device/terminals.h"
+#include "tests/emulator/device/same_state.h"
+#include "tests/emulator/world/same_world.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
@@ -64,14 +66,14 @@ inline testing::AssertionResult same(World& one, World& other) {
     const Device& device = one.device(d);
     const Device& twin = other.device(d);
     if (device.powered() != twin.powered()) return differ("the power");
-    if (!device.same_state(twin)) return differ(device.name());
+    if (const auto same = same_state(device, twin); !same) return same;
     for (int i = 0; i < static_cast<int>(device.model().terminals.size()); ++i) {
       if (device.input(i) != twin.input(i)) return differ("an input");
       if (device.terminals()->output(i) != twin.terminals()->output(i)) return differ("an output");
       if (one.external_input(d, i) != other.external_input(d, i)) return differ("an external input");
     }
     for (int axis = 0; axis < static_cast<int>(device.model().axes.size()); ++axis) {
-      if (!one.plant(d, axis).same_state(other.plant(d, axis))) return differ("a machine");
+      if (const auto same = same_state(one.plant(d, axis), other.plant(d, axis)); !same) return same;
     }
   }
   if (take_output(one) != take_output(other)) return differ("what the line says");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
@@ -215,13 +216,13 @@ TEST(World, ABroadcastIsObeyedByBothInSilence) {
 TEST(World, DevicesOfOtherSettingsAreOfAnotherState) {
   World a = make_world();
   World b = make_world();
-  EXPECT_TRUE(a.device(0).same_state(b.device(0)));
+  EXPECT_TRUE(same_state(a.device(0), b.device(0)));
   set(a, "feeder.PROG_VAR0", 1);
-  EXPECT_FALSE(a.device(0).same_state(b.device(0)));
+  EXPECT_FALSE(same_state(a.device(0), b.device(0)));
   set(b, "feeder.PROG_VAR0", 1);
-  EXPECT_TRUE(a.device(0).same_state(b.device(0)));
+  EXPECT_TRUE(same_state(a.device(0), b.device(0)));
   a.advance_to(1ms);
-  EXPECT_FALSE(a.device(0).same_state(b.device(0)));
+  EXPECT_FALSE(same_state(a.device(0), b.device(0)));
 }
 
 }  // namespace world_test

@@ -5,6 +5,7 @@
 // t ms up to 10, then t - 5; slowing down from there takes another 10 ms and 5 pulses, and the way back over
 // those 5 pulses two whole ramps, 20 ms. A switch is seen when a tick begins, which is the moment at which
 // the tick before left the axis there.
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/models/simple2_r3/homing_machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -114,7 +115,7 @@ TEST(HomingFromEverywhere, IsTheSameWhenManyTicksAreCrossedAtOnce) {
       leaping.go_home();
       stepped.run(1000);
       leaping.run(1000);
-      EXPECT_TRUE(stepped.device().same_state(leaping.device()));
+      EXPECT_TRUE(same_state(stepped.device(), leaping.device()));
       EXPECT_EQ(leaping.place(), row.ends_on);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/models/models.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -163,7 +164,7 @@ TEST(PowerCycleOnTheLine, LeavesAReplyOfTheOtherStationAndItsWorkAlone) {
   undisturbed.to(300ms);
   EXPECT_EQ(line.heard(), kHardwareOfTurner);
   EXPECT_EQ(undisturbed.heard(), kHardwareOfTurner);
-  EXPECT_TRUE(line.world.device(kTurner).same_state(undisturbed.world.device(kTurner)));
+  EXPECT_TRUE(same_state(line.world.device(kTurner), undisturbed.world.device(kTurner)));
 }
 
 TEST(PowerCycleOnTheLine, ARequestRightAfterPowerUpMeetsACompleteDevice) {

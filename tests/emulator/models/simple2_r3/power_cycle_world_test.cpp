@@ -9,6 +9,7 @@
 
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/terminals.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -122,7 +123,7 @@ testing::AssertionResult same(world::World& one, world::World& other) {
   if (one.next_due() != other.next_due()) return differ("what is due");
   for (std::size_t d = 0; d < 2; ++d) {
     if (one.device(d).powered() != other.device(d).powered()) return differ("the power");
-    if (!one.device(d).same_state(other.device(d))) return differ(one.device(d).name());
+    if (const auto same = same_state(one.device(d), other.device(d)); !same) return same;
     if (one.device(d).memory()->nv_image() != other.device(d).memory()->nv_image()) return differ("a memory");
     for (int i = 0; i < 18; ++i) {
       if (one.device(d).input(i) != other.device(d).input(i)) return differ("an input");

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "emulator/models/simple2_r3/device.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/models/simple2_r3/one_simple2.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -72,7 +73,7 @@ TEST(Simple2TickMemory, InputsOfARestoredStateAreSeen) {
   saved.run(1);
   EXPECT_EQ(other.get("DIN_10"), 1);
   EXPECT_NE(other.get("ADC_A"), 0);
-  EXPECT_TRUE(other.device().same_state(saved.device()));
+  EXPECT_TRUE(same_state(other.device(), saved.device()));
 }
 
 TEST(Simple2TickMemory, InputsHeldOverPowerOffAreSeen) {

@@ -9,13 +9,13 @@ namespace chain_fields_test {
 
 std::vector<std::byte> saved(const Chain& chain) {
   StateWriter writer;
-  writer.put_value(chain);
+  writer.write(chain);
   return writer.take();
 }
 Chain restored(std::span<const std::byte> bytes) {
   Chain chain;
   StateReader reader(bytes);
-  reader.take_value(chain);
+  reader.read(chain);
   reader.demand_end();
   return chain;
 }

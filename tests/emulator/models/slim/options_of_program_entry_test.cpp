@@ -5,6 +5,7 @@
 #include "base/state/state_error.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/user_program.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -36,7 +37,7 @@ TEST(SlimProgramEntryChoices, ProgramSize) {
     // In a saved state, in memory, in an image.
     DialogueScript other(1, chosen);
     other.device().restore_state(script.device().save_state());
-    EXPECT_TRUE(other.device().same_state(script.device()));
+    EXPECT_TRUE(same_state(other.device(), script.device()));
     script.play("off\non\n");
     EXPECT_EQ(script.device().state().program.size(), size);
     NvImage image = script.device().memory()->nv_image();

@@ -9,6 +9,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/terminals.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/models/slim/dialogue_script.h"
 
 namespace understudy::emulator::models::slim {
@@ -148,7 +149,7 @@ TEST(SlimState, GoesOnInAnotherDeviceAsItDidInTheFirst) {
     ASSERT_NE(second.device().save_state(), saved);
     second.device().restore_state(saved);
     ASSERT_EQ(second.device().save_state(), saved);
-    ASSERT_TRUE(second.device().same_state(first.device()));
+    ASSERT_TRUE(same_state(second.device(), first.device()));
 
     const std::vector<std::string> one = lived(first, moment);
     const std::vector<std::string> other = lived(second, moment);
@@ -243,7 +244,7 @@ TEST(SlimState, QuietTicksMakeNoDifference) {
       single.pass(span);
       ASSERT_EQ(seen_of(bulk), seen_of(single)) << "after " << span << " ms more";
       ASSERT_EQ(bulk.device().save_state(), single.device().save_state());
-      ASSERT_TRUE(bulk.device().same_state(single.device()));
+      ASSERT_TRUE(same_state(bulk.device(), single.device()));
     }
     EXPECT_EQ(single.world().ticks_crossed(), 0u);
     crossed += bulk.world().ticks_crossed();

@@ -3,7 +3,9 @@
 
 #include <functional>
 
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/faults/faulty_world.h"
+#include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::world {
 namespace faults_in_a_world_test {
@@ -199,9 +201,9 @@ TEST(Faults, InAQuietWorldAlsoTakeEffectInTheNextTick) {
       EXPECT_EQ(c.effect(bulk), tick >= c.after) << to_text(bulk.known(), broken) << " tick " << tick;
       EXPECT_EQ(c.effect(single), tick >= c.after) << to_text(bulk.known(), broken) << " tick " << tick;
       for (std::size_t device = 0; device < 2; ++device) {
-        EXPECT_TRUE(bulk.device(device).same_state(single.device(device))) << tick;
+        EXPECT_TRUE(same_state(bulk.device(device), single.device(device))) << tick;
         for (int axis = 0; axis < 2; ++axis) {
-          EXPECT_TRUE(bulk.plant(device, axis).same_state(single.plant(device, axis))) << tick;
+          EXPECT_TRUE(same_state(bulk.plant(device, axis), single.plant(device, axis))) << tick;
         }
       }
     }
@@ -226,7 +228,7 @@ TEST(ClearFaults, LeavesWhatClearingEachInTurnLeaves) {
   EXPECT_TRUE(at_once.faults().empty());
   run(at_once, 5);
   run(in_turn, 5);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(at_once.device(i).same_state(in_turn.device(i))) << i;
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_TRUE(same_state(at_once.device(i), in_turn.device(i))) << i;
   at_once.clear_faults();  // there are none
 }
 

@@ -8,6 +8,7 @@
 
 #include "emulator/world/snapshot.h"
 #include "tests/emulator/world/recording/busy_world.h"
+#include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::world {
 namespace replay_test {
@@ -49,15 +50,11 @@ TEST(Replay, SaysEveryByteOfABusyWorldAgainAndEndsInItsState) {
     BusyWorld busy(seed, seed % 3 == 0 ? "instant" : "wire");
     busy.play(300);
     const std::string text = busy.finish();
-    bool is_same = false;
-    const Replayed again = play(text, {}, [&](World& world) {
-      is_same = world.device(0).same_state(busy.world().device(0)) &&
-                world.device(1).same_state(busy.world().device(1)) &&
-                world.plant(0, 0).same_state(busy.world().plant(0, 0)) && world.now() == busy.world().now();
-    });
+    testing::AssertionResult same = testing::AssertionFailure() << "nothing was played";
+    const Replayed again = play(text, {}, [&](World& world) { same = same_state(world, busy.world()); });
     EXPECT_EQ(again.result.verdict, Verdict::same) << again.result.difference;
     EXPECT_TRUE(again.result.has_end);
-    EXPECT_TRUE(is_same);
+    EXPECT_TRUE(same);
     EXPECT_EQ(again.header.version, "1.2.3");
     EXPECT_EQ(again.header.seed, seed);
     bytes += again.result.bytes_said;

@@ -7,7 +7,7 @@
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace line_speech_test {
 
 TEST(LineSpeech, IsThatOfItsModelsProtocol) {
   for (const Model* model : models_and_echo_box()) {
@@ -81,5 +81,5 @@ TEST(LineSpeech, MakesAStationOnlyOfADeviceThatSpeaks) {
   EXPECT_THROW(modbus_speech().make_station(box, {}), std::logic_error);
 }
 
-}  // namespace
+}  // namespace line_speech_test
 }  // namespace understudy::emulator::world

@@ -40,7 +40,7 @@ struct EchoState {
   double r0 = 0;
   bool echo = false;
   std::vector<std::string> program{};
-  bool operator==(const State&) const = default;
+  bool operator==(const EchoState&) const = default;
 };
 
 }  // namespace understudy::emulator::world
@@ -184,10 +184,10 @@ class EchoBox final : public TextDevice,
     state_.speaks_at = kNever;
     state_.echo = false;
   }
-  void write_own_state(StateWriter& writer) const override { writer.put_value(state_); }
+  void write_own_state(StateWriter& writer) const override { writer.write(state_); }
   std::function<void()> read_own_state(StateReader& reader) override {
     EchoState state;
-    reader.take_value(state);
+    reader.read(state);
     return [this, state = std::move(state)] { state_ = state; };
   }
   std::string own_difference(StateReader& a, StateReader& b) const override {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/world/snapshot.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/stations/echo_box.h"
 
 namespace understudy::emulator::world {
@@ -209,7 +210,7 @@ TEST(TextStation, AWorldThatIsRestoredSaysTheSameBytes) {
         const WorldState state = save(first.world);
         restore(other.world, state);
         EXPECT_EQ(save(other.world), state);
-        EXPECT_TRUE(other.world.device(0).same_state(first.world.device(0)));
+        EXPECT_TRUE(same_state(other.world.device(0), first.world.device(0)));
       }
       EXPECT_EQ(play(first, step), play(other, step)) << "step " << step;
       ASSERT_EQ(hash(first.world), hash(other.world)) << "step " << step;

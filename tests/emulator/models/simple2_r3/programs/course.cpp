@@ -10,6 +10,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/stations/server.h"
 #include "interpreter/simple2/listing.h"
+#include "tests/emulator/device/same_state.h"
 #include "tests/emulator/models/simple2_r3/programs/course_text.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -299,7 +300,7 @@ void expect_course(const Play& play, std::string_view table) {
 
   Stage leaping(play);
   play_in_leaps(leaping);
-  EXPECT_TRUE(stage.box.device().same_state(leaping.box.device())) << play.listing << ", played in leaps";
+  EXPECT_TRUE(same_state(stage.box.device(), leaping.box.device())) << play.listing << ", played in leaps";
 }
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -1,4 +1,4 @@
-#include "interpreter/simple2/state_fields.h"
+#include "interpreter/simple2/execution/state_fields.h"
 
 #include <cstdint>
 
@@ -14,18 +14,18 @@ void StateOf<Execution>::check(const Execution& execution) {
 }
 
 void StateOf<Program>::write(const Program& program, StateWriter& writer) {
-  writer.put_value(program.lines());
-  writer.put_value(program.flag_rules());
-  writer.put_value(program.flag_lines());
+  writer.write(program.lines());
+  writer.write(program.flag_rules());
+  writer.write(program.flag_lines());
 }
 
 void StateOf<Program>::read(Program& program, StateReader& reader) {
   interpreter::simple2::Lines lines;
-  reader.take_value(lines);
+  reader.read(lines);
   interpreter::simple2::FlagRules rules;
-  reader.take_value(rules);
+  reader.read(rules);
   interpreter::simple2::FlagLines flag_lines{};
-  reader.take_value(flag_lines);
+  reader.read(flag_lines);
   for (const std::int16_t line : flag_lines) demand_within(line, -1, interpreter::simple2::kLineCount - 1);
   program = Program(lines, rules, flag_lines);
 }

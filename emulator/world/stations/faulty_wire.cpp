@@ -1,0 +1,92 @@
+#include "emulator/world/stations/faulty_wire.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "pty/state_reach.h"
+
+namespace understudy::emulator::world {
+
+void FaultyWire::look_at_completed(const HeardFrame& frame) {
+  if (is_early_ || faults_ == nullptr || !frame.is_for_device) return;
+  is_early_ = faults_->is_early(told(frame));
+}
+
+bool FaultyWire::take_early_frame() { return std::exchange(is_early_, false); }
+
+bool FaultyWire::passes(const HeardFrame& request, pty::Transmitter& out) {
+  if (faults_ == nullptr) return true;
+  const std::vector<pty::WireFault> stages = faults_->on_request(told(request));
+  if (stages.empty()) return true;
+  for (pty::WirePiece& piece : pty::through_faults(request.bytes, stages)) {
+    if (piece.late == pty::SimTime{0}) {
+      end_.serve_piece(piece.bytes, request.last_character, request.now, out);
+    } else {
+      keep({request.now + piece.late, false, request.last_character, std::move(piece.bytes)});
+    }
+  }
+  return false;
+}
+
+FrameFaults::Treatment FaultyWire::treatment_of(const HeardFrame& request) {
+  return faults_ == nullptr ? FrameFaults::Treatment{} : faults_->on_serving(told(request));
+}
+
+void FaultyWire::answer(const HeardFrame& request, std::span<const std::uint8_t> bytes,
+                        pty::Transmitter& out) {
+  if (faults_ == nullptr) return end_.say(bytes, request.last_character, out);
+  const std::vector<pty::WireFault> stages = faults_->on_reply(told(request));
+  if (stages.empty()) return end_.say(bytes, request.last_character, out);
+  for (pty::WirePiece& piece : pty::through_faults(bytes, stages)) {
+    if (piece.late == pty::SimTime{0}) {
+      end_.say(piece.bytes, request.last_character, out);
+    } else {
+      keep({request.now + piece.late, true, request.last_character, std::move(piece.bytes)});
+    }
+  }
+}
+
+std::optional<pty::SimTime> FaultyWire::due() const {
+  if (is_early_) return pty::SimTime{0};
+  if (late_.empty()) return std::nullopt;
+  return late_.front().at;
+}
+
+void FaultyWire::run(pty::SimTime now, pty::Transmitter& out) {
+  while (!late_.empty() && late_.front().at <= now) {
+    const Late message = std::move(late_.front());
+    late_.erase(late_.begin());
+    if (message.is_reply) {
+      end_.say(message.bytes, message.last_character, out);
+    } else {
+      end_.serve_piece(message.bytes, message.last_character, now, out);
+    }
+  }
+}
+
+void FaultyWire::reset() {
+  late_.clear();
+  is_early_ = false;
+}
+
+void FaultyWire::keep(Late message) {
+  if (late_.size() == kMostLate) return;
+  const auto place = std::upper_bound(late_.begin(), late_.end(), message.at,
+                                      [](pty::SimTime at, const Late& other) { return at < other.at; });
+  late_.insert(place, std::move(message));
+}
+
+void FaultyWire::check(const std::vector<Late>& late) {
+  const auto demand = [](bool holds) {
+    if (!holds) throw std::invalid_argument("a station cannot hold such late messages");
+  };
+  demand(late.size() <= kMostLate);
+  pty::SimTime before{0};
+  for (const Late& message : late) {
+    demand(message.at >= before && pty::is_within_reach(message.at) && !message.bytes.empty());
+    before = message.at;
+  }
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,139 @@
+// What the states of lines and of what listens on them consist of (base/state/fields.h), in the order of the
+// bytes.
+#pragma once
+
+#include <tuple>
+
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+#include "pty/line.h"
+#include "pty/rtu_framer.h"
+#include "pty/text_lines.h"
+
+namespace understudy {
+
+template <>
+struct StateOf<pty::Parity> {
+  static constexpr auto last = pty::Parity::even;
+};
+
+template <>
+struct StateOf<pty::HeardText::What> {
+  static constexpr auto last = pty::HeardText::What::go_on;
+};
+
+template <>
+struct StateOf<pty::LineSettings> {
+  using Value = pty::LineSettings;
+  static constexpr auto fields =
+      std::tuple{field("baud", &Value::baud), field("data_bits", &Value::data_bits),
+                 field("parity", &Value::parity), field("stop_bits", &Value::stop_bits)};
+};
+
+template <>
+struct StateOf<pty::HostSettings> {
+  using Value = pty::HostSettings;
+  static constexpr auto fields =
+      std::tuple{field("baud", &Value::baud), field("stop_bits", &Value::stop_bits)};
+};
+
+template <>
+struct StateOf<pty::TimedByte> {
+  using Value = pty::TimedByte;
+  static constexpr auto fields = std::tuple{field("start", &Value::start), field("end", &Value::end),
+                                            field("value", &Value::value), field("number", &Value::number)};
+};
+
+template <>
+struct StateOf<pty::Line::Burst> {
+  using Value = pty::Line::Burst;
+  static constexpr auto fields =
+      std::tuple{field("start", &Value::start), field("count", &Value::count), field("end", &Value::end)};
+};
+
+template <>
+struct StateOf<pty::Line::State::Member> {
+  using Value = pty::Line::State::Member;
+  static constexpr auto fields =
+      std::tuple{field("is_deaf", &Value::is_deaf), field("speech", &Value::speech),
+                 field("noticed_at", &Value::noticed_at)};
+};
+
+template <>
+struct StateOf<pty::Line::State> {
+  using Value = pty::Line::State;
+  static constexpr auto fields = std::tuple{field("settings", &Value::settings),
+                                            field("members", &Value::members),
+                                            field("is_host_open", &Value::is_host_open),
+                                            field("host_settings", &Value::host_settings),
+                                            field("departed_settings", &Value::departed_settings),
+                                            field("last_departed", &Value::last_departed),
+                                            field("last_received", &Value::last_received),
+                                            field("has_warned", &Value::has_warned),
+                                            field("input", &Value::input),
+                                            field("arriving", &Value::arriving),
+                                            field("is_heard", &Value::is_heard),
+                                            field("leaving", &Value::leaving)};
+  static constexpr std::size_t apart = 1;  // what the stations never notice: Line::Edge
+};
+
+template <>
+struct StateOf<pty::LineCounters> {
+  using Value = pty::LineCounters;
+  static constexpr auto fields =
+      std::tuple{field("bytes_in", &Value::bytes_in), field("bytes_out", &Value::bytes_out),
+                 field("bytes_unheard", &Value::bytes_unheard),
+                 field("bytes_discarded", &Value::bytes_discarded), field("collisions", &Value::collisions)};
+};
+
+template <>
+struct StateOf<pty::Line::Edge> {
+  using Value = pty::Line::Edge;
+  static constexpr auto fields = std::tuple{
+      field("output", &Value::output), field("counters", &Value::counters), field("clock", &Value::clock)};
+};
+
+template <>
+struct StateOf<pty::RtuFramer::State::Character> {
+  using Value = pty::RtuFramer::State::Character;
+  static constexpr auto fields =
+      std::tuple{field("value", &Value::value), field("end", &Value::end), field("number", &Value::number)};
+};
+
+template <>
+struct StateOf<pty::RtuFramer::State::Frame> {
+  using Value = pty::RtuFramer::State::Frame;
+  static constexpr auto fields = std::tuple{field("first", &Value::first), field("size", &Value::size)};
+};
+
+template <>
+struct StateOf<pty::RtuFramer::State> {
+  using Value = pty::RtuFramer::State;
+  static constexpr auto fields = std::tuple{field("characters", &Value::characters),
+                                            field("ready", &Value::ready),
+                                            field("undecided", &Value::undecided),
+                                            field("candidate", &Value::candidate),
+                                            field("look_again_at", &Value::look_again_at),
+                                            field("oversize", &Value::oversize),
+                                            field("last_end", &Value::last_end),
+                                            field("character_under_way", &Value::character_under_way),
+                                            field("dropped", &Value::dropped)};
+};
+
+template <>
+struct StateOf<pty::TextLines::State> {
+  using Value = pty::TextLines::State;
+  static constexpr auto fields =
+      std::tuple{field("text", &Value::text), field("is_overlong", &Value::is_overlong),
+                 field("was_return", &Value::was_return), field("dropped", &Value::dropped)};
+};
+
+template <>
+struct StateOf<pty::HeardText> {
+  using Value = pty::HeardText;
+  static constexpr auto fields =
+      std::tuple{field("what", &Value::what), field("text", &Value::text), field("end", &Value::end),
+                 field("last_character", &Value::last_character)};
+};
+
+}  // namespace understudy
