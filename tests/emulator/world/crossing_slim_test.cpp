@@ -167,11 +167,10 @@ TEST(SlimCrossing, AMoveOfAnHourIsAFewTicks) {
   bench.machines.clear();
   bench.devices[0].settings.choices.clear();
   World world(bench, {}, {});
-  for (const char* line : {"VM=1", "MR 36000000"}) apply(world, {.line = line});
+  for (const char* line : {"VM=60", "MR 36000000"}) apply(world, {.line = line});
   world.advance_to(90min);
-  EXPECT_NE(world.sent_pulses(0, 0), 0);
+  EXPECT_EQ(world.sent_pulses(0, 0), 36'000'000);
   EXPECT_LT(world.ticks_run(), 500u);
-  EXPECT_GT(world.ticks_run(), 5u);
 }
 
 }  // namespace
