@@ -1,10 +1,15 @@
 #include "motion/homing_tables.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 
 #include "motion/bad_motion.h"
+#include "motion/homing.h"
+#include "motion/surroundings.h"
 
 namespace understudy::motion {
 

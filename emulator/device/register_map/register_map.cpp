@@ -138,7 +138,7 @@ std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const
   const std::string_view base = name.substr(0, name.rfind('.'));
   if (const auto it = names_.find(std::string(base)); it != names_.end()) {
     if (firmware < it->second.row->since) {
-      return "register " + quoted(base) + " is there from firmware " + version_text(it->second.row->since) +
+      return "register " + quoted(base) + " exists from firmware " + version_text(it->second.row->since) +
              " on";
     }
     const bool whole_32 = is_32_bit(it->second.row->type) && it->second.part == Place::Part::whole;

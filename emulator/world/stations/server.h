@@ -1,4 +1,4 @@
-// Serves Modbus requests from a device's register map. Knows functions and exceptions, nothing of frames,
+// Serves Modbus requests from a device's register map. Knows functions and exceptions, but not frames,
 // addresses or time. (MODBUS Application Protocol V1.1b3.)
 #pragma once
 
@@ -23,8 +23,8 @@ struct ModbusReply {
   std::size_t size = 0;
 };
 
-/// Carries out one request (function code and data) and makes its reply. A request that gets an exception
-/// has changed nothing. Tested in this order: function, quantity and byte count, addresses, values.
+/// Carries out one request (function code and data) and makes its reply. A request that gets an exception has
+/// changed nothing. It is tested in this order: function, quantity and byte count, addresses, values.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world
