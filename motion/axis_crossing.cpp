@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <cstdint>
 
 #include "motion/axis.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
 
 // Many ticks in one step, while an axis does nothing but go on along its plan.
 namespace understudy::motion {

@@ -1,6 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "motion/axis.h"
+#include "motion/profile.h"
+#include "motion/pulse_drive.h"
+#include "motion/tick.h"
 
 // C-STA and C-END: which pulses an axis sends at constant speed.
 namespace understudy::motion {

@@ -1,10 +1,12 @@
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/homing.h"
 #include "motion/move.h"
+#include "motion/profile.h"
 #include "motion/pulse_drive.h"
 #include "motion/surroundings.h"
 #include "motion/tick.h"

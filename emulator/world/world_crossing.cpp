@@ -1,8 +1,12 @@
 // Many ticks of a world in one step, while its axes move and nothing else happens.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
-#include "emulator/device/axes.h"
+#include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/world/plant/plant.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::world {

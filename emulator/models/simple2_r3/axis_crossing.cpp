@@ -1,7 +1,10 @@
 // Many ticks of an axis in one step: its plan and the counting of velocity mode in closed form, and the
 // encoder's last 100 ticks as they would have been noted.
 #include <algorithm>
+#include <cstdint>
 
+#include "base/simulated_time.h"
+#include "emulator/device/machine_ahead.h"
 #include "emulator/models/simple2_r3/axis_drive.h"
 
 namespace understudy::emulator::models::simple2_r3 {
