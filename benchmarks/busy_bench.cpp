@@ -180,6 +180,16 @@ std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Act
   return world;
 }
 
+void begin_hour_long_move(emulator::world::World& world) {
+  emulator::Device& device = world.device(0);
+  set(device, "ALL_SVON", 1);
+  set(device, "Aaxis_Pulse", 960'000);
+  set(device, "Aaxis_Speed", 5);
+  set(device, "Aaxis_AccTime", 50);
+  set(device, "Aaxis_DecTime", 50);
+  set(device, "Aaxis_Move_INC", 1);
+}
+
 void turn_encoders(emulator::world::World& world, Tick tick) {
   // To and fro, so that the axes stay between their limits.
   constexpr Tick kThere = 10'000;

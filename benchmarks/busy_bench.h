@@ -24,6 +24,9 @@ std::string_view name_of(Activity activity);
 /// an encoder on both axes, except where the encoders are turned by hand. Throws CannotRun.
 std::unique_ptr<emulator::world::World> make_busy_world(std::size_t devices, Activity activity);
 
+/// In a world of one idle device: an hour at 267 pulses a second.
+void begin_hour_long_move(emulator::world::World& world);
+
 /// Turns the encoders of Activity::sync to where they are at `tick`.
 void turn_encoders(emulator::world::World& world, Tick tick);
 

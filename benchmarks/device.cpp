@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "benchmarks/busy_bench.h"
@@ -21,6 +22,8 @@ constexpr int kRounds = 15;
 constexpr Tick kTicks = 100'000;  // of a round
 constexpr Tick kWarmUp = 20'000;  // ramps, first looks at tables
 constexpr double kTickBar = 40;   // bare loops
+constexpr Tick kHour = 3'600'000;
+constexpr double kHourBar = 0.1;  // bare loops for each of its ticks
 
 double nanoseconds_each(Tick count, const std::function<void()>& work) {
   const auto start = processor_time_here();
@@ -82,6 +85,34 @@ class Contestant {
   std::vector<double> samples_;
 };
 
+/// A position move of an hour, from a command to its end, with nothing to meet.
+struct HourLongMove {
+  double each_ns = 0;  // for each of its ticks
+  std::uint64_t ticks_run = 0;
+};
+
+HourLongMove move_for_an_hour() {
+  const std::unique_ptr<World> world = make_busy_world(1, Activity::idle);
+  begin_hour_long_move(*world);
+  const double each_ns = nanoseconds_each(kHour, [&] { world->advance_to(time_of(kHour + 1000)); });
+  return {each_ns, world->ticks_run()};
+}
+
+void print_hour(std::span<const double> bare) {
+  std::vector<double> ratios;
+  HourLongMove last;
+  double all_ns = 0;
+  for (const double loop_ns : bare) {
+    last = move_for_an_hour();
+    ratios.push_back(last.each_ns / loop_ns);
+    all_ns += last.each_ns;
+  }
+  std::printf("a move of an hour: %.0f us, %llu of %lld ticks run one by one\n",
+              all_ns / static_cast<double>(bare.size()) * static_cast<double>(kHour) / 1000,
+              static_cast<unsigned long long>(last.ticks_run), static_cast<long long>(kHour));
+  print_verdict("a move of an hour in bare loops for each tick", median(ratios), kHourBar);
+}
+
 void run() {
   std::vector<double> bare;
   std::vector<std::unique_ptr<Contestant>> all;
@@ -106,6 +137,7 @@ void run() {
                 median(ratios), 100 * contestant->share_run(), 1e6 / each_ns);
     if (contestant->activity() == Activity::positions) busy = median(ratios);
   }
+  print_hour(bare);
   print_verdict("a tick in bare loops, both axes in position moves and a program running", busy, kTickBar);
 }
 

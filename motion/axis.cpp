@@ -70,10 +70,10 @@ SpeedLaw no_gentler(const SpeedLaw& law, const Sample& here) {
 
 }  // namespace
 
-Cause Axis::forbidden(int way) const {
+Cause Axis::forbidden(int way, Signals ignored) const {
   if (settings.needs_servo && !servo_on) return Cause::servo_off;
   const auto blocks = [&](Signal signal, Reaction reaction) {
-    return (signals & bit(signal)) != 0 && reaction != Reaction::ignore;
+    return (signals & ~ignored & bit(signal)) != 0 && reaction != Reaction::ignore;
   };
   if (blocks(Signal::emergency, settings.at_emergency)) return Cause::emergency;
   if (blocks(Signal::alarm, settings.at_alarm)) return Cause::alarm;
@@ -99,15 +99,18 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
                   bool for_homing) {
   check(speed);
   // Planned before anything changes, so that a motion that cannot be changes nothing.
-  const Profile profile = what == Task::endless ? plan_endless(speed)
-                                                : plan(static_cast<double>(size_of(distance_pulses)), speed);
+  const Profile profile = for_homing && homing.runs_on_by() != nullptr ? homing.plan_to_run_on()
+                          : what == Task::endless
+                              ? plan_endless(speed)
+                              : plan(static_cast<double>(size_of(distance_pulses)), speed);
   // A stop from its greatest speed must be possible as well: a reaction cannot refuse.
   (void)slow_to_stop({.speed_u_s = speed.top_speed_u_s}, speed);
   const std::int64_t play = play_before(way);
   if (play > 0) demand_positive(settings.backlash_speed_pps, "backlash", "speed");
-  if (const Cause why_not = forbidden(way); why_not != Cause::none) return why_not;
+  const Signals ignored = for_homing ? homing.row().ignores : Signals{0};
+  if (const Cause why_not = forbidden(way, ignored); why_not != Cause::none) return why_not;
 
-  drop();
+  drop(at);
   if (!for_homing) homing.phase = -1;
   task = what;
   law = speed;
@@ -138,11 +141,14 @@ std::int64_t Axis::play_before(int way) const {
 }
 
 Profile Axis::planned(const SpeedLaw& speed) const {
+  if (homing.runs_on_by() != nullptr) return homing.plan_to_run_on();
   return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
 }
 
-/// What runs is no more, and was not an end either.
-void Axis::drop() {
+/// What runs is no more, and was not an end either. A moment of no tick near says that it was between ticks.
+void Axis::drop(Instant at) {
+  if (constant_pps != 0) raise(Event::constant_ended, at);
+  constant_pps = 0;
   drive.stop();
   task = Task::none;
   in_backlash = slowing = comes_back = settling = false;
@@ -179,7 +185,7 @@ Cause Axis::move_on(double speed_pps, std::int64_t distance_pulses, const SpeedL
   for (const int each : {way, sign_of(distance_pulses)}) {
     if (const Cause why_not = forbidden(each); why_not != Cause::none) return why_not;
   }
-  drop();
+  drop({.tick = now});
   homing.phase = -1;
   task = Task::move;
   law = speed;
@@ -377,7 +383,7 @@ void Axis::stop(Cause why) {
 }
 
 void Axis::end(Cause why, Instant at) {
-  drop();
+  drop(at);
   cause = why;
   if (homing.active()) {
     homing_stands(why, at);

@@ -44,7 +44,8 @@ enum class Cause : std::uint8_t {
 };
 
 /// What happened in a tick, or between it and the one before; one bit each. The first eight are the MCX314's
-/// factors of synchronous action, in its order, with comparators 0 to 3 as P>=C+, P<C+, P<C- and P>=C-.
+/// factors of synchronous action, in its order, with comparators 0 to 3 as P>=C+, P<C+, P<C- and P>=C-. The
+/// last three are raised only where AxisSettings::raises asks for them.
 enum class Event : std::uint8_t {
   comparator_0,
   comparator_1,
@@ -55,9 +56,17 @@ enum class Event : std::uint8_t {
   mark_on,
   mark_off,
   homed,
+  pulse,             // one or more came out in the tick
+  constant_started,  // C-STA: the first pulse at constant speed, and again after each change of speed
+  constant_ended,    // C-END: the first pulse that no longer is at it, or the last one
 };
+inline constexpr std::size_t kEvents = 12;
 using Events = std::uint16_t;
 constexpr Events bit(Event event) { return static_cast<Events>(1U << static_cast<unsigned>(event)); }
+/// Whether the event is of one pulse, whose moment is known; others are of the tick.
+constexpr bool is_to_the_pulse(Event event) {
+  return event != Event::started && event != Event::ended && event != Event::homed && event != Event::pulse;
+}
 
 enum class Count : std::uint8_t { command, encoder };
 
@@ -91,6 +100,7 @@ struct AxisSettings {
   // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.
   std::optional<std::int64_t> soft_limit_plus = std::nullopt;
   std::optional<std::int64_t> soft_limit_minus = std::nullopt;
+  Events raises = 0;  // of pulse, constant_started and constant_ended; while asked for they cost time
   // Extra pulses at the beginning of each reversal; they are output, but are not travel.
   std::int64_t backlash_pulses = 0;
   double backlash_speed_pps = 0;  // > 0 where there is backlash
@@ -133,7 +143,9 @@ struct alignas(64) Axis {
   std::int64_t encoder_seen = 0;    // up to where comparators have looked
   std::int64_t backlash_sent = 0;   // all extra pulses so far, signed by direction
   std::int64_t play_pulses = 0;     // 0 .. backlash_pulses: how much of the backlash is taken up towards plus
-  std::array<Instant, 8> event_at{};  // of each comparator and mark event the last one, to the pulse
+  // Of each event that has a pulse (is_to_the_pulse()) the last one.
+  std::array<Instant, kEvents> event_at{};
+  double constant_pps = 0;  // the constant speed of the last pulse; 0: it was not at one
 
   // Of the motion that was asked for.
   bool in_backlash = false;
@@ -199,7 +211,7 @@ struct alignas(64) Axis {
 
   bool moving() const { return task != Task::none || homing.active(); }
   /// Why a motion in `way` would be refused now; none if it may begin.
-  Cause forbidden(int way) const;
+  Cause forbidden(int way) const { return forbidden(way, 0); }
   /// Likewise, for what forbids both ways (servo, emergency, alarm).
   Cause forbidden_anywhere() const;
   /// Position in the drive's coordinate, speed and acceleration along the motion, after tick `now`.
@@ -252,7 +264,28 @@ struct alignas(64) Axis {
     return step_with_care(tick, here);
   }
 
+  // ---- Many ticks in one step: motion/axis_crossing.cpp
+
+  struct TravelRange {
+    std::int64_t low = INT64_MIN;  // both included
+    std::int64_t high = INT64_MAX;
+  };
+  /// The last of the ticks from `next` on, which is the next one, and up to `most`, that may be crossed: the
+  /// axis goes on along its plan through all of them, within `range`, and meets nothing. next - 1: none.
+  Tick quiet_until(Tick next, Tick most, const Surroundings& here, TravelRange range) const;
+  /// Travel after one of those.
+  std::int64_t travel_ahead(Tick tick) const {
+    return base_pulses + drive.direction * drive.pulses_of_segment(tick);
+  }
+  /// All ticks up to `tick`, one of those, at once: the state, and the sum of what comes out, are the same.
+  std::int64_t cross_to(Tick tick);
+  /// Whether carry() does nothing but count while travel stays within watch_low and watch_high.
+  bool carries_quietly(const Surroundings& here) const;
+  /// So many pulses of carry(), of one sign, in ticks of which that is true.
+  std::int64_t carry_across(std::int64_t pulses);
+
  private:
+  Cause forbidden(int way, Signals ignored) const;
   std::int64_t step_with_care(Tick tick, const Surroundings& here);
 
   // Starting and ending, at moments within a tick.
@@ -262,7 +295,7 @@ struct alignas(64) Axis {
   std::int64_t play_before(int way) const;
   void follow_encoder_count(Instant at);
   Profile planned(const SpeedLaw& speed) const;  // of the task from its beginning
-  void drop();
+  void drop(Instant at = {});
   void slow(Instant at, Cause why);
   void react(Reaction reaction, Cause why, Instant at);
   void end(Cause why, Instant at);
@@ -275,14 +308,20 @@ struct alignas(64) Axis {
   void see(Signals now_on, Instant at);
   void compare(Count count, std::int64_t value, Instant at);
   void watch(const Surroundings& here);
+  void raise(Event event, Instant at);
+  void look_at_speed(std::int64_t sent_before, Instant from, Instant until);
+  bool waits_for_constant_speed() const;
 
   // Homing: motion/homing_run.cpp.
   bool homing_takes(Signal signal) const;         // the phase deals with it: the axis does not react
   void homing_sees(Signals changed, Instant at);  // `signals` are the new ones
+  void homing_comes_to_its_place(Instant at);     // where a phase ends by its distance
   void homing_slows(Cause why);                   // ... down to a stop for `why`, or does so already
   void homing_stands(Cause why, Instant at);      // the phase's motion has ended
   Cause enter_phase(std::int8_t number, Instant at, bool running);
   Cause begin_phase(Instant at);
+  /// The travel at which the phase that runs in motion ends; nothing where none does.
+  std::optional<std::int64_t> homing_place() const;
   void go_to_phase(std::int8_t number, Instant at, bool running);
   void mark_reference();
   void end_homing(Cause why);

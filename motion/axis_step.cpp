@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "motion/axis.h"
 #include "motion/pulse_drive.h"
@@ -48,10 +49,15 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
   // A path may turn towards the limit that the axis stands on, or stands still at first.
   const bool at_a_limit =
       task == Task::coordinated && (forbidden(+1) != Cause::none || forbidden(-1) != Cause::none);
-  attentive = attentive || in_backlash || at_a_limit || task == Task::following;
+  const std::int64_t pulses = travel_pulses - travel_before + backlash_sent - backlash_before;
+  if (pulses != 0) raise(Event::pulse, {.tick = tick});
+  attentive = attentive || in_backlash || at_a_limit || task == Task::following ||
+              (settings.raises & bit(Event::pulse)) != 0 || waits_for_constant_speed();
   events = events_between;
   events_between = 0;
-  const std::int64_t pulses = travel_pulses - travel_before + backlash_sent - backlash_before;
+  Instant& ended_at = event_at[static_cast<std::size_t>(Event::constant_ended)];
+  const bool was_between = (events & bit(Event::constant_ended)) != 0 && ended_at.tick < tick - 1;
+  if (was_between) ended_at = {.tick = tick - 1};
   return inverted ? -pulses : pulses;
 }
 
@@ -80,18 +86,21 @@ void Axis::run_until(Tick tick, Instant at, const Surroundings& here) {
   while (drive.moving() && !in_backlash) {
     watch(here);
     const std::int64_t travel = base_pulses + drive.direction * drive.pulses_at(tick);
+    const std::int64_t sent_before = drive.sent_pulses;
     if (travel >= watch_low && travel <= watch_high) {
       drive.sent_pulses = drive.pulses_at(tick);
       travel_pulses = travel;
+      look_at_speed(sent_before, at, until);
       break;
     }
     // On to the first pulse beyond what was watched, at the moment it is sent.
     const bool too_fast = std::abs(travel - travel_pulses) > kMostInATick;
     const std::int64_t edge = too_fast ? travel : travel > watch_high ? watch_high + 1 : watch_low - 1;
     const std::int64_t pulse = (edge - base_pulses) * drive.direction;
-    at = drive.time_of_pulse(pulse, at, until);
+    const Instant from = std::exchange(at, drive.time_of_pulse(pulse, at, until));
     drive.sent_pulses = pulse;
     travel_pulses = edge;
+    look_at_speed(sent_before, from, at);
     meet(here, at);
   }
   if (drive.moving() && !in_backlash && drive.over_at(tick)) {
@@ -160,6 +169,7 @@ void Axis::meet(const Surroundings& here, Instant at) {
   if (settings.soft_limit_minus && travel_pulses < *settings.soft_limit_minus && drive.direction < 0) {
     react(settings.at_soft_limit, Cause::soft_limit_minus, at);
   }
+  if (homing.active()) homing_comes_to_its_place(at);
 }
 
 void Axis::see(Signals now_on, Instant at) {
@@ -195,6 +205,9 @@ void Axis::watch(const Surroundings& here) {
     if (mine.relation == Comparator::Relation::off || mine.count != Count::command) continue;
     consider(up, mine.steps_until_change(travel_pulses, +1));
     consider(down, mine.steps_until_change(travel_pulses, -1));
+  }
+  if (const auto place = homing_place(); place && *place != travel_pulses) {
+    consider(*place > travel_pulses ? up : down, std::abs(*place - travel_pulses));
   }
   // Soft limits may be far out of reach, up to the last number there is.
   const auto& most = settings.soft_limit_plus;

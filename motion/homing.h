@@ -23,7 +23,9 @@ enum class Cause : std::uint8_t;  // motion/axis.h
 struct HomingPhase {
   enum class Does : std::uint8_t {
     search,   // goes `way` until `until` turns `until_on`, as a fresh edge, `count` times
-    go,       // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given
+    go,       // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given;
+              // one that runs on is past them at the speed of the next phase, or goes at that from the start
+              // where they are too few to slow down to it
     go_back,  // to the travel that a phase before marked
     hang,     // goes `way` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
@@ -50,12 +52,15 @@ struct HomingPhase {
   std::int32_t count = 1;
   Signals again_while = 0;
   std::int64_t distance_pulses = 0;
+  std::int64_t within_pulses = 0;  // of a search: stops at once after so many, not having met it; 0: never
+  Signals ignores = 0;             // the axis does not react to these meanwhile
 
   std::int8_t next = kRowBelow;    // when met and, unless it runs on, standing
   std::int8_t if_already = kNext;  // `until` is as sought when the phase begins; kNext: that counts as met
   std::int8_t if_gone = kNext;     // standing, and `until` is not as sought any more: overrun, or it moved
   std::int8_t if_limit = kFail;    // stopped by a limit ahead, or kept from starting, before it is met; once
                                    // met, the stop does no harm where this is not kFail
+  std::int8_t if_far = kFail;      // stopped after `within_pulses`
 
   bool operator==(const HomingPhase&) const = default;
 };
@@ -81,11 +86,12 @@ void check(const HomingProgram& program);
 /// A homing under way, and afterwards its result.
 struct Homing {
   HomingProgram program;
-  std::int8_t phase = -1;     // the row that runs; -1: not homing
-  std::int8_t ended_in = -1;  // the row that ran when the last homing ended
-  Cause ended_by{};           // arrived: home is found. Set before the end when it slows down to give up
-  bool met = false;           // the row has what it looked for, and comes to a stop
-  std::int32_t counted = 0;   // edges of the row's signal, so far
+  std::int8_t phase = -1;         // the row that runs; -1: not homing
+  std::int8_t ended_in = -1;      // the row that ran when the last homing ended
+  Cause ended_by{};               // arrived: home is found. Set before the end when it slows down to give up
+  bool met = false;               // the row has what it looked for, and comes to a stop
+  std::int32_t counted = 0;       // edges of the row's signal, so far
+  std::int64_t began_pulses = 0;  // travel where the row began
   bool reference_known = false;
   std::int64_t reference_pulses = 0;  // travel at the marked edge; without a mark, where the axis stood
 
@@ -93,6 +99,10 @@ struct Homing {
 
   bool active() const { return phase >= 0; }
   const HomingPhase& row() const { return program.phases[static_cast<std::size_t>(phase)]; }
+  /// The law of the next row, where the one that runs is a distance and goes over into it in motion.
+  const SpeedLaw* runs_on_by() const;
+  /// The profile of such a row.
+  Profile plan_to_run_on() const;
 };
 
 }  // namespace understudy::motion

@@ -1,10 +1,12 @@
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/homing.h"
 #include "motion/move.h"
+#include "motion/profile.h"
 #include "motion/pulse_drive.h"
 #include "motion/surroundings.h"
 #include "motion/tick.h"
@@ -63,6 +65,8 @@ void check(const HomingProgram& program) {
     demand(row.distance_pulses >= -kFarthest && row.distance_pulses <= kFarthest,
            "distance must be within 2^53 pulses");
     demand(row.again_while == 0 || row.distance_pulses != 0, "a distance to be repeated must not be 0");
+    demand(row.within_pulses >= 0 && row.within_pulses <= kFarthest, "a search must be within 2^53 pulses");
+    demand(is_row(row.if_far), "the phase after a search too far must be one of the table");
     demand(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
            "speed must be one of the table");
     if (row.does == HomingPhase::Does::hang) continue;
@@ -94,8 +98,48 @@ Cause Axis::home(const HomingProgram& program, Tick now) {
   return Cause::none;
 }
 
+const SpeedLaw* Homing::runs_on_by() const {
+  if (!active()) return nullptr;
+  const HomingPhase& mine = row();
+  const std::int8_t number = row_number(*this, mine.next);
+  const bool runs_on = mine.does == HomingPhase::Does::go && mine.then == HomingPhase::Then::run_on &&
+                       mine.distance_pulses != 0 && number >= 0 && number < program.phase_count;
+  if (!runs_on) return nullptr;
+  const HomingPhase& next = program.phases[static_cast<std::size_t>(number)];
+  const bool same_way = (mine.distance_pulses < 0) == (next.way < 0);
+  if (next.does != HomingPhase::Does::search || !same_way) return nullptr;
+  return &program.speeds[static_cast<std::size_t>(next.speed)];
+}
+
+Profile Homing::plan_to_run_on() const {
+  return plan_passing(static_cast<double>(std::abs(row().distance_pulses)), runs_on_by()->top_speed_u_s,
+                      program.speeds[static_cast<std::size_t>(row().speed)]);
+}
+
 bool Axis::homing_takes(Signal signal) const {
-  return homing.active() && homing.row().does == HomingPhase::Does::search && homing.row().until == signal;
+  if (!homing.active()) return false;
+  const HomingPhase& row = homing.row();
+  return (row.ignores & bit(signal)) != 0 || (row.does == HomingPhase::Does::search && row.until == signal);
+}
+
+std::optional<std::int64_t> Axis::homing_place() const {
+  if (!homing.active() || slowing || in_backlash) return std::nullopt;
+  const HomingPhase& row = homing.row();
+  if (homing.runs_on_by() != nullptr) return homing.began_pulses + row.distance_pulses;
+  const bool is_bounded = row.does == HomingPhase::Does::search && row.within_pulses > 0;
+  return is_bounded ? std::optional(homing.began_pulses + row.way * row.within_pulses) : std::nullopt;
+}
+
+void Axis::homing_comes_to_its_place(Instant at) {
+  const auto place = homing_place();
+  if (!place || (travel_pulses - *place) * drive.direction < 0) return;
+  const HomingPhase& row = homing.row();
+  if (row.does == HomingPhase::Does::search) {
+    drop(at);
+    go_to_phase(row_number(homing, row.if_far), at, false);
+  } else {
+    go_to_phase(row_number(homing, row.next), at, true);
+  }
 }
 
 void Axis::homing_sees(Signals changed, Instant at) {
@@ -165,6 +209,7 @@ Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
     homing.phase = number;
     homing.met = false;
     homing.counted = 0;
+    homing.began_pulses = travel_pulses;
     const HomingPhase& row = homing.row();
     const std::int8_t next = row_number(homing, row.next);
     if (row.does == HomingPhase::Does::search) {
@@ -203,7 +248,9 @@ Cause Axis::begin_phase(Instant at) {
   };
   switch (row.does) {
     case HomingPhase::Does::search: return begin(Task::endless, row.way, 0, speed, at, true);
-    case HomingPhase::Does::go: return go(row.distance_pulses);
+    case HomingPhase::Does::go:
+      if (homing.runs_on_by() == nullptr) return go(row.distance_pulses);
+      return begin(Task::endless, row.distance_pulses < 0 ? -1 : +1, 0, speed, at, true);
     case HomingPhase::Does::go_back: return go(homing.reference_pulses - travel_pulses);
     case HomingPhase::Does::hang: break;
   }

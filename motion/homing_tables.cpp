@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 
 #include "motion/bad_motion.h"
@@ -136,6 +137,28 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
   }
   if (mode.zero) program.add({.does = Does::go_back, .speed = kFast});
   program.add({.does = Does::go, .speed = kFast, .distance_pulses = how.offset_pulses});
+  return program;
+}
+
+HomingProgram super40nc_mark(const Super40ncMark& how) {
+  if (how.search_pulses == 0) {
+    throw BadMotion(Refusal::out_of_range, "mark search", "distance must not be 0");
+  }
+  const std::int8_t way = how.search_pulses < 0 ? std::int8_t{-1} : std::int8_t{+1};
+  const Signal mark = limit_towards(way);
+  HomingProgram program{.speeds = {how.fast, how.creep}};
+  program.add({.does = Does::go,
+               .speed = kFast,
+               .then = kRunOn,
+               .distance_pulses = how.distance_pulses,
+               .ignores = bit(mark)});
+  program.add({.way = way,
+               .speed = kCreep,
+               .until = mark,
+               .then = kStop,
+               .marks = true,
+               .within_pulses = std::abs(how.search_pulses),
+               .if_far = HomingPhase::kRowBelow});
   return program;
 }
 

@@ -27,6 +27,18 @@ HomingProgram super40nc_homing(const Super40ncHoming& how);
 /// Modes that look for the limit on the side of `way`, and cannot find home where that is not in use.
 bool super40nc_homes_by_limit(int mode);
 
+/// SUPER-40NC, instruction MRK: a move that is past its target at the creep speed, and creeps on to a mark on
+/// one of the limit inputs. The reference is the mark; where none was met, it is not known. Home is found
+/// either way.
+struct Super40ncMark {
+  std::int64_t distance_pulses = 0;
+  std::int64_t search_pulses = 0;  // X16: how far it looks; above 0 for +EL, below for -EL
+  SpeedLaw fast;                   // by RPM
+  SpeedLaw creep;                  // X22
+};
+/// Throws BadMotion(out_of_range) for a search of 0.
+HomingProgram super40nc_mark(const Super40ncMark& how);
+
 /// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each in
 /// its own direction, or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is what
 /// input 92 + a shows meanwhile.

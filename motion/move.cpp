@@ -148,6 +148,32 @@ Profile plan_endless(const SpeedLaw& law) {
   return profile;
 }
 
+Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw& law) {
+  check(law);
+  demand_not_negative(distance_u, "move", "distance");
+  demand_positive(passing_speed_u_s, "move", "passing speed");
+  const double start = start_speed(law);
+  const double least = std::max(passing_speed_u_s, start);
+  const auto is_too_fast = [&](double top) {
+    return ramp_distance(law.up, start, top) + ramp_distance(law.down, top, least) > distance_u;
+  };
+  if (law.top_speed_u_s <= passing_speed_u_s || is_too_fast(least)) {
+    SpeedLaw slow = law;
+    slow.top_speed_u_s = passing_speed_u_s;
+    return plan_endless(slow);
+  }
+  double top = law.top_speed_u_s;
+  if (is_too_fast(top)) top = turnover(least, top, is_too_fast).before;
+  Profile profile;
+  append_ramp(profile, law.up, start, top);
+  const double cruise = distance_u - profile.end_position_u - ramp_distance(law.down, top, least);
+  if (cruise > 0) profile.append(cruise / top, top, 0, 0);
+  append_ramp(profile, law.down, top, least);
+  profile.append(kForEver, passing_speed_u_s, 0, 0);
+  demand_doubles_hold(profile, true);
+  return profile;
+}
+
 namespace {
 
 /// Speeds below the start speed are jumped from and to, without acceleration.

@@ -55,6 +55,11 @@ Profile plan(double distance_u, const SpeedLaw& law);
 /// From rest up to the top speed, which is then kept for ever.
 Profile plan_endless(const SpeedLaw& law);
 
+/// From rest so as to be past `distance_u` at `passing_speed_u_s` > 0, by `law.down`; that speed is then kept
+/// for ever. Where the distance is too short to slow down in, or the top speed is not above it, the passing
+/// speed is that of the whole way.
+Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw& law);
+
 /// From any state (speed >= 0; position counted from the move's beginning) to another speed >= 0, then kept
 /// for ever; speed 0 is a stop. Speeds between 0 and the start speed are jumped to. Throws as check().
 Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law);

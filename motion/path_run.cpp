@@ -81,8 +81,15 @@ void PathRun::append(const Path& path, Joint joint, Tick now) {
   } else if (running_ && chain_count_ == 0) {
     lay_out_chain(now + 1);
   } else if (chain_count_ + 1 == count_) {
-    added.joined = false;  // the chain before it will have ended
+    added.joined = false;                // the chain before it will have ended
+    if (open_ && running_) replan(now);  // at rest, as it now has to
   }
+}
+
+void PathRun::set_open(bool open, Tick now) {
+  if (open == open_) return;
+  open_ = open;
+  replan(now);
 }
 
 SpeedLaw PathRun::effective() const {
@@ -153,6 +160,7 @@ std::size_t PathRun::shorten(Tick now) {
   while (kept < chain_count_ && piece(kept).begin_u <= std::max(still_u, 0.0)) ++kept;
   if (kept < chain_count_) chain_end_u_ = piece(kept).begin_u;
   count_ = chain_count_ = kept;
+  open_ = false;
   replan(now);
   return kept;
 }
@@ -161,7 +169,7 @@ void PathRun::abandon() {
   head_ = count_ = chain_count_ = 0;
   chain_end_u_ = 0;
   profile_ = Profile{};
-  running_ = paused_ = false;
+  running_ = paused_ = open_ = false;
 }
 
 Sample PathRun::sample(Tick now) const {
@@ -216,8 +224,21 @@ void PathRun::lay_out_chain(Tick begin_at) {
     ++chain_count_;
   }
   begin_tick_ = begin_at;
-  profile_ = held() ? Profile{} : plan(chain_end_u_, effective());
-  if (held()) profile_.end_exactly_at(0);
+  ran_dry_ = false;
+  if (held() || chain_end_u_ == 0) {
+    profile_ = Profile{};
+  } else if (keeps_speed_at_end()) {
+    profile_ = cut_at_end(plan_endless(effective()));
+  } else {
+    profile_ = plan(chain_end_u_, effective());
+  }
+}
+
+/// Of a run that keeps its speed to the end.
+Profile PathRun::cut_at_end(Profile profile) const {
+  profile.cut_at(chain_end_u_);
+  profile.end_exactly_at(chain_end_u_);
+  return profile;
 }
 
 /// The profile from where the chain is at `now` on.
@@ -233,6 +254,9 @@ void PathRun::replan(Tick now) {
   if (held()) {
     profile_ = slow_to_stop(here, law_);
     profile_.cut_at(chain_end_u_);
+  } else if (keeps_speed_at_end()) {
+    const SpeedLaw law = effective();
+    profile_ = cut_at_end(change_speed(here, law.top_speed_u_s, law));
   } else {
     const SpeedLaw law = effective();
     const Profile stop = slow_to_stop(here, law);
@@ -281,6 +305,7 @@ Point PathRun::step(Tick tick) {
   const bool over = elapsed_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
   const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
   if (!over || along_u < chain_end_u_) return place(along_u);
+  ran_dry_ = keeps_speed_at_end();
   while (chain_count_ > 0) drop_front();
   if (count_ > 0) {
     lay_out_chain(tick);

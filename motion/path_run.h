@@ -59,6 +59,13 @@ class PathRun {
   void set_speed(const SpeedLaw& speed, Tick now);
   /// Another top speed with the same ramps: at any time.
   void set_top_speed(double speed_u_s, Tick now);
+  /// An open run is a stream of which more is to come: it does not slow down for the end of what is queued.
+  /// Where that comes, the run ends there at the speed it has, and has run dry; what is appended then begins
+  /// from rest. Closed (so it begins) before its end it slows down for it as far as it still can.
+  void set_open(bool open, Tick now);
+  bool open() const { return open_; }
+  /// The last path ended at speed, because no other had come.
+  bool ran_dry() const { return ran_dry_; }
   /// Scales the top speed by a factor from 0 (holds, on the path) to 10. Throws BadMotion(out_of_range)
   /// beyond that, and for a top speed that would be too small to plan with.
   void set_override(double factor, Tick now);
@@ -114,8 +121,10 @@ class PathRun {
   const Path& path_before(std::size_t number);
   SpeedLaw effective() const;
   bool held() const { return paused_ || override_ == 0; }
+  bool keeps_speed_at_end() const { return open_ && chain_count_ == count_; }
   bool slowing_for_the_end(Tick now) const;
   void lay_out_chain(Tick begin_at);
+  Profile cut_at_end(Profile profile) const;
   void replan(Tick now);
   void drop_front();
   Point place(double along_u);
@@ -132,6 +141,8 @@ class PathRun {
   LateJoint late_joint_ = LateJoint::speed_up_again;
   bool running_ = false;
   bool paused_ = false;
+  bool open_ = false;
+  bool ran_dry_ = false;
   int completed_ = 0;
   Point last_place_ = Point::Zero();
 };

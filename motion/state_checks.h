@@ -98,6 +98,7 @@ inline void check_restored(const Homing& homing) {
   demand_within(homing.phase, -1, homing.program.phase_count - 1);
   demand_within(homing.counted, 0, INT32_MAX - 1);
   demand_reach(homing.reference_pulses);
+  demand_reach(homing.began_pulses);
 }
 
 inline void check_restored(const AxisSettings& settings) {
@@ -112,6 +113,7 @@ inline void check_restored(const Axis& axis) {
     demand_reach(pulses);
   }
   demand_within(axis.last_direction, -1, +1);
+  demand_state(axis.constant_pps >= 0 && std::isfinite(axis.constant_pps), "a speed must not be negative");
 }
 
 inline void check_restored(const UnitScale& scale) {

@@ -186,6 +186,9 @@ struct StateOf<motion::HomingPhase> {
                                             field("count", &motion::HomingPhase::count),
                                             field("again_while", &motion::HomingPhase::again_while),
                                             field("distance_pulses", &motion::HomingPhase::distance_pulses),
+                                            field("within_pulses", &motion::HomingPhase::within_pulses),
+                                            field("ignores", &motion::HomingPhase::ignores),
+                                            field("if_far", &motion::HomingPhase::if_far),
                                             field("next", &motion::HomingPhase::next),
                                             field("if_already", &motion::HomingPhase::if_already),
                                             field("if_gone", &motion::HomingPhase::if_gone),
@@ -209,6 +212,7 @@ struct StateOf<motion::Homing> {
                                             field("ended_by", &motion::Homing::ended_by),
                                             field("met", &motion::Homing::met),
                                             field("counted", &motion::Homing::counted),
+                                            field("began_pulses", &motion::Homing::began_pulses),
                                             field("reference_known", &motion::Homing::reference_known),
                                             field("reference_pulses", &motion::Homing::reference_pulses)};
   static void check(const motion::Homing& value) { motion::check_restored(value); }
@@ -224,6 +228,7 @@ struct StateOf<motion::AxisSettings> {
                  field("at_emergency", &motion::AxisSettings::at_emergency),
                  field("needs_servo", &motion::AxisSettings::needs_servo),
                  field("waits_for_in_position", &motion::AxisSettings::waits_for_in_position),
+                 field("raises", &motion::AxisSettings::raises),
                  field("soft_limit_plus", &motion::AxisSettings::soft_limit_plus),
                  field("soft_limit_minus", &motion::AxisSettings::soft_limit_minus),
                  field("backlash_pulses", &motion::AxisSettings::backlash_pulses),
@@ -252,6 +257,7 @@ struct StateOf<motion::Axis> {
                                             field("signals", &motion::Axis::signals),
                                             field("events_between", &motion::Axis::events_between),
                                             field("event_at", &motion::Axis::event_at),
+                                            field("constant_pps", &motion::Axis::constant_pps),
                                             field("cause", &motion::Axis::cause),
                                             field("last_direction", &motion::Axis::last_direction),
                                             field("servo_on", &motion::Axis::servo_on),
@@ -346,12 +352,14 @@ struct StateOf<motion::PathRun> {
                                             field("late_joint", &motion::PathRun::late_joint_),
                                             field("running", &motion::PathRun::running_),
                                             field("paused", &motion::PathRun::paused_),
+                                            field("open", &motion::PathRun::open_),
+                                            field("ran_dry", &motion::PathRun::ran_dry_),
                                             field("completed", &motion::PathRun::completed_),
                                             field("last_place", &motion::PathRun::last_place_)};
-  static constexpr std::size_t members = 14;
+  static constexpr std::size_t members = 16;
   static void name_all(motion::PathRun& run) {  // does not compile if there are others
     [[maybe_unused]] auto& [pieces, head, count, chain_count, chain_end_u, profile, begin_tick, law, override,
-                            late_joint, running, paused, completed, last_place] = run;
+                            late_joint, running, paused, open, ran_dry, completed, last_place] = run;
   }
   static void check(const motion::PathRun& value) { motion::check_restored(value); }
 };

@@ -27,7 +27,7 @@ std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
 }  // namespace
 
 void Surroundings::add(Signal signal, std::int64_t from, std::int64_t to) {
-  if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "surroundings", "at most 8 zones an axis");
+  if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "surroundings", "at most 12 zones an axis");
   zones[zone_count++] = {.signal = signal, .from = from, .to = to};
   ++version;
 }

@@ -37,7 +37,7 @@ struct Surroundings {
     bool operator==(const Zone&) const = default;
   };
 
-  static constexpr std::size_t kMaxZones = 8;
+  static constexpr std::size_t kMaxZones = 12;
 
   /// Raise it after changing anything below: axes look again only then.
   std::uint32_t version = 0;

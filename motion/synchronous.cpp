@@ -15,12 +15,10 @@ namespace understudy::motion {
 
 namespace {
 
-bool has(std::uint8_t mask, std::size_t number) { return ((mask >> number) & 1U) != 0; }
-
-constexpr bool is_to_the_pulse(Event event) { return event != Event::started && event != Event::ended; }
+bool has(unsigned mask, std::size_t number) { return ((mask >> number) & 1U) != 0; }
 
 /// When a trigger's event happened; of several the last.
-Instant moment(std::uint8_t fired, const Axis& axis, Tick now) {
+Instant moment(Events fired, const Axis& axis, Tick now) {
   std::optional<Instant> last;
   for (std::size_t i = 0; i < axis.event_at.size(); ++i) {
     if (!has(fired, i) || !is_to_the_pulse(static_cast<Event>(i))) continue;
@@ -30,7 +28,7 @@ Instant moment(std::uint8_t fired, const Axis& axis, Tick now) {
   return last.value_or(Instant{.tick = now});
 }
 
-void latch(SyncTable& table, std::size_t trigger, std::uint8_t fired, std::span<const Axis> axes, Tick now) {
+void latch(SyncTable& table, std::size_t trigger, Events fired, std::span<const Axis> axes, Tick now) {
   const Instant at = moment(fired, axes[trigger], now);
   for (std::size_t number = 0; number < axes.size(); ++number) {
     if (!has(table.triggers[trigger].activates, number)) continue;
@@ -93,8 +91,7 @@ SyncOutcome act(SyncTable& table, std::span<Axis> axes, Tick now) {
   const std::size_t count = std::min(axes.size(), SyncTable::kAxes);
   // What fires is what happened in the tick: what the actions bring about is for the next.
   for (std::size_t trigger = 0; trigger < count; ++trigger) {
-    outcome.fired[trigger] =
-        static_cast<std::uint8_t>(axes[trigger].events & table.triggers[trigger].factors);
+    outcome.fired[trigger] = static_cast<Events>(axes[trigger].events & table.triggers[trigger].factors);
   }
   // Latches first: where an axis was in the tick can be told only until an action changes what it does.
   for (std::size_t trigger = 0; trigger < count; ++trigger) {

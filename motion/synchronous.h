@@ -41,7 +41,7 @@ struct SyncTable {
   static constexpr std::size_t kAxes = 4;
 
   struct Trigger {
-    std::uint8_t factors = 0;    // the first eight events of motion/axis.h
+    Events factors = 0;          // those of motion/axis.h; an MCX314 knows the first eight
     std::uint8_t activates = 0;  // axes
     bool operator==(const Trigger&) const = default;
   };
@@ -64,10 +64,10 @@ struct SyncTable {
 
 /// What the owner has to do itself.
 struct SyncOutcome {
-  std::array<std::uint8_t, SyncTable::kAxes> fired{};  // the factors of each axis that fired
-  std::uint8_t outputs = 0;                            // axes whose action has an output
-  std::uint8_t interrupts = 0;                         // axes whose action calls an interrupt
-  std::uint8_t presets_command = 0;                    // axes whose command count is to be preset_value
+  std::array<Events, SyncTable::kAxes> fired{};  // the factors of each axis that fired
+  std::uint8_t outputs = 0;                      // axes whose action has an output
+  std::uint8_t interrupts = 0;                   // axes whose action calls an interrupt
+  std::uint8_t presets_command = 0;              // axes whose command count is to be preset_value
   std::uint8_t presets_encoder = 0;
 
   bool operator==(const SyncOutcome&) const = default;

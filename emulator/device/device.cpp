@@ -14,6 +14,13 @@ Device::Device(const Model& model, DeviceSettings settings)
       inputs_(model.terminals.size(), 0),
       settings_(std::move(settings)) {}
 
+Tick Device::next_event_tick(Tick done, Tick /*most*/, const MachineAhead& /*ahead*/) const {
+  return next_active_tick(done);
+}
+
+void Device::cross_to(Tick /*done*/, Tick /*tick*/, const MachineAhead& /*ahead*/,
+                      std::span<std::int64_t> /*pulses*/) {}
+
 pty::LineSettings Device::line_settings() const {
   pty::LineSettings line = model_.line.settings;
   line.baud = settings_.baud;

@@ -28,6 +28,7 @@ namespace understudy::emulator {
 
 class Axes;
 class KeptMemory;
+class MachineAhead;
 class ModbusStation;
 class NamedValues;
 class RegisterBank;
@@ -91,6 +92,12 @@ class Device {
   /// The first tick after `done` at which anything may change without help from outside; kNever if
   /// none. The ticks before it may be left out: the state is then the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const;
+  /// The first tick after `done` that has to be run as it is. Those before it only count on what moves, as
+  /// far as each axis has room, and may be made up in one step by cross_to(). Not beyond `most` + 1.
+  virtual Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const;
+  /// Brings it to the end of `tick`, which lies after `done` and before next_event_tick(): the same state as
+  /// by single ticks. Adds what each axis sends meanwhile.
+  virtual void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses);
   /// Asks the processor for the memory that `tick` will need (base/prefetch.h).
   virtual void prefetch(Tick tick) const;
   /// Whether it equals another device of the same model, bit for bit.

@@ -132,13 +132,13 @@ struct StateOf<emulator::world::World> {
                                             field("disturbed", &Value::disturbed_),
                                             field("now", &Value::now_),
                                             field("done", &Value::done_)};
-  static constexpr std::size_t members = 22;
+  static constexpr std::size_t members = 23;
   /// What it is made of, who looks at it, and how ticks were run.
-  static constexpr std::size_t apart = 14;
+  static constexpr std::size_t apart = 15;
   static void name_all(Value& all) {  // does not compile if there are others
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs,
                             supplies, wires, watchers, listener, faults, next_fault, fault_watch, seed,
-                            disturbed, now, done, ticks, bulk_ticks] = all;
+                            disturbed, now, done, ticks, bulk_ticks, crossing_tries] = all;
   }
 
   static auto& plants(auto& world) { return world.plants_; }

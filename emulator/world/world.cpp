@@ -6,6 +6,7 @@
 #include "base/large_pages.h"
 #include "base/prefetch.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/machine_ahead.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/terminals.h"
@@ -129,7 +130,11 @@ void World::advance_to(SimTime time) {
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
     const Tick reachable = tick_at(std::min(time, line_time));
     const Tick active = bulk_ticks_ ? std::min(next_active_tick(), next_fault_tick()) : done_ + 1;
-    if (active > done_ + 1) {
+    const bool tries = active == done_ + 1 && may_cross(reachable);
+    const Tick crossed = tries ? last_tick_to_cross(reachable) : done_;
+    if (crossed > done_) {
+      cross_to(crossed);
+    } else if (active > done_ + 1) {
       // Watchers see each of them.
       const Tick last_quiet = watchers_.empty() ? std::min(reachable, active - 1) : done_ + 1;
       ticks_.crossed += static_cast<std::uint64_t>(last_quiet - done_);
@@ -159,7 +164,10 @@ void World::show_tick() {
 }
 
 std::optional<SimTime> World::next_due() const {
-  const SimTime due = std::min(next_line_time(), time_of(std::min(next_active_tick(), next_fault_tick())));
+  Tick tick = std::min(next_active_tick(), next_fault_tick());
+  // Where axes only go on, nobody needs to be woken for it; watchers want to see it.
+  if (tick == done_ + 1 && !disturbed_ && watchers_.empty()) tick = next_event_tick(kNever);
+  const SimTime due = std::min(next_line_time(), time_of(tick));
   if (due == kForever) return std::nullopt;
   return due;
 }

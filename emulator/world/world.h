@@ -151,6 +151,14 @@ class World final : public WorldView {
     int input = 0;
   };
 
+  /// Where nothing could be crossed it is not tried again in each tick. Only what that costs depends on
+  /// these.
+  struct CrossingTries {
+    static constexpr Tick kMostApart = 64;
+    Tick next = 0;
+    Tick apart = 1;
+  };
+
   struct TickCounts {
     std::uint64_t run = 0;
     std::uint64_t crossed = 0;
@@ -166,6 +174,17 @@ class World final : public WorldView {
   void show_tick();
   void run_lines(SimTime time);
   Tick next_active_tick() const;
+  Tick next_event_tick(Tick most) const;
+  /// Fewer ticks are run one by one sooner than crossed.
+  static constexpr Tick kWorthCrossing = 4;
+  bool may_cross(Tick most) const {
+    // A world may have been taken back to a time long before.
+    const bool is_too_soon =
+        done_ < crossing_tries_.next && crossing_tries_.next - done_ <= CrossingTries::kMostApart;
+    return !is_too_soon && most - done_ >= kWorthCrossing && bulk_ticks_ && !disturbed_ && watchers_.empty();
+  }
+  Tick last_tick_to_cross(Tick most);
+  void cross_to(Tick tick);
   SimTime next_line_time() const;
   void run_device(std::size_t number);
   void prefetch_device(std::size_t number) const;
@@ -206,6 +225,7 @@ class World final : public WorldView {
   Tick done_ = 0;  // the last tick that is over
   TickCounts ticks_;
   bool bulk_ticks_ = true;
+  CrossingTries crossing_tries_;
 };
 
 }  // namespace understudy::emulator::world

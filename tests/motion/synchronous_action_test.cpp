@@ -225,14 +225,14 @@ TEST(SyncOrder, AnEventThatAnActionCausesActsInTheNextTick) {
   bench.axes[2].run(-1, at_speed(1000), bench.tick);
   bench.axes[0].move(5, at_speed(1000), bench.tick);
   bench.steps(6);  // begun in tick 1, ended in tick 6
-  EXPECT_EQ(bench.last.fired, (std::array<std::uint8_t, 4>{bit(Event::ended), 0, 0, 0}));
+  EXPECT_EQ(bench.last.fired, (std::array<Events, 4>{bit(Event::ended), 0, 0, 0}));
   EXPECT_TRUE(bench.axes[1].moving());
   EXPECT_TRUE(bench.axes[2].moving());
   bench.step();
-  EXPECT_EQ(bench.last.fired, (std::array<std::uint8_t, 4>{0, bit(Event::started), 0, 0}));
+  EXPECT_EQ(bench.last.fired, (std::array<Events, 4>{0, bit(Event::started), 0, 0}));
   EXPECT_FALSE(bench.axes[2].moving());
   bench.step();
-  EXPECT_EQ(bench.last.fired, (std::array<std::uint8_t, 4>{0, 0, bit(Event::ended), 0}));
+  EXPECT_EQ(bench.last.fired, (std::array<Events, 4>{0, 0, bit(Event::ended), 0}));
   EXPECT_EQ(bench.last.outputs, 0b0001);
 }
 

@@ -43,9 +43,7 @@ std::int64_t target_urpm(const AxisState& axis) {
 
 /// The pulses of one tick of velocity mode: two steps of 0.5 ms.
 std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
-  // The pulse limit, as a speed.
-  const std::int64_t cap_urpm = kMaxPulseRate_pps * 60'000'000 / settings.pulses_per_revolution;
-  const std::int64_t target = std::clamp(target_urpm(axis), -cap_urpm, cap_urpm);
+  const std::int64_t target = final_urpm(axis, settings);
   std::int64_t pulses = 0;
   for (int half = 0; half < 2; ++half) {
     const std::int64_t step = settings.velocity_step_urpm;
@@ -60,16 +58,17 @@ std::int64_t velocity_pulses(AxisState& axis, const DriveSettings& settings) {
   return pulses;
 }
 
-std::size_t ring_place(Tick tick) {
-  constexpr Tick kPlaces = AxisState::kSpeedWindow + 1;
-  return static_cast<std::size_t>((tick + kPlaces) % kPlaces);
-}
+}  // namespace
 
 bool runs_velocity(const AxisState& axis) {
   return axis.mode == Mode::velocity && axis.motor.task == motion::Task::coordinated;
 }
 
-}  // namespace
+std::int64_t final_urpm(const AxisState& axis, const DriveSettings& settings) {
+  // The pulse limit, as a speed.
+  const std::int64_t cap_urpm = kMaxPulseRate_pps * 60'000'000 / settings.pulses_per_revolution;
+  return std::clamp(target_urpm(axis), -cap_urpm, cap_urpm);
+}
 
 std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tick) {
   motion::Axis& motor = axis.motor;
@@ -198,9 +197,13 @@ void output_pwm(AxisState& axis, std::uint8_t percent) {
 
 std::uint8_t pwm_duty(const AxisState& axis) { return alarm_forbids(axis) ? 0 : axis.pwm_percent; }
 
-void count_encoder(AxisState& axis, std::int64_t raw, bool reversed) {
+std::int64_t counts_at(const AxisState& axis, std::int64_t raw, bool reversed) {
   const std::int64_t more = difference(raw, axis.encoder_raw);
-  axis.encoder_counts = difference(axis.encoder_counts, reversed ? more : difference(0, more));
+  return difference(axis.encoder_counts, reversed ? more : difference(0, more));
+}
+
+void count_encoder(AxisState& axis, std::int64_t raw, bool reversed) {
+  axis.encoder_counts = counts_at(axis, raw, reversed);
   axis.encoder_raw = raw;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/simulated_time.h"
+#include "emulator/device/machine_ahead.h"
 #include "emulator/models/simple2_r3/reactions.h"
 #include "motion/axis.h"
 #include "motion/homing_tables.h"
@@ -78,6 +79,11 @@ std::int64_t step_drive(AxisState& axis, const DriveSettings& settings, Tick tic
 
 /// The encoder's count at the end of a tick, for its speed.
 void remember_encoder(AxisState& axis, Tick tick);
+/// Where of AxisState::encoder_history that is.
+inline std::size_t ring_place(Tick tick) {
+  constexpr Tick kPlaces = AxisState::kSpeedWindow + 1;
+  return static_cast<std::size_t>((tick + kPlaces) % kPlaces);
+}
 /// Asks for the memory that a tick needs.
 void prefetch(const AxisState& axis, Tick tick);
 
@@ -106,6 +112,8 @@ std::uint8_t pwm_duty(const AxisState& axis);
 /// Stops all output; the mode becomes position mode.
 void stop_drive(AxisState& axis);
 
+/// What the counts become when the plant's encoder stands at `raw`.
+std::int64_t counts_at(const AxisState& axis, std::int64_t raw, bool reversed);
 /// The plant's encoder stands at `raw` now.
 void count_encoder(AxisState& axis, std::int64_t raw, bool reversed);
 
@@ -142,10 +150,32 @@ std::int64_t encoder_rpm(const AxisState& axis, Tick now, const SpeedMeter& mete
 /// In the commanded sense, at the end of tick `now`.
 double speed_pps(const AxisState& axis, Tick now, std::uint32_t pulses_per_revolution);
 
+/// In velocity mode, moved by its own counting.
+bool runs_velocity(const AxisState& axis);
+/// The speed that velocity mode comes to: what is wanted, as far as the limits and the pulse rate let it.
+std::int64_t final_urpm(const AxisState& axis, const DriveSettings& settings);
+
 /// STATUS bits 4 and 5.
 bool is_moving(const AxisState& axis);
 
 /// The first tick after `done` at which it may change by itself.
 Tick next_active_tick(const AxisState& axis, Tick done);
+
+// --- many ticks in one step: axis_crossing.cpp ------------------------------------------------------
+
+/// What an axis goes by when it is crossed.
+struct Crossing {
+  Tick done = 0;  // the last tick that is over
+  DriveSettings settings;
+  bool reversed = false;          // DIR_Polarity
+  bool encoder_reversed = false;  // as its polarity has it
+  int axis = 0;
+  const MachineAhead* ahead = nullptr;
+};
+
+/// The last tick, up to `most`, through which it only counts on; crossing.done where the next one is none.
+Tick quiet_until(const AxisState& axis, const Crossing& crossing, Tick most);
+/// Brings it there. Gives the pulses, in the commanded sense.
+std::int64_t cross(AxisState& axis, const Crossing& crossing, Tick tick);
 
 }  // namespace understudy::emulator::models::simple2_r3

@@ -207,6 +207,19 @@ void Simple2R3::heed_servo(int axis_number) {
   if (lacks_servo(axis_number)) stop(axis_number);
 }
 
+DriveSettings Simple2R3::drive_settings(int number) const {
+  const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
+  DriveSettings settings{.encoder_counts = followed_count(number),
+                         .stops_with_encoder = stops_with_encoder_,
+                         .pulses_by_speed_before = velocity_pulses_first_};
+  if (axis.mode == Mode::velocity) {
+    const bool latched = velocity_settings_latched_;
+    settings.pulses_per_revolution = latched ? axis.velocity_resolution : resolution_of(state_, number);
+    settings.velocity_step_urpm = latched ? axis.velocity_step_urpm : velocity_step_urpm(number);
+  }
+  return settings;
+}
+
 void Simple2R3::step_motion(Tick tick) {
   for (int number = 0; number < 2; ++number) {
     AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
@@ -217,15 +230,7 @@ void Simple2R3::step_motion(Tick tick) {
       heed_servo(number);
       meet(number, signals_of(number));
     }
-    DriveSettings settings{.encoder_counts = followed_count(number),
-                           .stops_with_encoder = stops_with_encoder_,
-                           .pulses_by_speed_before = velocity_pulses_first_};
-    if (axis.mode == Mode::velocity) {
-      const bool latched = velocity_settings_latched_;
-      settings.pulses_per_revolution = latched ? axis.velocity_resolution : resolution_of(state_, number);
-      settings.velocity_step_urpm = latched ? axis.velocity_step_urpm : velocity_step_urpm(number);
-    }
-    const std::int64_t commanded = step_drive(axis, settings, tick);
+    const std::int64_t commanded = step_drive(axis, drive_settings(number), tick);
     const bool reversed = state_.image[slots.direction_polarity] != 0;
     axis.pulses_this_tick = reversed ? -commanded : commanded;
     const std::int64_t counted = quirk_coordinate_counts_physical_sense() ? axis.pulses_this_tick : commanded;
@@ -248,21 +253,67 @@ void Simple2R3::update_outputs(Tick tick) {
   state_.eeprom.step(tick, state_.image);
 }
 
-Tick Simple2R3::next_active_tick(Tick done) const {
+/// The next tick in which the program does anything. One that waits is asked only until it is found to wait
+/// on: what it waits for is a tick of its own.
+Tick Simple2R3::next_slot(Tick done) const {
+  if (state_.execution.held.command == 0) {
+    return done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
+  }
+  // It is only looked at.
+  const ProgramMachine machine(const_cast<Simple2R3&>(*this));
+  return interpreter::simple2::next_active_slot_ms(state_.execution, done, state_.program, dialect_, machine);
+}
+
+Tick Simple2R3::next_tick_without_axes(Tick done) const {
   if (state_.touched) return done + 1;
   if (done < state_.first_tick && starts_by_itself()) return state_.first_tick;
   Tick next = state_.eeprom.next_active_tick();
-  if (state_.execution.running) {
-    next = std::min(next, done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs);
-  }
-  for (int number = 0; number < 2; ++number) {
-    const AxisState& axis = state_.axes[static_cast<std::size_t>(number)];
-    next = std::min(next, simple2_r3::next_active_tick(axis, done));
+  if (state_.execution.running) next = std::min(next, next_slot(done));
+  for (const AxisState& axis : state_.axes) {
     if (axis.alarm_clear_until > done) next = std::min(next, axis.alarm_clear_until);
+  }
+  return next;
+}
+
+Tick Simple2R3::next_active_tick(Tick done) const {
+  Tick next = next_tick_without_axes(done);
+  for (const AxisState& axis : state_.axes) {
+    next = std::min(next, simple2_r3::next_active_tick(axis, done));
   }
   // Last, because it takes longest, and what moves need not be asked.
   if (next > done + 1 && sees_something_new()) return done + 1;
   return next;
+}
+
+Crossing Simple2R3::crossing(int axis, Tick done, const MachineAhead& ahead) const {
+  const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis)];
+  return {.done = done,
+          .settings = drive_settings(axis),
+          .reversed = state_.image[slots.direction_polarity] != 0,
+          .encoder_reversed = state_.image[slots.encoder_polarity] != 0,
+          .axis = axis,
+          .ahead = &ahead};
+}
+
+Tick Simple2R3::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  Tick last = std::min(most, next_tick_without_axes(done) - 1);
+  for (int axis = 0; axis < 2 && last > done; ++axis) {
+    last = quiet_until(state_.axes[static_cast<std::size_t>(axis)], crossing(axis, done, ahead), last);
+  }
+  return last > done && sees_something_new() ? done + 1 : last + 1;
+}
+
+void Simple2R3::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+  for (int number = 0; number < 2; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    AxisState& axis = state_.axes[n];
+    const Crossing by = crossing(number, done, ahead);
+    const std::int64_t commanded = cross(axis, by, tick);
+    const std::int64_t sent = by.reversed ? -commanded : commanded;
+    const std::int64_t counted = quirk_coordinate_counts_physical_sense() ? sent : commanded;
+    axis.coordinate_pulses = in_32_bits(axis.coordinate_pulses + counted, coordinate_saturates_);
+    pulses[n] += sent;
+  }
 }
 
 void Simple2R3::prefetch(Tick tick) const {

@@ -165,6 +165,8 @@ class Simple2R3 final : public Device,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
+  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
   void prefetch(Tick tick) const override;
   bool same_state(const Device& other) const override;
 
@@ -258,6 +260,11 @@ class Simple2R3 final : public Device,
   std::uint16_t input_levels() const;
   std::uint16_t adc_at(int number) const;
   bool sees_something_new() const;
+  /// The next active tick of all but the axes.
+  Tick next_tick_without_axes(Tick done) const;
+  Tick next_slot(Tick done) const;
+  DriveSettings drive_settings(int axis) const;
+  Crossing crossing(int axis, Tick done, const MachineAhead& ahead) const;
   Eeprom factory_memory() const;
   /// A new state with only the memory and the encoders' counts.
   void blank_state();

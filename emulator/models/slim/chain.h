@@ -20,6 +20,7 @@
 #include <span>
 
 #include "base/simulated_time.h"
+#include "emulator/device/machine_ahead.h"
 #include "emulator/models/slim/chain_options.h"
 #include "emulator/models/slim/errors.h"
 #include "emulator/models/slim/module.h"
@@ -189,6 +190,11 @@ class Chain {
   std::int64_t pulses(int module) const { return modules_[at(module)].sent_pulses; }  // of the last tick
   /// The first tick after `done` at which anything may happen by itself; kNever.
   Tick next_active_tick(Tick done) const;
+  /// The same where modules only go on with what they do, within the room of their machines; not beyond
+  /// `most` + 1.
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const;
+  /// All ticks up to `tick`, which is before that, in one step. Adds the pulses of each module.
+  void cross_to(Tick tick, std::span<std::int64_t> pulses);
 
  private:
   template <class T>
@@ -279,6 +285,8 @@ class Chain {
   // The tick: chain_step.cpp.
   void step_groups(Tick tick);
   bool undisturbed(int module) const;
+  bool waits(int module) const;
+  bool stands(const Group& group, Tick done) const;
   void step_axes(Tick tick);
   void after_motion(int module, Tick begin_at);
   void meet_triggers(int module);

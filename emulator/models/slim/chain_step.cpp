@@ -101,27 +101,70 @@ void Chain::after_motion(int module, Tick begin_at) {
   }
 }
 
+/// It does nothing of itself but what its axis does.
+bool Chain::waits(int module) const {
+  const Module& mine = modules_[at(module)];
+  const motion::Axis& axis = axes_[at(module)];
+  return mine.activity == Activity::idle || mine.activity == Activity::group ||
+         axis.task == motion::Task::hanging || (mine.starved && !axis.moving());
+}
+
+/// Not engaged, or paused and at rest.
+bool Chain::stands(const Group& group, Tick done) const {
+  const motion::PathRun& run = group.motion.run;
+  // What was completed is of the last tick only.
+  return !group.motion.engaged || (run.paused() && run.at_rest(done) && run.completed() == 0 &&
+                                   group.motion.slowing_for == motion::Cause::none);
+}
+
 Tick Chain::next_active_tick(Tick done) const {
   for (const Group& group : groups_) {
-    const motion::PathRun& run = group.motion.run;
-    if (!group.motion.engaged) continue;
-    // What was completed is of the last tick only.
-    const bool stands = run.paused() && run.at_rest(done) && run.completed() == 0 &&
-                        group.motion.slowing_for == motion::Cause::none;
-    if (!stands) return done + 1;
+    if (!stands(group, done)) return done + 1;
   }
   Tick next = kNever;
   for (int module = 0; module < kModules; ++module) {
     const Module& mine = modules_[at(module)];
-    const motion::Axis& axis = axes_[at(module)];
-    const bool waits = mine.activity == Activity::idle || mine.activity == Activity::group ||
-                       axis.task == motion::Task::hanging || (mine.starved && !axis.moving());
-    if (!waits) return done + 1;
+    if (!waits(module)) return done + 1;
     // What the axis met and sent is of the last tick only. A path may end without a pulse in its last tick.
     if (!undisturbed(module) || mine.sent_pulses != 0) next = std::min(next, done + 1);
     for (const Output& output : mine.outputs) next = std::min(next, output.next_change(done));
   }
   return next;
+}
+
+Tick Chain::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  for (const Group& group : groups_) {
+    if (!stands(group, done)) return done + 1;
+  }
+  Tick last = most;
+  for (int module = 0; module < kModules && last > done; ++module) {
+    const Module& mine = modules_[at(module)];
+    const motion::Axis& axis = axes_[at(module)];
+    if (mine.activity == Activity::group) {
+      if (!undisturbed(module) || mine.sent_pulses != 0) return done + 1;
+    } else {
+      if (!waits(module) && !axis.moving()) return done + 1;
+      const PulseRoom room = ahead.room(module);
+      const std::int64_t at_pulses = axis.travel_pulses;
+      last = axis.quiet_until(done + 1, last, surroundings_[at(module)],
+                              {.low = at_pulses + room.least, .high = at_pulses + room.most});
+    }
+    for (const Output& output : mine.outputs) last = std::min(last, output.next_change(done) - 1);
+  }
+  return last + 1;
+}
+
+void Chain::cross_to(Tick tick, std::span<std::int64_t> pulses) {
+  now_ = tick;
+  for (int module = 0; module < kModules; ++module) {
+    Module& mine = modules_[at(module)];
+    if (mine.activity == Activity::group) continue;
+    motion::Axis& axis = axes_[at(module)];
+    pulses[at(module)] += axis.cross_to(tick - 1);
+    mine.sent_pulses = axis.step(tick, surroundings_[at(module)]);
+    pulses[at(module)] += mine.sent_pulses;
+    if (mine.starved && !axis.moving()) mine.place_units = coordinate(module);
+  }
 }
 
 }  // namespace understudy::emulator::models::slim

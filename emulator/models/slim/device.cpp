@@ -269,18 +269,35 @@ void Slim::update_outputs(Tick) {
   }
 }
 
-Tick Slim::next_active_tick(Tick done) const {
-  if (state_.touched) return done + 1;
+/// Whether an input is not as it was when a tick last looked.
+bool Slim::sees_something_new() const {
   for (int m = 0; m < kModules; ++m) {
-    if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return done + 1;
+    if (input_levels(m) != state_.inputs[static_cast<std::size_t>(m)]) return true;
     const bool sees_horg = level(m, kHorg) == state_.chain.horg(m);
-    if (!sees_horg || Device::input(terminal(m, kAnalog)) != state_.chain.analog(m)) return done + 1;
+    if (!sees_horg || Device::input(terminal(m, kAnalog)) != state_.chain.analog(m)) return true;
   }
+  return false;
+}
+
+Tick Slim::next_active_tick(Tick done) const {
+  if (state_.touched || sees_something_new()) return done + 1;
   if (program_is_held()) return state_.chain.next_active_tick(done);
   // A program that waits for the chain asks in every tick.
   if (state_.execution.running && state_.execution.hold == lang::Hold::machine) return done + 1;
   return std::min(state_.chain.next_active_tick(done),
                   next_active_ms(state_.execution, done, state_.program, flow_options_, *this));
+}
+
+Tick Slim::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  // What a program and its events look at moves.
+  const bool is_looked_at = state_.execution.running || !flow_options_.events_need_program;
+  if (state_.touched || (is_looked_at && !program_is_held())) return done + 1;
+  const Tick next = state_.chain.next_event_tick(done, most, ahead);
+  return next > done + 1 && sees_something_new() ? done + 1 : next;
+}
+
+void Slim::cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) {
+  state_.chain.cross_to(tick, pulses);
 }
 
 State Slim::settled() const {

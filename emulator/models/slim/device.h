@@ -115,6 +115,8 @@ class Slim final : public TextDevice,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
+  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
   bool same_state(const Device& other) const override;
 
   // --- terminals and axes ---
@@ -233,6 +235,7 @@ class Slim final : public TextDevice,
 
   bool level(int module, int which) const { return Device::input(terminal(module, which)) != 0; }
   std::uint8_t input_levels(int module) const;
+  bool sees_something_new() const;
   /// What a module's number is, or that it is not linked.
   Error linked(int module) const;
   ChainOptions chain_options() const;

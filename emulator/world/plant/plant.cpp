@@ -36,10 +36,20 @@ void PlantAxis::step(Tick tick, std::int64_t pulses, DriveInputs inputs) {
   find_quiet_places();
 }
 
+/// A drive is looked at in every tick, because its controller's outputs may have changed.
 void PlantAxis::find_quiet_places() {
   disturb();
+  if (setup_.drive) return;
+  const PulseSpan alike = places_alike();
+  quiet_from_ = alike.first;
+  quiet_to_ = alike.last;
+}
+
+PulseSpan PlantAxis::places_alike() const {
+  constexpr PulseSpan kNone{1, 0};
   const bool steps_all = state_.faults == MachineFaults{} && state_.loses_one_in == 0 && !in_alarm();
-  if (setup_.drive || setup_.has_wheel || state_.ticks_to_turn != 0 || !steps_all) return;
+  if (setup_.has_wheel || state_.ticks_to_turn != 0 || !steps_all) return kNone;
+  if (setup_.drive && !state_.ready) return kNone;
   const std::int64_t at = state_.position_pulses;
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   std::int64_t from = stops.first;
@@ -58,8 +68,7 @@ void PlantAxis::find_quiet_places() {
   if (setup_.home) stay(state_.at_home, home_span());
   if (setup_.lower_limit) stay(state_.at_lower_limit, {-kFarthest_pulses, lower_limit_end()});
   if (setup_.upper_limit) stay(state_.at_upper_limit, {upper_limit_end(), kFarthest_pulses});
-  quiet_from_ = from;
-  quiet_to_ = to;
+  return {from, to};
 }
 
 std::int64_t PlantAxis::pulses_that_step(std::int64_t pulses) {

@@ -101,6 +101,11 @@ class alignas(64) PlantAxis {
     state_.position_pulses = place;
     return true;
   }
+  /// Where a place of the machine leaves everything else as it is, for as long as its controller's outputs
+  /// do; empty where each pulse must be looked at.
+  PulseSpan places_alike() const;
+  /// So many pulses at once, within that: what as many quiet ticks do.
+  void cross(std::int64_t pulses) { state_.position_pulses += pulses; }
   /// Turns the encoder's wheel, evenly over this many ticks from the next one on; what is left of an earlier
   /// turn is added.
   void turn(std::int64_t counts, Tick ticks);
@@ -130,6 +135,10 @@ class alignas(64) PlantAxis {
   std::int64_t encoder_counts() const;
   /// Like the above, after a quiet step.
   std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
+  /// The same after so many pulses more.
+  std::int64_t encoder_counts_after(std::int64_t pulses) const {
+    return encoder_.counts_at(state_.position_pulses + pulses);
+  }
 
   /// The first tick after `done` at which something changes by itself; kNever if nothing does.
   Tick next_active_tick(Tick done) const;

@@ -42,7 +42,7 @@ void compare(std::uint64_t seed_value, const std::string& timing, const Stepping
 /// The sequences are worth something only if much happens in them.
 void expect_lively(const Lively& sum) {
   EXPECT_GT(sum.crossed, 10'000u);
-  EXPECT_GT(sum.run, 10'000u);
+  EXPECT_GT(sum.run, 5'000u);
   EXPECT_GT(sum.replies, 1000u);
   EXPECT_GT(sum.moved, 1000);
 }

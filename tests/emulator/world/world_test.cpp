@@ -48,7 +48,7 @@ TEST(World, IsDueNextTickAfterOutsideInputAndThenAtItsOwnEvent) {
   set(world, "feeder.Aaxis_Speed", 200);
   set(world, "feeder.Aaxis_Move_INC", 1);
   world.advance_to(221ms);
-  EXPECT_EQ(world.next_due(), 222ms);
+  EXPECT_EQ(world.next_due(), 231ms);  // the end of its ramp: until then it only goes on
   world.advance_to(300ms);
   EXPECT_EQ(get(world, "feeder.Cord_A"), 5);
   world.advance_to(400ms);  // the encoder's speed is over 100 ms after it stood

@@ -1,0 +1,77 @@
+// Many ticks of a world in one step, while its axes move and nothing else happens.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/device/machine_ahead.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+/// The machines of one device.
+class Machines final : public MachineAhead {
+ public:
+  explicit Machines(const std::vector<PlantAxis>& plants) : plants_(plants) {}
+
+  PulseRoom room(int axis) const override {
+    const PlantAxis& plant = plants_[static_cast<std::size_t>(axis)];
+    const PulseSpan alike = plant.places_alike();
+    if (alike.last < alike.first) return {};
+    return {.least = alike.first - plant.position_pulses(), .most = alike.last - plant.position_pulses()};
+  }
+  bool has_encoder(int axis) const override { return plants_[static_cast<std::size_t>(axis)].has_encoder(); }
+  std::int64_t encoder_counts(int axis, std::int64_t pulses) const override {
+    return plants_[static_cast<std::size_t>(axis)].encoder_counts_after(pulses);
+  }
+
+ private:
+  const std::vector<PlantAxis>& plants_;
+};
+
+}  // namespace
+
+/// The first tick at which something happens but that what moves goes on; not beyond `most` + 1.
+Tick World::next_event_tick(Tick most) const {
+  constexpr Tick kFarAhead = 1'000'000'000'000;  // so that closed forms stay within their numbers
+  Tick last = std::min({most, next_fault_tick() - 1, done_ + kFarAhead});
+  for (std::size_t d = 0; d < devices_.size() && last > done_; ++d) {
+    for (const PlantAxis& plant : plants_[d]) last = std::min(last, plant.next_active_tick(done_) - 1);
+    if (last <= done_ || !devices_[d]->powered()) continue;
+    last = std::min(last, devices_[d]->next_event_tick(done_, last, Machines(plants_[d])) - 1);
+  }
+  return last + 1;
+}
+
+/// The tick to which a crossing brings the world; done_ where it is not worth one.
+Tick World::last_tick_to_cross(Tick most) {
+  const Tick last = next_event_tick(most) - 1;
+  if (last - done_ >= kWorthCrossing) {
+    crossing_tries_.apart = 1;
+    return last;
+  }
+  crossing_tries_.next = done_ + crossing_tries_.apart;
+  crossing_tries_.apart = std::min(2 * crossing_tries_.apart, CrossingTries::kMostApart);
+  return done_;
+}
+
+void World::cross_to(Tick tick) {
+  std::vector<std::int64_t> pulses;
+  for (std::size_t d = 0; d < devices_.size(); ++d) {
+    pulses.assign(plants_[d].size(), 0);
+    if (devices_[d]->powered()) devices_[d]->cross_to(done_, tick, Machines(plants_[d]), pulses);
+    for (std::size_t a = 0; a < pulses.size(); ++a) {
+      sent_pulses_[d][a] += pulses[a];
+      plants_[d][a].cross(pulses[a]);
+    }
+    devices_[d]->set_now(tick);
+  }
+  ticks_.crossed += static_cast<std::uint64_t>(tick - done_);
+  done_ = tick;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cstdint>
+
+#include "motion/axis.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
+
+// Many ticks in one step, while an axis does nothing but go on along its plan.
+namespace understudy::motion {
+
+Tick Axis::quiet_until(Tick next, Tick most, const Surroundings& here, TravelRange range) const {
+  const Tick none = next - 1;
+  if (attentive || here.version != seen_version || task == Task::coordinated) return none;
+  const std::int64_t low = std::max(range.low, watch_low);
+  const std::int64_t high = std::min(range.high, watch_high);
+  const Tick last = std::min(most, drive.next_look - 1);
+  if (last < next || travel_pulses < low || travel_pulses > high) return none;
+  if (drive.drive != Drive::running) return last;
+  // A segment goes one way, but a rounding may send a pulse a tick early; so the last pulse before anything
+  // can happen is left to single ticks, and all between are inside because the last one is.
+  const bool upwards = drive.direction > 0;
+  const auto is_inside = [&](Tick tick) {
+    const std::int64_t travel = travel_ahead(tick);
+    return upwards ? travel >= low && travel < high : travel > low && travel <= high;
+  };
+  if (is_inside(last)) return last;
+  Tick inside = none;
+  Tick outside = last;
+  while (outside - inside > 1) {
+    const Tick middle = inside + (outside - inside) / 2;
+    (is_inside(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+std::int64_t Axis::cross_to(Tick tick) {
+  const std::int64_t travel = travel_ahead(tick);
+  const std::int64_t pulses = travel - travel_pulses;
+  drive.sent_pulses = drive.pulses_of_segment(tick);
+  travel_pulses = travel;
+  events = 0;
+  return inverted ? -pulses : pulses;
+}
+
+bool Axis::carries_quietly(const Surroundings& here) const {
+  return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 &&
+         task == Task::coordinated;
+}
+
+std::int64_t Axis::carry_across(std::int64_t pulses) {
+  if (pulses != 0) {
+    drive.direction = pulses < 0 ? -1 : +1;
+    last_direction = static_cast<std::int8_t>(drive.direction);
+  }
+  travel_pulses = base_pulses = travel_pulses + pulses;
+  events = 0;
+  return inverted ? -pulses : pulses;
+}
+
+}  // namespace understudy::motion
