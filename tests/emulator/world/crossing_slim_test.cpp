@@ -8,7 +8,7 @@
 #include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace crossing_slim_test {
 
 using namespace std::chrono_literals;
 
@@ -173,5 +173,5 @@ TEST(SlimCrossing, AMoveOfAnHourIsAFewTicks) {
   EXPECT_LT(world.ticks_run(), 500u);
 }
 
-}  // namespace
+}  // namespace crossing_slim_test
 }  // namespace understudy::emulator::world
