@@ -88,8 +88,8 @@ class Device {
   virtual void run_interpreters(Tick tick);
   virtual void step_motion(Tick tick);
   virtual void update_outputs(Tick tick);
-  /// The first tick after `done` at which anything may change without help from outside; kNever if
-  /// none. The ticks before it may be left out: the state is then the same as if they had been run.
+  /// The first tick after `done` at which anything may change without help from outside; kNever if none. The
+  /// ticks before it may be skipped: the state is then the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const;
   /// Asks the processor for the memory that `tick` will need (base/prefetch.h).
   virtual void prefetch(Tick tick) const;
