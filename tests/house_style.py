@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 
-LONGEST_FILE = 500  # lines; about 400 is the aim
+LONGEST_FILE = 450  # lines; about 400 is the aim
 LONGEST_TEST_NAME = 50
 PRODUCT = ("base/", "motion/", "interpreter/", "pty/", "emulator/")
 TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P)\((\w+), *(\w+)\)")

@@ -258,8 +258,8 @@ std::function<void()> read_state(World& world, const WorldState& state) {
     }
     for (const auto& put_station : put_stations) put_station();
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      world.line(i).line.restore(lines[i]);
-      world.line(i).line.due_changed();
+      OfWorld::line(world, i).restore(lines[i]);
+      OfWorld::line(world, i).due_changed();
     }
   };
 }

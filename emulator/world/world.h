@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,39 @@ class World final : public WorldView {
 
   // --- lines ---------------------------------------------------------------------------------
   std::size_t line_count() const override { return lines_.size(); }
-  WorldLine& line(std::size_t number) { return *lines_[number]; }
   const WorldLine& line(std::size_t number) const override { return *lines_[number]; }
+
+  // What hosts do there, as pty/line.h has it: all that reaches a line from outside comes in here.
+  void host_opened(std::size_t line) { lines_[line]->line.host_opened(); }
+  void host_closed(std::size_t line) { lines_[line]->line.host_closed(); }
+  void host_settings(std::size_t line, const std::optional<pty::HostSettings>& settings) {
+    lines_[line]->line.host_settings(settings);
+  }
+  /// Bytes of the host that is there now; `at` is this moment, or one to come. At most line().room() of them.
+  void receive(std::size_t line, std::span<const std::uint8_t> bytes, SimTime at) {
+    lines_[line]->line.receive(bytes, at);
+  }
+  void receive(std::size_t line, std::span<const std::uint8_t> bytes) { receive(line, bytes, now_); }
+  /// At this moment, of a host that has closed since.
+  void receive_departed(std::size_t line, std::span<const std::uint8_t> bytes) {
+    lines_[line]->line.receive_departed(bytes, now_);
+  }
+  /// The clock stands, and nothing more has come for as long as a frame is waited for.
+  void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
+  /// The host has taken so many bytes of the line's output.
+  void take_output(std::size_t line, std::size_t count) { lines_[line]->line.take_output(count); }
+
+  // Those who look at a line; they change nothing.
+  void add_observer(std::size_t line, pty::LineObserver& observer) {
+    lines_[line]->line.add_observer(observer);
+  }
+  void remove_observer(std::size_t line, pty::LineObserver& observer) {
+    lines_[line]->line.remove_observer(observer);
+  }
+  /// Lets them know of it; nothing else comes of it.
+  void tell_strike(std::size_t line, const pty::StruckMessage& message) {
+    lines_[line]->line.tell_strike(message);
+  }
 
   // --- devices and the plant ---------------------------------------------------------------------
   std::size_t device_count() const override { return devices_.size(); }

@@ -51,7 +51,7 @@ LineManners::LineManners(world::World& world, std::size_t line)
       options_(world.line(line).line.options()),
       // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
       framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
-  world::WorldLine& watched = world_.line(line);
+  const world::WorldLine& watched = world_.line(line);
   const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };
   if (std::none_of(watched.stations.begin(), watched.stations.end(), is_modbus)) return;
   if (has_time()) {
@@ -62,10 +62,10 @@ LineManners::LineManners(world::World& world, std::size_t line)
       longest_gap_ = std::min(longest_gap_, end_silence);
     }
   }
-  watched.line.add_observer(*this);
+  world_.add_observer(number_, *this);
 }
 
-LineManners::~LineManners() { world_.line(number_).line.remove_observer(*this); }
+LineManners::~LineManners() { world_.remove_observer(number_, *this); }
 
 void LineManners::begin_anew() {
   framer_.reset();

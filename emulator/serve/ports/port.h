@@ -40,7 +40,6 @@ class Port {
 
  private:
   const pty::Line& line() const { return world_.line(line_number_).line; }
-  pty::Line& line() { return world_.line(line_number_).line; }
   void on_data(std::uint32_t ready);
   void watch();
   void keep_watch();

@@ -67,6 +67,9 @@ struct Bench {
   std::vector<FileClaim> files{};  // that it was read from, except memories
 };
 
+/// The devices by name, with the lines that they stand on.
+KnownDevices known_devices_of(const Bench& bench);
+
 /// "2%", "0.5%", 0% to 10% in millionths; nothing if it is not such a share.
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);
 inline constexpr std::string_view kBaudToleranceExpected = "expected 0% to 10%, as in 2%";

@@ -82,7 +82,7 @@ struct FaultFieldError : NameError {
   std::string complaint;
 };
 
-/// Throws NameError for what the bench does not have. Only the world knows what `when` names (World::check).
+/// Throws NameError for what the bench does not have. What `when` names is judged by check_fault.h.
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
 /// As find_fault() takes it, and on one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);

@@ -330,12 +330,12 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
 
 void apply(World& world, const RecordedEvent& event) {
   switch (event.what) {
-    case What::opened: world.line(event.where).line.host_opened(); break;
-    case What::closed: world.line(event.where).line.host_closed(); break;
-    case What::settings: world.line(event.where).line.host_settings(event.host); break;
-    case What::bytes: world.line(event.where).line.receive(event.bytes, world.now()); break;
-    case What::departed: world.line(event.where).line.receive_departed(event.bytes, world.now()); break;
-    case What::nothing_more: world.line(event.where).line.nothing_more(world.now()); break;
+    case What::opened: world.host_opened(event.where); break;
+    case What::closed: world.host_closed(event.where); break;
+    case What::settings: world.host_settings(event.where, event.host); break;
+    case What::bytes: world.receive(event.where, event.bytes); break;
+    case What::departed: world.receive_departed(event.where, event.bytes); break;
+    case What::nothing_more: world.nothing_more(event.where); break;
     case What::input:
       world.set_external_input(event.where, event.place, static_cast<std::int32_t>(event.value));
       break;

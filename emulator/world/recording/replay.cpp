@@ -25,11 +25,11 @@ class Speeches {
   explicit Speeches(World& world) : world_(world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
       ears_.push_back(std::make_unique<Ear>(*this, i));
-      world.line(i).line.add_observer(*ears_.back());
+      world.add_observer(i, *ears_.back());
     }
   }
   ~Speeches() {
-    for (std::size_t i = 0; i < ears_.size(); ++i) world_.line(i).line.remove_observer(*ears_[i]);
+    for (std::size_t i = 0; i < ears_.size(); ++i) world_.remove_observer(i, *ears_[i]);
   }
   Speeches(const Speeches&) = delete;
   Speeches& operator=(const Speeches&) = delete;

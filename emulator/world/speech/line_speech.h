@@ -65,8 +65,6 @@ class LineSpeech {
   // --- faults ------------------------------------------------------------------------------------
   /// What a fault's trigger asks of a message.
   virtual FrameFacts facts_of(const HeardFrame& frame) const = 0;
-  /// Whether there is nothing that demand_possible() refuses.
-  virtual bool takes_every_fault() const { return true; }
   /// Throws NameError for a fault that its messages cannot have.
   virtual void demand_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
 

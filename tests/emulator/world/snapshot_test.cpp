@@ -370,7 +370,7 @@ void flip_bytes(std::uint64_t seed_value, const std::string& timing, std::size_t
         continue;
       }
       ++taken;
-      world.line(0).line.receive(read_request(1, 0, 1), world.now());
+      world.receive(0, read_request(1, 0, 1));
       world.advance_to(world.now() + 25ms);
       save(world);
       restore(world, good);

@@ -174,7 +174,7 @@ TEST(TextBench, ARecordingOfItIsPlayedBitForBit) {
                       [&](std::string_view line) { text += line; });
     const auto say = [&](std::string_view line) {
       world.advance_to(world.now());  // what was due comes first
-      world.line(0).line.receive(std::vector<std::uint8_t>(line.begin(), line.end()), world.now());
+      world.receive(0, std::vector<std::uint8_t>(line.begin(), line.end()));
       world.advance_to(world.now() + 33'333us);
     };
     say("SAY a\r");
