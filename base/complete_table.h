@@ -23,7 +23,7 @@ struct HandlerRow {
 template <typename Key, typename Handler>
 class CompleteTable {
  public:
-  /// Keys may come several times: they are often what the rows of another table name.
+  /// Keys may appear several times: they are often what the rows of another table name.
   constexpr explicit CompleteTable(const auto& keys, const auto&... groups_of_rows) {
     (add(groups_of_rows), ...);
     std::array<bool, kSize> is_key{};
@@ -51,7 +51,7 @@ class CompleteTable {
     }
   }
 
-  // clang shows a refused call with the number of its key, g++ the call alone.
+  // clang shows a refused call with the number of its key, g++ shows only the call.
   static constexpr void demand_handler(Key /*key*/, bool has_one) {
     if (!has_one) throw "a key has no handler";
   }

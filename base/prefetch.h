@@ -1,5 +1,5 @@
-// Memory that is needed soon. In a crowd of devices each one's state has left the processor's caches by the
-// time of its next tick; asked for while the devices before it run, it is there again.
+// Memory that is needed soon. With many devices each one's state has left the processor's caches by the time
+// of its next tick; if it is asked for while the devices before it run, it is back in time.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@ namespace understudy {
 
 inline constexpr std::size_t kCacheLine = 64;  // bytes
 
-/// Nothing but time depends on it; any address will do.
+/// Only speed depends on it; any address will do.
 inline void prefetch(const void* first, std::size_t bytes) {
   const char* address = static_cast<const char*>(first);
   for (std::size_t i = 0; i < bytes; i += kCacheLine) __builtin_prefetch(address + i, 1);

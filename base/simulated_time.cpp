@@ -1,6 +1,10 @@
 #include "base/simulated_time.h"
 
 #include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace understudy {
 

@@ -18,7 +18,7 @@ struct Pty {
     std::array<char, 64> name{};
     if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0 ||
         ptsname_r(master, name.data(), name.size()) != 0) {
-      throw CannotRun("no pseudo-terminal is to be had");
+      throw CannotRun("no pseudo-terminal is available");
     }
     path = name.data();
     slave = open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);

@@ -11,7 +11,7 @@
 #include "benchmarks/figures.h"
 #include "benchmarks/processor_clock.h"
 #include "emulator/models/models.h"
-#include "emulator/play/performing/runner.h"
+#include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/world/bench/bench_text.h"
@@ -69,7 +69,7 @@ Played play_all(const std::vector<std::string>& files, OptionsFor options_for) {
   for (const std::string& file : files) {
     for (const Scenario& scenario : emulator::play::load_scenarios(file, "", shared)) {
       ++played.scenarios;
-      for (const ScenarioResult& result : emulator::play::play(scenario, options_for(scenario))) {
+      for (const ScenarioResult& result : emulator::play::run_scenario(scenario, options_for(scenario))) {
         played.simulated_s += seconds_of(result.simulated);
       }
     }
@@ -90,8 +90,8 @@ class RecordingOnlooker final : public emulator::play::Onlooker {
   emulator::world::Recorder recorder_;
 };
 
-emulator::play::PlayOptions recorded(const Scenario& scenario) {
-  emulator::play::PlayOptions options;
+emulator::play::RunOptions recorded(const Scenario& scenario) {
+  emulator::play::RunOptions options;
   options.onlookers.push_back([&](World& world) {
     const emulator::world::RecordingHeader header{.version = "",
                                                   .bench = emulator::world::to_text(scenario.bench),
@@ -111,7 +111,7 @@ double measure_suite(const std::string& folder) {
   std::vector<double> ratios;
   for (int round = 0; round < kRounds; ++round) {
     plain.push_back(processor_seconds(
-        [&] { played = play_all(files, [](const Scenario&) { return emulator::play::PlayOptions{}; }); }));
+        [&] { played = play_all(files, [](const Scenario&) { return emulator::play::RunOptions{}; }); }));
     ratios.push_back(processor_seconds([&] { play_all(files, recorded); }) / plain.back());
   }
   const double each_s = median(plain);
@@ -131,11 +131,12 @@ void measure_start(const std::string& folder, double scenario_ms) {
       "steps: [ advance: 1ms ]\n";
   std::vector<double> starts_ms;
   for (int round = 0; round < 10 * kRounds; ++round) {
-    starts_ms.push_back(1000 * processor_seconds([&] {
-                          emulator::play::play(emulator::play::parse_scenarios(emulator::models::all_models(),
-                                                                               text, folder + "/start.yaml")
-                                                   .front());
-                        }));
+    starts_ms.push_back(
+        1000 * processor_seconds([&] {
+          emulator::play::run_scenario(
+              emulator::play::parse_scenarios(emulator::models::all_models(), text, folder + "/start.yaml")
+                  .front());
+        }));
   }
   std::printf("reading, checking and starting a scenario: %.3f ms\n", median(starts_ms));
   print_verdict("starting a scenario, against a whole one of the suite", median(starts_ms) / scenario_ms,

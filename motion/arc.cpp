@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "motion/arc_length.h"
 #include "motion/bad_motion.h"
+#include "motion/elementary.h"
+#include "motion/path.h"
 
 namespace understudy::motion {
 
@@ -99,7 +102,7 @@ struct ArcDemand {
 };
 
 /// The last step of all arcs: `path` has its plane, begin, centre, sweep and rise.
-Path finished(Path path, double growth, const ArcDemand& demand) {
+Path finished(Path path, double growth_u, const ArcDemand& demand) {
   const double sweep = std::abs(path.sweep_rad);
   if (sweep > kFarthestAngle_rad) {
     refuse(Refusal::out_of_range, demand.law, "sweep must be within +-1e6 rad, is " + text(path.sweep_rad));
@@ -109,25 +112,25 @@ Path finished(Path path, double growth, const ArcDemand& demand) {
   const Point out = path.begin - path.centre;
   path.begin_radius_u = out.norm();
   path.begin_angle_rad = angle_of(out.dot(path.ordinate), out.dot(path.abscissa));
-  path.radius_slope_u_rad = growth / sweep;
+  path.radius_slope_u_rad = growth_u / sweep;
   if (path.measure == Measure::vector) {
     path.length_u = length_by_vector(path);
     return path;
   }
   // What the tolerance forgives rides along; a true spiral has no such length in closed form.
-  if (std::abs(growth) > demand.options.radius_tolerance_u || path.begin_radius_u == 0) {
+  if (std::abs(growth_u) > demand.options.radius_tolerance_u || path.begin_radius_u == 0) {
     refuse(Refusal::out_of_range, demand.law,
-           "growth of the radius must be 0 where the longest axis is the measure, is " + text(growth));
+           "growth of the radius must be 0 where the longest axis is the measure, is " + text(growth_u));
   }
   path.length_u = length_by_longest_axis(path);
   return path;
 }
 
-Path in_plane_of(const ArcDemand& demand, const Point& centre, double sweep, const Point& rise) {
+Path in_plane_of(const ArcDemand& demand, const Point& centre, double sweep_rad, const Point& rise) {
   Path path;
   path.begin = demand.begin;
   path.centre = centre;
-  path.sweep_rad = sweep;
+  path.sweep_rad = sweep_rad;
   path.rise = rise;
   path.abscissa[demand.options.plane.first] = 1;
   path.ordinate[demand.options.plane.second] = 1;
@@ -149,15 +152,15 @@ void set_end_by_sweep(Path& path) {
 }
 
 /// Where a chip ends whose end point is not on the circle (all relative to the centre).
-Flat end_in_quadrant(const ArcDemand& demand, double radius, const Flat& end) {
+Flat end_in_quadrant(const ArcDemand& demand, double radius_u, const Flat& end) {
   const bool x_is_shorter = std::abs(end.x) <= std::abs(end.y);
   const double shorter = std::abs(x_is_shorter ? end.x : end.y);
-  if (shorter > radius) {
-    refuse(
-        Refusal::no_such_arc, demand.law,
-        "shorter coordinate of the end must be within the radius " + text(radius) + ", is " + text(shorter));
+  if (shorter > radius_u) {
+    refuse(Refusal::no_such_arc, demand.law,
+           "shorter coordinate of the end must be within the radius " + text(radius_u) + ", is " +
+               text(shorter));
   }
-  const double longer = std::sqrt((radius - shorter) * (radius + shorter));
+  const double longer = std::sqrt((radius_u - shorter) * (radius_u + shorter));
   return x_is_shorter ? Flat{end.x, std::copysign(longer, end.y)} : Flat{std::copysign(longer, end.x), end.y};
 }
 

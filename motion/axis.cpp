@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "motion/bad_motion.h"
+#include "motion/move.h"
+#include "motion/profile.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
 
 // Commands and reactions; the tick is in axis_step.cpp.
 namespace understudy::motion {

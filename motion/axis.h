@@ -3,9 +3,9 @@
 //   commands ──> drive (profile on the clock) ──> travel ──> counters, comparators   <── surroundings
 //                   ^ reactions to limits, alarm, emergency, homing <──────────────────────┘
 //
-// Travel is the sum of the pulses the user's coordinate counts, in 64 bits, from power-up. Everything that
-// looks at positions (soft limits, comparators, switches) does so in travel, so one window of two numbers
-// says how far the axis may go before anything can happen: the tick in between is a cubic and two
+// Travel is the sum of the pulses that the user's coordinate counts, in 64 bits, from power-up. Everything
+// that looks at positions (soft limits, comparators, switches) does so in travel, so one window of two
+// numbers says how far the axis may go before anything can happen: the tick in between is a cubic and two
 // comparisons.
 //
 // Edges are met at their pulse, within the tick, as a chip meets them.
@@ -91,7 +91,7 @@ struct AxisSettings {
   // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.
   std::optional<std::int64_t> soft_limit_plus = std::nullopt;
   std::optional<std::int64_t> soft_limit_minus = std::nullopt;
-  // Extra pulses first at each reversal; they are output, but are no travel.
+  // Extra pulses at the beginning of each reversal; they are output, but are not travel.
   std::int64_t backlash_pulses = 0;
   double backlash_speed_pps = 0;  // > 0 where there is backlash
 
@@ -111,7 +111,7 @@ enum class Task : std::uint8_t {
 struct alignas(64) Axis {
   // What every tick needs, first: with the beginning of the drive it is two cache lines.
   std::int64_t travel_pulses = 0;
-  std::int64_t watch_low = 0;  // while travel stays within, nothing can happen on account of the place
+  std::int64_t watch_low = 0;  // while travel stays within these, nothing can happen because of the position
   std::int64_t watch_high = 0;
   std::int64_t base_pulses = 0;  // travel where the drive's coordinate is 0
   std::uint32_t seen_version = 0;
@@ -129,10 +129,10 @@ struct alignas(64) Axis {
 
   AxisSettings settings;
   std::array<Comparator, 4> comparators{};
-  std::int64_t encoder_pulses = 0;    // as told by set_encoder()
-  std::int64_t encoder_seen = 0;      // up to where comparators have looked
-  std::int64_t backlash_sent = 0;     // all extra pulses so far, signed by direction
-  std::int64_t play_pulses = 0;       // 0 .. backlash_pulses: how far in its play the axis is towards plus
+  std::int64_t encoder_pulses = 0;  // as told by set_encoder()
+  std::int64_t encoder_seen = 0;    // up to where comparators have looked
+  std::int64_t backlash_sent = 0;   // all extra pulses so far, signed by direction
+  std::int64_t play_pulses = 0;     // 0 .. backlash_pulses: how much of the backlash is taken up towards plus
   std::array<Instant, 8> event_at{};  // of each comparator and mark event the last one, to the pulse
 
   // Of the motion that was asked for.
@@ -149,17 +149,17 @@ struct alignas(64) Axis {
   bool operator==(const Axis&) const = default;
 
   // ---- Commands, between ticks; `now` is the last tick that was stepped. A motion from rest is at its
-  // beginning in the next tick; a change acts from now. All give Cause::none when taken, else what they are
-  // refused for; a refused one changes nothing. All throw BadMotion as motion/move.h says, and then have
-  // changed nothing.
+  // beginning in the next tick; a change acts from now. All return Cause::none when taken, else why they are
+  // refused; a refused one changes nothing. All throw BadMotion as motion/move.h says, and then nothing has
+  // changed.
 
-  /// A move by `distance_pulses`, signed, from where the axis is; what runs is dropped. 0 ends it and is over
-  /// at once.
+  /// A move by `distance_pulses`, signed, from where the axis is; a running motion is dropped. 0 ends it and
+  /// is over at once.
   Cause move(std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
-  /// The same from a signed speed that the axis has already, by another generator: on to the target, or,
-  /// where it is too near or behind, to a stop and back to it.
+  /// Like the above, from a signed speed that the axis already has from another generator: on to the target,
+  /// or, if that is too near or behind, to a stop and back to it.
   Cause move_on(double speed_pps, std::int64_t distance_pulses, const SpeedLaw& speed, Tick now);
-  /// On and on in `way` (+1 or -1).
+  /// Without end in `way` (+1 or -1).
   Cause run(int way, const SpeedLaw& speed, Tick now);
   /// A move at speed 0: moving, but no pulse (Simple2-R3).
   Cause hang(int way);
@@ -173,21 +173,21 @@ struct alignas(64) Axis {
   /// Another law of speed from now on, for a move or an endless run; nothing when none runs or it is
   /// stopping.
   void change_speed(const SpeedLaw& speed, Tick now);
-  /// Another distance for the running move, counted from where it began, in its direction. What is already
-  /// passed or too near is overshot and returned to, or with `stop_if_passed` (MCX314), when passed, ends at
-  /// once.
+  /// Another distance for the running move, counted from where it began, in its direction. A target that is
+  /// already passed, or too near, is overshot and returned to; with `stop_if_passed` (MCX314) the move ends
+  /// at once if it is passed.
   void change_distance(std::int64_t distance_pulses, bool stop_if_passed, Tick now);
-  /// What follows or is carried ends at once: its speed is another's (motion/coordinated.h slows a path
-  /// down).
+  /// An axis that follows or is carried stops at once, since its speed is not its own (motion/coordinated.h
+  /// slows a path down).
   void slow_down(Tick now, Cause why = Cause::stopped);
-  /// Takes a slow_down() by command back while the axis still moves: on to the target or the top speed of
-  /// `speed`. False where there is none to take back; homing ends by being slowed down.
+  /// Cancels a commanded slow_down() while the axis still moves: on to the target or the top speed of
+  /// `speed`. Returns false if there is none to cancel; homing ends when it is slowed down.
   bool resume(const SpeedLaw& speed, Tick now);
   /// No pulse from now on.
   void stop(Cause why = Cause::stopped);
   void switch_servo(bool on);
   /// Homing by a table of phases (motion/homing.h). It lasts until Event::homed, or until Event::ended with
-  /// Cause::homing_failed or stopped: homing.ended_by and ended_in tell why and where. Commands for a motion
+  /// Cause::homing_failed or stopped: homing.ended_by and ended_in say why and where. Commands for a motion
   /// of another kind end it; changes of speed and distance leave it as it is.
   Cause home(const HomingProgram& program, Tick now);
 
@@ -200,7 +200,7 @@ struct alignas(64) Axis {
   bool moving() const { return task != Task::none || homing.active(); }
   /// Why a motion in `way` would be refused now; none if it may begin.
   Cause forbidden(int way) const;
-  /// The same for what forbids every way (servo, emergency, alarm).
+  /// Likewise, for what forbids both ways (servo, emergency, alarm).
   Cause forbidden_anywhere() const;
   /// Position in the drive's coordinate, speed and acceleration along the motion, after tick `now`.
   Sample sample(Tick now) const { return drive.sample({.tick = now}); }
@@ -234,7 +234,7 @@ struct alignas(64) Axis {
   }
 
   /// One tick of an axis that takes part: instead of step(), goes by `pulses`. Edges are met at their pulse,
-  /// but at the tick's end in time. What a reaction leaves of the pulses is not sent.
+  /// but at the tick's end in time. Pulses left over after a reaction are not sent.
   std::int64_t carry(std::int64_t pulses, Tick tick, const Surroundings& here) {
     const std::int64_t travel = travel_pulses + pulses;
     const bool turns = settings.backlash_pulses > 0;
@@ -277,7 +277,7 @@ struct alignas(64) Axis {
   void watch(const Surroundings& here);
 
   // Homing: motion/homing_run.cpp.
-  bool homing_takes(Signal signal) const;         // the phase deals with it: no reaction of the axis
+  bool homing_takes(Signal signal) const;         // the phase deals with it: the axis does not react
   void homing_sees(Signals changed, Instant at);  // `signals` are the new ones
   void homing_slows(Cause why);                   // ... down to a stop for `why`, or does so already
   void homing_stands(Cause why, Instant at);      // the phase's motion has ended

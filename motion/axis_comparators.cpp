@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
+#include "motion/pulse_drive.h"
 
 // Position compare: what an axis's counts pass on their way.
 namespace understudy::motion {

@@ -1,7 +1,12 @@
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "motion/axis.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
 
 // The tick of an axis, where something can happen in it.
 namespace understudy::motion {
@@ -50,7 +55,8 @@ std::int64_t Axis::step_with_care(Tick tick, const Surroundings& here) {
   return inverted ? -pulses : pulses;
 }
 
-/// Sends what of the backlash is due, and begins the motion proper where it is over. Gives that moment.
+/// Sends the part of the backlash that is due, and begins the motion itself when that is over. Returns that
+/// moment.
 Instant Axis::take_up_backlash(Tick tick) {
   const std::int64_t sent = drive.pulses_at(tick);
   backlash_sent += (sent - drive.sent_pulses) * drive.direction;

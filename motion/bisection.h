@@ -12,9 +12,9 @@ struct Turnover {
   double after = 0;
 };
 
-/// Halves [from, to], 0 <= from <= to, where `over` turns from false to true; that it is false at `from` and
-/// true at `to` is taken for granted. Halves the doubles between the two, not their difference: 64 steps do,
-/// however far apart they are.
+/// Halves [from, to], 0 <= from <= to, where `over` turns from false to true; `over` must be false at `from`
+/// and true at `to`. Halves the doubles between the two, not their difference: 64 steps are enough, however
+/// far apart they are.
 template <class Over>
 Turnover turnover(double from, double to, const Over& over) {
   auto low = std::bit_cast<std::uint64_t>(from > 0 ? from : 0.0);  // -0.0 has other bits

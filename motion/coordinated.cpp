@@ -1,8 +1,15 @@
 #include "motion/coordinated.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
-#include "motion/bad_motion.h"
+#include "motion/axis.h"
+#include "motion/path.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::motion {
 

@@ -18,7 +18,7 @@ struct Coordinated {
   static constexpr std::int8_t kNone = -1;
 
   PathRun run;
-  // For each coordinate of the path, 0 .. 3: the axis that goes by it, in the span given to the tick, or
+  // For each coordinate of the path, 0 .. 3: the axis that moves with it, in the span given to the tick, or
   // kNone. One that the span does not have is left out.
   std::array<std::int8_t, kPathAxes> axis_of{kNone, kNone, kNone, kNone};
   std::array<UnitScale, kPathAxes> scale{};
@@ -32,14 +32,14 @@ struct Coordinated {
   bool operator==(const Coordinated&) const = default;
 
   /// Takes the axes along `axis_of` and begins what is queued. `from` is the place they are at, in path
-  /// units. What one axis is refused for, all are: then nothing has changed. Throws BadMotion for a place
-  /// that is not finite or not where the first path begins, and for a scale that is none.
+  /// units. If one axis is refused, all are; then nothing has changed. Throws BadMotion for a place that is
+  /// not finite or not where the first path begins, and for an invalid scale.
   Cause begin(const Point& from, std::span<Axis> axes, Tick now);
 
   /// One tick of the axes that take part before it, instead of their own step(); `here` and `pulses` (added
-  /// to, signed as they come out) go with `axes`. When one is stopped, by whatever, all are, where they are,
-  /// and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the owner keeps
-  /// them with `stays_engaged`).
+  /// to, signed as they come out) go with `axes`. When one is stopped, for whatever reason, all stop where
+  /// they are, and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the
+  /// owner keeps them with `stays_engaged`).
   void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
@@ -50,9 +50,9 @@ struct Coordinated {
   void stop(std::span<Axis> axes, Cause why = Cause::stopped);
 
   bool takes(std::size_t axis) const;
-  /// The signed speed of that axis after tick `now`; 0 for one that takes no part.
+  /// The signed speed of that axis after tick `now`; 0 if it takes no part.
   double speed_pps(std::size_t axis, Tick now) const;
-  /// The travel of the axis of coordinate `i` at a place: round half away from zero.
+  /// The travel of the axis of coordinate `i` at a place, rounded half away from zero.
   std::int64_t travel_at(std::size_t i, double place_u) const;
 };
 

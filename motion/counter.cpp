@@ -1,5 +1,8 @@
 #include "motion/counter.h"
 
+#include <cstdint>
+#include <optional>
+
 namespace understudy::motion {
 
 namespace {

@@ -1,5 +1,7 @@
 #include "motion/external_drive.h"
 
+#include <cstdint>
+
 namespace understudy::motion {
 
 namespace {

@@ -17,7 +17,7 @@ struct ExternalDrive {
 
   Mode mode = Mode::off;
   std::int64_t pulses = 0;
-  // State: the levels last seen, and the way a continuous run was begun in (0: none).
+  // State: the levels last seen, and the way in which a continuous run was begun (0: none).
   bool plus_high = true;
   bool minus_high = true;
   std::int8_t running = 0;

@@ -11,12 +11,12 @@ struct Follower {
   // pulses = counts * numerator / denominator; the numerator's sign is the direction, 0 stands still.
   std::int64_t numerator = 1;
   std::int64_t denominator = 1;
-  // Counts are gathered for so many ticks, and their pulses come out evenly over the next as many.
+  // Counts are gathered for this many ticks, and their pulses come out evenly over the next as many.
   std::int32_t period_ticks = 1;
   std::int64_t top_speed_pps = 0;  // no faster than this; 0: no bound
   std::int64_t slope_pps = 0;      // and the speed changes by at most this from period to period; 0: no bound
-  // Pulses lost to the bounds are sent later, and it slows down in time for where it should be; else they
-  // are forgotten.
+  // Pulses held back by the bounds are sent later, and it slows down in time for where it should be; else
+  // they are forgotten.
   bool catches_up = false;
 
   // State.

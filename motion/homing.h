@@ -5,8 +5,8 @@
 //   phase 1  search -, creep, until home off, stop            ╭──────╯
 //   phase 2  search +, creep, until home on, stop             ╰─────● the reference
 //
-// The tables of the four controllers are in motion/homing_tables.h; what runs them, in homing_run.cpp, knows
-// none of them. Every edge is met at its pulse (motion/surroundings.h).
+// The tables of the four controllers are in motion/homing_tables.h; the code that runs them, homing_run.cpp,
+// knows none of them. Every edge is met at its pulse (motion/surroundings.h).
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ enum class Cause : std::uint8_t;  // motion/axis.h
 struct HomingPhase {
   enum class Does : std::uint8_t {
     search,   // goes `way` until `until` turns `until_on`, as a fresh edge, `count` times
-    go,       // by `distance_pulses`; again and again while a signal of `again_while` is on, if any is given
+    go,       // by `distance_pulses`; repeatedly while a signal of `again_while` is on, if any is given
     go_back,  // to the travel that a phase before marked
     hang,     // goes `way` at speed 0: no pulse, until a command ends it (Simple2-R3)
   };
@@ -74,11 +74,11 @@ struct HomingProgram {
   void add(const HomingPhase& phase);
 };
 
-/// Throws BadMotion for a table that cannot be run: a row or a speed that is not there, a count below 1, a
-/// speed law that a row uses and motion/move.h refuses.
+/// Throws BadMotion for a table that cannot be run: a missing row or speed, a count below 1, a speed law that
+/// a row uses and motion/move.h refuses.
 void check(const HomingProgram& program);
 
-/// A homing under way, and afterwards what became of it.
+/// A homing under way, and afterwards its result.
 struct Homing {
   HomingProgram program;
   std::int8_t phase = -1;     // the row that runs; -1: not homing

@@ -1,8 +1,13 @@
+#include <cstdint>
 #include <cstdlib>
-#include <string>
 
 #include "motion/axis.h"
 #include "motion/bad_motion.h"
+#include "motion/homing.h"
+#include "motion/move.h"
+#include "motion/pulse_drive.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
 
 // Runs a homing table. Phases begin and end inside ticks, at the edges that separate them.
 namespace understudy::motion {

@@ -1,9 +1,14 @@
 #include "motion/homing_tables.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "motion/bad_motion.h"
+#include "motion/homing.h"
+#include "motion/surroundings.h"
 
 namespace understudy::motion {
 

@@ -1,5 +1,5 @@
 // How the four controllers go home, as tables for motion/homing.h, made from their parameters in pulses and
-// pulses per second. What their counters show afterwards is for the devices to say.
+// pulses per second. The devices say what their counters show afterwards.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ HomingProgram super40nc_homing(const Super40ncHoming& how);
 /// Modes that look for the limit on the side of `way`, and cannot find home where that is not in use.
 bool super40nc_homes_by_limit(int mode);
 
-/// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each in a
-/// direction of its own or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is what
+/// RS-M8194H, SET_HV, HOME_LIMIT, SET_HOME_MODE (manual, 6 and 4.8): four steps of the MCX314 chip, each in
+/// its own direction, or left out. Signals: near_home is IN0, home IN1, index IN2. A phase's code is what
 /// input 92 + a shows meanwhile.
 struct Rsm8194hHoming {
   std::array<int, 4> ways{};       // of steps 1 to 4: +1, -1, or 0: skipped
@@ -47,7 +47,7 @@ struct Simple2Homing {
 };
 HomingProgram simple2_homing(const Simple2Homing& how);
 
-/// SLIM, H: at -VJ until horg is on, and slow down there.
+/// SLIM, H: at -VJ until horg is on, then slow down.
 struct SlimHoming {
   int way = -1;  // +1 for a negative VJ
   SpeedLaw jog;  // VJ; a top speed of 0 hangs

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "motion/bad_motion.h"
 #include "motion/bisection.h"
+#include "motion/profile.h"
+#include "motion/ramp.h"
 #include "motion/short_move.h"
 
 namespace understudy::motion {
@@ -21,38 +25,38 @@ const RampLaw& reckoned(const SpeedLaw& law) {
 double start_speed(const SpeedLaw& law) { return std::min(law.start_speed_u_s, law.top_speed_u_s); }
 
 /// How much remains when slowing down from `speed_u_s` begins.
-double slow_down_distance(const SpeedLaw& law, double speed) {
+double slow_down_distance(const SpeedLaw& law, double speed_u_s) {
   const double start = start_speed(law);
-  const double reckoned_u = law.slow_down_at_u ? *law.slow_down_at_u
-                            : speed > start    ? ramp_distance(reckoned(law), speed, start)
-                                               : 0;
+  const double reckoned_u = law.slow_down_at_u  ? *law.slow_down_at_u
+                            : speed_u_s > start ? ramp_distance(reckoned(law), speed_u_s, start)
+                                                : 0;
   return reckoned_u + law.slow_down_offset_u;
 }
 
 /// Less than this is what roundings leave of a distance, not a distance to be covered.
-double rounding_of(double target) { return 1e-9 + 1e-14 * std::abs(target); }
+double rounding_of(double target_u) { return 1e-9 + 1e-14 * std::abs(target_u); }
 
 bool slows_down_by_chip_rules(const SpeedLaw& law) {
   return law.slow_down_at_u || law.slow_down_reckoned_by || law.slow_down_offset_u != 0;
 }
 
 /// Slows down from `speed_u_s` and ends on `target_u`: creeps what is left, or is cut off.
-void finish(Profile& profile, const SpeedLaw& law, double speed, double target) {
+void finish(Profile& profile, const SpeedLaw& law, double speed_u_s, double target_u) {
   const double start = start_speed(law);
-  if (speed > start) append_ramp(profile, law.down, speed, start);
-  if (slows_down_by_chip_rules(law) || speed <= start) {
-    const double left = target - profile.end_position_u;
-    if (left > rounding_of(target)) {
+  if (speed_u_s > start) append_ramp(profile, law.down, speed_u_s, start);
+  if (slows_down_by_chip_rules(law) || speed_u_s <= start) {
+    const double left = target_u - profile.end_position_u;
+    if (left > rounding_of(target_u)) {
       if (start <= 0) {
         throw BadMotion(Refusal::not_positive, "move",
                         "start speed must be above 0 to creep the rest at, is 0");
       }
       profile.append(left / start, start, 0, 0);
-    } else if (left < -rounding_of(target)) {
-      profile.cut_at(target);
+    } else if (left < -rounding_of(target_u)) {
+      profile.cut_at(target_u);
     }
   }
-  profile.end_exactly_at(target);
+  profile.end_exactly_at(target_u);
 }
 
 /// Adds a whole move, forwards or back.
@@ -66,11 +70,11 @@ void append_move(Profile& profile, const Profile& move, double sign) {
 }
 
 /// Up as far as slowing down allows, with the ramp broken off there.
-Profile rise_and_break_off(const SpeedLaw& law, double target) {
+Profile rise_and_break_off(const SpeedLaw& law, double target_u) {
   Profile profile;
   append_ramp(profile, law.up, start_speed(law), law.top_speed_u_s);
   const auto must_slow_down = [&](const Sample& here) {
-    return here.position_u + slow_down_distance(law, here.speed_u_s) >= target;
+    return here.position_u + slow_down_distance(law, here.speed_u_s) >= target_u;
   };
   const Sample top{.position_u = profile.end_position_u, .speed_u_s = law.top_speed_u_s};
   if (must_slow_down(top)) {
@@ -105,20 +109,20 @@ void check(const SpeedLaw& law) {
   demand_finite(law.slow_down_offset_u, "move", "slow-down offset");
 }
 
-Profile plan(double distance, const SpeedLaw& law) {
+Profile plan(double distance_u, const SpeedLaw& law) {
   check(law);
-  demand_not_negative(distance, "move", "distance");
+  demand_not_negative(distance_u, "move", "distance");
   Profile profile;
-  if (distance == 0) return profile;
+  if (distance_u == 0) return profile;
 
   const double start = start_speed(law);
   double top = law.top_speed_u_s;
   if (law.slow_down_at_u || law.when_short == Short::cut_ramp) {
-    profile = rise_and_break_off(law, distance);
+    profile = rise_and_break_off(law, distance_u);
     top = profile.segment_count > 0 ? profile.end_speed_u_s : start;
   } else {
     const double room =
-        (distance - law.slow_down_offset_u) * (law.when_short == Short::keep_half ? 0.5 : 1.0);
+        (distance_u - law.slow_down_offset_u) * (law.when_short == Short::keep_half ? 0.5 : 1.0);
     const double whole_rise = top - start;
     const double rise = rise_within(room, start, law.up, reckoned(law), whole_rise);
     if (rise < whole_rise) {
@@ -128,9 +132,9 @@ Profile plan(double distance, const SpeedLaw& law) {
     }
     if (top > start) append_ramp(profile, law.up, start, top);
   }
-  const double cruise = distance - profile.end_position_u - slow_down_distance(law, top);
+  const double cruise = distance_u - profile.end_position_u - slow_down_distance(law, top);
   if (cruise > 0) profile.append(cruise / top, top, 0, 0);
-  finish(profile, law, top, distance);
+  finish(profile, law, top, distance_u);
   demand_doubles_hold(profile);
   return profile;
 }
@@ -160,10 +164,10 @@ void check_state(const Sample& now) {
   demand_finite(now.jerk_u_s3, "move under way", "jerk");
 }
 
-void append_change(Profile& profile, const Sample& now, double to, const SpeedLaw& law) {
+void append_change(Profile& profile, const Sample& now, double to_u_s, const SpeedLaw& law) {
   append_change(
-      profile, now, to, law.up, law.down,
-      {.least_u_s = start_speed(law), .most_u_s = std::max({law.top_speed_u_s, now.speed_u_s, to})});
+      profile, now, to_u_s, law.up, law.down,
+      {.least_u_s = start_speed(law), .most_u_s = std::max({law.top_speed_u_s, now.speed_u_s, to_u_s})});
 }
 
 double speed_without_acceleration(const Sample& now, const SpeedLaw& law) {

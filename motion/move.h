@@ -35,11 +35,11 @@ struct SpeedLaw {
   RampLaw down{};
   Short when_short = Short::lower_top;
 
-  // Where slowing down begins: when what remains is the distance of the ramp down, by `down` or, where given,
-  // by the law the chip reckons with; or at a fixed place; plus the offset. Begun early, the rest is crept at
-  // the start speed; begun late, the move ends abruptly on its target (a declared chip cut-off).
+  // Where slowing down begins: when what remains is the distance of the ramp down, by `down` or, if given, by
+  // the law that the chip calculates with; or at a fixed place; plus the offset. If it begins early, the rest
+  // is crept at the start speed; if late, the move ends abruptly on its target (a declared chip cut-off).
   std::optional<RampLaw> slow_down_reckoned_by{};  // SUPER-40NC: deceleration longer than 2 x acceleration
-  std::optional<double> slow_down_at_u{};          // PCL6045 PRDP: >= 0, instead of reckoning
+  std::optional<double> slow_down_at_u{};          // PCL6045 PRDP: >= 0, instead of calculating
   double slow_down_offset_u = 0;                   // MCX314 AO
 
   bool operator==(const SpeedLaw&) const = default;
@@ -63,9 +63,9 @@ Profile change_speed(const Sample& now, double speed_u_s, const SpeedLaw& law);
 Profile slow_to_stop(const Sample& now, const SpeedLaw& law);
 
 /// From any state (speed >= 0) to a target further on, or to one that is already passed or too near to stop
-/// at: then it stops, and comes back. `law` may be another than the move was begun with; its when_short is
-/// for moves from rest. With the law and the target of a move it goes on as that would have, but for ramps by
-/// time, which begin anew, and for moves that are cut off, which come back once they slow down. Less than
+/// at: then it stops, and comes back. `law` may differ from the one that the move began with; its when_short
+/// is for moves from rest. With the same law and target as before a move goes on unchanged, except for ramps
+/// by time, which begin again, and for moves that are cut off, which come back once they slow down. Less than
 /// about 1e-9 is not a distance.
 Profile change_target(const Sample& state, double target_u, const SpeedLaw& law);
 

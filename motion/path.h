@@ -1,4 +1,4 @@
-// A path: geometry in up to four axes over arc length, without time. Where along it one is comes from a
+// A path: geometry in up to four axes over arc length, without time. The position along it comes from a
 // profile (motion/profile.h); several in a row without stopping are a chain (motion/path_run.h).
 //
 //   line      ●────────────●           arc, circle, several turns      ╭──╮    helix: an arc while the
@@ -49,7 +49,7 @@ enum class Measure : std::uint8_t {
                  // that changes by more than the tolerance is BadMotion(out_of_range).
 };
 
-/// One piece of a path, as a value. Made by the functions below only.
+/// One piece of a path, as a value. Made only by the functions below.
 struct Path {
   enum class Kind : std::uint8_t { line, arc };  // an arc with `radius_slope` != 0 is a spiral
 
@@ -96,8 +96,8 @@ struct ArcOptions {
 /// An arc about `centre` (its coordinates in the plane count) from `begin` to `end`, in the direction of
 /// `turn`. In the plane `end` == `begin` is a full circle, and so is an end that the centre sees within 1e-9
 /// rad of `begin`, on either side: rounding never decides between a whole turn and none. `more_turns` >= 0
-/// adds whole turns, up to 1e6 rad in all. What `end` differs from `begin` outside the plane is the rise: a
-/// helix. A centre on `begin` or `end`: BadMotion(no_such_arc).
+/// adds whole turns, up to 1e6 rad in all. The difference between `end` and `begin` outside the plane is the
+/// rise: a helix. A centre on `begin` or `end`: BadMotion(no_such_arc).
 Path arc_by_centre(const Point& begin, const Point& centre, const Point& end, Turn turn,
                    const ArcOptions& options = {}, std::int64_t more_turns = 0);
 
@@ -120,11 +120,11 @@ Path arc_by_radius(const Point& begin, const Point& end, double radius_u, Turn t
 Path arc_by_three_points(const Point& begin, const Point& middle, const Point& end,
                          const ArcOptions& options = {});
 
-/// The same in whatever plane the three points span, oblique ones too (all four axes count).
+/// Like the above, in whatever plane the three points span, even an oblique one (all four axes count).
 Path arc_in_space(const Point& begin, const Point& middle, const Point& end);
 
 /// A spiral about `centre` through `sweep_rad`, its radius changing by `growth_u_turn` for each whole turn. A
-/// radius that would pass below 0: BadMotion(no_such_arc). It may begin in its centre, and then leaves along
+/// radius that would pass below 0: BadMotion(no_such_arc). It may begin at its centre, and then leaves along
 /// the first axis, or end there. A sweep of 0 as in arc_by_sweep.
 Path spiral(const Point& begin, const Point& centre, double sweep_rad, double growth_u_turn,
             const Point& rise = Point::Zero(), const ArcOptions& options = {});

@@ -6,6 +6,7 @@
 
 #include "motion/bad_motion.h"
 #include "motion/elementary.h"
+#include "motion/path.h"
 
 namespace understudy::motion {
 

@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "motion/bad_motion.h"
+#include "motion/move.h"
+#include "motion/path.h"
+#include "motion/profile.h"
+#include "motion/ramp.h"
+#include "motion/tick.h"
 
 namespace understudy::motion {
 
@@ -89,7 +95,7 @@ void PathRun::set_speed(const SpeedLaw& speed, Tick now) {
   check(speed);
   const bool same_ramps = speed.up == law_.up && speed.down == law_.down;
   if (!same_ramps && !at_rest(now)) {
-    throw BadMotion(Refusal::out_of_range, "path run", "acceleration can be changed at rest only");
+    throw BadMotion(Refusal::out_of_range, "path run", "acceleration can be changed only at rest");
   }
   if (speed == law_) return;
   demand_plans(speed, override_);
@@ -263,7 +269,7 @@ void PathRun::check_queue() const {
   fits = fits && begin_tick_ >= -kFarthest && begin_tick_ <= kFarthest && !profile_.endless();
   for (const Piece& each : pieces_) fits = fits && std::isfinite(each.begin_u);
   if (!fits) {
-    throw BadMotion(Refusal::out_of_range, "path run", "the queue's numbers do not fit each other");
+    throw BadMotion(Refusal::out_of_range, "path run", "the queue's numbers contradict each other");
   }
   if (running_) demand_plans(law_, override_);
 }

@@ -32,7 +32,7 @@ struct Joint {
   bool operator==(const Joint&) const = default;
 };
 
-/// Equal corners must count as equal: what roundings make of 45 degrees is 45 degrees.
+/// Equal corners must count as equal: 45 degrees remain 45 degrees despite rounding.
 inline constexpr double kCornerTolerance_deg = 1e-9;
 
 class PathRun {
@@ -54,13 +54,13 @@ class PathRun {
   std::size_t queued() const { return count_; }
 
   /// The speed of what runs and what comes. Before a run begins, and at any time after, from `now` on. Throws
-  /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with.
-  /// Acceleration may be changed while at rest only: BadMotion(out_of_range) else.
+  /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with. Acceleration
+  /// may be changed only at rest: else throws BadMotion(out_of_range).
   void set_speed(const SpeedLaw& speed, Tick now);
   /// Another top speed with the same ramps: at any time.
   void set_top_speed(double speed_u_s, Tick now);
-  /// Scales the top speed by a factor from 0 (holds, on the path) to 10. Throws BadMotion(out_of_range) else,
-  /// and for a top speed that would be too small to plan with.
+  /// Scales the top speed by a factor from 0 (holds, on the path) to 10. Throws BadMotion(out_of_range)
+  /// beyond that, and for a top speed that would be too small to plan with.
   void set_override(double factor, Tick now);
 
   /// Begins what is queued, from rest, in the next tick. Further chains follow by themselves, and what is
@@ -74,10 +74,10 @@ class PathRun {
   void pause(Tick now);
   /// Goes on exactly where it was; while still slowing down, speeds up again.
   void resume(Tick now);
-  /// Forgets the paths behind the first one at whose end it can still stop, and stops there. Gives how many
+  /// Forgets the paths behind the first one at whose end it can still stop, and stops there. Returns how many
   /// are left; what has not begun is forgotten altogether.
   std::size_t shorten(Tick now);
-  /// Forgets what is left, at once: also the velocity. To be called at rest, unless it is meant so.
+  /// Forgets what is left at once, including the velocity. Call it at rest, unless that is intended.
   void abandon();
 
   bool running() const { return running_ && count_ > 0; }  // something is not done, paused or not
@@ -96,7 +96,7 @@ class PathRun {
   /// The path being run; of the queue's front.
   const Path& path() const { return pieces_[head_].path; }
 
-  /// Throws BadMotion(out_of_range) if the numbers do not fit each other: for states from outside.
+  /// Throws BadMotion(out_of_range) if the numbers contradict each other: for states from outside.
   void check_queue() const;
 
  private:

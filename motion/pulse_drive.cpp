@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "motion/profile.h"
+#include "motion/tick.h"
 
 namespace understudy::motion {
 

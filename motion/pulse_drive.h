@@ -1,7 +1,7 @@
 // A pulse generator, as a value: a profile running on the clock, in whole pulses.
 //
-// It knows one direction and pulses. What a pulse means (a coordinate, a direction pin) and when a move is
-// allowed (servo, alarm, limit) is for its owner to say: motion/axis.h, or a device of its own kind.
+// It knows one direction and pulses. Its owner says what a pulse means (a coordinate, a direction pin) and
+// when a move is allowed (servo, alarm, limit): motion/axis.h, or some other device.
 #pragma once
 
 #include <cstdint>
@@ -82,7 +82,7 @@ struct PulseDrive {
     return pulses_of_segment(tick);
   }
 
-  /// The same in the midst of a segment, that is before `next_look`: a cubic and a rounding.
+  /// Likewise, within a segment, that is before `next_look`: a cubic and a rounding.
   std::int64_t pulses_of_segment(Tick tick) const {
     const double k = static_cast<double>(tick - begin_tick) - now.begin_ticks;
     return whole(now.place + k * (now.first + k * (now.second + k * now.third)));
@@ -113,7 +113,7 @@ struct PulseDrive {
   }
 
  private:
-  /// Floor, without the library's call; where nobody can count any more (9e18) it stays.
+  /// Floor, without a library call; beyond 9e18 it returns 9e18.
   static std::int64_t whole(double place) {
     constexpr std::int64_t kMost = 9'000'000'000'000'000'000;
     if (place >= 0 && place < 9e18) [[likely]]

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "motion/bad_motion.h"
+#include "motion/profile.h"
 
 namespace understudy::motion {
 
@@ -12,8 +13,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// What of its acceleration a law can have: more than it could have built up from standstill, as after a
-/// change to a softer law, is not its own and drops at once. So fading at most doubles the speed.
+/// The part of its acceleration that a law can have: more than it could have built up from standstill, as
+/// after a change to a softer law, is not its own and drops at once. So fading at most doubles the speed.
 double own_acceleration(const Sample& now, const RampLaw& up) {
   if (now.acceleration_u_s2 <= 0 || up.kind != RampLaw::Kind::jerk) return now.acceleration_u_s2;
   return std::min(now.acceleration_u_s2, std::sqrt(2 * up.jerk_u_s3 * now.speed_u_s) * (1 + 1e-12));
@@ -47,37 +48,37 @@ double jerk_within(const SpeedRange& range, const Sample& now, double accelerati
 }
 
 /// Less than this is what roundings leave of a change of speed, not a change to be made by a ramp.
-double rounding_of_change(double from, double to) { return 1e-12 * std::max(from, to); }
+double rounding_of_change(double from_u_s, double to_u_s) { return 1e-12 * std::max(from_u_s, to_u_s); }
 
 }  // namespace
 
-RampLaw RampLaw::by_slope(double acceleration) {
-  RampLaw law{.kind = Kind::slope, .acceleration_u_s2 = acceleration};
+RampLaw RampLaw::by_slope(double acceleration_u_s2) {
+  RampLaw law{.kind = Kind::slope, .acceleration_u_s2 = acceleration_u_s2};
   check(law);
   return law;
 }
 
-RampLaw RampLaw::by_time(double duration) {
-  RampLaw law{.kind = Kind::time, .duration_s = duration};
+RampLaw RampLaw::by_time(double duration_s) {
+  RampLaw law{.kind = Kind::time, .duration_s = duration_s};
   check(law);
   return law;
 }
 
-RampLaw RampLaw::by_jerk(double jerk) {
-  RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = kInfinite, .jerk_u_s3 = jerk};
+RampLaw RampLaw::by_jerk(double jerk_u_s3) {
+  RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = kInfinite, .jerk_u_s3 = jerk_u_s3};
   check(law);
   return law;
 }
 
-RampLaw RampLaw::by_jerk(double jerk, double acceleration_limit) {
-  demand_finite(acceleration_limit, "jerk ramp", "acceleration limit");
-  RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = acceleration_limit, .jerk_u_s3 = jerk};
+RampLaw RampLaw::by_jerk(double jerk_u_s3, double acceleration_limit_u_s2) {
+  demand_finite(acceleration_limit_u_s2, "jerk ramp", "acceleration limit");
+  RampLaw law{.kind = Kind::jerk, .acceleration_u_s2 = acceleration_limit_u_s2, .jerk_u_s3 = jerk_u_s3};
   check(law);
   return law;
 }
 
-RampLaw RampLaw::by_sections(double acceleration, double section) {
-  RampLaw law{.kind = Kind::sections, .acceleration_u_s2 = acceleration, .section_u_s = section};
+RampLaw RampLaw::by_sections(double acceleration_u_s2, double section_u_s) {
+  RampLaw law{.kind = Kind::sections, .acceleration_u_s2 = acceleration_u_s2, .section_u_s = section_u_s};
   check(law);
   return law;
 }
@@ -109,41 +110,42 @@ double form_changes_at(const RampLaw& law) {
   return kInfinite;
 }
 
-RampTime time_law(const RampLaw& law, double dv) {
+RampTime time_law(const RampLaw& law, double dv_u_s) {
   const double a = law.acceleration_u_s2;
   switch (law.kind) {
     case RampLaw::Kind::slope: return {.per_speed = 1 / a};
     case RampLaw::Kind::time: return {.constant = law.duration_s};
     case RampLaw::Kind::jerk:
-      if (dv <= form_changes_at(law)) return {.per_root = 2 / std::sqrt(law.jerk_u_s3)};
+      if (dv_u_s <= form_changes_at(law)) return {.per_root = 2 / std::sqrt(law.jerk_u_s3)};
       return {.per_speed = 1 / a, .constant = a / law.jerk_u_s3};
     case RampLaw::Kind::sections:
-      if (dv <= form_changes_at(law)) return {.per_speed = 2 / a};
+      if (dv_u_s <= form_changes_at(law)) return {.per_speed = 2 / a};
       return {.per_speed = 1 / a, .constant = 2 * law.section_u_s / a};
   }
   return {};
 }
 
-Ramp ramp(const RampLaw& law, double dv) {
-  if (!(dv > 0)) return {};
+Ramp ramp(const RampLaw& law, double dv_u_s) {
+  if (!(dv_u_s > 0)) return {};
   const double a = law.acceleration_u_s2;
   switch (law.kind) {
-    case RampLaw::Kind::slope: return {.middle_s = dv / a, .acceleration_u_s2 = a};
-    case RampLaw::Kind::time: return {.middle_s = law.duration_s, .acceleration_u_s2 = dv / law.duration_s};
+    case RampLaw::Kind::slope: return {.middle_s = dv_u_s / a, .acceleration_u_s2 = a};
+    case RampLaw::Kind::time:
+      return {.middle_s = law.duration_s, .acceleration_u_s2 = dv_u_s / law.duration_s};
     case RampLaw::Kind::jerk: {
       const double k = law.jerk_u_s3;
-      if (dv <= form_changes_at(law)) {
-        const double ends_s = std::sqrt(dv / k);
+      if (dv_u_s <= form_changes_at(law)) {
+        const double ends_s = std::sqrt(dv_u_s / k);
         return {.ends_s = ends_s, .acceleration_u_s2 = k * ends_s, .jerk_u_s3 = k};
       }
-      return {.ends_s = a / k, .middle_s = dv / a - a / k, .acceleration_u_s2 = a, .jerk_u_s3 = k};
+      return {.ends_s = a / k, .middle_s = dv_u_s / a - a / k, .acceleration_u_s2 = a, .jerk_u_s3 = k};
     }
     case RampLaw::Kind::sections: {
-      const double section = std::min(law.section_u_s, dv / 2);
-      if (section <= 0) return {.middle_s = dv / a, .acceleration_u_s2 = a};
+      const double section = std::min(law.section_u_s, dv_u_s / 2);
+      if (section <= 0) return {.middle_s = dv_u_s / a, .acceleration_u_s2 = a};
       const double ends_s = 2 * section / a;
       return {.ends_s = ends_s,
-              .middle_s = (dv - 2 * section) / a,
+              .middle_s = (dv_u_s - 2 * section) / a,
               .acceleration_u_s2 = a,
               .jerk_u_s3 = a / ends_s};
     }
@@ -151,21 +153,21 @@ Ramp ramp(const RampLaw& law, double dv) {
   return {};
 }
 
-double ramp_distance(const RampLaw& law, double from, double to) {
-  return 0.5 * (from + to) * ramp(law, std::abs(to - from)).duration_s();
+double ramp_distance(const RampLaw& law, double from_u_s, double to_u_s) {
+  return 0.5 * (from_u_s + to_u_s) * ramp(law, std::abs(to_u_s - from_u_s)).duration_s();
 }
 
-void append_ramp(Profile& profile, const RampLaw& law, double from, double to) {
-  const Ramp shape = ramp(law, std::abs(to - from));
-  const double sign = to < from ? -1 : 1;
+void append_ramp(Profile& profile, const RampLaw& law, double from_u_s, double to_u_s) {
+  const Ramp shape = ramp(law, std::abs(to_u_s - from_u_s));
+  const double sign = to_u_s < from_u_s ? -1 : 1;
   const double a = sign * shape.acceleration_u_s2;
   const double j = sign * shape.jerk_u_s3;
   const double at_ends = 0.5 * a * shape.ends_s;  // the change of speed of each end
-  profile.append(shape.ends_s, from, 0, j);
-  profile.append(shape.middle_s, from + at_ends, a, 0);
-  profile.append(shape.ends_s, to - at_ends, a, -j);
+  profile.append(shape.ends_s, from_u_s, 0, j);
+  profile.append(shape.middle_s, from_u_s + at_ends, a, 0);
+  profile.append(shape.ends_s, to_u_s - at_ends, a, -j);
   // The sum of the parts may miss the speed by a rounding.
-  if (profile.segment_count > 0 && shape.duration_s() > 0) profile.end_speed_u_s = to;
+  if (profile.segment_count > 0 && shape.duration_s() > 0) profile.end_speed_u_s = to_u_s;
 }
 
 double speed_without_acceleration(const Sample& now, const RampLaw& up, const RampLaw& down,
@@ -177,7 +179,7 @@ double speed_without_acceleration(const Sample& now, const RampLaw& up, const Ra
   return std::max(range.least_u_s, faded);
 }
 
-void append_change(Profile& profile, const Sample& now, double to, const RampLaw& up, const RampLaw& down,
+void append_change(Profile& profile, const Sample& now, double to_u_s, const RampLaw& up, const RampLaw& down,
                    const SpeedRange& range) {
   double speed = now.speed_u_s;
   const double acceleration = own_acceleration(now, up);
@@ -186,9 +188,9 @@ void append_change(Profile& profile, const Sample& now, double to, const RampLaw
     const double sign = acceleration < 0 ? -1 : 1;
     const double size = std::abs(acceleration);
     const double faded = speed_without_acceleration(now, up, down, range);
-    if (sign * (to - faded) > rounding_of_change(faded, to)) {
-      // Further in the same direction: to the greatest acceleration, along it, and out of it.
-      const double further = sign * (to - speed);
+    if (sign * (to_u_s - faded) > rounding_of_change(faded, to_u_s)) {
+      // Further in the same direction: to_u_s the greatest acceleration, along it, and out of it.
+      const double further = sign * (to_u_s - speed);
       const double bound = (acceleration > 0 ? up : down).acceleration_u_s2;
       const double peak = std::min(bound, std::sqrt(jerk * further + 0.5 * size * size));
       const double there_s = std::abs(peak - size) / jerk;
@@ -197,18 +199,18 @@ void append_change(Profile& profile, const Sample& now, double to, const RampLaw
       const double left = 0.5 * peak * fade_s;
       profile.append(there_s, speed, acceleration, peak < size ? -sign * jerk : sign * jerk);
       profile.append((further - gained - left) / peak, speed + sign * gained, sign * peak, 0);
-      profile.append(fade_s, to - sign * left, sign * peak, -sign * jerk);
-      profile.end_speed_u_s = to;
+      profile.append(fade_s, to_u_s - sign * left, sign * peak, -sign * jerk);
+      profile.end_speed_u_s = to_u_s;
       return;
     }
     profile.append(size / jerk, speed, acceleration, -sign * jerk);
     profile.end_speed_u_s = faded;
     speed = faded;
   }
-  if (std::abs(to - speed) > rounding_of_change(speed, to)) {
-    append_ramp(profile, to < speed ? down : up, speed, to);
+  if (std::abs(to_u_s - speed) > rounding_of_change(speed, to_u_s)) {
+    append_ramp(profile, to_u_s < speed ? down : up, speed, to_u_s);
   } else if (profile.segment_count > 0) {
-    profile.end_speed_u_s = to;
+    profile.end_speed_u_s = to_u_s;
   }
 }
 

@@ -81,9 +81,9 @@ struct SpeedRange {
 /// not matter) to `to_u_s`, at rest of acceleration there. What acceleration there is is brought to 0 by the
 /// jerk of the law it belongs to (`up` for above 0, `down` for below), so speed may pass `to_u_s` on the way;
 /// laws without jerk drop it at once. A section law goes on with the jerk there is, as that depends on the
-/// change that is under way. Where a jerk is too small to keep within `range` a greater one is taken, but for
-/// a jerk law going up: that passes range.most_u_s, to speed_without_acceleration() at most, no more than
-/// twice the speed.
+/// change that is under way. If a jerk is too small to keep within `range` a greater one is taken, except for
+/// a jerk law going up: that passes range.most_u_s, up to at most speed_without_acceleration(), which is no
+/// more than twice the speed.
 void append_change(Profile& profile, const Sample& now, double to_u_s, const RampLaw& up, const RampLaw& down,
                    const SpeedRange& range);
 /// The speed at which the acceleration of such a change first is 0, if it fades at once.

@@ -4,7 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+
+#include "motion/ramp.h"
 
 namespace understudy::motion {
 
@@ -40,31 +41,31 @@ double above_cube_root(double value) {
   return y * (1 + 1e-9);
 }
 
-double solve_quadratic(const Sum& sum, double start, double twice_distance) {
-  // a x^2 + (b + 2 start a) x + 2 start b - 2 distance = 0, in the form that does not cancel.
-  const double linear = sum.b + 2 * start * sum.a;
-  const double missing = twice_distance - 2 * start * sum.b;
+double solve_quadratic(const Sum& sum, double start_u_s, double twice_distance_u) {
+  // a x^2 + (b + 2 start_u_s a) x + 2 start_u_s b - 2 distance = 0, in the form that does not cancel.
+  const double linear = sum.b + 2 * start_u_s * sum.a;
+  const double missing = twice_distance_u - 2 * start_u_s * sum.b;
   if (missing <= 0) return 0;
   if (sum.a == 0) return missing / linear;
   return 2 * missing / (linear + std::sqrt(linear * linear + 4 * sum.a * missing));
 }
 
-double solve_with_root(const Sum& sum, double start, double twice_distance) {
-  // y = sqrt x: (2 start + y^2) (a y^2 + c y + b) = 2 distance; convex and rising, so Newton's method from
-  // above comes down to the root and never passes it.
-  const double missing = twice_distance - 2 * start * sum.b;
+double solve_with_root(const Sum& sum, double start_u_s, double twice_distance_u) {
+  // y = sqrt x: (2 start_u_s + y^2) (a y^2 + c y + b) = 2 distance; convex and rising, so Newton's method
+  // from above comes down to the root and never passes it.
+  const double missing = twice_distance_u - 2 * start_u_s * sum.b;
   if (missing <= 0) return 0;
   // Each power of y alone gives a bound; the least of them is at most four times too large.
   double y = above_cube_root(missing / sum.c);
-  if (start > 0) y = std::min(y, missing / (2 * start * sum.c));
-  if (const double square = 2 * start * sum.a + sum.b; square > 0)
+  if (start_u_s > 0) y = std::min(y, missing / (2 * start_u_s * sum.c));
+  if (const double square = 2 * start_u_s * sum.a + sum.b; square > 0)
     y = std::min(y, std::sqrt(missing / square));
   if (sum.a > 0) y = std::min(y, std::sqrt(std::sqrt(missing / sum.a)));
   y *= 1 + 1e-15;
   for (int step = 0; step < 20; ++step) {
     const double time = y * (sum.a * y + sum.c) + sum.b;
-    const double speeds = 2 * start + y * y;
-    const double value = speeds * time - twice_distance;
+    const double speeds = 2 * start_u_s + y * y;
+    const double value = speeds * time - twice_distance_u;
     const double rise = 2 * y * time + speeds * (2 * sum.a * y + sum.c);
     const double next = y - value / rise;
     if (!(next < y)) break;
@@ -77,21 +78,22 @@ double solve_with_root(const Sum& sum, double start, double twice_distance) {
 
 }  // namespace
 
-double rise_within(double distance, double start, const RampLaw& up, const RampLaw& down, double limit) {
-  if (!(distance > 0) || !(limit > 0)) return 0;
-  const double limit_needs = sum_at(up, down, limit).distance(start, limit);
-  if (limit_needs <= distance) return limit;
+double rise_within(double distance_u, double start_u_s, const RampLaw& up, const RampLaw& down,
+                   double limit_u_s) {
+  if (!(distance_u > 0) || !(limit_u_s > 0)) return 0;
+  const double limit_needs = sum_at(up, down, limit_u_s).distance(start_u_s, limit_u_s);
+  if (limit_needs <= distance_u) return limit_u_s;
   // Which form of each law holds at the solution: try the places where they change.
   double low = 0;
-  double high = limit;
+  double high = limit_u_s;
   for (const double change : {form_changes_at(up), form_changes_at(down)}) {
     if (change <= low || change >= high) continue;
-    (sum_at(up, down, change).distance(start, change) <= distance ? low : high) = change;
+    (sum_at(up, down, change).distance(start_u_s, change) <= distance_u ? low : high) = change;
   }
   // Forms hold up to and with their change, so the one that holds inside holds at `high`, too.
   const Sum sum = sum_at(up, down, high);
-  const double x =
-      sum.c > 0 ? solve_with_root(sum, start, 2 * distance) : solve_quadratic(sum, start, 2 * distance);
+  const double x = sum.c > 0 ? solve_with_root(sum, start_u_s, 2 * distance_u)
+                             : solve_quadratic(sum, start_u_s, 2 * distance_u);
   return std::clamp(x, low, high);
 }
 

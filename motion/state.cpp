@@ -1,7 +1,14 @@
 #include "motion/state.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
 #include "motion/bad_motion.h"
-#include "motion/state_fields.h"
+#include "motion/state_fields.h"  // IWYU pragma: keep, save() and restore() go through the fields
 
 namespace understudy::motion {
 

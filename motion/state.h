@@ -29,7 +29,7 @@ struct UnitScale;
 template <class T>
 std::vector<std::byte> save(const T& value);
 
-/// Makes `value` what was saved, from the front of `bytes`, and gives how many bytes that took. Throws
+/// Restores `value` from the front of `bytes`, and returns how many bytes that took. Throws
 /// BadMotion(out_of_range) for bytes that are too few or hold what the type cannot (a bool of 7, an
 /// enumeration's value that does not exist, a count beyond its table); `value` is then unchanged.
 template <class T>

@@ -1,5 +1,5 @@
-// What a restored value must be so that its ticks can neither leave a table nor run away, for state.cpp: any
-// bytes may come in, and a type of a few numbers has more bit patterns than it has states.
+// Demands on a restored value, so that its ticks can neither leave a table nor run away, for state.cpp: any
+// bytes may come in, and a few numbers have more bit patterns than states.
 #pragma once
 
 #include <cmath>

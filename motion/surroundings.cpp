@@ -1,6 +1,9 @@
 #include "motion/surroundings.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "motion/bad_motion.h"
 

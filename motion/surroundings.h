@@ -1,7 +1,7 @@
 // What an axis meets on its way: its input signals, and where along its travel they change.
 //
-// The plant fills this in. Signals that depend on the place are given as zones and an index mark, so that an
-// axis can react at the very pulse of an edge, as a chip does, not at the end of the tick.
+// The plant fills this in. Signals that depend on the position are given as zones and an index mark, so that
+// an axis can react at the exact pulse of an edge, as a chip does, not at the end of the tick.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct Surroundings {
 
   static constexpr std::size_t kMaxZones = 8;
 
-  /// To be raised by whoever changes anything below: axes look again only then.
+  /// Raise it after changing anything below: axes look again only then.
   std::uint32_t version = 0;
   Signals steady = 0;  // on wherever the axis is
   std::uint8_t zone_count = 0;

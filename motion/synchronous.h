@@ -1,5 +1,4 @@
-// Synchronous actions between axes: what happens on one axis makes others start, stop or note their
-// positions.
+// Synchronous actions between axes: events on one axis make others start, stop or latch their positions.
 //
 // As the MCX314 has it: a trigger axis has factors (a mask of its events) and a mask of the axes it
 // activates; each axis has the one action it does when activated, by whichever trigger. Source: RS-M8194H
@@ -37,7 +36,7 @@ struct SyncAction {
   bool operator==(const SyncAction&) const = default;
 };
 
-/// What a group of up to four axes does for each other. Numbers of axes are 0 .. 3, masks one bit an axis.
+/// What up to four axes do for each other. Numbers of axes are 0 .. 3, masks one bit an axis.
 struct SyncTable {
   static constexpr std::size_t kAxes = 4;
 

@@ -10,11 +10,11 @@ using Tick = std::int64_t;
 
 inline constexpr double kTicksPerSecond = 1000.0;
 
-/// Within this much of a tick (1 ns) a duration counts as a whole number of ticks. Durations come out
-/// of divisions (3.05 s as 3.0500000000000003 s) and must not cost a tick for that.
+/// Within this much of a tick (1 ns) a duration counts as a whole number of ticks. Durations come from
+/// divisions (3.05 s as 3.0500000000000003 s), which must not cost a tick.
 inline constexpr double kTickTolerance = 1e-6;
 
-/// No tick at all: what "the next tick at which something happens" is when nothing will.
+/// No tick: "the next tick at which something happens" when nothing will.
 inline constexpr Tick kNoTick = INT64_MAX;
 
 }  // namespace understudy::motion

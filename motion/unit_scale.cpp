@@ -1,5 +1,8 @@
 #include "motion/unit_scale.h"
 
+#include <cstdint>
+#include <optional>
+
 #include "motion/bad_motion.h"
 
 namespace understudy::motion {

@@ -1,5 +1,10 @@
 #include "pty/capture.h"
 
+#include <span>
+#include <string>
+
+#include "pty/line_observer.h"
+
 namespace understudy::pty {
 
 std::string text_of(std::span<const Strike> strikes) {

@@ -15,7 +15,7 @@ namespace understudy::pty {
 
 enum class Way : std::uint8_t { from_host, to_host };
 
-/// What is to be said about a packet.
+/// A remark about a packet.
 enum class Remark : std::uint8_t {
   none,
   wrong_checksum,  // a whole request but for its checksum: dropped
@@ -48,12 +48,12 @@ struct CapturedPacket {
   Remark remark = Remark::none;
   bool is_text = false;  // of a line of text, and no Modbus frame
   std::string_view
-      faults{};  // what they have done to it; without bytes: to one that is not here, or was before
+      faults{};  // what they have done to it; without bytes: to one that was dropped, or already seen
 };
 
 /// "fault 1 drop: not said; fault 2 delay: said later".
 std::string text_of(std::span<const Strike> strikes);
-/// All that is to be said about it; empty if that is nothing.
+/// Everything there is to say about it; may be empty.
 std::string comment_of(const CapturedPacket& packet);
 
 /// A line of a capture.

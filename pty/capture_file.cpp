@@ -1,8 +1,18 @@
 #include "pty/capture_file.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "base/files/background_writer.h"
+#include "base/files/output_file.h"
+#include "pty/capture.h"
 #include "pty/capture_pcapng.h"
 #include "pty/capture_text.h"
 

@@ -1,5 +1,5 @@
-// A capture as a file that grows while the world runs: pcapng or text, as its name says. Whoever gives
-// packets never waits for the disk, and the file consists of whole packets at every moment.
+// A capture as a file that grows while the world runs: pcapng or text, as its name says. Adding packets never
+// waits for the disk, and the file consists of whole packets at every moment.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace understudy::pty {
 
-/// The file cannot be had. One line: what is wrong, what was expected.
+/// The file cannot be written. One line: what is wrong, what was expected.
 struct CaptureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,7 +27,7 @@ class CaptureFile {
   CaptureFile(const std::string& path, std::function<void(const std::string&)> log);
   ~CaptureFile();  // finishes
 
-  /// What was there before is gone now, and packets of these lines may be added. Throws CaptureError.
+  /// Deletes what was there before; from now on packets of these lines may be added. Throws CaptureError.
   void begin(std::vector<CapturedLine> lines);
   void add(const CapturedPacket& packet);
 

@@ -2,9 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 
+#include "pty/capture.h"
+#include "pty/line_observer.h"
+#include "pty/line_settings.h"
 #include "pty/rtu_crc.h"
+#include "pty/rtu_framer.h"
+#include "pty/station.h"
 
 namespace understudy::pty {
 namespace {

@@ -1,6 +1,6 @@
-// Makes packets of what goes over one line: requests as a station frames them, replies as stations say
-// them, and what was dropped. It frames with a framer of its own, so that a line with many stations still
-// gives each request once.
+// Makes packets of what goes over one line: requests as a station frames them, replies as stations say them,
+// and what was dropped. It has its own framer, so that a line with many stations still yields each request
+// once.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class CaptureFrames final : public LineObserver {
  public:
   using Sink = std::function<void(const CapturedPacket&)>;
 
-  /// `framing`: as the line's stations have it; of different silences the shortest. On a line of text a
+  /// `framing`: as the line's stations have it; the shortest of different silences. On a line of text a
   /// packet is a line (an LF behind its CR begins the next one), and ESC ends one as well.
   CaptureFrames(std::size_t line, RtuFraming framing, Sink sink, bool is_text = false);
 

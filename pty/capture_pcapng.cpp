@@ -1,6 +1,12 @@
 #include "pty/capture_pcapng.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+
+#include "pty/capture.h"
 
 namespace understudy::pty {
 namespace {

@@ -1,6 +1,11 @@
 #include "pty/capture_text.h"
 
+#include <cstdint>
+#include <span>
+#include <string>
 #include <string_view>
+
+#include "pty/capture.h"
 
 namespace understudy::pty {
 

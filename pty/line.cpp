@@ -1,8 +1,19 @@
 #include "pty/line.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "pty/line_observer.h"
+#include "pty/line_settings.h"
+#include "pty/station.h"
 
 namespace understudy::pty {
 
@@ -169,7 +180,7 @@ void Line::run(SimTime now) {
   int at_once = 0;
   for (Event next = next_event(); next.what != What::nothing && next.at <= now; next = next_event()) {
     at_once = next.at > clock_ ? 0 : at_once + 1;
-    if (at_once > kMostAtOnce) throw std::logic_error(name_ + ": what is due does not come to an end");
+    if (at_once > kMostAtOnce) throw std::logic_error(name_ + ": the events that are due never end");
     clock_ = std::max(clock_, next.at);
     due_changed();
     handle(next);
@@ -215,7 +226,7 @@ void Line::begin_character(SimTime at) {
   const std::optional<HostSettings>& settings = is_departed ? departed_settings_ : host_settings_;
   const bool is_speed_known = options_.enforce_settings && settings;
   if (options_.enforce_settings && !settings && !is_departed && !members_.empty()) {
-    warn_once(has_warned_no_speed_, "the host set no speed, what it sends is taken as heard");
+    warn_once(has_warned_no_speed_, "the host set no speed; what it sends is assumed to be heard");
   }
   std::size_t deaf = 0;
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -297,7 +308,7 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   }
   if (!has_collided) return;
   ++counters_.collisions;
-  warn_once(has_warned_collision_, "two stations spoke at once, what they said is garbled");
+  warn_once(has_warned_collision_, "two stations spoke at once; what they said is garbled");
 }
 
 /// A character that runs into one of another station is lost in it: the receiver follows the start bit

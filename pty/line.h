@@ -34,7 +34,7 @@ struct LineOptions {
   LineSettings settings;
   Timing timing = Timing::wire;
   bool enforce_settings = true;  // a station is deaf to a host with another baud or stop bits
-  std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // so much faster or slower is the same baud
+  std::int64_t baud_tolerance_ppm = kUsualBaudTolerancePpm;  // this much faster or slower is the same baud
 };
 
 struct LineCounters {
@@ -61,11 +61,11 @@ class Line {
   void hush(const Station& station, SimTime now);
   /// The wire's speed from now on; characters on their way keep theirs.
   void set_settings(const LineSettings& settings);
-  /// Tells `observer` what goes over the wire, until it is taken away. Several are told in the order in which
-  /// they came.
+  /// Tells `observer` what goes over the wire, until it is removed. Several are told in the order in which
+  /// they were added.
   void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
-  /// Lets them know of it; nothing else comes of it.
+  /// Lets them know about it; nothing else happens.
   void tell_strike(const StruckMessage& message);
 
   // --- the host's side -----------------------------------------------------------------------
@@ -74,7 +74,7 @@ class Line {
   /// Bytes that the host has written, seen at `now`. On the wire the first starts at `now` or when the
   /// one before it is over. At most room() bytes; what is beyond that is ignored.
   void receive(std::span<const std::uint8_t> bytes, SimTime now);
-  /// The same for bytes of a host that has closed since.
+  /// Likewise, for bytes of a host that has closed since.
   void receive_departed(std::span<const std::uint8_t> bytes, SimTime now);
 
   /// The clock stands, and no byte has come for as long as a frame is waited for: see Station. Nothing
@@ -83,8 +83,8 @@ class Line {
 
   /// A host opened the line; what the one before had set is forgotten. A new line counts as opened.
   void host_opened();
-  /// What the host set (nothing: it has left the line's speed as it was). Holds for characters that
-  /// begin from now on.
+  /// What the host set (nothing: it left the line's speed as it was). Holds for characters that begin from
+  /// now on.
   void host_settings(std::optional<HostSettings> settings);
   /// The last host closed the line: what is still on its way to it, and what the stations say until the
   /// next one opens it, is dropped, as nobody listens. What the host has written still arrives, also what
@@ -98,7 +98,8 @@ class Line {
 
   // --- time ----------------------------------------------------------------------------------
   std::optional<SimTime> due() const;
-  /// A station or an observer has come to another due() by itself: not by what the line, or run(), told it.
+  /// A station's or an observer's due() has changed by itself: not because of what the line, or run(), told
+  /// it.
   void due_changed() { next_.reset(); }
   /// Does everything that is due at `now` or earlier, in the order of time. At equal times: characters
   /// that arrive, the observer, stations in the order of attaching, characters that leave. With
@@ -146,9 +147,9 @@ class Line {
     Edge edge;
   };
   State save() const;
-  /// Throws std::invalid_argument for what this line cannot be.
+  /// Throws std::invalid_argument if this line cannot be in that state.
   void check(const State& state) const;
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

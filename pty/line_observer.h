@@ -1,5 +1,5 @@
-// Who watches a line without being on it: told what goes over the wire, never answering, so that the line
-// and its stations do the same with and without one.
+// Watches a line without being on it: it is told what goes over the wire, and never answers, so the line and
+// its stations do the same with or without it.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,7 @@ class LineObserver {
   /// A station has begun to talk.
   virtual void on_speech(const Speech& speech) = 0;
 
-  /// Faults have acted on a message. Of a request it follows what was heard, of a reply it comes before what
+  /// Faults have acted on a message. For a request this comes after what was heard, for a reply before what
   /// is said.
   virtual void on_strike(const StruckMessage& /*message*/) {}
 

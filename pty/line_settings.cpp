@@ -1,5 +1,7 @@
 #include "pty/line_settings.h"
 
+#include <string>
+
 namespace understudy::pty {
 
 std::string to_string(const LineSettings& settings) {

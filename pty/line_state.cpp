@@ -1,10 +1,14 @@
 // A line's state as a value: saved, checked, restored. The structured bindings name every member, so that one
 // that is added and forgotten here does not compile.
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
+#include <vector>
 
 #include "pty/line.h"
+#include "pty/line_settings.h"
 #include "pty/state_reach.h"
+#include "pty/station.h"
 
 namespace understudy::pty {
 
@@ -42,7 +46,7 @@ void Line::check(const State& state) const {
   const auto demand = [this](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument("line " + name_ + ": " + what);
   };
-  demand(state.members.size() == members_.size(), "it has other stations");
+  demand(state.members.size() == members_.size(), "its stations are different");
   const LineSettings& settings = state.settings;
   demand(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
              settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
@@ -52,17 +56,17 @@ void Line::check(const State& state) const {
   const auto demand_burst = [&](const Burst& burst) {
     demand(is_within_reach(burst.start) && is_within_reach(burst.end) && burst.count >= 0 &&
                burst.count < settings.baud,
-           "its characters have no time");
+           "its characters take no time");
   };
   demand_burst(state.arriving);
   for (const State::Member& member : state.members) {
     demand_burst(member.speech);
-    demand(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters have no time");
+    demand(is_within_reach(member.noticed_at.value_or(SimTime{0})), "its characters take no time");
   }
   const auto demand_characters = [&](const std::vector<TimedByte>& characters) {
     for (const TimedByte& character : characters) {
       demand(is_within_reach(character.start) && is_within_reach(character.end),
-             "its characters have no time");
+             "its characters take no time");
     }
   };
   demand_characters(state.input);

@@ -7,8 +7,11 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
+
+#include "base/files/descriptor.h"
 
 namespace understudy::pty {
 namespace {

@@ -1,7 +1,7 @@
-// Says of a port's link, for as long as we serve it, that it is served: so that another run does not take it
-// for a stale one. (And of a memory's file that it is kept.) It is a lock on an empty file beside the link,
-// `.NAME.lock`: only who may make the link may claim it, whoever else is on the machine. The kernel lets go
-// of the lock with the process; a file that a killed one has left is taken over by the next.
+// Marks a port's link as served for as long as we serve it, so that another run does not take it for a stale
+// one. (Also used for a memory's file.) It is a lock on an empty file beside the link, `.NAME.lock`: only
+// users who may make the link may claim it. The kernel releases the lock with the process; a file that a
+// killed process left is taken over by the next one.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace understudy::pty {
 class PortClaim {
  public:
   PortClaim() = default;  // of nothing
-  /// Tries to claim the link of that absolute path. Throws std::system_error if whether it is in use cannot
-  /// be told.
+  /// Tries to claim the link of that absolute path. Throws std::system_error if it cannot find out whether it
+  /// is in use.
   explicit PortClaim(const std::string& link);
   ~PortClaim();  // lets go
   PortClaim(PortClaim&& other) noexcept;

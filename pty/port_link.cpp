@@ -1,12 +1,16 @@
 #include "pty/port_link.h"
 
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <climits>
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -89,7 +93,7 @@ PortLink::PortLink(const std::string& path, std::string target) {
   try {
     claim_ = PortClaim((canonical_parent / absolute_path.filename()).string());
   } catch (const std::system_error& error) {
-    throw PortError(path + ": whether the link is in use cannot be told: " + error.what() +
+    throw PortError(path + ": cannot tell whether the link is in use: " + error.what() +
                     "; expected to make and lock that file");
   }
   if (!claim_) {

@@ -8,7 +8,7 @@
 
 namespace understudy::pty {
 
-/// A port could not be had: one line, naming the path and what was expected.
+/// A port could not be opened: one line that names the path and what was expected.
 struct PortError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -21,10 +21,10 @@ class PortLink {
   /// dangles, or one to a /dev/pts entry (left by a run that was killed; its number may be another
   /// program's by now). A link that another run serves, and anything else, is left alone: throws PortError.
   PortLink(const std::string& path, std::string target);
-  /// Removes the link, unless it has become another's.
+  /// Removes the link, unless it now belongs to another process.
   ~PortLink();
-  /// Links the same path to another target, in one step. Nothing if there is no link, or it has become
-  /// another's. Throws PortError.
+  /// Links the same path to another target, in one step. Does nothing if there is no link, or if it now
+  /// belongs to another process. Throws PortError.
   void point_to(const std::string& target);
   PortLink(PortLink&& other) noexcept;
   PortLink& operator=(PortLink&& other) noexcept;

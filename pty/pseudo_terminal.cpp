@@ -6,14 +6,21 @@
 #include <sys/inotify.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <termios.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <span>
+#include <string>
 #include <system_error>
 #include <utility>
 
+#include "base/files/descriptor.h"
+#include "pty/port_link.h"
 #include "pty/terminal_settings.h"
 
 namespace understudy::pty {
@@ -57,7 +64,7 @@ Pair open_pair(const std::string& link_path) {
   Pair pair;
   pair.master = Descriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!pair.master) {
-    throw cannot_have(link_path, "no pseudo-terminal is to be had; expected a free one", errno);
+    throw cannot_have(link_path, "no pseudo-terminal is available; expected a free one", errno);
   }
   const int master = pair.master.get();
   std::array<char, 64> name{};
@@ -78,7 +85,7 @@ Descriptor watch_of(const std::string& path, const std::string& link_path) {
   if (!watch) {
     throw cannot_have(
         link_path,
-        "no inotify instance is to be had; expected fewer than fs.inotify.max_user_instances in use", errno);
+        "no inotify instance is available; expected fewer than fs.inotify.max_user_instances in use", errno);
   }
   if (::inotify_add_watch(watch.get(), path.c_str(), IN_OPEN | IN_CLOSE_WRITE | IN_CLOSE_NOWRITE) < 0) {
     throw cannot_have(link_path, path + " cannot be watched", errno);
@@ -259,7 +266,7 @@ bool PseudoTerminal::recover() {
     ::tcflush(slave_.get(), TCIFLUSH);  // count_departure() could not
     return true;
   }
-  if (errno != EBUSY) return false;  // no descriptor is to be had just now
+  if (errno != EBUSY) return false;  // no descriptor is available just now
   try {
     Pair fresh = open_pair(link_path_);
     give_same_access(path_, fresh.path);

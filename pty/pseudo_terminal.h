@@ -14,8 +14,9 @@
 
 namespace understudy::pty {
 
-/// Serve it so: when data_descriptor() is readable, read(), then, before the bytes are used, poll_presence()
-/// if has_presence_news(), and poll_host_settings(); when presence_descriptor() is readable, poll_presence().
+/// How to serve it: when data_descriptor() is readable, read(), then, before the bytes are used,
+/// poll_presence() if has_presence_news(), and poll_host_settings(); when presence_descriptor() is readable,
+/// poll_presence().
 class PseudoTerminal {
  public:
   /// Creates the pty, raw, at the resting speed, and links `link_path` to it. A stale symbolic link
@@ -34,32 +35,33 @@ class PseudoTerminal {
 
   /// At most bytes.size() bytes; 0 when there is none now. Never blocks.
   std::size_t read(std::span<std::uint8_t> bytes);
-  /// How many the kernel took; less than offered when nobody reads. Never blocks. While no host has the
-  /// line open everything is taken and lost: nobody may find it there later.
+  /// How many the kernel took; less than offered when nobody reads. Never blocks. While no host has the line
+  /// open everything is taken and lost: nobody shall find it there later.
   std::size_t write(std::span<const std::uint8_t> bytes);
 
-  /// What has happened since the last call. Both may be true; host_present() tells which came last.
+  /// What has happened since the last call. Both may be true; host_present() says which came last.
   struct Presence {
     bool opened = false;  // a host came (the line was free before)
     bool closed = false;  // the last host went: what it had not read is gone, what it wrote is not
   };
   Presence poll_presence();
-  /// Whether read() has learnt something that poll_presence() will tell. Then presence_descriptor() need
-  /// not be readable any more.
+  /// Whether read() has learnt something that poll_presence() will report. presence_descriptor() may then no
+  /// longer be readable.
   bool has_presence_news() const { return news_.opened || news_.closed; }
   bool host_present() const { return is_present_; }
   /// A host seems to have gone, but the kernel has not let go of it yet: poll_presence() wants to be called
   /// again in a few milliseconds. Rare. Without that call the doubt lasts until the next host.
   bool is_in_doubt() const { return is_present_ && opens_ == 0; }
 
-  /// Nobody has the line open, not even we: the kernel would not let us back in. Then data_descriptor() tells
-  /// of a hang-up without end: do not watch it, but call recover(), now and again.
+  /// Nobody has the line open, not even we: the kernel would not let us back in. data_descriptor() then
+  /// reports a hang-up without end: do not watch it, but call recover() now and then.
   bool is_lost() const { return !slave_ && !is_present_; }
-  /// We have a slave, or a host's bears the line. Without ours, call poll_presence() when data_descriptor()
-  /// is readable, as it may have hung up.
+  /// We have our own slave open; if not, a host's keeps the line up. Without ours, call poll_presence() when
+  /// data_descriptor() is readable, as the line may have hung up.
   bool holds_slave() const { return static_cast<bool>(slave_); }
-  /// Of a lost line: true if it can be used again. If a host's claim outlives it (TIOCEXCL) there is a fresh
-  /// pseudo-terminal behind the link, and path() and both descriptors are others. False: later, perhaps.
+  /// For a lost line: returns true if it can be used again. If a host's claim (TIOCEXCL) outlives the host,
+  /// there is a new pseudo-terminal behind the link, and path() and both descriptors have changed. False:
+  /// perhaps later.
   bool recover();
 
   /// What the host of the bytes just read has set; nothing if it left the resting speed alone. read()

@@ -2,6 +2,10 @@
 
 #include <array>
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace understudy::pty {
 namespace {

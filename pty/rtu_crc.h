@@ -18,8 +18,8 @@ bool rtu_crc_ok(std::span<const std::uint8_t> frame);
 /// Completes a frame: appends the checksum of what is there.
 void append_rtu_crc(std::vector<std::uint8_t>& frame);
 
-/// The same in a fixed buffer, whose first `size` bytes are the frame. Returns the new size.
-/// Demands buffer.size() >= size + 2.
+/// Like the above, in a fixed buffer whose first `size` bytes are the frame. Returns the new size. Demands
+/// buffer.size() >= size + 2.
 std::size_t append_rtu_crc(std::span<std::uint8_t> buffer, std::size_t size);
 
 }  // namespace understudy::pty

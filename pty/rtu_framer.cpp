@@ -1,9 +1,15 @@
 #include "pty/rtu_framer.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include "pty/line_settings.h"
 #include "pty/rtu_crc.h"
+#include "pty/station.h"
 
 namespace understudy::pty {
 namespace {

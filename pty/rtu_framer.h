@@ -37,8 +37,8 @@ struct RtuFrame {
   std::uint64_t last_character = 0;  // its number
 };
 
-/// How long a request that begins with these bytes is, as its function and its byte count tell; nothing if
-/// they do not.
+/// How long a request that begins with these bytes is, by its function and its byte count; nothing if they do
+/// not say.
 std::optional<std::size_t> rtu_request_size(std::span<const std::uint8_t> bytes);
 
 class RtuFramer {
@@ -63,8 +63,8 @@ class RtuFramer {
   /// Call again while it returns a frame or due() is not later than now.
   std::optional<RtuFrame> take(SimTime now);
 
-  /// All calls of take() that are worth it until a good frame comes: nothing when there are none left. For
-  /// loops, which it ends in any case.
+  /// Calls take() as often as is useful until a good frame comes: nothing when there are none left. For
+  /// loops, which it always ends.
   std::optional<RtuFrame> take_due(SimTime now);
 
   /// The frame that take() would give if no silence had to be waited for: a complete one, or under the strict
@@ -104,9 +104,9 @@ class RtuFramer {
     std::uint64_t dropped = 0;
   };
   State save() const;
-  /// Throws std::invalid_argument for what this framer cannot hold.
+  /// Throws std::invalid_argument if this framer cannot hold it.
   void check(const State& state) const;
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

@@ -1,5 +1,7 @@
 // A framer's state as a value: saved, checked, restored. The structured binding names every member, so that
 // one that is added and forgotten here does not compile.
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 
 #include "pty/rtu_framer.h"

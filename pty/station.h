@@ -1,4 +1,4 @@
-// What a line needs of a station: something that hears bytes, wakes when it asked to, and may speak.
+// What a line needs from a station: something that hears bytes, wakes up when it asked to, and may speak.
 #pragma once
 
 #include <cstdint>

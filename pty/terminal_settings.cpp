@@ -5,6 +5,10 @@
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 
+#include <optional>
+
+#include "pty/line_settings.h"
+
 namespace understudy::pty {
 namespace {
 

@@ -15,8 +15,8 @@ inline constexpr int kRestingBaud = 50;
 /// What a host has set; nothing while the line is at the resting speed.
 std::optional<HostSettings> host_settings_of(int descriptor);
 
-/// The same, and puts the resting speed back. Echo is turned off too: it would send every reply back as a
-/// request. The rest is the host's own affair (a text host may want whole lines).
+/// Like the above, and puts the resting speed back. Echo is turned off too: it would send every reply back as
+/// a request. The rest is up to the host (a text host may want whole lines).
 std::optional<HostSettings> take_host_settings(int descriptor);
 
 /// Raw, 8 bits, at the resting speed: what a host finds that sets nothing.

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pty/station.h"
+
 namespace understudy::pty {
 
 namespace {
@@ -69,7 +71,7 @@ void TextLines::check(const State& state) {
   const bool has_end = state.text.find_first_of("\r\n") != std::string::npos;
   const bool holds = state.text.size() <= kLongest && !has_end &&
                      (state.text.empty() || (!state.is_overlong && !state.was_return));
-  if (!holds) throw std::invalid_argument("no line of text can be like that");
+  if (!holds) throw std::invalid_argument("this is not a state of a text line");
 }
 
 void TextLines::restore(const State& state) {

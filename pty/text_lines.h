@@ -4,8 +4,8 @@
 //    not empty, so hosts that send CR, LF or both are understood.
 //  * A line that is too long is given as such at its end, without its text.
 //  * Where the device echoes, a person types: BS and DEL take the last character back.
-//  * ESC is told at once, and what of a line came before it is forgotten.
-//  * XOFF and XON, where the device heeds them, are told at once and are no part of a line.
+//  * ESC is reported at once, and the unfinished line before it is forgotten.
+//  * XOFF and XON, where the device heeds them, are reported at once and are not part of a line.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ class TextLines {
   };
   /// The rules may change from one character to the next.
   Outcome push(const TimedByte& byte, const TextLineRules& rules);
-  /// Forget what of a line has come.
+  /// Forgets the unfinished line.
   void reset();
 
   /// Characters that were given in no line: of overlong ones, and forgotten for an ESC.
@@ -61,7 +61,7 @@ class TextLines {
   const State& save() const { return state_; }
   /// Throws std::invalid_argument for what cannot be.
   static void check(const State& state);
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

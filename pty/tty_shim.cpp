@@ -33,7 +33,7 @@ using SetAttributes = int (*)(int, int, const termios*);
 constexpr tcflag_t kParity = PARENB | PARODD;
 
 SetAttributes real_tcsetattr() {
-  // A static of a plain type: no guard, so no need of the C++ library.
+  // A static of a plain type: no guard, so no need for the C++ library.
   static SetAttributes found = nullptr;
   if (found == nullptr) found = reinterpret_cast<SetAttributes>(dlsym(RTLD_NEXT, "tcsetattr"));
   return found;
@@ -50,8 +50,8 @@ bool all_but_parity_is_set(int descriptor, const termios& asked) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int tcsetattr(int descriptor, int actions,
-                                                                const termios* asked) noexcept {
+extern "C" __attribute__((visibility("default"))) int tcsetattr(int fd, int optional_actions,
+                                                                const termios* termios_p) noexcept {
   const SetAttributes set = real_tcsetattr();
   if (set == nullptr) {
     errno = ENOSYS;
@@ -59,10 +59,10 @@ extern "C" __attribute__((visibility("default"))) int tcsetattr(int descriptor, 
   }
   // A second try, because the other end may have put the line back to rest just between.
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const int result = set(descriptor, actions, asked);
+    const int result = set(fd, optional_actions, termios_p);
     if (result == 0 || errno != EINVAL) return result;
-    if ((asked->c_cflag & PARENB) == 0 || understudy::shim::pseudo_terminal_number(descriptor) < 0) break;
-    if (all_but_parity_is_set(descriptor, *asked)) return 0;
+    if ((termios_p->c_cflag & PARENB) == 0 || understudy::shim::pseudo_terminal_number(fd) < 0) break;
+    if (all_but_parity_is_set(fd, *termios_p)) return 0;
   }
   errno = EINVAL;
   return -1;

@@ -3,8 +3,7 @@
 
 namespace understudy::shim {
 
-/// The number of the pseudo-terminal whose slave it is; -1: it is none. As far as can be known from outside
-/// every one may be ours.
+/// The number of the pseudo-terminal whose slave it is; -1: it is none. From outside, every one may be ours.
 int pseudo_terminal_number(int descriptor);
 
 }  // namespace understudy::shim

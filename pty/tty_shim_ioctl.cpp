@@ -92,17 +92,16 @@ void answer(Remembered& port, unsigned long request, void* argument) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int ioctl(int descriptor, unsigned long request,
-                                                            ...) noexcept {
+extern "C" __attribute__((visibility("default"))) int ioctl(int fd, unsigned long request, ...) noexcept {
   va_list arguments;
   va_start(arguments, request);
   void* const argument = va_arg(arguments, void*);
   va_end(arguments);
   const int error = errno;
-  const int result = call_real(descriptor, request, argument);
+  const int result = call_real(fd, request, argument);
   // The kernel first: a real port, and whatever a later kernel can do, speaks for itself.
   if (result != -1 || (errno != ENOTTY && errno != EINVAL) || !is_offered(request)) return result;
-  const int number = understudy::shim::pseudo_terminal_number(descriptor);
+  const int number = understudy::shim::pseudo_terminal_number(fd);
   if (number < 0 || number >= kMostPseudoTerminals) return result;
   if (argument == nullptr) {
     errno = EFAULT;

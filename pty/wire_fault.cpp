@@ -1,6 +1,12 @@
 #include "pty/wire_fault.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pty/line_settings.h"
 
 namespace understudy::pty {
 

@@ -37,7 +37,7 @@ struct WirePiece {
   bool operator==(const WirePiece&) const = default;
 };
 
-/// However often a message is doubled, so many pieces are the most.
+/// The most pieces, however often a message is doubled.
 inline constexpr std::size_t kMostWirePieces = 16;
 
 /// What comes out, in the order of time; at equal times the original before its double. A piece without bytes

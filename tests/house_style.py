@@ -12,10 +12,23 @@ import shutil
 import subprocess
 import sys
 
-LONGEST_FILE = 500  # lines; about 400 is the aim
+LONGEST_FILE = 450  # lines; about 400 is the aim
 LONGEST_TEST_NAME = 50
+PRODUCT = ("base/", "motion/", "interpreter/", "pty/", "emulator/")
 TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P)\((\w+), *(\w+)\)")
-FOREIGN = re.compile(r'"[^"]*(?<!here )\bis no (?!longer|more|other|less|better|such)\w')  # "X is no Y" for "X is not a Y"
+FOREIGN = [  # what a native speaker would not write, in messages and comments of the product; and what instead
+    (re.compile(r'"[^"]*(?<!here )\bis no (?!longer|more|other|less|better|such)\w'), '"X is not a Y" for "X is no Y"'),
+    (re.compile(r"\b(?:to|cannot|can|could not|could) be had\b"), '"is available", "can be opened" for "can be had"'),
+    (re.compile(r"\b(?:two|three|four) there (?:is|are)\b", re.IGNORECASE), '"There are two" for "Two there are"'),
+    (re.compile(r"\bso manieth\b"), '"one in this many" for "every so manieth"'),
+    (re.compile(r"\bclock on the wall\b"), '"wall clock" for "clock on the wall"'),
+    (re.compile(r"\bis there twice\b"), '"appears twice" for "is there twice"'),
+    (re.compile(r"\bfor so long\b"), '"this long" for "for so long"'),
+    (re.compile(r"\bthat there (?:is|are) not\b"), '"that does not exist" for "that there is not"'),
+    (re.compile(r"\bone of both\b"), '"one of the two" for "one of both"'),
+    (re.compile(r"\bless than (?:nothing|never)\b"), '"negative" for "less than nothing"'),
+    (re.compile(r"//+ The same,? and nothing has changed"), '"Like check(); if it throws, nothing has changed"'),
+]
 
 
 def files_of(project):
@@ -44,8 +57,10 @@ def faults_of_text(path, lines):
             yield number, "the test's name is not in CamelCase; expected it to be"
         if path.endswith(".h") and line.startswith("using namespace"):
             yield number, "a header opens a namespace to whoever includes it; expected names in full"
-        if FOREIGN.search(line) and not path.startswith("tests/"):
-            yield number, 'says "X is no Y"; expected "X is not a Y"'
+        if path.startswith(PRODUCT):
+            for foreign, better in FOREIGN:
+                if foreign.search(line):
+                    yield number, f"is not what a native speaker would write; expected {better}"
 
 
 def badly_formatted(project, paths):

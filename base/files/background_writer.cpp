@@ -3,6 +3,11 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string_view>
+#include <thread>
 #include <utility>
 
 namespace understudy {

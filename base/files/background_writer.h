@@ -1,5 +1,5 @@
-// Writes to a place that may be slow, a file, without ever letting its owner wait: a helper thread does it,
-// and what waits for it is bounded.
+// Writes to something that may be slow, such as a file, without ever making its owner wait: a helper thread
+// does it, and the queue is bounded.
 #pragma once
 
 #include <condition_variable>
@@ -27,7 +27,7 @@ class BackgroundWriter {
   BackgroundWriter& operator=(const BackgroundWriter&) = delete;
 
   enum class Outcome { taken, full, failed };
-  /// Takes a piece whole, or not at all. Never waits for the disk.
+  /// Takes a whole piece, or nothing. Never waits for the disk.
   Outcome append(std::string_view piece);
 
   /// Waits until what was taken is written, and ends the thread. Nothing may be appended afterwards.

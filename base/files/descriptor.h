@@ -25,7 +25,7 @@ class Descriptor {
   explicit operator bool() const { return number_ >= 0; }
 
   void close() {
-    // Linux has closed it even when it says EINTR: never again.
+    // Linux has closed it even if close() fails with EINTR: do not retry.
     if (number_ >= 0) ::close(std::exchange(number_, -1));
   }
 

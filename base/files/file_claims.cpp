@@ -1,10 +1,14 @@
 #include "base/files/file_claims.h"
 
 #include <sys/stat.h>
+#include <sys/types.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace understudy {
 
@@ -44,7 +48,7 @@ Found find(const std::string& path) {
   return {.is_there = true, .is_special = !S_ISREG(status.st_mode), .file = {status.st_dev, status.st_ino}};
 }
 
-std::string objection(const std::string& what) { return "is " + what + "; expected a path of its own"; }
+std::string objection(const std::string& what) { return "is " + what + "; expected another path"; }
 
 }  // namespace
 
@@ -85,7 +89,7 @@ std::string FileClaims::objection_to_folder(const std::string& folder,
         std::any_of(endings.begin(), endings.end(),
                     [&name = path](const std::string& ending) { return name.ends_with(ending); });
     if (is_among_them) {
-      return "holds " + file.filename().string() + ", which is " + what + "; expected a folder of its own";
+      return "holds " + file.filename().string() + ", which is " + what + "; expected another folder";
     }
   }
   return "";

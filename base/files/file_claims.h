@@ -1,6 +1,6 @@
-// Which files a command reads, and which it writes: what is written may be neither another output nor
-// anything that is read, or a slip of the hand costs the user a file. Asked before anything is opened; what
-// else may not be written is for base/files/output_file.h.
+// Which files a command reads, and which it writes: an output may be neither another output nor anything that
+// is read, or a slip of the hand would cost the user a file. Asked before anything is opened;
+// base/files/output_file.h knows what else may not be written.
 #pragma once
 
 #include <sys/types.h>
@@ -12,24 +12,24 @@
 
 namespace understudy {
 
-/// A file, and what it is to whoever claims it: "the bench itself", "what --junit writes".
+/// A file, and what it means to whoever claims it: "the bench itself", "what --junit writes".
 struct FileClaim {
   std::string path;
   std::string what;
 };
 
-/// A file is itself however its path is spelled, through links of both kinds, and also before it is there.
-/// What is there but is not a regular file is left out: nothing in it can be lost. Of a link or a socket that
-/// we make the place itself is claimed: whoever replaced it would cut us off.
+/// A file is the same file however its path is spelled, through links of both kinds, and even before it
+/// exists. Anything that is not a regular file is left out: nothing in it can be lost. For a link or a socket
+/// that we make, the path itself is claimed: replacing it would cut us off.
 class FileClaims {
  public:
   /// The first claim on a file stands.
   void add(const FileClaim& claim);
   void add(const std::vector<FileClaim>& claims);
   void add_place(const FileClaim& claim);
-  /// Why the path cannot be written: "is the bench itself; expected a path of its own". Empty if it can.
+  /// Why the path cannot be written: "is the bench itself; expected another path". Empty if it can.
   std::string objection_to(const std::string& path) const;
-  /// The same for files in a folder of which only the `endings` are known beforehand.
+  /// Like the above, for files in a folder of which only the `endings` are known beforehand.
   std::string objection_to_folder(const std::string& folder, const std::vector<std::string>& endings) const;
 
  private:

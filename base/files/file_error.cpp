@@ -1,6 +1,9 @@
 #include "base/files/file_error.h"
 
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/text/one_line.h"
 

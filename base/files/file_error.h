@@ -14,7 +14,7 @@ struct FilePlace {
 };
 
 /// What is wrong with a file that a user wrote. One line: "file:line:column: field: what is wrong; what was
-/// expected". Or several such lines: all that is wrong.
+/// expected". Or several such lines: everything that is wrong.
 class FileError : public std::runtime_error {
  public:
   struct Complaint {

@@ -1,7 +1,13 @@
 #include "base/files/growing_file.h"
 
 #include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
+
+#include "base/files/output_file.h"
 
 namespace understudy {
 

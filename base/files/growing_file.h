@@ -1,5 +1,5 @@
-// A file that grows while a world runs, written by a helper thread: a recording, a trace. Which files may be
-// written, and when what was there is gone, is for base/files/output_file.h.
+// A file that grows while a world runs, written by a helper thread: a recording, a trace.
+// base/files/output_file.h decides which files may be written, and when the old content goes.
 #pragma once
 
 #include <functional>
@@ -13,21 +13,21 @@
 
 namespace understudy {
 
-/// The file cannot be had. One line: what is wrong, what was expected.
+/// The file cannot be written. One line: what is wrong, what was expected.
 struct GrowingFileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class GrowingFile {
  public:
-  /// `what` it is, for messages: "the recording". Opened and locked; what is there stays until the first line
-  /// comes. Throws GrowingFileError.
+  /// `what` it is, for messages: "the recording". It is opened and locked; what is there stays until the
+  /// first line comes. Throws GrowingFileError.
   GrowingFile(const std::string& path, std::string what, std::function<void(const std::string&)> log);
   ~GrowingFile();  // finishes
 
-  /// Whole lines. The first is written at once, in place of what was there: throws GrowingFileError if that
-  /// fails. Once one could not be taken (the disk is full, or too slow) the recording ends there, with a word
-  /// to the log: one with a gap would be worth nothing.
+  /// Whole lines. The first is written at once, replacing what was there: throws GrowingFileError if that
+  /// fails. If a line cannot be taken (the disk is full, or too slow) the file ends there, with a line in the
+  /// log: with a gap it would be worthless.
   void take(std::string_view line);
   /// Waits until all is written.
   void finish();

@@ -1,5 +1,8 @@
 #include "base/files/helper_thread.h"
 
+#include <deque>
+#include <functional>
+#include <mutex>
 #include <utility>
 
 namespace understudy {

@@ -1,4 +1,4 @@
-// Work that may take long (files of a user's, up to any size) beside a thread that must not wait.
+// Work that may take long (a user's files, of any size), for a thread that must not wait.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@ class HelperThread {
   HelperThread(const HelperThread&) = delete;
   HelperThread& operator=(const HelperThread&) = delete;
 
-  /// One piece after the other, in their order. It must not throw.
+  /// Pieces are done one after the other, in order. They must not throw.
   void give(std::function<void()> work);
 
  private:
@@ -27,7 +27,7 @@ class HelperThread {
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;
   bool is_ending_ = false;
-  std::thread thread_;  // there is none before there is work
+  std::thread thread_;  // started with the first piece of work
 };
 
 }  // namespace understudy

@@ -3,10 +3,16 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 namespace understudy {
@@ -32,10 +38,11 @@ void demand_own_way(const fs::path& absolute) {
   for (const fs::path& step : absolute.parent_path()) {
     way /= step;
     struct stat status = {};
-    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it is told
+    if (::lstat(way.c_str(), &status) != 0) return;  // whoever opens it gets an error
     if (S_ISLNK(status.st_mode) && is_left_by_a_stranger(way, status)) {
-      throw OutputError(way.string() +
-                        " is another user's link in a folder that is open to all; expected a path of ours");
+      throw OutputError(
+          way.string() +
+          "is another user's link in a folder that everyone can write to; expected a path of your own");
     }
   }
 }
@@ -61,7 +68,8 @@ std::string output_target(const std::string& path) {
       throw OutputError(error_text(errno));
     }
     if (S_ISREG(status.st_mode) && is_left_by_a_stranger(target, status)) {
-      throw OutputError("it is another user's file in a folder that is open to all; expected a path of ours");
+      throw OutputError(
+          "it is another user's file in a folder that everyone can write to; expected a path of your own");
     }
     if (S_ISREG(status.st_mode)) return target.string();
     if (!S_ISLNK(status.st_mode)) {
@@ -69,7 +77,8 @@ std::string output_target(const std::string& path) {
                         "; expected a regular file, or a free path");
     }
     if (is_left_by_a_stranger(target, status)) {
-      throw OutputError("it is another user's link in a folder that is open to all; expected a path of ours");
+      throw OutputError(
+          "it is another user's link in a folder that everyone can write to; expected a path of your own");
     }
     target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces all of it
     if (error) throw OutputError(error.message());
@@ -86,7 +95,7 @@ OutputFile::OutputFile(const std::string& path)
   if (::fstat(file_.get(), &status) != 0) throw OutputError(error_text(errno));
   if (!S_ISREG(status.st_mode)) throw OutputError("it is not a regular file; expected one, or a free path");
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    throw OutputError("another program is writing it; expected a path of its own");
+    throw OutputError("another program is writing it; expected another path");
   }
 }
 

@@ -19,7 +19,7 @@
 
 namespace understudy {
 
-/// A file cannot be written: why, and what was expected. The path is the caller's to say.
+/// A file cannot be written: why, and what was expected. The caller names the path.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,8 +27,8 @@ struct OutputError : std::runtime_error {
 /// "a regular file", "a pipe"
 std::string kind_of_file(mode_t mode);
 
-/// The absolute path of the file that writing to `path` would write, or make. Throws OutputError where there
-/// is something that may not be written.
+/// The absolute path of the file that writing to `path` would write, or make. Throws OutputError if there is
+/// something that may not be written.
 std::string output_target(const std::string& path);
 
 class OutputFile {
@@ -38,10 +38,11 @@ class OutputFile {
 
   /// Where it really is.
   const std::string& target() const { return target_; }
-  /// What was there before is gone, and these are its first bytes. Throws OutputError: a file to which
-  /// nothing can be written should not begin.
+  /// Replaces what was there by these first bytes. Throws OutputError: a file to which nothing can be written
+  /// should not begin.
   void begin(std::string_view head);
-  /// All of it: 0. Or else the error, and none of it: half a packet would spoil those before it.
+  /// Writes all of it and returns 0, or none of it and returns the error: half a packet would spoil those
+  /// before it.
   int write(std::string_view piece);
 
  private:

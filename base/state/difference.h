@@ -12,6 +12,7 @@
 
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "base/text/one_line.h"
 
 namespace understudy {
 
@@ -126,7 +127,7 @@ std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>
 }
 
 /// "drive.profile.segments[2].speed_u_s: 12 against 13", the first difference in the order of the fields;
-/// empty if there is none. `path` stands before the names.
+/// empty if there is none. `path` is put in front of the names.
 template <class T>
 std::string first_difference(const T& a, const T& b, const std::string& path) {
   using namespace state_bytes;

@@ -57,7 +57,7 @@ inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
 
-/// Stands for a member of whatever type, where members are counted; an optional one is made of what it holds.
+/// Stands for a member of any type when members are counted; an optional one is made from what it holds.
 struct AnyMember {
   template <class T>
   requires(!kIsOptional<T>) operator T&() const {  // NOLINT(google-explicit-constructor)
@@ -107,7 +107,7 @@ constexpr const auto& fields_of() {
       std::is_aggregate_v<T> || requires { StateOf<T>::members; },
       "the members of a class cannot be counted: StateOf must say how many there are");
   static_assert(std::tuple_size_v<Fields> + state_fields::apart_of<T>() == state_fields::member_count<T>(),
-                "StateOf lists other fields than the type has");
+                "StateOf does not list the fields that the type has");
   return StateOf<T>::fields;
 }
 

@@ -1,5 +1,9 @@
 #include "base/state/state_bytes.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 namespace understudy {
 
 std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t onto) {

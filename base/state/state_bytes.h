@@ -133,8 +133,8 @@ class StateWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// All of it throws StateError for bytes that end too early or hold what the type cannot (a bool of 7, an
-/// enumeration's value that does not exist).
+/// Everything here throws StateError for bytes that end too early or hold what the type cannot (a bool of 7,
+/// an enumeration's value that does not exist).
 class StateReader {
  public:
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -149,7 +149,7 @@ class StateReader {
     rest_ = rest_.subspan(count);
     return taken;
   }
-  void demand_end() const { demand_state(rest_.empty(), "there are more bytes than it takes"); }
+  void demand_end() const { demand_state(rest_.empty(), "bytes are left over"); }
 
  private:
   template <class T>

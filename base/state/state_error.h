@@ -1,4 +1,4 @@
-// What is thrown for bytes, or values, that are no state of what they are given to.
+// Thrown for bytes or values that cannot be a state of what they are given to.
 #pragma once
 
 #include <cstdint>

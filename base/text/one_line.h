@@ -5,11 +5,11 @@
 
 namespace understudy {
 
-/// The text with its control characters written out ("\\n"), so that what is quoted from a file or a frame
-/// can neither break a message in two nor reach the terminal.
+/// The text with its control characters written out ("\\n"), so that a quotation from a file or a frame can
+/// neither break a message in two nor control the terminal.
 std::string one_line(std::string_view text);
 
-/// The same for something that is quoted, cut if it is long.
+/// Like the above, for a quotation, cut if it is long.
 std::string quoted(std::string_view text);
 // Where <iomanip> is known, std::quoted would suit a std::string better.
 inline std::string quoted(const std::string& text) { return quoted(std::string_view(text)); }

@@ -1,6 +1,10 @@
 #include "base/text/parse_integer.h"
 
 #include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <system_error>
 
 namespace understudy {
 

@@ -2,6 +2,9 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <system_error>
 
 namespace understudy {
 

@@ -1,4 +1,4 @@
-// What to say about a word that is not known.
+// What to say about an unknown word.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 namespace understudy {
 
 /// The known word that differs least, if it is near enough to be what was meant: about a third of the letters
-/// may be missing, too many, others, or swapped with their neighbours. Capitals count as small letters.
+/// may be missing, extra, different, or swapped with their neighbours. Case does not matter.
 std::optional<std::string> near_word(std::string_view word, std::span<const std::string> known);
 
-/// The end of a complaint: "; the nearest is 'speed'". Where none is near, "; expected one of A, B", or of
-/// many an example; where nothing is known, "; " and `none`.
+/// The end of a complaint: "; the nearest is 'speed'". If none is near, "; expected one of A, B", or an
+/// example if there are many; if there are no known words, "; " and `none`.
 std::string suggestion(std::string_view word, std::span<const std::string> known,
                        const std::string& none = "there is none");
 

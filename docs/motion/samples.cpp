@@ -33,7 +33,7 @@ void write_profile(std::ofstream& file, const Profile& profile, double until_s) 
     const Segment& s = profile.segments[static_cast<std::size_t>(i)];
     const bool last = i + 1 == profile.segment_count;
     const double end_s = std::min(
-        until_s, last ? profile.duration_s : profile.segments[static_cast<std::size_t>(i + 1)].begin_s);
+        until_s, last ? profile.duration_s : profile.segments[static_cast<std::size_t>(i) + 1].begin_s);
     for (int step = 0; step <= kStepsEach; ++step) {
       const double here_s = s.begin_s + (end_s - s.begin_s) * step / kStepsEach;
       const Sample sample = sample_segment(s, here_s - s.begin_s);

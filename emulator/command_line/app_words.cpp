@@ -1,10 +1,12 @@
 #include "emulator/command_line/app_words.h"
 
 #include <CLI/CLI.hpp>
+#include <string>
 #include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/command_line/completion.h"
 
 namespace understudy::emulator::command_line {
 

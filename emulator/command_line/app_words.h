@@ -1,4 +1,4 @@
-// What there is to say to `understudy`, as the parser of its flags knows it.
+// The words that `understudy` understands, as its flag parser knows them.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace understudy::emulator::command_line {
 /// All commands and flags, with their help.
 CommandWords words_of(const CLI::App& app);
 
-/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or
-/// flag it was, and what is like it; empty if that is not the trouble.
+/// CLI11 takes an unknown command for a stray word and complains that one is missing. Says which word or flag
+/// it was, and what is similar; empty if the trouble is something else.
 std::string unknown_command(const CLI::App& app, int argc, char** argv, int first);
 
 }  // namespace understudy::emulator::command_line

@@ -1,11 +1,18 @@
 #include <cstdio>
+#include <string>
+#include <variant>
+#include <vector>
 
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/yaml_files.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/models/models.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::command_line {

@@ -6,9 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/command_line/commands.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/sockets.h"
 

@@ -8,11 +8,11 @@
 namespace understudy::emulator::command_line {
 
 /// Its control socket: the one that was given, the one of that bench or port, the one in UNDERSTUDY_CONTROL,
-/// or the only one there is. Of several none is guessed: throws UsageError, which names each. ControlError if
-/// there is none.
+/// or the only one there is. If there are several it does not guess: throws UsageError, which names them all.
+/// Throws ControlError if there is none.
 std::string choose_daemon(const WhichDaemon& which);
 
-/// Prints a line for each of this user's that runs: its socket, bench and ports. As JSON: one object.
+/// Prints a line for each running daemon of this user: its socket, bench and ports. As JSON: one object.
 int list_daemons(bool as_json);
 
 }  // namespace understudy::emulator::command_line

@@ -13,7 +13,7 @@ enum ExitCode : int {
   kExitWell = 0,
   kExitFailed = 1,      // a scenario or replay failed; a poll was refused or not answered
   kExitBadInput = 2,    // usage, file or configuration
-  kExitNoResource = 3,  // a port, socket or capture could not be had
+  kExitNoResource = 3,  // a port, socket or capture could not be opened
   kExitInternal = 4,
 };
 
@@ -66,7 +66,7 @@ struct ExecArguments {
   bool tty_shim = false;
   std::string timeout;  // a duration
 };
-/// The command's exit code, where it has one.
+/// The command's exit code, if it has one.
 int execute(const ExecArguments& arguments);
 /// The path of the library that `exec --tty-shim` preloads.
 int print_tty_shim();
@@ -137,7 +137,7 @@ int watch(const WatchArguments& arguments);
 struct FramesArguments {
   WhichDaemon which;
   bool json = false;
-  int last = 10;  // how many of those that have gone before are shown at first
+  int last = 10;  // how many earlier ones are shown first
   bool once = false;
   std::string every = "100ms";  // of wall time
   int times = 0;                // 0: until it is interrupted

@@ -1,14 +1,17 @@
 #include "emulator/command_line/completion.h"
-#include "emulator/models/models.h"
 
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <set>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/device/model.h"
+#include "emulator/models/models.h"
 #include "emulator/world/faults/kinds.h"
 
 namespace understudy::emulator::command_line {

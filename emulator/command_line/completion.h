@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::command_line {
 
-/// A command, what may stand behind it, and the commands below it.
+/// A command, what may come after it, and its subcommands.
 struct CommandWords {
   struct Flag {
     std::string name;  // "link", without dashes
@@ -20,8 +20,8 @@ struct CommandWords {
   std::vector<CommandWords> commands;
 };
 
-/// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can stand, what
-/// is known of that place is offered (models, faults), or files; behind --model, the models.
+/// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can come, it
+/// offers what is known for that place (models, faults), or files; after --model, the models.
 std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell);
 
 /// `understudy completion SHELL`.

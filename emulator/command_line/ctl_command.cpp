@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"

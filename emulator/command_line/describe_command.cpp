@@ -1,4 +1,6 @@
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
@@ -6,6 +8,9 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/device/describe/describe.h"
 #include "emulator/device/describe/fidelity_page.h"
+#include "emulator/device/describe/sheet.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
 #include "emulator/models/models.h"
 
 namespace understudy::emulator::command_line {

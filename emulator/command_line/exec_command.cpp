@@ -3,14 +3,19 @@
 #include <sys/timerfd.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
 
+#include "base/files/file_claims.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
@@ -20,13 +25,18 @@
 #include "emulator/models/models.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/companion.h"
+#include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/child.h"
+#include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/parent_signals.h"
 #include "emulator/serve/ports/port_group.h"
 #include "emulator/serve/ports/private_folder.h"
 #include "emulator/serve/ports/tty_shim.h"
+#include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::command_line {
 
@@ -112,7 +122,7 @@ std::optional<serve::WallTime> timeout_of(const ExecArguments& arguments) {
     throw UsageError("--timeout: " + understudy::quoted(arguments.timeout) +
                      " is not a time to wait; expected one such as 30s");
   }
-  return *timeout;
+  return timeout;
 }
 
 /// The exit code that the scenario asks for.

@@ -3,9 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/app_words.h"
@@ -23,8 +27,8 @@ const CLI::Validator kNotEmpty(
     "");
 
 constexpr const char* kTraceAlsoHelp =
-    "More for the trace: registers and what else conditions can name, such as feeder.Cord_A";
-constexpr const char* kLintHelp = "Tell at the end what a real controller would not forgive its host";
+    "More for the trace: registers and anything else that conditions can name, such as feeder.Cord_A";
+constexpr const char* kLintHelp = "Report at the end what a real controller would not forgive its host";
 
 struct CommandLine {
   CLI::App app{"Firmware-faithful emulator of industrial motion controllers.", "understudy"};
@@ -49,7 +53,7 @@ struct CommandLine {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "understudy: " + one_line(error.what()) + " (--help tells what is expected)\n";
+      return "understudy: " + one_line(error.what()) + " (see --help)\n";
     });
     add_models();
     add_describe();
@@ -87,7 +91,8 @@ struct CommandLine {
     command.add_option("BENCH", serving.bench, "A bench file; or else --model");
     command.add_option("--model", serving.model, "One device of this model on one line")->check(kNotEmpty);
     command.add_option("--station", serving.station, "Its station number (with --model) [1]");
-    command.add_option("--modules", serving.modules, "How many modules it has, of a chain (with --model)");
+    command.add_option("--modules", serving.modules,
+                       "How many modules it has, if it is a chain (with --model)");
     command.add_option("--firmware", serving.firmware, "Its firmware version (with --model) [newest]")
         ->check(kNotEmpty);
     command.add_option("--baud", serving.baud, "Its line speed (with --model) [the factory's]");
@@ -157,8 +162,7 @@ struct CommandLine {
     command->add_flag("--tty-shim", exec.tty_shim,
                       "Preload what lets hosts that insist on parity use a pseudo-terminal");
     command
-        ->add_option("--timeout", exec.timeout,
-                     "End the command after this time, by the clock on the wall [never]")
+        ->add_option("--timeout", exec.timeout, "End the command after this time, by the wall clock [never]")
         ->check(kNotEmpty);
     command->callback([this] { chosen = [this] { return execute(exec); }; });
   }
@@ -202,7 +206,7 @@ struct CommandLine {
         ->add_option("SCENARIO", run.scenarios, "Scenario files; folders, of which all scenarios are played")
         ->required();
     command->add_flag("--real-time", run.real_time,
-                      "By the clock on the wall, over real ports, with libmodbus as the host");
+                      "By the wall clock, over real ports, with libmodbus as the host");
     command
         ->add_option("--junit", run.junit,
                      "Write the results to this file, as JUnit XML; - for standard output")
@@ -223,12 +227,12 @@ struct CommandLine {
     command->add_flag("--hash", run.hash,
                       "Print a hash of all that each scenario's devices said and did, for comparison");
     command->add_option("--jobs", run.jobs,
-                        "How many are played at a time [one for each core, 8 at least in real time]");
-    command->add_option("--shard", run.shard, "I/N: of all scenarios the I-th, and each N-th after it")
+                        "How many are played at a time [one for each core; in real time at least 8]");
+    command->add_option("--shard", run.shard, "I/N: the I-th of all scenarios, and every N-th after it")
         ->check(kNotEmpty);
     command->add_option("--seed", run.seed, "Instead of the scenarios' own seeds")
         ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{INT64_MAX}));
-    command->add_option("--filter", run.filter, "Those whose names fit this pattern, such as '*move*'")
+    command->add_option("--filter", run.filter, "Those whose names match this pattern, such as '*move*'")
         ->check(kNotEmpty);
     command->callback([this] {
       run.version = UNDERSTUDY_VERSION;
@@ -237,10 +241,10 @@ struct CommandLine {
   }
 
   void add_watch(CLI::App& of) {
-    CLI::App* command = of.add_subcommand("watch", "Show all that moves, again and again, until Ctrl-C");
+    CLI::App* command = of.add_subcommand("watch", "Show everything that moves, over and over, until Ctrl-C");
     command->add_option("NAME", watched.names, "What to show, as for get [everything]");
     command->add_option("--every", watched.every, "Time between two looks")->capture_default_str();
-    command->add_option("--times", watched.times, "How many looks; 0: without end")->capture_default_str();
+    command->add_option("--times", watched.times, "How many looks; 0: no end")->capture_default_str();
     command->fallthrough();
     command->callback([this] {
       watched.which = control.which;
@@ -250,11 +254,10 @@ struct CommandLine {
 
   void add_frames(CLI::App& of) {
     CLI::App* command = of.add_subcommand("frames", "Show what goes over the lines, in words, until Ctrl-C");
-    command->add_option("--last", frames.last, "How many of those before are shown first")
-        ->capture_default_str();
+    command->add_option("--last", frames.last, "How many earlier ones to show first")->capture_default_str();
     command->add_flag("--once", frames.once, "Show these, and end");
     command->add_option("--every", frames.every, "Time between two looks")->capture_default_str();
-    command->add_option("--times", frames.times, "How many looks; 0: without end")->capture_default_str();
+    command->add_option("--times", frames.times, "How many looks; 0: no end")->capture_default_str();
     command->fallthrough();
     command->callback([this] {
       frames.which = control.which;
@@ -304,10 +307,10 @@ struct CommandLine {
     add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
     add("inject", "Break something", "FAULT",
         "stall AXIS, lost_steps AXIS one_in=N, slip AXIS pulses=N, alarm AXIS, or stuck INPUT level=N");
-    add("clear", "Mend it", "NUMBER", "Of the fault, or all");
+    add("clear", "Mend it", "NUMBER", "The fault's number, or all");
     add("list", "List the faults, those in force and those that wait", nullptr, nullptr);
-    add("snapshot", "Write the state of everything to a file", "FILE", "Is replaced if it is there");
-    add("restore", "Make everything what it was", "FILE", "Of the same bench, by the same version");
+    add("snapshot", "Write the state of everything to a file", "FILE", "Replaced if it exists");
+    add("restore", "Restore everything to what it was", "FILE", "Of the same bench, by the same version");
     add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");
     add("run-until", "Move simulated time on until a condition is true, where the clock stands", "CONDITION",
         "Such as 'feeder.STATUS.4 == 0'")
@@ -322,8 +325,8 @@ struct CommandLine {
     command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
-    command->add_option("--station", poll.station, "Whom to ask")->capture_default_str();
-    command->add_option("--model", poll.model, "Whose names to use")->check(kNotEmpty);
+    command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
+    command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
     command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
     command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
     command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
@@ -333,7 +336,7 @@ struct CommandLine {
         ->capture_default_str();
     command->add_option("--timeout", poll.timeout, "How long to wait for a reply")->capture_default_str();
     command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);
-    command->add_option("--times", poll.times, "How many rounds; 0: without end")->capture_default_str();
+    command->add_option("--times", poll.times, "How many rounds; 0: no end")->capture_default_str();
     command->callback([this] { chosen = [this] { return poll_port(poll); }; });
   }
 
@@ -371,8 +374,8 @@ struct CommandLine {
   }
 
   void add_completion() {
-    CLI::App* command =
-        app.add_subcommand("completion", "Print what makes a shell complete the words of `understudy`");
+    CLI::App* command = app.add_subcommand(
+        "completion", "Print a script that makes a shell complete the words of `understudy`");
     command->add_option("SHELL", shell, "bash, zsh or fish")->required();
     command->callback([this] { chosen = [this] { return print_completion(words_of(app), shell); }; });
   }

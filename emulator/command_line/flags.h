@@ -5,8 +5,8 @@
 
 namespace understudy::emulator::command_line {
 
-/// Nothing is done yet: a call of what comes back does it, and returns the exit code. What is wrong with the
-/// words is told on standard error.
+/// Does nothing yet: calling what it returns does it, and returns the exit code. What is wrong with the words
+/// goes to standard error.
 std::function<int()> parse_command_line(int argc, char** argv);
 
 }  // namespace understudy::emulator::command_line

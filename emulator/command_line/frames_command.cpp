@@ -1,8 +1,11 @@
 // `understudy ctl frames`: what goes over the lines, in words, as it goes.
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
@@ -32,7 +35,7 @@ std::uint64_t print_new(const Json& reply, std::uint64_t since, bool json) {
   const Json& frames = reply.at("frames");
   const std::uint64_t first = frames.empty() ? next : frames.at(0).at("number").get<std::uint64_t>();
   if (since != 0 && first > since && !json) {
-    std::printf("... %llu frames more, which are no longer kept\n",
+    std::printf("... %llu more frames, which are no longer kept\n",
                 static_cast<unsigned long long>(first - since));
   }
   for (const Json& frame : frames) {
@@ -52,7 +55,7 @@ int follow_frames(const FramesArguments& arguments) {
   if (arguments.last < 0 || arguments.last > kMostAtOnce) {
     throw UsageError("ctl frames: --last: expected 0 to " + std::to_string(kMostAtOnce));
   }
-  if (arguments.times < 0) throw UsageError("ctl frames: --times: expected 0 (without end) or more");
+  if (arguments.times < 0) throw UsageError("ctl frames: --times: expected 0 (no end) or more");
   const int times = arguments.once ? 1 : arguments.times;
   const std::string path = choose_daemon(arguments.which);
   Json message{{"do", "frames"}, {"last", arguments.last}};

@@ -5,6 +5,8 @@
 
 #include <csignal>
 
+#include "base/simulated_time.h"
+
 namespace understudy::emulator::command_line {
 
 namespace {

@@ -5,10 +5,10 @@
 
 namespace understudy::emulator::command_line {
 
-/// From now on SIGINT and SIGTERM end no longer the program, but what waits.
+/// From now on SIGINT and SIGTERM no longer end the program, only its waiting.
 void watch_for_interruption();
 bool is_interrupted();
-/// Waits so long by the clock on the wall, or until it is interrupted.
+/// Waits this long by the wall clock, or until it is interrupted.
 void wait_or_be_interrupted(SimTime time);
 
 }  // namespace understudy::emulator::command_line

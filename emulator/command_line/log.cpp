@@ -3,9 +3,12 @@
 #include <poll.h>
 #include <spdlog/logger.h>
 #include <spdlog/sinks/base_sink.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <climits>
+#include <memory>
+#include <string>
 
 #include "base/text/one_line.h"
 

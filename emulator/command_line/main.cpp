@@ -1,21 +1,24 @@
-// `understudy`: does what its words ask for, and tells what went wrong in one line.
+// `understudy`: does what its words ask for, and says what went wrong in one line.
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <exception>
+#include <stdexcept>
 #include <system_error>
 
 #include "base/files/growing_file.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/flags.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/ports/tty_shim.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/recording/recording.h"
 #include "pty/capture_file.h"
-#include "pty/pseudo_terminal.h"
+#include "pty/port_link.h"
 
 namespace understudy::emulator::command_line {
 

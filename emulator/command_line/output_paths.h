@@ -11,10 +11,9 @@
 
 namespace understudy::emulator::command_line {
 
-/// A path that a flag gives for a file to write, which is claimed from now on. Empty paths are none. Throws
+/// A flag's path for a file to write, which is claimed from now on. An empty path means none. Throws
 /// UsageError.
-inline const std::string& demand_output(FileClaims& claims, const std::string& flag,
-                                        const std::string& path) {
+inline std::string demand_output(FileClaims& claims, const std::string& flag, const std::string& path) {
   if (const std::string why = claims.objection_to(path); !why.empty()) {
     throw UsageError(flag + ": " + path + ": " + why);
   }
@@ -22,7 +21,7 @@ inline const std::string& demand_output(FileClaims& claims, const std::string& f
   return path;
 }
 
-inline const std::string& demand_capture(FileClaims& claims, const std::string& path) {
+inline std::string demand_capture(FileClaims& claims, const std::string& path) {
   if (path.ends_with(".pcap")) {
     throw UsageError("--capture: " + path +
                      ": this old format is not written; expected .pcapng, or another ending for a text log");
@@ -30,9 +29,9 @@ inline const std::string& demand_capture(FileClaims& claims, const std::string& 
   return demand_output(claims, "--capture", path);
 }
 
-/// And that nothing `also` is asked for without it.
-inline const std::string& demand_trace(FileClaims& claims, const std::string& path,
-                                       const std::vector<std::string>& also) {
+/// Also checks that there is no `also` without it.
+inline std::string demand_trace(FileClaims& claims, const std::string& path,
+                                const std::vector<std::string>& also) {
   if (path.empty() && !also.empty()) throw UsageError("--trace-also: expected --trace FILE beside it");
   if (!path.empty() && !world::is_trace_name(path)) {
     throw UsageError("--trace: " + path + ": is not a kind of trace; expected FILE.csv or FILE.vcd");
@@ -47,7 +46,7 @@ inline std::string older_part_of(const std::string& recording) {
   try {
     return output_target(recording) + world::kOlderPart;
   } catch (const OutputError&) {
-    return recording + world::kOlderPart;  // whoever opens it is told
+    return recording + world::kOlderPart;  // whoever opens it gets an error
   }
 }
 

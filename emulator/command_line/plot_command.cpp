@@ -4,16 +4,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <system_error>
 
+#include "base/files/file_claims.h"
+#include "base/files/growing_file.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/play/plot/plot_script.h"
+#include "emulator/play/plot/trace_table.h"
 #include "emulator/serve/ports/private_folder.h"
 
 namespace understudy::emulator::command_line {

@@ -5,17 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
-#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/free_stage.h"
 
 namespace understudy::emulator::command_line {

@@ -1,12 +1,16 @@
 #include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <sstream>
-#include <string_view>
+#include <string>
+#include <system_error>
 
+#include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/text_argument.h"
 #include "interpreter/simple2/listing.h"
+#include "interpreter/simple2/program.h"
 
 // The Simple2-R3 program as text and back. Its cells are a line of four numbers for each line of the program,
 // as a master writes them from 0x4000 on; what follows the last line that is not all zeros is left out.
@@ -71,7 +75,7 @@ int disassemble_program(const std::string& file) {
     }
     if (found == 0) continue;
     if (found < 4) return refuse(file, number, "fewer than four cells; expected CMD DATA1 DATA2 JMP");
-    if (next == lines.size()) return refuse(file, number, "a line too many; expected at most 256");
+    if (next == lines.size()) return refuse(file, number, "one line too many; expected at most 256");
     const auto cell = [&](int i) { return static_cast<std::uint8_t>(cells[i]); };
     lines[next++] = {.command = cell(0), .data1 = cell(1), .data2 = cell(2), .flag = cell(3)};
   }

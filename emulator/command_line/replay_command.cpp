@@ -4,9 +4,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <ios>
+#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "base/files/text_file.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
@@ -15,8 +20,11 @@
 #include "emulator/command_line/serving.h"
 #include "emulator/models/models.h"
 #include "emulator/play/report/page.h"
+#include "emulator/play/results/result.h"
 #include "emulator/serve/control/control_door.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/replay.h"
 #include "emulator/world/snapshot.h"
 

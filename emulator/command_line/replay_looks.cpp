@@ -1,11 +1,24 @@
 #include "emulator/command_line/replay_looks.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
+#include "base/files/file_claims.h"
+#include "base/simulated_time.h"
+#include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/output_paths.h"
+#include "emulator/play/report/camera.h"
+#include "emulator/play/results/result.h"
+#include "emulator/world/names/names.h"
 #include "emulator/world/recording/event_text.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/recording/replay.h"
+#include "emulator/world/trace/trace_file.h"
+#include "emulator/world/trace/world_capture.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::command_line {
 

@@ -15,13 +15,13 @@
 
 namespace understudy::emulator::command_line {
 
-/// The files that are asked for may be written: else UsageError. They are claimed from then on.
+/// Checks that the wanted files may be written, and claims them. Throws UsageError.
 void demand_looks(const ReplayArguments& arguments, FileClaims& claims);
 
-/// Opens the files, or throws what says why not.
+/// Opens the files, or throws an error that says why not.
 class ReplayLooks final : public world::ReplayWatcher {
  public:
-  /// `seen` gets what a page tells, once all is over; its footage and its steps.
+  /// `seen` gets what a page shows, once all is over: its footage and its steps.
   ReplayLooks(world::World& world, const ReplayArguments& arguments, play::ScenarioResult& seen);
   ~ReplayLooks() override;
   ReplayLooks(const ReplayLooks&) = delete;
@@ -40,7 +40,7 @@ class ReplayLooks final : public world::ReplayWatcher {
   std::unique_ptr<play::Camera> camera_;  // of a page
 };
 
-/// What came of it, for the page. `seen` is what the looks have seen.
+/// The result, for the page. `seen` is what the looks have seen.
 play::ScenarioResult result_of(const world::Replayed& replayed, const std::string& recording,
                                play::ScenarioResult seen);
 

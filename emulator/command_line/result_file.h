@@ -20,8 +20,8 @@ namespace understudy::emulator::command_line {
 /// The path that means standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// Opened before anything is played, so that a wrong path is told at once. What has no end, such as
-/// /dev/stdout, is written as well.
+/// Opened before anything is played, so that a wrong path is reported at once. Endless files, such as
+/// /dev/stdout, can be written as well.
 class ResultFile {
  public:
   /// Nothing is written if the path is empty.
@@ -45,7 +45,7 @@ class ResultFile {
     ::fcntl(stream_.get(), F_SETFL, 0);  // from here on it may make us wait
   }
   bool is_wanted() const { return !path_.empty(); }
-  /// What was there is gone: nobody takes it for the result of a run that breaks off.
+  /// Empties the file, so that nobody takes the old content for the result of a run that breaks off.
   void empty() {
     if (file_) begin("");
   }

@@ -1,12 +1,16 @@
-#include <unistd.h>
 
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
+#include <memory>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include "base/files/file_claims.h"
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
@@ -17,14 +21,20 @@
 #include "emulator/command_line/yaml_files.h"
 #include "emulator/models/models.h"
 #include "emulator/play/lint/lint.h"
+#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/run.h"
 #include "emulator/play/performing/suite.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/report/camera.h"
 #include "emulator/play/report/page.h"
 #include "emulator/play/results/junit.h"
+#include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_stage.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/trace/trace.h"
 
 namespace understudy::emulator::command_line {
 
@@ -83,7 +93,7 @@ std::vector<play::Scenario> choose_some(std::vector<play::Scenario> scenarios,
   }
   if (!arguments.filter.empty() && play::choose(scenarios, arguments.filter, {}).empty()) {
     throw UsageError("--filter: " + understudy::quoted(arguments.filter) +
-                     " fits no scenario's name; expected a pattern such as '*move*'");
+                     " matches no scenario's name; expected a pattern such as '*move*'");
   }
   return play::choose(std::move(scenarios), arguments.filter, shard);
 }
@@ -165,7 +175,7 @@ int run_scenarios(const RunArguments& arguments) {
   // What is for people makes way for results on standard output.
   std::FILE* const told = arguments.junit == kStandardOutput ? stderr : stdout;
   std::vector<play::ScenarioResult> all;
-  play::PlayOptions options{.with_hash = arguments.hash};
+  play::RunOptions options{.with_hash = arguments.hash};
   if (arguments.lint) {
     options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Lint>(world); });
   }
@@ -174,13 +184,13 @@ int run_scenarios(const RunArguments& arguments) {
     options.onlookers.push_back([](world::World& world) { return std::make_unique<play::Camera>(world); });
   }
   const auto options_for = [&](const play::Scenario& scenario) {
-    play::PlayOptions of_one = options;
+    play::RunOptions of_one = options;
     for (play::OnlookerMaker& maker : files.onlookers(scenario)) of_one.onlookers.push_back(std::move(maker));
     return of_one;
   };
   {
     ProgressLine progress(scenarios.size());
-    play::play_all(scenarios, options_for, jobs, [&](std::vector<play::ScenarioResult> results) {
+    play::run_suite(scenarios, options_for, jobs, [&](std::vector<play::ScenarioResult> results) {
       for (play::ScenarioResult& result : results) files.settle(result);
       progress.one_done([&] { print(results, arguments.hash, told); });
       all.insert(all.end(), results.begin(), results.end());

@@ -5,20 +5,35 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "base/files/descriptor.h"
+#include "base/files/file_claims.h"
+#include "base/files/growing_file.h"
 #include "base/files/output_file.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
-#include "emulator/play/performing/play_recorder.h"
+#include "emulator/play/performing/onlooker.h"
+#include "emulator/play/performing/performance_recorder.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/serve/ports/private_folder.h"
 #include "emulator/world/bench/bench_text.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/recording_spool.h"
 #include "emulator/world/trace/trace_file.h"
 #include "emulator/world/trace/world_capture.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::command_line {
 
@@ -200,7 +215,8 @@ std::vector<play::OnlookerMaker> RunFiles::onlookers(const play::Scenario& scena
                                   .seed = scenario.bench.seed,
                                   .snapshot = {}};
     header.options.strict_framing = !real_time_;
-    return std::make_unique<play::PlayRecorder>(world, std::move(header), next_spool(kRecording.ending));
+    return std::make_unique<play::PerformanceRecorder>(world, std::move(header),
+                                                       next_spool(kRecording.ending));
   });
   const auto add = [&](const FileKind& kind, const PlayFile::Begin& begin) {
     if ((folders_.*kind.folder).empty()) return;

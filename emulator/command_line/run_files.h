@@ -12,33 +12,34 @@
 #include "base/files/descriptor.h"
 #include "base/files/file_claims.h"
 #include "emulator/play/performing/onlooker.h"
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/ports/private_folder.h"
 
 namespace understudy::emulator::command_line {
 
-/// What is wanted of each play. Folders are made; an empty one: nothing.
+/// What is wanted of each play. Folders are made; an empty path means none.
 struct RunFolders {
-  std::string recordings;  // without one those of failures are kept, below /tmp
+  std::string recordings;  // if empty, those of failures are kept, below /tmp
   std::string traces;
   std::string captures;
   std::vector<std::string> trace_also;
 };
 
-/// Folders whose files would be others that a command reads or writes, or that are not names of folders:
-/// UsageError.
+/// Throws UsageError for folders whose files would overwrite what the command reads or writes, and for paths
+/// that cannot be folders.
 void demand_folders(const FileClaims& claims, const RunFolders& folders);
 
 class RunFiles {
  public:
-  /// Nothing that is claimed is written over, wherever a link in a folder leads. Throws pty::PortError and
+  /// Nothing that is claimed is overwritten, wherever a link in a folder leads. Throws pty::PortError and
   /// std::system_error.
   RunFiles(RunFolders folders, FileClaims claims, bool real_time, std::string version);
   ~RunFiles();
   RunFiles(const RunFiles&) = delete;
   RunFiles& operator=(const RunFiles&) = delete;
 
-  /// Who makes them of a scenario's play, or of one of its branches. From any thread.
+  /// An onlooker that makes them of a scenario's play, or of one of its branches. May be called from any
+  /// thread.
   std::vector<play::OnlookerMaker> onlookers(const play::Scenario& scenario);
   /// Keeps the files, under the result's name, or removes them; the result says where they are. To be called
   /// in the order of the results, which decides between equal names.
@@ -53,7 +54,7 @@ class RunFiles {
   bool real_time_;
   std::string version_;
   serve::PrivateFolder private_folder_;
-  Descriptor lock_;    // on the spool: it has an owner who lives
+  Descriptor lock_;    // on the spool: locked: its owner is alive
   std::string spool_;  // a folder in that one
   std::atomic<int> count_ = 0;
   std::set<std::string> names_;  // that are taken

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <string>
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"

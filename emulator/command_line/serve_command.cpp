@@ -1,9 +1,11 @@
 #include <signal.h>
+#include <optional>
 
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/play/lint/lint.h"
+#include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/readiness.h"
 #include "emulator/serve/ports/port_group.h"
 

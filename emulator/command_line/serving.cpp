@@ -1,21 +1,34 @@
 #include "emulator/command_line/serving.h"
-#include "emulator/models/models.h"
 
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "base/files/file_claims.h"
 #include "base/text/one_line.h"
+#include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
-#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/models/models.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port_group.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/names/names.h"
 #include "emulator/world/trace/trace.h"
+#include "pty/line.h"
+#include "pty/line_settings.h"
+#include "pty/port_link.h"
 
 namespace understudy::emulator::command_line {
 
@@ -48,7 +61,7 @@ world::Bench bench_of_one(const ServeArguments& arguments) {
                      " has no station number; expected none");
   }
   device.settings.modules = arguments.modules.value_or(0);
-  if (arguments.modules == 0) throw UsageError("--modules: 0 are none; expected 1 or more");
+  if (arguments.modules == 0) throw UsageError("--modules: 0 is too few; expected 1 or more");
   if (arguments.baud == 0)
     throw UsageError("--baud: 0 is not a speed; expected one of the model's, such as 19200 or 115200");
   device.settings.baud = arguments.baud.value_or(0);
@@ -63,7 +76,7 @@ world::Bench bench_of_one(const ServeArguments& arguments) {
   demand_possible(device);
   std::string link = arguments.link;
   if (one_line(link) != link) {
-    throw UsageError("--link: " + link + ": has a control character; expected a path without");
+    throw UsageError("--link: " + link + ": has a control character; expected a path without one");
   }
   if (!link.empty()) link = (std::filesystem::path(arguments.links) / link).string();
   bench.lines.push_back({.name = "line", .link = link, .baud = device.settings.baud, .stations = {0}});
@@ -127,7 +140,7 @@ void demand_names(const world::Bench& bench, const std::vector<std::string>& als
 }
 
 /// And the file beside it, where its older part goes once it has grown large.
-const std::string& demand_recording(const std::string& path, FileClaims& claims) {
+std::string demand_recording(const std::string& path, FileClaims& claims) {
   demand_output(claims, "--record", older_part_of(path));
   return demand_output(claims, "--record", path);
 }

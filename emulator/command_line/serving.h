@@ -1,4 +1,4 @@
-// What the flags that all serving commands share come to.
+// The flags that all serving commands share, and what they mean.
 #pragma once
 
 #include <sys/types.h>

@@ -1,4 +1,4 @@
-// What is for people at a terminal only: colours, and how far a long run has come.
+// For people at a terminal only: colours, and the progress of a long run.
 #pragma once
 
 #include <condition_variable>
@@ -9,14 +9,14 @@
 
 namespace understudy::emulator::command_line {
 
-/// A terminal, where colours are not unwanted (NO_COLOR, TERM=dumb).
+/// Whether it is a terminal, and colours are not unwanted (NO_COLOR, TERM=dumb).
 bool wants_colour(int descriptor);
 
-/// A line that begins with a verdict ("ok", "FAIL", "-"), that word coloured if colours are wanted.
+/// A line that begins with a verdict ("ok", "FAIL", "-"); that word is coloured if colours are wanted.
 std::string coloured_verdict(const std::string& line, bool with_colour);
 
-/// A last line on standard output that says how many are done, rewritten now and then once it has taken a
-/// while. Where that is not a terminal there is none.
+/// A last line on standard output that says how many are done, rewritten now and then once the run has taken
+/// a while. There is none if standard output is not a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(std::size_t total);

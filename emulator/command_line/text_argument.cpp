@@ -2,6 +2,10 @@
 
 #include <unistd.h>
 
+#include <string>
+
+#include "base/files/text_file.h"
+
 namespace understudy::emulator::command_line {
 
 FileText read_text_argument(const std::string& path) {

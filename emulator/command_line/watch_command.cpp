@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
@@ -138,7 +140,7 @@ int watch(const WatchArguments& arguments) {
     throw UsageError("ctl watch: --every: " + understudy::quoted(arguments.every) +
                      " is not a time; expected 10ms or more");
   }
-  if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (without end) or more");
+  if (arguments.times < 0) throw UsageError("ctl watch: --times: expected 0 (no end) or more");
   const std::string path = choose_daemon(arguments.which);
   Shown shown(arguments.names);
   // Nobody answers, or there is nothing of that name? That is told before the terminal is touched.

@@ -12,18 +12,18 @@ namespace understudy::emulator {
 
 class Axes {
  public:
-  /// Of those that the model lists, which this device has: a chain may be shorter.
+  /// How many of those that the model lists this device has: a chain may be shorter.
   virtual bool has_axis(int /*axis*/) const { return true; }
   /// Pulses that left the device in this tick, in the motor's sense (after every reversal).
   virtual std::int64_t pulses_this_tick(int axis) const = 0;
-  /// The speed behind them, as planned: real, where the pulses of a tick are whole.
+  /// The planned speed behind them: a real number, while the pulses of a tick are whole.
   virtual double speed_pps(int axis) const = 0;
-  /// The form in which they leave, as the manual calls it; empty if there is but one.
+  /// The form in which they leave, as the manual calls it; empty if there is only one.
   virtual std::string_view pulse_format() const { return {}; }
-  /// All forms that it knows, and which of them it is.
+  /// All forms that it knows, and which of them is in use.
   virtual std::span<const std::string_view> pulse_formats() const { return {}; }
   virtual std::size_t pulse_format_number() const { return 0; }
-  /// What an axis puts out in PWM mode, 0 in all others; nothing if it has no such mode.
+  /// The duty of an axis in PWM mode, 0 in all other modes; nothing if it has no such mode.
   virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
   /// The count of the encoder on the axis, absolute, as the plant sees it.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;

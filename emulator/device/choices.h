@@ -22,7 +22,7 @@ struct ChoiceRow {
   std::string_view id;
   std::string_view section;  // where the question comes up
   std::string_view question;
-  /// Options separated by '|', ours first. One option alone: nothing else is modelled.
+  /// Options separated by '|', ours first. If there is only one, nothing else is modelled.
   std::string_view options;
   Confidence confidence = Confidence::proposal;
   std::string_view why;
@@ -41,8 +41,8 @@ struct ChoiceError : std::runtime_error {
 std::vector<std::uint8_t> resolve_choices(std::span<const ChoiceRow> rows,
                                           const std::map<std::string, std::string>& overrides);
 
-/// Where a row stands in its table. A compile error if there is none, in what is to be known when compiling;
-/// not consteval, because clang 14 does not let one such function call another with its own arguments.
+/// Where a row stands in its table. If there is none, that is a compile error in a constant expression; not
+/// consteval, because clang 14 does not let one such function call another with its own arguments.
 template <std::size_t N>
 constexpr std::size_t choice_number(const ChoiceRow (&rows)[N], std::string_view id) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -57,7 +57,7 @@ struct Option {
   std::uint8_t number = 0;
 };
 
-/// The same for a row or an option that there is not.
+/// A row or an option that does not exist.
 template <std::size_t N>
 constexpr Option option_of(const ChoiceRow (&rows)[N], std::string_view id, std::string_view name) {
   const std::size_t row = choice_number(rows, id);

@@ -1,6 +1,6 @@
-// A device: one instance of a model. The world steps it, a station serves its registers, the plant
-// sees its pulses. Its whole state is a value; this class only says how the others reach it. What not every
-// device has is a facet: a class of its own, reached by a pointer that is null where a device lacks it.
+// A device: one instance of a model. The world steps it, a station serves its registers, the plant sees its
+// pulses. Its whole state is a value; this class only says how the others reach it. What only some devices
+// have is a facet: a separate class, reached by a pointer that is null if the device lacks it.
 #pragma once
 
 #include <cstddef>
@@ -77,7 +77,7 @@ class Device {
   virtual pty::LineSettings line_settings() const;
 
   // --- power -----------------------------------------------------------------------------------
-  /// A device is made without power. Switching it on begins with what its memory has kept.
+  /// A device is made without power. When it is switched on it begins with what its memory has kept.
   bool powered() const { return powered_; }
   void switch_power(bool on);
 
@@ -97,12 +97,13 @@ class Device {
   virtual bool same_state(const Device& other) const = 0;
 
   // --- its state as bytes (base/state/) ---------------------------------------------------------
-  /// All that it is at this moment; what it was made from (model, firmware, settings, choices) is not in it.
+  /// Its whole state at this moment; what it was made from (model, firmware, settings, choices) is not
+  /// included.
   std::vector<std::byte> save_state() const;
-  /// Makes it what save_state() of a device made alike has given, once the result is called. Throws
-  /// StateError for other bytes.
+  /// Calling the result puts the device into a state that save_state() of a device of the same make has
+  /// returned. Throws StateError for other bytes.
   std::function<void()> read_state(std::span<const std::byte> bytes);
-  /// The same at once; when it throws, nothing has changed.
+  /// Like the above, at once; if it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
   /// "axes[0].motor.travel_pulses: 12 against 13": the first field by which two states differ that
@@ -117,7 +118,7 @@ class Device {
   }
   std::int32_t input(int terminal) const { return inputs_[static_cast<std::size_t>(terminal)]; }
 
-  /// The last tick that is over. Set by the world; what a write starts moves from the next one.
+  /// The last tick that is over. Set by the world; what a write starts begins to move in the next one.
   Tick now() const { return now_; }
   void set_now(Tick tick) { now_ = tick; }
 
@@ -130,13 +131,13 @@ class Device {
   /// Whether set_input(), the power or a restored state may have changed them since take_inputs_changed().
   bool inputs_changed() const { return inputs_changed_; }
   bool take_inputs_changed() { return std::exchange(inputs_changed_, false); }
-  /// The state as it is when the power comes: from what is kept and the inputs.
+  /// Sets the state at power-up, from what is kept and the inputs.
   virtual void power_up() {}
-  /// Nothing is driven any more, and all that is not kept is lost.
+  /// Stops driving anything, and loses all that is not kept.
   virtual void power_down() {}
-  /// The state of the model's own.
+  /// The model's part of the state.
   virtual void write_own_state(StateWriter& writer) const = 0;
-  /// Reads it, and gives what puts it in force, which throws nothing.
+  /// Reads it; calling the result puts it in force, which does not throw.
   virtual std::function<void()> read_own_state(StateReader& reader) = 0;
   /// Reads two of it, and tells where they differ (base/state/difference.h).
   virtual std::string own_difference(StateReader& a, StateReader& b) const = 0;
@@ -144,11 +145,11 @@ class Device {
  private:
   friend struct StateOf<Device>;  // device_state.cpp
 
-  // What every tick needs, first: the rest lies behind the first cache line.
+  // What every tick needs comes first: the rest lies behind the first cache line.
   const Model& model_;
   Tick now_ = 0;
   bool powered_ = false;
-  bool inputs_changed_ = true;  // no state: only whether a device may spare itself a look at them
+  bool inputs_changed_ = true;  // not state: only whether a device may skip looking at them
   std::vector<std::uint8_t> choices_;
   std::vector<std::int32_t> inputs_;
   DeviceSettings settings_;
@@ -156,10 +157,10 @@ class Device {
   mutable std::set<std::string, std::less<>> mentioned_;  // of the log, not of the model
 };
 
-/// Throws ProgramError, also where the device takes no program.
+/// Throws ProgramError, also if the device takes no program.
 void load_program(Device& device, std::string_view text);
 
-/// "nothing of robot is called 'T9PE'; ...": why named_values() has no such one, as one line.
+/// "nothing of robot is called 'T9PE'; ...": why named_values() has no such value, as one line.
 std::string why_no_value(const Device& device, std::string_view name);
 
 }  // namespace understudy::emulator

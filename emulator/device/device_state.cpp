@@ -35,7 +35,7 @@ using Common = CopiedFields<Device>;
 void read_common(const Model& model, StateReader& reader, Common& common) {
   std::apply([&](auto&... field) { (reader.read(field), ...); }, common);
   const auto& inputs = std::get<std::vector<std::int32_t>>(common);
-  demand_state(inputs.size() == model.terminals.size(), "it has other terminals");
+  demand_state(inputs.size() == model.terminals.size(), "its terminals are different");
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     demand_within(inputs[i], model.terminals[i].lowest, model.terminals[i].highest);
   }

@@ -1,5 +1,5 @@
-// A model: a kind of controller, as its maker's manual defines it. All of it is data; what cannot be
-// said as data is in the device that `make` makes.
+// A model: a kind of controller, as its maker's manual defines it. All of it is data; what data cannot say is
+// in the device that `make` makes.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ParameterRow {
   std::string_view register_name;  // as in the register table, "{}" for the number
 };
 
-/// A row of a table of parameters that are values of their own, of a model without registers.
+/// A row of a table of parameters, of a model whose values have no registers.
 struct NamedParameterRow {
   std::string_view number;  // "PN10", if the maker counts them
   std::string_view name;    // "VM"
@@ -52,8 +52,7 @@ struct InstructionRow {
   std::string_view meaning{};
 };
 
-/// A section of a manual that is written in another language than English: the rows of a model name it as the
-/// manual does.
+/// A section of a manual that is not in English: a model's rows name it as the manual does.
 struct SectionRow {
   std::string_view name;
   std::string_view in_english;
@@ -86,7 +85,7 @@ constexpr bool is_analog(TerminalRow::Kind kind) {
   return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number;
 }
 
-/// A motor axis, and where the switches of the machine that it drives are wired to.
+/// A motor axis, and the inputs to which the switches of its machine are wired.
 struct AxisRow {
   std::string_view name;       // "A": a bench calls its machine DEVICE.A
   int upper_limit_input = -1;  // numbers of terminals
@@ -138,10 +137,10 @@ struct DeviceSettings {
   Firmware firmware = 0;                           // 0: the model's default
   int address = 1;                                 // its station number
   int baud = 0;                                    // 0: the factory's
-  int modules = 0;                                 // of a chain; 0: as many as the model has without it
+  int modules = 0;                                 // of a chain; 0: the model's default
   std::map<std::string, std::string> choices;      // overrides
   std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
-  std::optional<NvImage> nv;                       // what its memory holds; the factory's without one
+  std::optional<NvImage> nv;                       // what its memory holds; by default the factory's
   std::string program;                             // text, loaded when it is made
   std::string program_name;                        // the file it is from, for messages
   std::vector<std::pair<std::string, Value>> set;  // registers written when it is made, in this order
@@ -161,16 +160,16 @@ struct Model {
   std::span<const SectionRow> sections{};
   std::span<const TerminalRow> terminals;
   std::span<const AxisRow> axes;
-  std::span<const std::string_view> state_registers;  // those that tell best what it is doing
+  std::span<const std::string_view> state_registers;  // those that show best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};  // of a model with ModbusStation
-  int most_modules = 0;           // that one device can consist of; 0: it is not a chain
+  int most_modules = 0;           // the most that one device can consist of; 0: it is not a chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
 };
 
-/// Those that benches may name: handed down by whoever knows them.
+/// The models that benches may name: handed down by whoever knows them.
 using ModelList = std::span<const Model* const>;
 /// Null if there is none of that name.
 const Model* find_model(ModelList models, std::string_view name);
@@ -199,9 +198,9 @@ struct ProgramError : std::runtime_error {
   int line = 0;  // from 1; 0: the whole
 };
 
-/// Checks the settings against the model, makes the device, gives it its memory, its power, its program and
-/// the registers of `set` their values; what of that is persistent is kept at once. Throws SettingError,
-/// NvError, ProgramError. `log` gets what the device has to tell, from its settings on.
+/// Checks the settings against the model, makes the device, gives it its memory, power and program, and the
+/// registers of `set` their values; the persistent ones are kept at once. Throws SettingError, NvError,
+/// ProgramError. `log` gets what the device has to say, from its settings on.
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
                                     std::function<void(const std::string&)> log = {});
 

@@ -1,6 +1,6 @@
-// What a device without registers has by name (T2PE, R3), for scenarios, traces and the control socket: past
-// the line, so they cost no time and leave no trace in its dialogue. A facet: Device::named_values() is null
-// where a device has none.
+// What a device without registers has by name (T2PE, R3), for scenarios, traces and the control socket. They
+// do not use the line, so they take no time and leave no trace in the dialogue. A facet:
+// Device::named_values() is null where a device has none.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ namespace understudy::emulator {
 
 class NamedValues {
  public:
-  /// Nothing if it has none of that name.
+  /// Nothing if it has no value of that name.
   virtual std::optional<double> value_named(std::string_view name) const = 0;
-  /// Gives it a value as a command over the line would. Nothing, or why not: "is out of range; expected 0 to
-  /// 8", and then nothing has changed.
+  /// Sets a value as a command over the line would. Returns nothing, or why not ("is out of range; expected 0
+  /// to 8"), and then nothing has changed.
   virtual std::optional<std::string> assign(std::string_view name, double value) = 0;
   /// Those that people meet most, for messages that suggest one.
   virtual std::vector<std::string> names() const = 0;

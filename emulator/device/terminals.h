@@ -7,7 +7,7 @@ namespace understudy::emulator {
 
 class Terminals {
  public:
-  /// Of those that the model lists, which this device has: a chain may be shorter.
+  /// How many of those that the model lists this device has: a chain may be shorter.
   virtual bool has_terminal(int /*terminal*/) const { return true; }
   /// Whether an output conducts.
   virtual bool output(int terminal) const = 0;

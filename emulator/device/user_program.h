@@ -9,7 +9,7 @@ namespace understudy::emulator {
 
 class UserProgram {
  public:
-  /// Throws ProgramError; then nothing has changed. What it brings is written as over the wire.
+  /// If it throws (ProgramError), nothing has changed. The program is written as if over the wire.
   virtual void load_program(std::string_view text) = 0;
   /// As text that load_program() takes.
   virtual std::string program_text() const = 0;

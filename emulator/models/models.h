@@ -1,4 +1,4 @@
-// The controllers that there are. The rooms that run them do not know this list: it is handed to them.
+// All controllers. The rooms that run them do not know this list: it is handed to them.
 #pragma once
 
 #include "emulator/device/model.h"

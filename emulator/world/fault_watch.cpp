@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "base/text/one_line.h"
 #include "emulator/world/check_fault.h"
-#include "emulator/world/expression/parser.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/world.h"
@@ -16,26 +14,6 @@ namespace {
 using Kind = Fault::Kind;
 
 constexpr int kDeviceBusy = 6;  // the exception of that name
-
-/// ExpressionError, or what the resolver throws.
-Expression parse_condition(const std::string& text, const Probes& probes) {
-  ExpressionParser parser(text, probes);
-  const Term term = parser.expression();
-  parser.expect_end();
-  if (term.unit != Unit::none) {
-    throw NameError(quoted(text) + " is " + kind_of(term.unit) + "; expected a condition");
-  }
-  return parser.take();
-}
-
-/// What is known by name but kept by nobody here, as what a scenario counts.
-void demand_value(const Probes& probes, const Expression::Name& name) {
-  try {
-    probes.value(name.number.handle);
-  } catch (const NameError&) {
-    throw NameError(quoted(name.spelling) + " is nothing to wait for; expected what the world itself knows");
-  }
-}
 
 pty::WireFault stage_of(const Fault& fault) {
   using Stage = pty::WireFault::Kind;
@@ -84,39 +62,6 @@ bool is_of_replies(const Fault& fault) {
 std::int64_t encoder_noise_counts(const Fault& fault, Tick tick) {
   const bool is_second_half = fault.period_ticks != 0 && tick % fault.period_ticks >= fault.period_ticks / 2;
   return is_second_half ? -fault.amount : fault.amount;
-}
-
-void check_fault(const World& world, const Fault& fault) {
-  if (fault.kind == Kind::encoder_noise && !world.plant(fault.device, fault.place).has_encoder()) {
-    const KnownDevice& device = world.known()[fault.device];
-    throw NameError(device.name + "." +
-                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
-                    " has no encoder; expected one in `plant`");
-  }
-  if (fault.kind == Kind::turn && !world.plant(fault.device, fault.place).setup().has_wheel) {
-    const KnownDevice& device = world.known()[fault.device];
-    throw NameError(device.name + "." +
-                    std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
-                    " has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
-  }
-  const KnownDevice& known = world.known()[fault.device];
-  speech_of(*known.model).demand_possible(known.name, fault);
-  if (fault.trigger.when.empty()) return;
-  try {
-    check_condition(world, fault.trigger.when);
-  } catch (const NameError& error) {
-    throw FaultFieldError(std::string(fault_kind(fault.kind).name), "when", error.what());
-  }
-}
-
-void check_condition(const World& world, const std::string& when) {
-  const Probes probes(world);
-  try {
-    const Expression condition = parse_condition(when, probes);
-    for (const Expression::Name& name : condition.names) demand_value(probes, name);
-  } catch (const std::runtime_error& error) {
-    throw NameError(error.what());
-  }
 }
 
 FaultWatch::FaultWatch(World& world, Faults& faults, std::uint64_t seed)
@@ -221,8 +166,8 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
 void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
                       std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
-  world_.line(lines_[frame.device])
-      .line.tell_strike({.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
+  world_.tell_strike(lines_[frame.device],
+                     {.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
 }
 
 bool FaultWatch::is_early(const HeardFrame& frame) {

@@ -1,5 +1,5 @@
-// Looks after the faults of a world that wait for something: asked by stations about frames, by the world
-// about time. There is none where nothing waits.
+// Looks after the faults of a world that wait for something: stations ask it about frames, the world asks it
+// about time. There is none if nothing waits.
 #pragma once
 
 #include <map>
@@ -20,8 +20,8 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
  public:
   using Faults = std::map<std::size_t, ArmedFault>;  // by number
 
-  /// All must outlive it. The faults must be of the world (check_fault); when others have come or gone, it
-  /// must be made anew.
+  /// All must outlive it. The faults must be possible in this world (check_fault); when faults come or go,
+  /// make a new one.
   FaultWatch(World& world, Faults& faults, std::uint64_t seed);
 
   // --- time ------------------------------------------------------------------------------------
@@ -29,7 +29,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   SimTime next_moment() const;
   /// The first tick after `done` at whose end it wants to be called.
   Tick next_tick(Tick done) const;
-  /// What has begun or ended by now is news in its course.
+  /// Notes in its course what has begun or ended by now.
   void look(SimTime now, bool is_tick);
   bool has_news() const;
 

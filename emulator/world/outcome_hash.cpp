@@ -10,10 +10,10 @@ namespace understudy::emulator::world {
 /// What is said on one line.
 class OutcomeHash::Ear final : public pty::LineObserver {
  public:
-  Ear(OutcomeHash& hash, pty::Line& line, std::uint64_t number) : hash_(hash), line_(line), number_(number) {
-    line_.add_observer(*this);
+  Ear(OutcomeHash& hash, std::size_t line) : hash_(hash), line_(line) {
+    hash_.world_.add_observer(line_, *this);
   }
-  ~Ear() override { line_.remove_observer(*this); }
+  ~Ear() override { hash_.world_.remove_observer(line_, *this); }
   Ear(const Ear&) = delete;
   Ear& operator=(const Ear&) = delete;
 
@@ -33,18 +33,17 @@ class OutcomeHash::Ear final : public pty::LineObserver {
 
  private:
   void begin(SimTime time) {
-    hash_.add(number_);
+    hash_.add(line_);
     hash_.add(static_cast<std::uint64_t>(time.count()));
   }
 
   OutcomeHash& hash_;
-  pty::Line& line_;
-  std::uint64_t number_;
+  std::size_t line_;
 };
 
 OutcomeHash::OutcomeHash(World& world) : world_(world), hash_(hash_of({})) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
-    ears_.push_back(std::make_unique<Ear>(*this, world.line(i).line, i));
+    ears_.push_back(std::make_unique<Ear>(*this, i));
   }
   world.add_watcher(*this);
 }

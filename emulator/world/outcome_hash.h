@@ -12,7 +12,7 @@ namespace understudy::emulator::world {
 
 class OutcomeHash final : public TickWatcher {
  public:
-  /// From this moment on; the world must outlive it.
+  /// Watches from this moment on; the world must outlive it.
   explicit OutcomeHash(World& world);
   ~OutcomeHash() override;
   OutcomeHash(const OutcomeHash&) = delete;

@@ -1,6 +1,5 @@
-// What reaches a world from outside, but for what hosts do on its lines (pty/line_observer.h): for whoever
-// writes it down. Given to a world of the same bench at the same simulated times, it makes the same things
-// happen.
+// What reaches a world from outside, except what hosts do on its lines (pty/line_observer.h): for recorders.
+// Given to a world of the same bench at the same simulated times, it makes the same things happen.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +18,7 @@ class OutsideListener {
   virtual void on_power(std::size_t device, bool on) = 0;
   virtual void on_inject(const Fault& fault) = 0;
   virtual void on_clear_fault(std::size_t number) = 0;
-  /// A register written past the line.
+  /// A register written without the line.
   virtual void on_write(std::size_t device, const PreparedWrite& write) = 0;
   /// A value given by name to a device without registers.
   virtual void on_assign(std::size_t device, std::string_view name, double value) = 0;

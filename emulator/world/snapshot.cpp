@@ -69,10 +69,10 @@ WorldState::Part edge_part(const World& world) {
 
 void check_inputs(const World& world, const WorldValues& values) {
   const auto& inputs = std::get<kInputs>(values);
-  demand_state(inputs.size() == world.device_count(), "it has other devices");
+  demand_state(inputs.size() == world.device_count(), "its devices are different");
   for (std::size_t d = 0; d < inputs.size(); ++d) {
     const auto terminals = world.device(d).model().terminals;
-    demand_state(inputs[d].size() == terminals.size(), "it has other terminals");
+    demand_state(inputs[d].size() == terminals.size(), "its terminals are different");
     for (std::size_t i = 0; i < terminals.size(); ++i) {
       demand_within(inputs[d][i].external, terminals[i].lowest, terminals[i].highest);
     }
@@ -81,23 +81,23 @@ void check_inputs(const World& world, const WorldValues& values) {
 
 void check_pulses(const World& world, const WorldValues& values) {
   const auto& sent_pulses = std::get<kSentPulses>(values);
-  demand_state(sent_pulses.size() == world.device_count(), "it has other devices");
+  demand_state(sent_pulses.size() == world.device_count(), "its devices are different");
   for (std::size_t d = 0; d < sent_pulses.size(); ++d) {
-    demand_state(sent_pulses[d].size() == world.device(d).model().axes.size(), "it has other axes");
+    demand_state(sent_pulses[d].size() == world.device(d).model().axes.size(), "its axes are different");
     for (const std::int64_t pulses : sent_pulses[d]) demand_reach(pulses);
   }
 }
 
 /// One that could have been injected.
 void check_fault_value(const World& world, const Fault& fault) {
-  demand_state(fault.device < world.device_count(), "a fault is of no device");
+  demand_state(fault.device < world.device_count(), "a fault belongs to no device");
   const Model& model = world.device(fault.device).model();
   const bool is_of_input = fault.kind == Fault::Kind::stuck;
   const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
   demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
   demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
   for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
-    demand_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts longer than there is time");
+    demand_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of time");
   }
   demand_state(find_fault(world.known(), fault_text(world.known(), fault)) == fault,
                "a fault contradicts itself");
@@ -106,7 +106,7 @@ void check_fault_value(const World& world, const Fault& fault) {
 
 void check_faults(const World& world, const WorldValues& values) {
   for (const auto& [number, armed] : std::get<kFaults>(values)) {
-    demand_state(number < std::get<kNextFault>(values), "a fault has a number of the future");
+    demand_state(number < std::get<kNextFault>(values), "a fault has a number that has not been given yet");
     check_fault_value(world, armed.fault);
     const FaultCourse& course = armed.course;
     for (const std::int64_t count : {course.seen, course.matched, course.hits}) {
@@ -120,7 +120,7 @@ WorldValues read_values(const World& world, StateReader& reader) {
   WorldValues values = copy_fields(world);
   std::apply([&](auto&... field) { (reader.read(field), ...); }, values);
   check_inputs(world, values);
-  demand_state(std::get<kSupplies>(values).size() == world.device_count(), "it has other devices");
+  demand_state(std::get<kSupplies>(values).size() == world.device_count(), "its devices are different");
   check_pulses(world, values);
   check_faults(world, values);
   const SimTime now = std::get<kNow>(values);
@@ -258,8 +258,8 @@ std::function<void()> read_state(World& world, const WorldState& state) {
     }
     for (const auto& put_station : put_stations) put_station();
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      world.line(i).line.restore(lines[i]);
-      world.line(i).line.due_changed();
+      OfWorld::line(world, i).restore(lines[i]);
+      OfWorld::line(world, i).due_changed();
     }
   };
 }

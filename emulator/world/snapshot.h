@@ -1,5 +1,5 @@
-// The state of a running world as a value: saved and restored in memory, hashed. Also into another world, if
-// it is of the same bench. For a file see snapshot_file.h.
+// The state of a running world as a value: saved and restored in memory, hashed. It can also be restored into
+// another world of the same bench. For a file see snapshot_file.h.
 //
 // A world that is restored goes on as it did after it was saved: the same things from outside at the same
 // times make the same states and the same bytes on its lines. Not to be called from within
@@ -35,12 +35,12 @@ struct WorldState {
 
 WorldState save(const World& world);
 
-/// Reads a state, and gives what puts the world into it, as often as that is called: it throws nothing.
-/// Throws StateError "part: what is wrong" for what is not a state of such a world. Watchers, observers and
-/// the listener stay as they are. The world must outlive it.
+/// Reads a state; calling the result, as often as you like, puts the world into it and does not throw. Throws
+/// StateError "part: what is wrong" if it is not a state of such a world. Watchers, observers and the
+/// listener stay as they are. The world must outlive it.
 std::function<void()> read_state(World& world, const WorldState& state);
 
-/// The same at once; when it throws, nothing has changed.
+/// Like the above, at once; if it throws, nothing has changed.
 void restore(World& world, const WorldState& state);
 
 /// "feeder.axes[0].motor.travel_pulses: 12 against 13", "rs485.feeder.counters.replies: 1 against 2": the

@@ -60,13 +60,13 @@ Json parse_json(const std::string& text) {
     parsed = parse_strict_json<Json>(
         text,
         [](const std::string& key) {
-          return SnapshotError(understudy::quoted(key) + ": is there twice; expected it once");
+          return SnapshotError(understudy::quoted(key) + ": appears twice; expected it once");
         },
         kDeepest);
   } catch (const TooDeepJson& error) {
     throw SnapshotError(std::string("file: ") + error.what() + "; expected a snapshot");
   } catch (const Json::exception&) {
-    throw SnapshotError("file: is torn or no JSON; expected a snapshot");
+    throw SnapshotError("file: is torn or not JSON; expected a snapshot");
   }
   if (!parsed.is_object()) return parsed;
   for (const auto& [key, value] : parsed.items()) {
@@ -104,7 +104,7 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
     throw SnapshotError("understudy: is missing; expected a snapshot");
   }
   if (!file["understudy"].is_number_integer() || file["understudy"] != kSnapshotFormat) {
-    throw SnapshotError("understudy: is of another format; expected " + std::to_string(kSnapshotFormat));
+    throw SnapshotError("understudy: is in another format; expected " + std::to_string(kSnapshotFormat));
   }
   if (text_of(file, "kind") != kSnapshotKind) {
     throw SnapshotError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " +

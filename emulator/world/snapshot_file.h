@@ -1,5 +1,5 @@
 // Snapshots as text: a world's state in a JSON file. It belongs to the version of the program that wrote it
-// and to the bench whose world it was, and is refused by all others.
+// and to its world's bench; all others refuse it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,8 @@ struct SnapshotError : std::runtime_error {
 std::uint64_t bench_hash(const Bench& bench);
 
 std::string to_text(const WorldState& state, std::uint64_t bench);
-/// Throws SnapshotError for text that is torn, changed, no snapshot, or one of another version or bench.
+/// Throws SnapshotError for text that is torn, changed or not a snapshot, or belongs to another version or
+/// bench.
 WorldState parse_snapshot(const std::string& text, std::uint64_t bench);
 
 }  // namespace understudy::emulator::world

@@ -142,6 +142,7 @@ struct StateOf<emulator::world::World> {
   }
 
   static auto& plants(auto& world) { return world.plants_; }
+  static pty::Line& line(Value& world, std::size_t number) { return world.lines_[number]->line; }
   static auto& ticks(auto& world) { return world.ticks_; }
   static void rearm(Value& world) { world.arm_faults(); }
 };

@@ -1,6 +1,5 @@
-// JSON without what its library lets pass: of two equal keys it keeps the last, without a word, and it
-// follows brackets as deep as there is memory. Only files that read JSON include this: the library is slow to
-// compile.
+// JSON, stricter than its library, which silently keeps the last of two equal keys and follows brackets as
+// deep as memory allows. Only files that read JSON include this: the library is slow to compile.
 #pragma once
 
 #include <climits>
@@ -18,8 +17,8 @@ struct TooDeepJson : std::runtime_error {
   TooDeepJson() : std::runtime_error("is nested deeper than anything that is written") {}
 };
 
-/// Throws what `twice` makes of a key that is there twice in one object, TooDeepJson where more than
-/// `deepest` objects and lists are open, and nlohmann's own exceptions for what is no JSON.
+/// Throws what `twice` makes of a key that appears twice in one object, TooDeepJson where more than `deepest`
+/// objects and lists are open, and nlohmann's own exceptions for text that is not JSON.
 template <typename Json, typename Twice>
 Json parse_strict_json(std::string_view text, const Twice& twice, int deepest = INT_MAX) {
   std::vector<std::set<std::string>> keys;  // of the objects that are open

@@ -33,11 +33,13 @@ void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
 
 World::World(const Bench& bench, const WorldOptions& options,
              const std::function<void(const std::string&)>& log)
-    : supplies_(bench.devices.size()), wires_(bench.wires), seed_(bench.seed) {
+    : known_(known_devices_of(bench)),
+      supplies_(bench.devices.size()),
+      wires_(bench.wires),
+      seed_(bench.seed) {
   for (const DeviceSetup& setup : bench.devices) {
     devices_.push_back(make_device(*setup.model, setup.settings, log));
     axes_.push_back(devices_.back()->axes());
-    known_.push_back({setup.settings.name, setup.model, devices_.back()->firmware()});
     plants_.emplace_back(setup.model->axes.size());
     sent_pulses_.emplace_back(setup.model->axes.size(), 0);
     inputs_.emplace_back(setup.model->terminals.size());
@@ -62,7 +64,6 @@ World::World(const Bench& bench, const WorldOptions& options,
         std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}}));
     WorldLine& line = *lines_.back();
     for (const std::size_t number : setup.stations) {
-      known_[number].line = setup.name;
       Device& device = *devices_[number];
       const pty::RtuFraming framing = speech.framing(device.model(), conditions);
       if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
@@ -212,8 +213,7 @@ void World::run_tick() {
   ++ticks_.run;
 }
 
-/// What run_device() needs, and the first memory of the device two later, which tells where the rest of it
-/// is.
+/// What run_device() needs, and the first memory of the device two later, which says where the rest of it is.
 void World::prefetch_device(std::size_t number) const {
   if (number >= devices_.size()) return;
   if (number + 2 < devices_.size()) prefetch_line(devices_[number + 2].get());

@@ -1,5 +1,5 @@
-// A world: a running bench. It advances only by advance_to(); everything in it is a function of its
-// setup and of what was given to it, at which simulated times.
+// A world: a running bench. It advances only by advance_to(); everything in it is a function of its setup and
+// of what was given to it, and at which simulated times.
 //
 // Each tick runs the same phases for all devices: inputs, interpreters, motion, plant, outputs. Between
 // ticks lines do what is due on them; at the same instant a tick comes before the lines, and the lines
@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@
 
 namespace understudy::emulator::world {
 
-/// How long an incomplete frame is waited for, by the host's clock.
+/// How long to wait for the rest of an incomplete frame, by the host's clock.
 inline constexpr std::chrono::nanoseconds kFramePatience = std::chrono::milliseconds(10);
 
 struct WorldOptions {
@@ -36,24 +37,25 @@ class FaultWatch;
 
 class World final : public WorldView {
  public:
-  /// Throws SettingError for what the models refuse, NameError for what its faults wait for.
+  /// Throws SettingError if the models refuse something, NameError if a fault waits for something unknown.
   World(const Bench& bench, const WorldOptions& options, const std::function<void(const std::string&)>& log);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
   SimTime now() const override { return now_; }
-  /// Does all that is due up to `time`, included. Times in the past are no error and do nothing.
+  /// Does everything that is due up to and including `time`. Times in the past are not an error and do
+  /// nothing.
   void advance_to(SimTime time);
   /// When something will happen by itself next; nothing if only the outside can change anything.
   std::optional<SimTime> next_due() const;
   std::uint64_t ticks_run() const { return ticks_.run; }          // one by one
   std::uint64_t ticks_crossed() const { return ticks_.crossed; }  // in bulk
 
-  /// Run every tick, quiet or not; results are the same (that is what it is for: to prove it).
+  /// Runs every tick, quiet or not; the results are the same (this exists to prove it).
   void set_bulk_ticks(bool on) { bulk_ticks_ = on; }
 
-  /// Until it is taken away; several see a tick in the order in which they came.
+  /// Adds a watcher until it is removed; several see a tick in the order in which they were added.
   void add_watcher(TickWatcher& watcher) { watchers_.push_back(&watcher); }
   void remove_watcher(TickWatcher& watcher) { std::erase(watchers_, &watcher); }
 
@@ -62,8 +64,39 @@ class World final : public WorldView {
 
   // --- lines ---------------------------------------------------------------------------------
   std::size_t line_count() const override { return lines_.size(); }
-  WorldLine& line(std::size_t number) { return *lines_[number]; }
   const WorldLine& line(std::size_t number) const override { return *lines_[number]; }
+
+  // What hosts do there, as pty/line.h has it: all that reaches a line from outside comes in here.
+  void host_opened(std::size_t line) { lines_[line]->line.host_opened(); }
+  void host_closed(std::size_t line) { lines_[line]->line.host_closed(); }
+  void host_settings(std::size_t line, const std::optional<pty::HostSettings>& settings) {
+    lines_[line]->line.host_settings(settings);
+  }
+  /// Bytes of the host that is there now; `at` is this moment, or one to come. At most line().room() of them.
+  void receive(std::size_t line, std::span<const std::uint8_t> bytes, SimTime at) {
+    lines_[line]->line.receive(bytes, at);
+  }
+  void receive(std::size_t line, std::span<const std::uint8_t> bytes) { receive(line, bytes, now_); }
+  /// At this moment, of a host that has closed since.
+  void receive_departed(std::size_t line, std::span<const std::uint8_t> bytes) {
+    lines_[line]->line.receive_departed(bytes, now_);
+  }
+  /// The clock stands, and nothing more has come for as long as a frame is waited for.
+  void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
+  /// The host has taken so many bytes of the line's output.
+  void take_output(std::size_t line, std::size_t count) { lines_[line]->line.take_output(count); }
+
+  // Those who look at a line; they change nothing.
+  void add_observer(std::size_t line, pty::LineObserver& observer) {
+    lines_[line]->line.add_observer(observer);
+  }
+  void remove_observer(std::size_t line, pty::LineObserver& observer) {
+    lines_[line]->line.remove_observer(observer);
+  }
+  /// Lets them know of it; nothing else comes of it.
+  void tell_strike(std::size_t line, const pty::StruckMessage& message) {
+    lines_[line]->line.tell_strike(message);
+  }
 
   // --- devices and the plant ---------------------------------------------------------------------
   std::size_t device_count() const override { return devices_.size(); }
@@ -77,11 +110,12 @@ class World final : public WorldView {
   /// Holds a digital input on, or lets it go; switches and wires on the same input act as well. Or sets an
   /// analog input (millivolts) or a switch on the housing.
   void set_external_input(std::size_t device, int terminal, std::int32_t level);
-  /// What set_external_input() has given it.
+  /// What set_external_input() gave it.
   std::int32_t external_input(std::size_t device, int terminal) const;
-  /// Writes a register past the line.
+  /// Writes a register without the line.
   Refusal write(std::size_t device, const PreparedWrite& write);
-  /// Gives a value of that name to a device without registers. Nothing, or why not; nothing has changed then.
+  /// Sets a value by its name, for a device without registers. Returns nothing, or why not, and then nothing
+  /// has changed.
   std::optional<std::string> assign(std::size_t device, const std::string& name, double value);
   /// Throws ProgramError.
   void load_program(std::size_t device, std::string_view text);
@@ -90,13 +124,12 @@ class World final : public WorldView {
   void switch_power(std::size_t device, bool on);
 
   // --- faults --------------------------------------------------------------------------------
-  /// In force from the next tick on, or when its trigger says so; the number is for clear_fault(). NameError
-  /// for what this world cannot have; nothing has changed then.
+  /// In force from the next tick on, or when its trigger says so; the number is for clear_fault(). Throws
+  /// NameError if this world cannot have it; then nothing has changed.
   std::size_t inject(const Fault& fault);
-  /// False if there is none of that number.
+  /// False if there is no fault of that number.
   bool clear_fault(std::size_t number);
-  /// Those there are, whether they have struck or wait, in the order of their numbers.
-  /// All of them.
+  /// All faults, whether they have struck or wait, in the order of their numbers.
   void clear_faults();
   const std::map<std::size_t, ArmedFault>& faults() const { return faults_; }
 
@@ -111,7 +144,7 @@ class World final : public WorldView {
     std::optional<bool> stuck{};
   };
 
-  /// A contact of the machine on an axis, and the input of its device that it is wired to.
+  /// A contact of the machine on an axis, and its device's input to which it is wired.
   struct ContactWire {
     std::size_t axis = 0;
     Contact contact = Contact::home;

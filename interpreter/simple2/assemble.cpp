@@ -2,11 +2,19 @@
 // their flags and fills them in.
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/listing.h"
 #include "interpreter/simple2/operand_text.h"
+#include "interpreter/simple2/program.h"
 #include "interpreter/simple2/text.h"
 
 namespace understudy::interpreter::simple2 {
@@ -62,7 +70,7 @@ class Assembler {
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     }
     if (pending_.mark)
-      fail(*pending_.mark, "label", quoted(pending_.mark->text) + " marks no line", "an instruction");
+      fail(*pending_.mark, "label", quoted(pending_.mark->text) + " does not mark a line", "an instruction");
     give_flags();
     fill_in_flags();
 
@@ -130,8 +138,8 @@ class Assembler {
     }
     const auto [earlier, is_new] = labels_.emplace(lower_case(name), Label{token, 0});
     if (!is_new) {
-      return fail(token, "label", quoted(name) + " is there twice",
-                  "another name than in line " + std::to_string(earlier->second.token.line));
+      return fail(token, "label", quoted(name) + " appears twice",
+                  "a different name from the one in line " + std::to_string(earlier->second.token.line));
     }
     pending_.names.push_back(named);
   }
@@ -234,7 +242,7 @@ class Assembler {
     const int number = next_++;
     const Marks marks = std::exchange(pending_, {});
     if (number >= kLineCount) {
-      if (number == kLineCount) fail(word, "line", "the program is full", "256 lines at most, 0 to 255");
+      if (number == kLineCount) fail(word, "line", "the program is full", "at most 256 lines, 0 to 255");
       return number;
     }
     const auto place = static_cast<std::size_t>(number);
@@ -242,7 +250,7 @@ class Assembler {
       fail(word, "line",
            "line " + std::to_string(number) + " of the program comes from line " +
                std::to_string(text_line_[place]) + " already",
-           "a line that is free");
+           "a free line");
       return number;
     }
     text_line_[place] = word.line;
@@ -274,7 +282,7 @@ class Assembler {
         flag = static_cast<std::uint8_t>(free - is_taken.begin());
         if (flag > kFlagCount) {
           fail(marks.names.front(), "label", "no flag is left for " + quoted(marks.names.front().text),
-               "64 flags at most");
+               "at most 64 flags");
         } else {
           is_taken[flag] = true;
         }
@@ -299,7 +307,7 @@ class Assembler {
       fail(*marks.flag_token, "label",
            flag_text(flag) + " leads to line " + std::to_string(text_line_[last[flag]]) +
                ", the last that has it",
-           "a flag of its own");
+           "a flag that no other line has");
     }
   }
 

@@ -1,11 +1,19 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/listing.h"
 #include "interpreter/simple2/operand_text.h"
+#include "interpreter/simple2/program.h"
 
 namespace understudy::interpreter::simple2 {
 namespace {
 
 constexpr std::size_t kLabelWidth = 8;
-/// From so many lines of nothing but zeros on, `.at` steps over them.
+/// `.at` steps over at least this many lines of nothing but zeros.
 constexpr int kLongGap = 4;
 
 std::string padded(std::string text) {

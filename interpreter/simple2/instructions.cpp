@@ -1,5 +1,7 @@
 #include "interpreter/simple2/instructions.h"
 
+#include <string_view>
+
 namespace understudy::interpreter::simple2 {
 
 std::string_view describe(Operand operand) {

@@ -1,4 +1,4 @@
-// What a running Simple2-R3 program acts on: the abstract machine that the device is to it.
+// What a running Simple2-R3 program acts on: the device, as an abstract machine.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,16 @@
 #include "interpreter/simple2/operand_text.h"
 
 #include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
+#include "interpreter/simple2/instructions.h"
 #include "interpreter/simple2/parameter_names.h"
+#include "interpreter/simple2/program.h"
 #include "interpreter/simple2/text.h"
 
 namespace understudy::interpreter::simple2 {

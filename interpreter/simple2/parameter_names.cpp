@@ -1,6 +1,11 @@
 #include "interpreter/simple2/parameter_names.h"
 
 #include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "interpreter/simple2/text.h"
 

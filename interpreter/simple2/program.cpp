@@ -1,6 +1,10 @@
 #include "interpreter/simple2/program.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "interpreter/simple2/instructions.h"
 

@@ -2,6 +2,9 @@
 
 #include <cstddef>
 
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
 #include "interpreter/slim/verbs.h"
 
 namespace understudy::interpreter::slim {

@@ -16,8 +16,8 @@ enum class Place : std::uint8_t {
 
 /// What the manual leaves open about the columns.
 struct Columns {
-  /// While a program runs: also queries and what a host needs to get out of a pause, or only what is printed;
-  /// or RESET besides the former.
+  /// While a program runs: also queries and what a host needs to end a pause, or only what is printed; or
+  /// also RESET.
   enum class External : std::uint8_t { lenient, strict, with_reset } external = External::lenient;
   /// Moves from variables that the column 立即 does not allow.
   enum class VariableForms : std::uint8_t {

@@ -7,7 +7,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// What a command does. A number in a row's `variant` tells relatives apart, as the comments say.
+/// What a command does. A number in a row's `variant` distinguishes related commands, as the comments say.
 enum class Verb : std::uint8_t {
   // one motor
   move_absolute,
@@ -111,7 +111,7 @@ enum class Verb : std::uint8_t {
   continuous_path,  // variant: mode 0 to 2
 };
 
-/// What stands at one place behind a command's name.
+/// What may stand at one place after a command's name.
 enum class Slot : std::uint8_t {
   none,
   real,           // a constant

@@ -1,8 +1,14 @@
 #include "interpreter/slim/editor.h"
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/complete_table.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/program.h"
 #include "interpreter/slim/verbs.h"
 #include "interpreter/slim/words.h"
 

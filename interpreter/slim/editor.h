@@ -9,7 +9,7 @@
 
 namespace understudy::interpreter::slim {
 
-/// Which lines the host sends as program lines now.
+/// Which lines from the host are program lines now.
 struct Editor {
   enum class Mode : std::uint8_t {
     none,

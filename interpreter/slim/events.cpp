@@ -1,6 +1,13 @@
 #include "interpreter/slim/events.h"
 
 #include <cstddef>
+#include <optional>
+#include <span>
+
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/machine.h"
 
 namespace understudy::interpreter::slim {
 namespace {

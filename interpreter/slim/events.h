@@ -18,7 +18,8 @@ struct EventOptions {
   enum class AtArming : std::uint8_t { fires, waits_for_change } at_arming = AtArming::fires;
   /// An event that came while another one's routine ran, and whose condition is false again at its RET.
   enum class Held : std::uint8_t { fires, is_dropped } held = Held::fires;
-  /// Conditions are looked at in the milliseconds that this divides; what comes and goes between is not seen.
+  /// Conditions are looked at in the milliseconds that this divides; what comes and goes in between is not
+  /// seen.
   int look_every_ms = 1;
 
   bool operator==(const EventOptions&) const = default;
@@ -47,7 +48,7 @@ void arm_events(Events& events, const EventOptions& options);
 /// Looks at all conditions. The error is that of a condition that cannot be tested (it is taken
 /// out of use).
 Error look_at_events(Events& events, const EventOptions& options, const Machine& machine);
-/// The one whose turn it is; it is no longer pending then.
+/// Takes the event whose turn it is, which is then no longer pending.
 std::optional<Operand> take_event(Events& events);
 /// Whether the next look would change anything, if the machine stays as it is but its clock goes on.
 bool would_change(const Events& events, const Machine& machine);

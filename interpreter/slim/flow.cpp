@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "base/complete_table.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/events.h"
+#include "interpreter/slim/machine.h"
+#include "interpreter/slim/parse.h"
+#include "interpreter/slim/program.h"
 #include "interpreter/slim/verbs.h"
 #include "interpreter/slim/words.h"
 

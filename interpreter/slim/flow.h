@@ -108,7 +108,7 @@ Error step(Execution& execution, std::int64_t now_ms, const Program& program, co
 std::int64_t next_active_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
                             const FlowOptions& options, const Machine& machine);
 
-/// Whether a run of this program can have come to this: for what is restored from a file.
+/// Whether a run of this program can have reached this state: for what is restored from a file.
 bool is_sound(const Execution& execution, const Program& program, const FlowOptions& options);
 
 }  // namespace understudy::interpreter::slim

@@ -1,4 +1,4 @@
-// What a running SLIM program acts on: the abstract machine that the chain of motors is to it.
+// What a running SLIM program acts on: the chain of motors, as an abstract machine.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ struct ParseResult {
   bool operator==(const ParseResult&) const = default;
 };
 
-/// Whatever any dialect has: for what a dialect has let in already.
+/// The union of all dialects: for what a dialect has accepted already.
 inline constexpr Dialect kWidestDialect{.longest_line = kLongestLine, .quantities = true};
 
 /// Everything that needs no state is checked. An empty line is not an error.

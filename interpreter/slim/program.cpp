@@ -1,7 +1,16 @@
 #include "interpreter/slim/program.h"
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "interpreter/slim/availability.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/parse.h"
 #include "interpreter/slim/words.h"
 
 namespace understudy::interpreter::slim {

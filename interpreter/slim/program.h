@@ -24,12 +24,11 @@ struct ProgramOptions {
   int first_number = 0;  // of the first line: in addresses, in PE, PI, PD and PL
   /// A line that no program can carry out is refused as it is entered, or stored and refused as it runs.
   enum class Check : std::uint8_t { as_entered, as_run } check = Check::as_entered;
-  /// What the machine knows of a command without its state, such as which parameters there are; null:
-  /// nothing.
+  /// What the machine knows about a command without its state, such as which parameters exist; null: nothing.
   Error (*check_command)(const Command& command) = nullptr;
   /// An empty line while a program is entered.
   enum class EmptyLine : std::uint8_t { ends_editing, is_ignored } empty_line = EmptyLine::ends_editing;
-  /// A line that is refused after PE or PI: they wait for another one, or are over.
+  /// A line that is refused after PE or PI: they wait for another one, or end.
   enum class RefusedLine : std::uint8_t {
     is_asked_for_again,
     ends_pe_and_pi
@@ -56,11 +55,10 @@ class Program {
   int size() const { return static_cast<int>(lines_.size()); }
   const StoredLine& line(int number) const { return lines_[static_cast<std::size_t>(number)]; }
 
-  /// Behind the last line: what insert() takes as a number.
-  /// Refuses (and changes nothing): a line that does not parse, or is empty; a command that no program may
-  /// hold (not_allowed); a label that another line has (address); a number that there is not (range); more
-  /// lines than fit (buffer_full). With
-  /// Check::as_run only empty lines, those too long, and what ends a transfer are refused for what they say.
+  /// Behind the last line: what insert() takes as a number. Refuses (and changes nothing): a line that does
+  /// not parse, or is empty; a command that no program may hold (not_allowed); a label that another line has
+  /// (address); a number that does not exist (range); more lines than fit (buffer_full). With Check::as_run
+  /// only empty lines, those too long, and what ends a transfer are refused for what they say.
   Error insert(int number, std::string_view text, const ProgramOptions& options = {});
   Error replace(int number, std::string_view text, const ProgramOptions& options = {});
   Error remove(int number);

@@ -4,11 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
+#include <span>
+#include <string_view>
 #include <utility>
 
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/parse.h"
 #include "interpreter/slim/words.h"
 
 namespace understudy::interpreter::slim {

@@ -1,9 +1,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <utility>
+#include <ranges>
 
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
+#include "interpreter/slim/error.h"
+#include "interpreter/slim/events.h"
 #include "interpreter/slim/flow.h"
+#include "interpreter/slim/parse.h"
+#include "interpreter/slim/program.h"
 #include "interpreter/slim/text_of.h"
 
 namespace understudy::interpreter::slim {

@@ -3,9 +3,14 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
 #include "interpreter/slim/slots.h"
 
 namespace understudy::interpreter::slim {

@@ -7,8 +7,15 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/error.h"
 #include "interpreter/slim/parse.h"
 
 namespace understudy::interpreter::slim {

@@ -68,7 +68,7 @@ TEST_F(OutputPaths, AreRefusedWhereSomethingWouldBeLost) {
       {{"run", "@play.yaml", "--junit", "@blink.lst"}, "--junit: @blink.lst: is the program of 'feeder'"},
       {{"run", "@play.yaml", "--junit", "@x", "--report", "@x"}, "--report: @x: is what --junit writes"},
       {{"run", "@play.yaml", "--junit", "@x.jsonl", "--record", "@."},
-       "--record: @.: holds x.jsonl, which is what --junit writes; expected a folder of its own"},
+       "--record: @.: holds x.jsonl, which is what --junit writes; expected another folder"},
       {{"run", "@save.yaml", "--junit", "@kept.json"}, "--junit: @kept.json: is what @save.yaml saves"},
       // What is left out of this run is read all the same.
       {{"run", "@play.yaml", "@save.yaml", "--filter", "play", "--junit", "@save.yaml"},
@@ -118,8 +118,8 @@ TEST_F(OutputPaths, OfSnapshotsAreNoneOfTheDaemonsOwn) {
                                    {"nv/device.json", "the memory of 'device'"}}) {
     const Finished finished = daemon.ctl({"snapshot", at(name)});
     EXPECT_EQ(finished.exit_code, 2) << finished.output;
-    EXPECT_EQ(finished.errors, "understudy: ctl snapshot: " + at(name) + ": file: is " + what +
-                                   "; expected a path of its own\n");
+    EXPECT_EQ(finished.errors,
+              "understudy: ctl snapshot: " + at(name) + ": file: is " + what + "; expected another path\n");
   }
   // Over an older snapshot is well.
   for (int time = 0; time < 2; ++time) EXPECT_EQ(daemon.ctl({"snapshot", at("now")}).exit_code, 0);
@@ -157,7 +157,7 @@ TEST_F(OutputPaths, OfARunsFilesAreNothingThatALinkThereLeadsTo) {
     EXPECT_EQ(finished.exit_code, 3) << flag;
     EXPECT_NE(finished.errors.find(std::string(flag) + ": " + at("kept") + "/play."), std::string::npos)
         << finished.errors;
-    EXPECT_NE(finished.errors.find("expected a path of its own"), std::string::npos) << finished.errors;
+    EXPECT_NE(finished.errors.find("expected another path"), std::string::npos) << finished.errors;
     EXPECT_EQ(contents(), before) << flag;
   }
 }
@@ -191,7 +191,7 @@ TEST_F(OutputPaths, OfAGrowingFileBelongToOneProgram) {
     }();
     const Finished second = understudy({"serve", at("bench.yaml"), flag, at(name)});
     EXPECT_EQ(second.exit_code, 3);
-    EXPECT_NE(second.errors.find(": another program is writing it; expected a path of its own\n"),
+    EXPECT_NE(second.errors.find(": another program is writing it; expected another path\n"),
               std::string::npos)
         << second.errors;
     std::ostringstream has;

@@ -236,7 +236,7 @@ TEST(ShippedScenarios, HaveTheSameVerdictsInRealTime) {
   }
   EXPECT_EQ(verdicts, expected) << output;
 
-  // Each of these plays, over a pty and by the clock on the wall, runs again in free time to the byte.
+  // Each of these plays, over a pty and by the wall clock, runs again in free time to the byte.
   std::size_t recordings = 0;
   for (const auto& entry : fs::directory_iterator(folder / "recordings")) {
     const Finished again = understudy({"replay", entry.path().string()});

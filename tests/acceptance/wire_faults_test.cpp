@@ -130,7 +130,7 @@ TEST(WireFaults, ThatAreWrongAreRefusedWithOneLine) {
   EXPECT_EQ(refused({"inject", "dorp", "device"}),
             "understudy: ctl inject: 'dorp' is not a fault; the nearest is 'drop'\n");
   EXPECT_EQ(refused({"inject", "drop", "device", "nht=3"}),
-            "understudy: ctl inject: drop: nht: is nothing it has; the nearest is 'nth'\n");
+            "understudy: ctl inject: drop: nht: is not a field here; the nearest is 'nth'\n");
   EXPECT_EQ(refused({"inject", "drop", "device", "when=device.A.puls > 3"}),
             "understudy: ctl inject: drop: when: column 1 of 'device.A.puls > 3': axis A has no 'puls'; the "
             "nearest "

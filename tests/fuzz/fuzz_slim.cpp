@@ -120,12 +120,12 @@ class Listener {
   /// Everything is as it was when it was made.
   void begin_anew() {
     make_anew_();
-    line().take_output(line().output().size());
+    world_.take_output(0, line().output().size());
     said_.clear();
   }
 
   void type(std::string_view bytes) {
-    line().receive({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, world_.now());
+    world_.receive(0, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     advance(0ns);
   }
   void advance(SimTime duration) {
@@ -134,7 +134,7 @@ class Listener {
     demand(!due || *due > world_.now(), "what is due has been done");
     const auto output = line().output();
     said_.append(output.begin(), output.end());
-    line().take_output(output.size());
+    world_.take_output(0, output.size());
   }
   void set_terminal(std::size_t number, int level) {
     const auto terminals = emulator::models::slim::model().terminals;
@@ -155,7 +155,7 @@ class Listener {
   }
 
   const emulator::Device& device() { return world_.device(0); }
-  pty::Line& line() { return world_.line(0).line; }
+  const pty::Line& line() const { return world_.line(0).line; }
   const std::string& said() const { return said_; }
 
  private:

@@ -58,8 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
          "a program that it has is one that it takes");
   if (!is_checked_wholly) return 0;
   const std::string_view start = "G\r";
-  chain.world.line(0).line.receive({reinterpret_cast<const std::uint8_t*>(start.data()), start.size()},
-                                   chain.world.now());
+  chain.world.receive(0, {reinterpret_cast<const std::uint8_t*>(start.data()), start.size()});
   chain.world.advance_to(chain.world.now() + kRun);
   return 0;
 }

@@ -86,13 +86,13 @@ class Listener {
   /// Everything is as it was when it was made.
   void begin_anew() {
     make_anew_();
-    line().take_output(line().output().size());
+    world_.take_output(0, line().output().size());
     said_.clear();
   }
 
   void hear(const Lump& lump) {
     advance(lump.gap);
-    line().receive(lump.bytes, world_.now());
+    world_.receive(0, lump.bytes);
     advance(0ns);
   }
   void advance(SimTime duration) {
@@ -101,7 +101,7 @@ class Listener {
     demand(!due || *due > world_.now(), "what is due has been done");
     const auto output = line().output();
     said_.insert(said_.end(), output.begin(), output.end());
-    line().take_output(output.size());
+    world_.take_output(0, output.size());
   }
 
   /// What is on the wire, or about to be said, has been said.
@@ -110,7 +110,7 @@ class Listener {
     while (line().due() && world_.now() < end) advance(kAStep);
   }
 
-  pty::Line& line() { return world_.line(0).line; }
+  const pty::Line& line() const { return world_.line(0).line; }
   const emulator::Device& device() { return world_.device(0); }
   const emulator::world::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
   SimTime now() const { return world_.now(); }

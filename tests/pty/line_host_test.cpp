@@ -139,8 +139,8 @@ TEST(LineHost, HearsAHostThatSetNoSpeedAndWarnsOnce) {
   rig.send(kRequest, 0s);
   rig.run(1s);
   EXPECT_EQ(rig.out, kReply);
-  EXPECT_EQ(rig.warnings,
-            std::vector<std::string>{"line rs485: the host set no speed, what it sends is taken as heard"});
+  EXPECT_EQ(rig.warnings, std::vector<std::string>{
+                              "line rs485: the host set no speed; what it sends is assumed to be heard"});
 }
 
 TEST(LineHost, HearsEveryHostWhereSettingsAreNotEnforced) {

@@ -211,10 +211,10 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
     }
     EXPECT_EQ(rig.wire.line.save().input.size(), 5u);
   };
-  refused("it has other stations", [](Line::State& s) { s.members.pop_back(); });
-  refused("its settings are none of a line", [](Line::State& s) { s.settings.baud = 0; });
-  refused("its settings are none of a line", [](Line::State& s) { s.settings.stop_bits = 3; });
-  refused("its settings are none of a line", [](Line::State& s) { s.settings.data_bits = 9; });
+  refused("its stations are different", [](Line::State& s) { s.members.pop_back(); });
+  refused("its settings are not those of a line", [](Line::State& s) { s.settings.baud = 0; });
+  refused("its settings are not those of a line", [](Line::State& s) { s.settings.stop_bits = 3; });
+  refused("its settings are not those of a line", [](Line::State& s) { s.settings.data_bits = 9; });
   refused("more bytes wait than it holds", [](Line::State& s) { s.input.resize(Line::kInputCapacity + 1); });
   refused("more bytes wait than it holds",
           [](Line::State& s) { s.edge.output.resize(Line::kOutputCapacity + 1); });

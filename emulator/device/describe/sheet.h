@@ -16,8 +16,8 @@ struct Sheet {
 enum class SheetFormat { table, csv, json, markdown };
 std::optional<SheetFormat> parse_sheet_format(std::string_view name);
 
-/// The sheet as text, its last line ended. JSON is an array of objects, one a row; a column
-/// of decimal numbers is of numbers there, with null where it is empty.
+/// The sheet as text, its last line ended. JSON is an array of objects, one a row; a column of decimal
+/// numbers holds numbers there, and null where it is empty.
 std::string format_sheet(const Sheet& sheet, SheetFormat format);
 
 }  // namespace understudy::emulator

@@ -89,12 +89,13 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
     if (job.slot == kEverything) {
       demand_state(i == 0 && rewriting_.size() == kept_.size(), "the memory cannot write everything");
     } else {
-      demand_state(job.slot < left.size() && left[job.slot] == Slot::waits, "the memory writes in disorder");
+      demand_state(job.slot < left.size() && left[job.slot] == Slot::waits,
+                   "the memory's writes are out of order");
       left[job.slot] = Slot::rests;
     }
   }
   demand_state(std::find(left.begin(), left.end(), Slot::waits) == left.end(),
-               "the memory writes in disorder");
+               "the memory's writes are out of order");
   const bool rewrites = !jobs_.empty() && jobs_.front().slot == kEverything;
   demand_state(rewrites || rewriting_.empty(), "the memory cannot write everything");
   demand_state(jobs_.empty() == (done_at_ == kNever), "the memory writes without end");

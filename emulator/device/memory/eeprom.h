@@ -1,5 +1,5 @@
 // An EEPROM behind a register image. What is written to a kept register waits its turn and takes its time;
-// what has had it outlives the power. A value: it can be copied and compared.
+// after that it survives power-off. A value: it can be copied and compared.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,19 @@ namespace understudy::emulator {
 class Eeprom {
  public:
   Eeprom() = default;
-  /// What the factory has put there, and for each slot whether it is kept at all.
+  /// What the factory put there, and for each slot whether it is kept at all.
   Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept);
 
   /// A register was written after tick `now`; `bits` is what it holds. A value that is kept already is not
-  /// written again, one that waits keeps its place.
-  /// `even_if_same`: also what is there already.
+  /// written again, and one that waits keeps its place. `even_if_same`: also write what is there already.
   void write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same = false);
-  /// Everything at once, as it is in the image now and in place of all that waits, as an erasure does it.
+  /// Writes everything at once, as it is in the image now, in place of all that waits, as an erasure does.
   void rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now);
   /// At the end of `tick`: keeps what is done, single registers with the values that the image has then.
   void step(Tick tick, std::span<const std::uint32_t> image);
   /// Keeps everything at once.
   void settle(std::span<const std::uint32_t> image);
-  /// The power goes: what waits is lost, and what was being written keeps its old value.
+  /// The power fails: what waits is lost, and what was being written keeps its old value.
   void lose_power();
   /// From outside.
   void put(std::size_t slot, std::uint32_t bits);

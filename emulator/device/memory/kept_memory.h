@@ -1,4 +1,4 @@
-// What of a device outlives the power. A facet: Device::memory() is null where a device keeps nothing.
+// The part of a device that survives power-off. A facet: Device::memory() is null if a device keeps nothing.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace understudy::emulator {
 
 class KeptMemory {
  public:
-  /// As a file has it, and back (without power only). Throws NvError for what it cannot hold.
+  /// To and from the form in files (from: only without power). Throws NvError for what it cannot hold.
   NvImage nv_image() const;
   void load_nv(const NvImage& image);
 
-  /// Changes whenever what would be there if the power went now may have changed.
+  /// Changes whenever what would survive a power failure now may have changed.
   virtual std::uint64_t kept_revision() const = 0;
-  /// All that waits to be kept is kept at once, as if its time were over.
+  /// Keeps all that waits to be kept at once, as if its time had passed.
   virtual void settle_memory() = 0;
 
  protected:
@@ -26,10 +26,10 @@ class KeptMemory {
   KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
   ~KeptMemory() = default;
 
-  /// All that is kept, into an image that has the model and the firmware already.
+  /// Puts all that is kept into an image that has the model and the firmware already.
   virtual void write_memory(NvImage& image) const = 0;
-  /// The same back, without power: what the image does not name has the factory's value. Throws NvError for
-  /// what it cannot hold; nothing has changed then.
+  /// The reverse, without power: what the image does not name has the factory's value. If it throws (NvError:
+  /// it cannot hold that), nothing has changed.
   virtual void read_memory(const NvImage& image) = 0;
 
  private:

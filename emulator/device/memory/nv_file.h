@@ -1,5 +1,5 @@
-// NV images on disk. A file is replaced as a whole by one that has been written beside it, so that whoever
-// reads it, and whenever the writer dies, finds the old image or the new one.
+// NV images on disk. A file is replaced as a whole by one that has been written beside it, so that a reader
+// finds the old image or the new one, whenever the writer dies.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@ namespace understudy::emulator {
 /// Nothing if there is no file. Throws NvError "path: field: what is wrong"; the file is left as it is.
 std::optional<NvImage> read_nv_file(const std::string& path);
 
-/// Why no image may be put there: there is something else. Empty if the path is free or has an image.
+/// Why no image may be put there: something else is there. Empty if the path is free or has an image.
 std::string why_not_replaceable_by_image(const std::string& path);
 
 /// Writes images for an owner that may not wait: a helper thread does it.
 class NvWriter {
  public:
-  /// Images of one file that follow each other sooner than this are written once, the last of them.
+  /// Of images for one file that follow each other sooner than this, only the last is written.
   static constexpr std::chrono::milliseconds kCoalesce{100};
 
   NvWriter();
@@ -38,7 +38,7 @@ class NvWriter {
   void flush();
   /// Nothing waits, nothing is being written, and there is no news.
   bool is_idle() const;
-  /// What there is to tell since the last call: a line when a file cannot be written, and when it can again.
+  /// News since the last call: a line when a file cannot be written, and one when it can again.
   std::vector<std::string> take_news();
 
  private:

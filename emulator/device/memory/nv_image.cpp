@@ -53,7 +53,7 @@ Parsed parse_strictly(const std::string& text) {
     if (event != Json::parse_event_t::key) return true;
     const auto& key = json.get_ref<const std::string&>();
     if (!keys.back().insert(key).second) {
-      throw NvError(understudy::quoted(key) + ": is there twice; expected it once");
+      throw NvError(understudy::quoted(key) + ": appears twice; expected it once");
     }
     if (depth == 1) outermost = key;
     if (depth == 2 && outermost == "registers") parsed.registers.push_back(key);
@@ -64,7 +64,7 @@ Parsed parse_strictly(const std::string& text) {
     parsed.file = Json::parse(text, take);
     return parsed;
   } catch (const Json::parse_error& error) {
-    throw NvError(line_of(text, error.byte) + ": is torn or no JSON; expected an NV image");
+    throw NvError(line_of(text, error.byte) + ": is torn or not JSON; expected an NV image");
   } catch (const Json::exception&) {  // a number that no type holds
     throw NvError("a number is beyond all bounds; expected one that 64 bits hold");
   }
@@ -131,7 +131,7 @@ NvImage parse_nv_image(const std::string& text) {
     throw NvError("understudy: is missing; expected an NV image");
   }
   if (!file["understudy"].is_number_integer() || file["understudy"] != kFormat) {
-    throw NvError("understudy: is of another format; expected " + std::to_string(kFormat));
+    throw NvError("understudy: is in another format; expected " + std::to_string(kFormat));
   }
   if (text_of(file, "kind") != kKind) {
     throw NvError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " + kKind);

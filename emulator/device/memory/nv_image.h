@@ -1,6 +1,6 @@
 // NV images: a device's non-volatile memory as a value, and as a file: JSON that people read and compare. It
 // names what differs from the factory's values, in the order of the model's table. Real numbers and a stored
-// program are there for models whose memory has such.
+// program are for models whose memory has them.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct NvError : std::runtime_error {
 };
 
 std::string to_json(const NvImage& image);
-/// Throws NvError for text that is torn, not JSON, or no NV image. Whether the names and values suit the
-/// device is for KeptMemory::load_nv().
+/// Throws NvError for text that is torn, not JSON, or not an NV image. KeptMemory::load_nv() decides whether
+/// the names and values suit the device.
 NvImage parse_nv_image(const std::string& text);
 
 }  // namespace understudy::emulator

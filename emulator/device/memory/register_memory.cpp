@@ -62,7 +62,7 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     }
     const RegisterRow& row = *found->place.row;
     if (!bank.keeps(row)) {
-      throw NvError("registers: " + quoted(name) + " is not kept over power-off; expected one that is");
+      throw NvError("registers: " + quoted(name) + " is not kept through power-off; expected one that is");
     }
     const auto bits = static_cast<std::uint32_t>(value);
     // Half of a 32-bit value may have been written alone, so it can be beyond its range; nothing else can.
@@ -73,7 +73,7 @@ std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImag
     }
     const auto slot = static_cast<std::size_t>(found->place.slot);
     if (is_named[slot]) {
-      throw NvError("registers: " + quoted(name) + ": is there twice, by two names; expected it once");
+      throw NvError("registers: " + quoted(name) + ": appears twice, by two names; expected it once");
     }
     is_named[slot] = true;
     values[slot] = bits;

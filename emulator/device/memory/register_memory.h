@@ -1,4 +1,4 @@
-// Registers that outlive the power, as the image of a memory has them.
+// Registers that survive power-off, as the image of a memory has them.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace understudy::emulator {
 /// those of registers that are not kept mean nothing.
 void write_registers(const RegisterBank& bank, std::span<const std::uint32_t> kept, NvImage& image);
 
-/// The same back, one value for each slot: what the image does not name has the factory's value. `newest` is
+/// The reverse, one value for each slot: what the image does not name has the factory's value. `newest` is
 /// the model's newest firmware: an update leaves the memory as it is, so it may hold registers of any. Throws
 /// NvError for what is not in such a memory.
 std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImage& image, Firmware newest);

@@ -1,5 +1,5 @@
 // What a device offers that is spoken to in Modbus, beside its registers: which addresses it listens to, and
-// whether it says no. A facet: Device::modbus() is null where a device speaks something else.
+// whether it refuses. A facet: Device::modbus() is null where a device speaks something else.
 #pragma once
 
 #include <cstdint>

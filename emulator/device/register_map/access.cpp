@@ -62,7 +62,7 @@ struct Changes {
   std::size_t count = 0;
 };
 
-/// Calls `act` with room for the changes of so many words. Clearing room for the most would cost more than
+/// Calls `act` with room for the changes of this many words. Clearing room for the most would cost more than
 /// all the rest of a program's write.
 template <typename Act>
 auto with_room_for(std::size_t words, Act act) {

@@ -1,6 +1,6 @@
-// Reading and writing a device's registers through its map: the same rules for the wire, the control
-// socket and scenarios. A write is checked whole, then stored, then takes effect; one that is refused
-// changes nothing.
+// Reading and writing a device's registers through its map: the same rules for the wire, the control socket
+// and scenarios. A write is checked as a whole, then stored, then takes effect; a refused write changes
+// nothing.
 #pragma once
 
 #include <array>
@@ -48,9 +48,9 @@ struct PreparedWrite {
   std::size_t count = 0;
 };
 
-/// Judges a write as one from the wire, and makes the words for it; those will not be refused, whatever is
-/// written before them (but for a register that changes the order of words). A bit is written by way of its
-/// register, as it is at this moment.
+/// Judges a write as if from the wire, and makes the words for it; they will not be refused, whatever is
+/// written before them (except for a register that changes the order of words). A bit is written by way of
+/// its register, as it is at this moment.
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);
 Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write);
 /// Both at once.

@@ -1,4 +1,4 @@
-// A device's registers, as all reach them that read and write them (access.h): the wire, the control socket,
+// A device's registers, for everything that reads and writes them (access.h): the wire, the control socket,
 // scenarios, the device's own program. A facet: Device::register_bank() is null where a device has none.
 #pragma once
 
@@ -28,7 +28,7 @@ enum class Checked : std::uint8_t { addresses, everything };
 class RegisterBank {
  public:
   const RegisterMap& map() const { return map_; }
-  /// What the device has at an address, or of a name, by its firmware.
+  /// What the device has at an address, or by a name, in its firmware.
   Place at(Table table, std::uint16_t address) const {
     return map_.at(table, address, map_firmware_, low_word_first());
   }
@@ -41,13 +41,13 @@ class RegisterBank {
   std::string why_not(std::string_view name) const { return map_.why_not(name, map_firmware_); }
   bool has_row(const RegisterRow& row) const { return map_firmware_ >= row.since; }
 
-  /// The map's, or what this device makes of it.
+  /// The map's answer, or this device's own.
   virtual const MapPolicy& map_policy() const { return map_.policy(); }
   virtual bool low_word_first() const { return map_.policy().low_word_first; }
   /// One slot for each register, as the map numbers them.
   virtual std::span<std::uint32_t> image() = 0;
   virtual std::span<const std::uint32_t> image() const = 0;
-  /// Whether a register outlives the power.
+  /// Whether a register survives power-off.
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
   /// Whether the device takes a request that is good so far: it may be busy, or fail. Asked before anything

@@ -250,7 +250,7 @@ std::string RegisterMap::why_not(std::string_view whole_name, Firmware firmware)
     return "register " + quoted(base) + " has no bit " + quoted(bit) + "; " + expected_bits(places.front());
   }
   if (const auto newer = places_called(table, base, UINT16_MAX); !newer.empty()) {
-    return "register " + quoted(base) + " is there from firmware " + version_text(newer.front().row->since) +
+    return "register " + quoted(base) + " exists from firmware " + version_text(newer.front().row->since) +
            " on";
   }
   if (const auto address = address_of(base)) {

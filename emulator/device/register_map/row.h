@@ -1,5 +1,5 @@
-// The vocabulary a model declares its registers in: one row a register (or a range of like ones), in
-// the manual's order and spelling. Everything else about registers is read from these rows.
+// The vocabulary a model declares its registers in: one row for each register (or a range of similar ones),
+// in the manual's order and spelling. Everything else about registers is read from these rows.
 #pragma once
 
 #include <bit>
@@ -72,14 +72,14 @@ struct Cell {
   bool high_half = true;  // a write: the high word came with it (always so for 16-bit registers)
 };
 
-/// The present value, where it is not simply the stored one.
+/// The present value, if it is not simply the stored one.
 using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// What a write does beyond storing. Runs after the whole request is stored, in ascending order.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
 /// Takes the words that one request has written to a window, or refuses them and has changed nothing.
 using Message = Refusal (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
-/// A model's own functions take its own device, which the bank that they are called for is part of
+/// A model's functions take its own device, of which the bank that they are called for is a part
 /// (register_bank.h). `D` may be incomplete where the rows stand.
 template <auto function>
 struct Handler;
@@ -319,7 +319,7 @@ struct MapPolicy {
     come_whole
   } read_halves = ReadHalves::may_be_read_alone;
   enum class OutOfRange : std::uint8_t { refused, clamped } out_of_range = OutOfRange::refused;
-  /// What a request with a value out of range leaves: nothing, or the registers before that one.
+  /// What a request with a value out of range leaves behind: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
   /// Whether the registers of one request take effect once all of them are stored, or each in its turn.
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;

@@ -19,7 +19,7 @@ enum class Mode : std::uint8_t { position = 0, velocity = 1, pwm = 2, sync = 3 }
 enum class Command : std::uint8_t { none, incremental, absolute, homing };
 
 /// What a tick needs lies side by side: the beginning of `motor` on two cache lines, and one line from `mode`
-/// to the beginning of `signals` (a test looks at it). In a crowd every line more costs time.
+/// to the beginning of `signals` (a test checks this). With many devices every further line costs time.
 struct alignas(64) AxisState {
   motion::Axis motor;
 
@@ -28,15 +28,16 @@ struct alignas(64) AxisState {
   bool homed = false;
   bool has_own_speed = false;  // the move that runs was started with Speed, AccTime and DecTime of the axis
   bool by_trigger = false;     // ... and by the trigger register itself
-  bool cut_short = false;      // the last move or homing ended before its end
-  bool alarm_latched = false;  // where a choice has the alarm outlast its input
+  bool cut_short = false;      // the last move or homing was cut short
+  bool alarm_latched = false;  // if a choice makes the alarm outlast its input
   std::uint8_t pwm_percent = 0;
   std::int32_t coordinate_pulses = 0;
-  std::uint32_t velocity_step_urpm = 1;  // as the last velocity command found it, for a choice that has it so
-  std::int64_t pulses_this_tick = 0;     // as they leave the device: after DIR_Polarity
-  Tick alarm_clear_until = 0;            // the first tick at which ACLR is over
-  std::int64_t encoder_raw = 0;          // as the plant has it
-  std::int64_t encoder_counts = 0;       // since power-up, each by the polarity of its moment
+  std::uint32_t velocity_step_urpm =
+      1;                              // as the last velocity command found it, for the choice that wants this
+  std::int64_t pulses_this_tick = 0;  // as they leave the device: after DIR_Polarity
+  Tick alarm_clear_until = 0;         // the first tick at which ACLR is over
+  std::int64_t encoder_raw = 0;       // as the plant has it
+  std::int64_t encoder_counts = 0;    // since power-up, each by the polarity of its moment
   // For ENCx_RPM: when the counts last changed.
   static constexpr Tick kSpeedWindow = 100;
   Tick encoder_changed = -kSpeedWindow;
@@ -60,10 +61,10 @@ struct alignas(64) AxisState {
 inline constexpr std::int64_t kMaxPulseRate_pps = 100'000;  // appendix B
 inline constexpr int kSyncPeriod = 5;                       // ticks: 200 Hz (appendix B)
 
-/// A velocity of 1 uRPM at 1 pulse a revolution makes one pulse in so many steps of 0.5 ms.
+/// A velocity of 1 uRPM at 1 pulse a revolution makes one pulse in this many steps of 0.5 ms.
 inline constexpr std::int64_t kVelocityPhase = 60'000'000LL * 2000;
 
-/// What of the registers a tick of an axis looks at.
+/// The register values that one axis tick depends on.
 struct DriveSettings {
   std::uint32_t pulses_per_revolution = 1;
   std::uint32_t velocity_step_urpm = 1;  // the change of speed in 0.5 ms
@@ -80,21 +81,21 @@ void remember_encoder(AxisState& axis, Tick tick);
 /// Asks for the memory that a tick needs.
 void prefetch(const AxisState& axis, Tick tick);
 
-/// What it does, which way (0: none) and in which phase; servo_off is for the caller to tell.
+/// What it does, which way (0: none) and in which phase; the caller knows about servo_off.
 Doing doing(const AxisState& axis);
 int heading(const AxisState& axis);
 Phase phase_of(const AxisState& axis, Tick now);
 
-/// Velocity mode towards `target_mrpm`, from the present speed if it runs already. Whether it may is for the
-/// caller to ask reactions.h; the same for the two below.
+/// Velocity mode towards `target_mrpm`, from the present speed if it runs already. The caller asks
+/// reactions.h whether it may; so for the two below.
 void run_velocity(AxisState& axis, std::int64_t target_mrpm);
-/// The velocity that is wanted runs, if nothing forbids it.
+/// Runs at the wanted velocity, if nothing forbids it.
 void resume_velocity(AxisState& axis);
-/// No pulse from now on; it goes on by what is wanted, once that may be.
+/// No pulses from now on; it goes on with what is wanted as soon as that is allowed.
 void halt_velocity(AxisState& axis);
 /// Follows an encoder that stands at `counts`, from now on.
 void follow_encoder(AxisState& axis, const motion::Follower& by, std::int64_t counts);
-/// Goes on following, the remainders included, whatever has stopped the motor.
+/// Goes on following, remainders included, whatever stopped the motor.
 void keep_following(AxisState& axis);
 
 /// PWM mode at once, 0 to 100 percent.
@@ -102,7 +103,7 @@ void output_pwm(AxisState& axis, std::uint8_t percent);
 /// The duty at the output: 0 while an alarm forbids it.
 std::uint8_t pwm_duty(const AxisState& axis);
 
-/// Nothing is output any more; the mode is position mode.
+/// Stops all output; the mode becomes position mode.
 void stop_drive(AxisState& axis);
 
 /// The plant's encoder stands at `raw` now.
@@ -111,12 +112,11 @@ void count_encoder(AxisState& axis, std::int64_t raw, bool reversed);
 /// Homing that looks for the switch only once, in either direction, slows down there, and stays.
 motion::HomingProgram homing_to_first_edge(const motion::Simple2Homing& how);
 
-/// What the position move that runs has still to go, signed; one at speed 0 has all of its way before it. 0
-/// for what is being stopped, and for homing.
+/// How far the running position move still has to go, signed; at speed 0 that is all of it. 0 for what is
+/// being stopped, and for homing.
 std::int64_t remaining_pulses(const AxisState& axis);
 
-/// The move that runs goes on to where the coordinate will be what it would have been, although that is
-/// `pulses` more from now on.
+/// The running move goes on to the same coordinate, although that is `pulses` farther from now on.
 void keep_target(AxisState& axis, std::int64_t pulses, Tick now);
 
 /// How pulses follow an encoder.
@@ -133,7 +133,7 @@ motion::Follower follower_by(SyncSettings settings);
 struct SpeedMeter {
   Tick window = AxisState::kSpeedWindow;  // at most that
   std::uint32_t counts_per_revolution = 1;
-  bool wraps = false;  // beyond 16 bits; otherwise it stays at the most they hold
+  bool wraps = false;  // wraps beyond 16 bits; otherwise it stays at their limit
 };
 
 /// Counts a minute's revolutions over the last ticks, as 16 bits with a sign.

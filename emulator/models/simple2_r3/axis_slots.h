@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// The registers that give pins their functions follow each other, DOUT 0 to 3 first.
+/// The registers that give pins their functions are consecutive, DOUT 0 to 3 first.
 inline constexpr std::size_t kFirstAssignment = slot("DOUT0_Aaxis_SVON");
 inline constexpr int kAssignmentCount = 14;
 

@@ -31,14 +31,14 @@ inline constexpr int kFirstAnalog = kFirstOutput + kOutputCount;
 inline constexpr int kFirstSwitch = kFirstAnalog + kAnalogCount;
 inline constexpr int kTerminalCount = kFirstSwitch + kSwitchCount;
 
-/// Timer1, Timer2: 32 bits, in units of its own time (Simple2R3::timer_time). Counted from when it was
-/// started, so it costs nothing.
+/// Timer1, Timer2: 32 bits, in the timer's unit (Simple2R3::timer_time). Computed from when it was started,
+/// so running costs nothing.
 struct Timer {
   std::uint32_t value = 0;  // at `since`
   Tick since = 0;
   bool running = false;
 
-  /// Beyond its 32 bits it goes on at 0, or stays where it is.
+  /// Beyond its 32 bits it goes on from 0, or stays where it is.
   std::uint32_t at(Tick now, bool stays) const {
     const std::uint64_t sum = value + (running ? static_cast<std::uint64_t>(now - since) : 0);
     return stays && sum > UINT32_MAX ? UINT32_MAX : static_cast<std::uint32_t>(sum);
@@ -55,7 +55,7 @@ struct Timer {
   bool operator==(const Timer&) const = default;
 };
 
-/// How a program's moves run, where they do not share the axis's registers.
+/// How a program's moves run, if they do not share the axis's registers.
 struct ProgramSpeed {
   std::uint32_t speed_rpm = 0;
   std::uint32_t acceleration_10ms = 0;
@@ -76,7 +76,7 @@ struct MoveParameters {
   bool operator==(const MoveParameters&) const = default;
 };
 
-/// A command that waits for SVON, where a choice has it wait.
+/// A command that waits for SVON, if a choice makes it wait.
 struct KeptCommand {
   Mode mode = Mode::position;
   Command command = Command::none;  // of position mode; none: nothing waits
@@ -113,7 +113,7 @@ struct alignas(64) State {
   bool operator==(const State&) const = default;
 };
 
-/// Pulses a revolution. A half of a 32-bit register may have been written alone, so it can hold anything: 0
+/// Pulses a revolution. Half of a 32-bit register may have been written alone, so it can hold anything: 0
 /// would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis);
 
@@ -171,7 +171,7 @@ class Simple2R3 final : public Device,
   bool output(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
-  /// What velocity mode goes by: as it is now, or as its last command found it.
+  /// What velocity mode uses: the value now, or what its last command found.
   std::uint32_t resolution_in_velocity(int axis) const;
   double speed_of_pulses(int axis) const;
   void set_encoder(int axis, std::int64_t counts) override;
@@ -181,8 +181,8 @@ class Simple2R3 final : public Device,
   std::optional<int> duty_percent(int axis) const override;
 
   // --- for effects.cpp ---------------------------------------------------------------------
-  /// DIN 0 to 10 as they were looked at in the last tick. Before the first one time has stood since power-up,
-  /// and they are looked at there.
+  /// DIN 0 to 10 as sampled in the last tick. Before the first tick no time has passed since power-up, and
+  /// they are sampled now.
   std::uint16_t inputs() const { return is_just_up() ? input_levels() : state_.inputs; }
   std::uint16_t adc(std::size_t number) const {
     return is_just_up() ? adc_at(static_cast<int>(number)) : state_.adc[number];
@@ -199,14 +199,14 @@ class Simple2R3 final : public Device,
   bool alarm_clear(int axis) const;
   /// The level really on DOUT `number`, special functions included.
   bool output_level(int number) const;
-  /// For each bit that is set in `which`, DOUT n is written the level of bit n.
+  /// For each bit n that is set in `which`, DOUT n gets the level of bit n.
   void write_outputs(std::uint8_t which, std::uint8_t levels);
 
   /// Appendix A. Dropped while the servo is off, an alarm lasts or a limit blocks that way.
   void start_move(int axis, Command command, const MoveParameters& move);
-  /// Homing, by the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
+  /// Homing, with the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
   void go_home(int axis, bool by_trigger = false);
-  /// The other modes. What each command does to what goes on is in reactions.h.
+  /// The other modes. reactions.h says what each command does to what is going on.
   void run_velocity(int axis, std::int64_t milli_rpm);
   void output_pwm(int axis, std::uint8_t percent);
   void follow_encoder(int axis);
@@ -218,7 +218,7 @@ class Simple2R3 final : public Device,
   void speed_changed(int axis);
   void preset_coordinate(int axis, std::int32_t pulses);
   void clear_alarm(int axis);
-  /// A command that is not a write to DirectmRPM or DirectPWM, as these show it.
+  /// A command that is not a write to DirectmRPM or DirectPWM, as those registers show it.
   void show_velocity(int axis, std::int32_t milli_rpm);
   void show_pwm(int axis, std::uint8_t percent);
   void reset_to_factory();
@@ -259,14 +259,14 @@ class Simple2R3 final : public Device,
   std::uint16_t adc_at(int number) const;
   bool sees_something_new() const;
   Eeprom factory_memory() const;
-  /// A new state that has only the memory, and the encoders' counts.
+  /// A new state with only the memory and the encoders' counts.
   void blank_state();
   std::uint32_t factory_bits(const RegisterRow& row) const;
   /// As they are when the power comes.
   void reset_timers();
   /// An input's level, if the register at `assignment_slot` gives it its special function.
   bool assigned_input(std::size_t assignment_slot, int number) const;
-  /// Until 1.40 the coordinate counted the motor's sense (firmware note "1.40 以前").
+  /// Until 1.40 the coordinate counted in the motor's sense (firmware note "1.40 以前").
   bool quirk_coordinate_counts_physical_sense() const { return counts_physical_sense_; }
 
   /// Appendix A and the 100 kHz limit: the law of a position move.
@@ -274,17 +274,17 @@ class Simple2R3 final : public Device,
                           std::uint32_t deceleration_10ms) const;
   MapPolicy chosen_map_policy() const;
   bool is_too_fast(int axis, std::int64_t milli_rpm) const;
-  /// Where commands need Ready, and it is not there.
+  /// Whether commands need Ready, and it is missing.
   bool lacks_ready(int axis) const;
   /// Whether SVOFF forbids anything.
   bool servo_matters(int axis) const;
   /// The servo is off, and matters.
   bool lacks_servo(int axis) const;
-  /// What an axis does about an event, as it is now and as it was chosen.
+  /// What an axis does about an event, in its present state and with its choices.
   Outcome reaction(int axis, Event event) const;
   /// `towards` if a limit that is on forbids that way.
   Event way_event(int axis, int way, Event towards, Event away) const;
-  /// Whether a command is carried out; otherwise what else comes of it is done.
+  /// Whether a command is carried out; if not, does what happens instead.
   bool may_begin(int axis, Outcome outcome, const KeptCommand& what);
   void carry_out_kept(int axis);
   void forget_kept(int axis);
@@ -306,10 +306,10 @@ class Simple2R3 final : public Device,
   void run_program(Tick tick);
   void program_has_ended();
   motion::Signals signals_of(int axis) const;
-  /// Gives the motor its signals as they are now, before a command that they may forbid.
+  /// Gives the motor its present signals, before a command that they may forbid.
   void refresh_signals(int axis);
 
-  // From firmware and choices, for what is asked for often: no state. One cache line.
+  // Made from firmware and choices, for frequent questions: not state. One cache line.
   alignas(64) interpreter::simple2::Dialect dialect_;
   bool assigned_at_power_up_ = false;
   bool adc_10_bits_ = false;

@@ -53,20 +53,20 @@ enum class Event : std::uint8_t {
 inline constexpr int kEvents = 17;
 
 enum class Outcome : std::uint8_t {
-  goes_on,          // as if nothing had been
-  stops,            // no pulse, no duty from now on; what was wanted is over
+  goes_on,          // as if nothing had happened
+  stops,            // no pulses and no duty from now on; what was wanted is over
   leaves,           // the same, and the mode is position mode
-  waits,            // no pulse, no duty, until the cause is gone
+  waits,            // no pulses and no duty, until the cause is gone
   turns,            // stops at once, and goes on the other way
   slows,            // down to 0 by its ramp, and stands; what was wanted is over
   slows_and_waits,  // the same until the cause is gone
-  blocked,          // follows the other way alone
+  blocked,          // follows only the other way
   resumes,          // what has waited goes on
   dropped,          // the command does nothing
   kept,             // the command waits for SVON
   ends,             // the command does nothing, but what runs is over
   begins,           // what runs ends at once, and the command begins from standstill
-  changes,          // from what is there to what is commanded
+  changes,          // goes from its present state to what is commanded
 };
 
 /// What a choice makes of a cell.
@@ -292,7 +292,7 @@ constexpr bool can_come(Phase phase, Event event) {
 
 inline constexpr std::uint8_t kNoRow = 255;
 
-/// For each cell its row; kNoRow where there is none, 254 where there are several.
+/// The row of each cell; kNoRow if there is none, 254 if there are several.
 inline constexpr auto kReactionOfCell = [] {
   std::array<std::array<std::array<std::uint8_t, kEvents>, kPhases>, kDoings> cells{};
   for (auto& phases : cells) {

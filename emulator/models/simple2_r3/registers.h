@@ -238,7 +238,7 @@ inline constexpr std::size_t kSlotCount = [] {
   return count;
 }();
 
-/// Where a register's value is kept in the image; a compile error for a name that is not in the table.
+/// Where a register's value is kept in the image; a compile error if the name is not in the table.
 consteval std::size_t slot(std::string_view name) {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {

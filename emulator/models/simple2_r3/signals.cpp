@@ -80,7 +80,8 @@ void Simple2R3::meet(int axis_number, motion::Signals on) {
     }
   }
   axis.motor.signals = on;
-  // The motor goes by its last pulse; before the first one of a new way it must not stop for the old one.
+  // The motor's way is that of its last pulse; before the first one of a new way it must not stop for the old
+  // one.
   if (axis.motor.drive.direction != heading(axis)) axis.motor.drive.direction = 0;
 }
 

@@ -40,7 +40,7 @@ inline constexpr int kMappable = 6;
 /// ?MD.
 enum class Mode : std::uint8_t { idle = 0, position = 1, jog = 2, torque = 3, coordinated = 4, analog = 5 };
 
-/// What of ?ST the chain knows.
+/// The bits of ?ST that the chain knows.
 struct ModuleStatus {
   bool servo_on = false;
   bool moving = false;
@@ -61,7 +61,7 @@ struct ArcOrder {
   double centre_y_units = 0;
   double sweep_deg = 0;  // > 0 counter-clockwise
   std::optional<double> height_units{};
-  std::optional<double> radius_units{};  // by choice: the centre is the end, and this tells the sweep
+  std::optional<double> radius_units{};  // by choice: the centre is the end, and this gives the sweep
 };
 
 class Chain {
@@ -132,7 +132,7 @@ class Chain {
   Error set_jog_speed(int module, double speed);
   Error set_acceleration(int module, double acceleration);
   Error set_path_speed(int module, double units_s);          // PR3 of one, and of the path that it is on
-  Error set_line_speed(int module, double units_s);          // PR4, the same of lines of two axes by choice
+  Error set_line_speed(int module, double units_s);          // PR4, by choice the same for lines of two axes
   Error set_tvm(double units_s);                             // of all linked ones, and at once
   Error set_path_acceleration(int module, double units_s2);  // PR2, TVA: what runs keeps its own
   Error set_smooth_corner(int module, double degrees);       // PR7, 0 .. 180
@@ -157,7 +157,7 @@ class Chain {
   /// It does something, or a command waits for it.
   bool busy(int module) const;
   bool moving(int module) const;
-  /// What it does, or what of that a pause holds.
+  /// What it does, or the part of that which a pause holds.
   Activity activity_or_held(int module) const;
   bool servo_on(int module) const { return axes_[at(module)].servo_on; }
   bool paused() const { return paused_; }
@@ -184,7 +184,7 @@ class Chain {
 
   /// One tick; ticks may be left out up to next_active_tick().
   void step(Tick tick);
-  /// The same as stepping all ticks up to `now` where nothing happens: commands then count from `now`.
+  /// Like stepping all ticks up to `now`, when nothing happens in them: commands then count from `now`.
   void skip_to(Tick now) { now_ = now; }
   std::int64_t pulses(int module) const { return modules_[at(module)].sent_pulses; }  // of the last tick
   /// The first tick after `done` at which anything may happen by itself; kNever.
@@ -267,7 +267,7 @@ class Chain {
   void end_outputs(int module);
   void hold();
   void release();
-  void cut(int module, motion::Cause why);              // no pulse more; what was running is forgotten
+  void cut(int module, motion::Cause why);              // no more pulses; what was running is forgotten
   void forget_queue(int module, std::size_t kept = 0);  // behind the first `kept`
   void end_group(Group& group, motion::Cause why);
   void release_group(Group& group, Tick begin_at);

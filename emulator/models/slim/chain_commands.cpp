@@ -166,7 +166,7 @@ Error Chain::replace_jog(int module, int way, std::int32_t force) {
   return Error::none;
 }
 
-/// The same where nothing is given up for it: it replaces another one, or follows what stops.
+/// Like the above, if nothing is abandoned for it: it replaces another one, or follows what stops.
 void Chain::order_jog(int module, int way, std::int32_t force) {
   Module& mine = modules_[at(module)];
   motion::Axis& axis = axes_[at(module)];

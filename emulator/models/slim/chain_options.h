@@ -10,7 +10,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// Ours, the first of each row, until another one is chosen.
+/// Our options, the first of each row, until another one is chosen.
 struct ChainOptions {
   std::array<std::uint8_t, std::size(kChoices)> numbers{};  // of each row's option in force
 

@@ -163,12 +163,12 @@ class Slim final : public TextDevice,
   std::size_t history_length() const {
     return static_cast<std::size_t>(chosen_number(numbers("history_length")));
   }
-  /// For what a program says of itself: it is faster than its line.
+  /// For what a program says by itself: it is faster than its line.
   bool has_room_to_speak() const {
     return state_.speech.size() < static_cast<std::size_t>(chosen_number(numbers("print_ahead")));
   }
   void say(std::string_view text);
-  /// These two give the module that has the error in the end.
+  /// These two return the module that ends up with the error.
   int fail(int module, Error error);
   int remember(int module, Error error);
   void note_error(int module, Error error);
@@ -197,7 +197,7 @@ class Slim final : public TextDevice,
   std::string_view meant(std::string_view parameter) const {
     return parameter == "PR4" && !chose(option("line_speed", "pr4_of_its_own")) ? "PR3" : parameter;
   }
-  /// By number: so many pulses are so many user units.
+  /// By number: this many pulses are this many user units.
   struct UserUnit {
     std::size_t pulses = parameter("PN45");
     std::size_t units = parameter("PN46");
@@ -259,8 +259,8 @@ class Slim final : public TextDevice,
 
   int modules_ = 1;
   lang::FlowOptions flow_options_{};
-  int failed_module_ = 0;  // within a step of the program: whose the command was that carry_out() refused
-  // Queries by their names: not state, it only saves reading the words again.
+  int failed_module_ = 0;  // within a step of the program: the module whose command carry_out() refused
+  // Queries by their names: not state, only a cache of the words.
   mutable std::map<std::string, std::optional<lang::Command>, std::less<>> queries_{};
   State state_;
 };

@@ -10,7 +10,7 @@ namespace understudy::emulator::models::slim {
 template <class T, std::size_t n>
 class Fifo {
  public:
-  /// By what is in it: where it lies does not matter.
+  /// Compares what is in it: where it lies does not matter.
   bool operator==(const Fifo& other) const {
     if (count_ != other.count_) return false;
     for (std::size_t i = 0; i < count_; ++i) {

@@ -1,4 +1,4 @@
-// What waits in a module's FIFO: a command with everything that was in force when it was issued.
+// What waits in a module's FIFO: a command, with everything that was in force when it was issued.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct Job {
   Kind kind = Kind::output;
   // The same in every FIFO that the job is in; 0: no job.
   std::uint64_t number = 0;
-  // Which module goes by X, Y, Z, W: the map when it was issued. Jobs of one module have it at X.
+  // Which modules had the letters X, Y, Z, W when it was issued. Jobs of one module have it at X.
   std::array<std::int8_t, kLetters> module_of{kNoModule, kNoModule, kNoModule, kNoModule};
   // In the user units of each module: targets or distances; an arc's centre and, at Z, height.
   std::array<double, kLetters> units{};
@@ -52,12 +52,12 @@ struct Job {
 
   bool coordinated() const { return kind == Kind::line || kind == Kind::arc || kind == Kind::spiral; }
   bool moves() const { return coordinated() || kind == Kind::move || kind == Kind::home; }
-  /// The letter that `module` goes by; -1: the job does not use it.
+  /// The letter of `module`; -1: the job does not use it.
   int letter_of(int module) const;
   int modules() const;
 };
 
-/// The geometry of a coordinated job from where it begins. Throws motion::BadMotion for one that cannot be.
+/// The geometry of a coordinated job from where it begins. Throws motion::BadMotion if it is impossible.
 motion::Path path_of(const Job& job, const motion::Point& begin);
 
 /// How `next` follows `job` when nothing lies between them.

@@ -1,9 +1,9 @@
-// Where pausing, going on and stopping meet what the chain and its program are doing: one table. For each
-// cell what comes of it, and what says so: the list's line, or a row of choices.h, whose own option stands
+// Where pausing, going on and stopping meet what the chain and its program are doing: one table. Each cell
+// has its result, and the authority for it: the list's line, or a row of choices.h, whose first option stands
 // here.
 //
 // The code follows it (chain_stops.cpp for motions; dialogue.cpp and commands.cpp for programs), and
-// meetings_test.cpp brings about every cell.
+// meetings_test.cpp tries every cell.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace understudy::emulator::models::slim {
 
-/// States. The last four are of a program, which may run while any of the others is going on.
+/// States. The last four are a program's, which may run during any of the others.
 enum class Doing : std::uint8_t {
   line,
   move,
@@ -45,13 +45,13 @@ enum class Outcome : std::uint8_t {
   // of a motion
   comes_to_a_stand,  // by its ramp, on its path; nothing of it is lost
   does_as_before,    // what it did before the pause
-  is_forgotten,      // it stands, and will not go on
-  stops_at_once,     // without a pulse more, and will not go on
+  is_forgotten,      // it stands still, and will not go on
+  stops_at_once,     // without another pulse, and will not go on
   // of a program
-  goes_on,             // as if nothing had been: on waiting, or with its next line
+  goes_on,             // as if nothing had happened: it waits on, or takes its next line
   ends,                // no line more
-  ends_after_routine,  // the event's routine goes on to its RET, and what it interrupted does not
-  cannot_be,           // a program that waits says nothing, but for an event's routine
+  ends_after_routine,  // the event's routine goes on to its RET, but what it interrupted does not
+  cannot_be,           // a program that waits says nothing, except for an event's routine
 };
 
 struct MeetingRow {

@@ -1,4 +1,4 @@
-// What a SLIM holds in numbers: parameters of its modules, variables, arrays. In RAM, and as it is kept.
+// The numbers that a SLIM holds: its modules' parameters, variables, arrays. In RAM, and as they are kept.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Memory {
 /// As it leaves the factory; the first `modules` are linked.
 Memory factory_memory(int modules);
 
-/// What a bench has chosen of its names and ranges.
+/// The names and ranges that a bench has chosen.
 struct MemoryForm {
   SpeedNames speed_names = SpeedNames::pn10_is_vm;
   int integer_least = interpreter::slim::kIntegerLeast;
@@ -36,7 +36,7 @@ struct MemoryForm {
 std::string parameter_name(int module, std::size_t number, SpeedNames names);
 
 /// What differs from `factory`, by name, into an image; and back into a memory that is `factory` otherwise.
-/// The latter throws NvError for names and values that there are not.
+/// The latter throws NvError for unknown names and impossible values.
 void write_image(const Memory& memory, const Memory& factory, const MemoryForm& form, NvImage& image);
 Memory read_image(const NvImage& image, const Memory& factory, const MemoryForm& form);
 

@@ -1,5 +1,5 @@
-// One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and what it
-// meets lie beside the others' (chain.h), because coordinated motion takes them as arrays.
+// One module of the chain: a motor with its own units, speeds, outputs and FIFO. The axis itself and its
+// surroundings lie beside the others' (chain.h), because coordinated motion takes them as arrays.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct ModuleSettings {
   double path_acceleration_units_s2 = 1000;  // PR2, > 0
   double path_speed_units_s = 100;           // PR3, > 0
   double smooth_corner_deg = 0;              // PR7; module 0's counts
-  double line_speed_units_s = 100;           // PR4, > 0, where lines of two axes go by it
+  double line_speed_units_s = 100;           // PR4, > 0, if lines of two axes use it
 
   bool operator==(const ModuleSettings&) const = default;
 };

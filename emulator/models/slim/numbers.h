@@ -12,7 +12,7 @@ enum class RealForm : std::uint8_t {
 };
 
 std::string text_of_integer(double value);
-/// As few digits as tell a 32-bit real apart.
+/// As few digits as distinguish a 32-bit real from its neighbours.
 std::string text_of_real(double value, RealForm form = RealForm::plain);
 /// Every pulse: whole numbers exactly, others to the ninth decimal as far as 15 digits go.
 std::string text_of_coordinate(double units);

@@ -1,5 +1,5 @@
-// SLIM: the options of choices.h as the code asks for them, `chose(option("thrust", "runs_at_vj"))`. A row or
-// an option that there is not is a compile error. Of options that are numbers the row is asked for:
+// SLIM: the options of choices.h as the code asks for them, `chose(option("thrust", "runs_at_vj"))`. An
+// unknown row or option is a compile error. Of options that are numbers the row is asked for:
 // `chosen_number(numbers("history_length"))`.
 #pragma once
 
@@ -26,7 +26,7 @@ constexpr int number_of(const ChoiceRow& row, std::size_t option_number) {
   return number;
 }
 
-/// A row whose options are numbers; a compile error if one of them is none.
+/// A row whose options are numbers; a compile error if one of them is not.
 consteval std::size_t numbers(std::string_view id) {
   const std::size_t row = choice_number(kChoices, id);
   const auto bars = std::ranges::count(kChoices[row].options, '|');

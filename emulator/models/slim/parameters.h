@@ -29,7 +29,8 @@ struct ParameterDefinition {
 };
 
 inline constexpr double kMaxReal = 3.4028234663852886e38;  // float32
-/// Speeds and accelerations outside are no machine's, and may not be plannable. (As 32 bits hold 1e-6.)
+/// Speeds and accelerations outside belong to no machine, and may be impossible to plan. (As 32 bits hold
+/// 1e-6.)
 inline constexpr double kLeastSpeed = 1e-6F;
 inline constexpr double kMostSpeed = 1e9;
 
@@ -73,7 +74,7 @@ inline constexpr std::size_t kParameterCount = std::size(kParameters);
 /// The values of one module. An integer is held exactly.
 using Parameters = std::array<double, kParameterCount>;
 
-/// The number of a row; a compile error for a name that there is not.
+/// The number of a row; a compile error for an unknown name.
 consteval std::size_t parameter(std::string_view name) {
   for (std::size_t i = 0; i < kParameterCount; ++i) {
     if (kParameters[i].name == name || (!kParameters[i].alias.empty() && kParameters[i].alias == name))
@@ -82,11 +83,11 @@ consteval std::size_t parameter(std::string_view name) {
   throw "no such parameter";
 }
 
-/// Of PN10 and PN14 the manual says only that both are speeds. Rows go by what they mean: with
+/// Of PN10 and PN14 the manual says only that both are speeds. Rows are named after what they mean: with
 /// `pn14_is_vm` the first is called PN14.
 enum class SpeedNames : std::uint8_t { pn10_is_vm, pn14_is_vm };
 
-/// The row whose name stands at that place of a list; and likewise the place of a row.
+/// The row whose name is at that place in a list; and the place of a row.
 constexpr std::size_t listed_at(std::size_t place, SpeedNames names) {
   static_assert(parameter("PN10") == 0 && parameter("PN14") == 1);
   return names == SpeedNames::pn14_is_vm && place < 2 ? 1 - place : place;
@@ -117,12 +118,12 @@ std::optional<double> fitted(const ParameterDefinition& row, double value);
 /// TM is set like a parameter.
 inline constexpr double kMostClock_s = 1e9;
 
-/// What an assignment is refused for, whatever the chain is doing: no such parameter (syntax), or a value
-/// that it cannot have. Without a value, the former. An axis map may name a module twice only if the last
-/// letter takes it from the others.
+/// Why an assignment is refused, whatever the chain is doing: no such parameter (syntax), or a value that it
+/// cannot have. Without a value, the former. An axis map may name a module twice only if the last letter
+/// takes it from the others.
 Error check_parameter(int module, std::string_view name, std::optional<double> value, SpeedNames names,
                       bool module_taken_from_letter);
-/// The same for a line of a program, whose value may be a variable; other lines are all right.
+/// The same for a line of a program, whose value may be a variable; all other lines are accepted.
 Error check_parameter_line(const interpreter::slim::Command& command, bool module_taken_from_letter);
 
 }  // namespace understudy::emulator::models::slim

@@ -1,12 +1,12 @@
-// Which pause is on, what is said in it, and what comes of it: one table.
+// Which pause is on, which command comes, and what happens then: one table.
 //
 //   PZ   is ended by REDO, which goes on, and by CLR BUF, which gives up
 //   TAPZ is ended by TAREDO, which goes on, and by TAUPZ, which gives up
 //   TASTOP ends both
 //
-// The two can be on together: what moves goes on when neither is left. For each cell what is done then and
-// which pause is left, what says so (the list's line, or a row of choices.h), and what other options make of
-// it. chain_stops.cpp and chain_commands.cpp ask it; pauses_test.cpp brings about every cell.
+// The two can be on together: what moves goes on when neither is left. Each cell says what is done, which
+// pause is left, the authority for it (the list's line, or a row of choices.h), and what other options make
+// of it. chain_stops.cpp and chain_commands.cpp ask it; pauses_test.cpp tries every cell.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ enum class InPause : std::uint8_t {
   taredo,
   taupz,
   tastop,
-  reset,   // of T0; of another module it is that one's alone
+  reset,   // of T0; of another module it concerns only that one
   motion,  // one that waits in the buffer for its turn: MA, H, 2MA ...
   jog,     // one that cannot wait: JGF, JGR, FT
 };
@@ -49,7 +49,7 @@ enum class PauseOutcome : std::uint8_t {
   goes_on,     // what is no longer held does what it did before
   gives_up,    // what is half done and what waits is forgotten
   clears,      // what waits is forgotten; what is half done is finished, now or after the pause
-  stops,       // no pulse more, and nothing is left
+  stops,       // no more pulses, and nothing is left
   resets,      // the same of one module
   in_vain,     // nothing, or error 3 by `ineffective_pause`
   is_taken,    // begins when its turn comes

@@ -1,4 +1,4 @@
-// What a host's manners lack, counted.
+// What is wrong with a host's manners, counted.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace understudy::emulator::play {
 
 enum class Manner : std::uint8_t {
   too_soon,     // a request began before the line had been silent for long enough
-  not_waited,   // a request had begun when the answer to the one before came
+  not_waited,   // a request began before the answer to the one before came
   gap,          // a pause within a frame
   absent,       // a request to a station that is not there
   read_only,    // a write to what can only be read

@@ -1,10 +1,24 @@
 #include "emulator/play/lint/line_manners.h"
 
 #include <algorithm>
-#include <utility>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
 
+#include "base/simulated_time.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/play/lint/finding.h"
+#include "emulator/world/world.h"
+#include "pty/line_observer.h"
+#include "pty/line_settings.h"
+#include "pty/rtu_framer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::play {
 
@@ -37,7 +51,7 @@ LineManners::LineManners(world::World& world, std::size_t line)
       options_(world.line(line).line.options()),
       // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
       framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
-  world::WorldLine& watched = world_.line(line);
+  const world::WorldLine& watched = world_.line(line);
   const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };
   if (std::none_of(watched.stations.begin(), watched.stations.end(), is_modbus)) return;
   if (has_time()) {
@@ -48,10 +62,10 @@ LineManners::LineManners(world::World& world, std::size_t line)
       longest_gap_ = std::min(longest_gap_, end_silence);
     }
   }
-  watched.line.add_observer(*this);
+  world_.add_observer(number_, *this);
 }
 
-LineManners::~LineManners() { world_.line(number_).line.remove_observer(*this); }
+LineManners::~LineManners() { world_.remove_observer(number_, *this); }
 
 void LineManners::begin_anew() {
   framer_.reset();

@@ -1,5 +1,4 @@
-// Listens to one line and judges how the host on it behaves. It only listens: the line does the same with and
-// without it.
+// Listens to one line and judges how its host behaves. It only listens: the line does the same without it.
 #pragma once
 
 #include <optional>
@@ -20,11 +19,11 @@ class LineManners final : public pty::LineObserver {
   LineManners(const LineManners&) = delete;
   LineManners& operator=(const LineManners&) = delete;
 
-  /// What was on the line is forgotten, as it was put into another state.
+  /// The line was put into another state: what was on it is forgotten.
   void begin_anew();
   const Findings& findings() const { return findings_; }
-  /// How long the line is to be silent before a request, and may be at most within one; neither where bytes
-  /// take no time.
+  /// How long the line must be silent before a request, and may be silent within one; neither if bytes take
+  /// no time.
   SimTime silence() const { return silence_; }
   SimTime longest_gap() const { return longest_gap_; }
 

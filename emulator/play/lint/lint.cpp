@@ -1,6 +1,17 @@
 #include "emulator/play/lint/lint.h"
 
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/play/lint/finding.h"
+#include "emulator/play/lint/line_manners.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 

@@ -1,5 +1,5 @@
-// How the hosts on a world's lines behave: what works here, or only just, and would not go well with a real
-// controller. It listens for as long as it lives, and is told of once, at the end.
+// How the hosts on a world's lines behave: what works here, or only just works, and would go wrong with a
+// real controller. It listens as long as it lives, and reports once, at the end.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ class Lint final : public Onlooker {
   /// The world must outlive it.
   explicit Lint(world::World& world);
 
-  /// A line of text for each thing, with its count and its first moment, in the order of the lines; none if
-  /// all is well.
+  /// A line of text for each finding, with its count and its first moment, in the order of the bench's lines;
+  /// none if all is well.
   std::vector<std::string> findings() const;
 
   void world_restored(std::size_t steps) override;

@@ -1,13 +1,23 @@
 #include "emulator/play/performing/companion.h"
 
 #include <algorithm>
+#include <exception>
+#include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/files/file_error.h"
-#include "emulator/play/performing/runner.h"
+#include "emulator/device/model.h"
+#include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/real_stage.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::play {
 
@@ -75,12 +85,12 @@ Companion::Companion(const Scenario& scenario, serve::Daemon& daemon, std::funct
 
 void Companion::play_on(const Scenario& scenario, serve::Daemon& daemon) {
   try {
-    PlayOptions options;
+    RunOptions options;
     options.make_stage = [&](const Scenario&) {
       return std::make_unique<RealStage>(daemon,
                                          RealStageOptions{.has_hosts = false, .given_up = &given_up_});
     };
-    results_ = play(scenario, options);
+    results_ = run_scenario(scenario, options);
   } catch (const StageGivenUp&) {
     was_given_up_ = true;
   } catch (...) {

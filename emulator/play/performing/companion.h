@@ -1,4 +1,4 @@
-// A scenario that is played on a bench beside the program that is the host on its lines: what it gives from
+// A scenario that is played on a bench beside the program that is the host on its lines: what it does from
 // outside, and what it demands of the world meanwhile.
 #pragma once
 
@@ -11,34 +11,34 @@
 #include <vector>
 
 #include "emulator/play/results/result.h"
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/real_stage.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench/bench.h"
 
 namespace understudy::emulator::play {
 
-/// The one scenario of a file, for that bench. Throws FileError, also where a step is the host's (it uses a
-/// line) or not for a world that somebody else is in (it goes back in time).
+/// The one scenario of a file, for that bench. Throws FileError, also if a step belongs to the host (it uses
+/// a line), or would disturb somebody else's world (it goes back in time).
 Scenario load_companion(ModelList models, const std::string& path, const world::Bench& bench,
                         const std::string& save_below = "");
 
 class Companion {
  public:
-  /// Begins once the daemon runs, which it does until `over` was called, on the daemon's thread. Where it
-  /// ends before, the play was given up. The scenario must outlive it, and nobody may touch the world before
-  /// this is gone.
+  /// Begins once the daemon runs. `over` is called at the end, on the daemon's thread; if the daemon ends
+  /// before that, the play was abandoned. The scenario must outlive this, and nobody may touch the world
+  /// while this exists.
   Companion(const Scenario& scenario, serve::Daemon& daemon, std::function<void()> over);
   ~Companion() { thread_.join(); }
   Companion(const Companion&) = delete;
   Companion& operator=(const Companion&) = delete;
 
-  /// Ends it soon.
+  /// Makes it end soon.
   void give_up() { given_up_ = true; }
 
   // --- after it is over
   bool was_given_up() const { return was_given_up_; }
-  /// Throws what playing has thrown.
+  /// Throws what playing threw.
   const std::vector<ScenarioResult>& results() const;
 
  private:

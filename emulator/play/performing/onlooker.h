@@ -1,5 +1,5 @@
-// Who looks on while a scenario is played, for what is told of it afterwards: a report, the host's manners.
-// What is played is the same with and without one.
+// Who looks on while a scenario is played, for something that is said afterwards: a report, the host's
+// manners. The play is the same with or without it.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace understudy::emulator::play {
 
-/// Everything of it is called where the world is run, between two ticks.
+/// All its functions are called on the thread that runs the world, between two ticks.
 class Onlooker {
  public:
   virtual ~Onlooker() = default;
-  /// The world was put into another state, after so many steps: its time may be an earlier one, and its lines
-  /// are hearing something else.
+  /// The world was put into another state, after this many steps: time may have gone back, and the lines are
+  /// hearing something else.
   virtual void world_restored(std::size_t steps) = 0;
   virtual void step_over() {}
   /// The play is over. What was seen goes into its result.

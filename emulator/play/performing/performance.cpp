@@ -1,9 +1,29 @@
 #include "emulator/play/performing/performance.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
 #include "emulator/play/performing/state_text.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/outcome_hash.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 
@@ -74,7 +94,7 @@ Performance::Eyes::Eyes(world::World& of, bool with_hash)
       hash(with_hash ? std::make_unique<world::OutcomeHash>(of) : nullptr) {}
 
 Performance::Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash)
-    : scenario_(scenario), stage_(std::move(stage)), places_(scenario.bench.devices.size()) {
+    : stage_(std::move(stage)), places_(scenario.bench.devices.size()) {
   for (std::size_t i = 0; i < scenario.bench.lines.size(); ++i) {
     for (const std::size_t device : scenario.bench.lines[i].stations) {
       places_[device] = {i, scenario.bench.devices[device].settings.address};

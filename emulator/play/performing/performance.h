@@ -1,4 +1,4 @@
-// A scenario's steps, one by one, on one stage: what each of them does, and all that looks on meanwhile.
+// Performs a scenario's steps, one by one, on one stage, with all that looks on meanwhile.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@
 
 #include "emulator/play/performing/watches.h"
 #include "emulator/play/results/result.h"
-#include "emulator/play/script/requests.h"
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/requests.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/stage.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/outcome_hash.h"
@@ -38,7 +38,7 @@ struct StepError : std::runtime_error {
 
 class Performance {
  public:
-  /// A state between two steps, that another performance of the same scenario can go on from.
+  /// A state between two steps, from which another performance of the same scenario can go on.
   struct Checkpoint {
     world::WorldState world;
     std::vector<SpanWatch::Span> spans;
@@ -50,14 +50,14 @@ class Performance {
     std::uint64_t hash = 0;
   };
 
-  /// The scenario must outlive it. `with_hash`: outcome_hash() is kept, which has its price.
+  /// The scenario must outlive it. `with_hash`: outcome_hash() is kept, which takes time.
   Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash);
   ~Performance();
   Performance(const Performance&) = delete;
   Performance& operator=(const Performance&) = delete;
 
-  /// Plays the first one of `steps`, which is neither a snapshot, nor a restore, nor a fork. Those after it
-  /// tell what will be waited for.
+  /// Plays the first of `steps`, which is neither a snapshot, nor a restore, nor a fork. Those after it show
+  /// what will be waited for.
   std::optional<Failure> play(std::span<const Step> steps);
 
   Checkpoint save();
@@ -90,7 +90,7 @@ class Performance {
   void perform(const ExpectStep& step);
   void perform(const SendStep& step);
   void perform(const TextStep& step);  // performance_text.cpp
-  /// The words of each target, one after the other.
+  /// Reads the words of each target, one after the other.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
                                                          const Answer& answer);
   void demand(const HostReply& reply, const Answer& answer, const std::string& what);
@@ -108,9 +108,9 @@ class Performance {
   void perform(const SayStep&) {}
   Tick wait_for(const WaitStep& step);
   Tick poll_for(const WaitStep& step);
-  /// Up to that time, or to the tick at which a span is broken.
+  /// Runs to that time, or to the tick at which a span is broken.
   void pass_time(SimTime until);
-  /// The moment so long after this one. StepError where time has ended by then.
+  /// The moment this long after now. Throws StepError if that is beyond the end of time.
   SimTime moment_in(SimTime duration);
   Tick last_write();
   void begin_history(const std::string& condition, const ConditionHistory::State& past = {});
@@ -124,7 +124,7 @@ class Performance {
   void perform(const ProgramStep& step);
   void perform(const MemoryStep& step);
 
-  // Those are the runner's.
+  // The run does these (run.h).
   void perform(const SnapshotStep&) {}
   void perform(const RestoreStep&) {}
   void perform(const ForkStep&) {}
@@ -132,7 +132,6 @@ class Performance {
   void throw_if_broken();
   Failure explain_failure(const StepError& error);
 
-  const Scenario& scenario_;
   std::unique_ptr<Stage> stage_;
   std::vector<Place> places_;  // by device
   std::unique_ptr<Eyes> eyes_;

@@ -1,8 +1,18 @@
 // Steps over the line: write, expect, send.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/performing/performance.h"
+#include "emulator/play/scenario/requests.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/modbus_host.h"
 #include "emulator/world/speech/modbus_words.h"
 

@@ -1,11 +1,20 @@
 // Steps that act on the bench from outside: inputs, faults, power, programs, memories.
-#include <algorithm>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "base/files/text_file.h"
+#include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_file.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
 #include "emulator/play/performing/performance.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 

@@ -1,4 +1,7 @@
 // Steps over lines of text.
+#include <string>
+#include <vector>
+
 #include "emulator/play/performing/performance.h"
 #include "emulator/world/speech/text_lines_heard.h"
 

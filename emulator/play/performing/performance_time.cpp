@@ -1,8 +1,25 @@
 // Steps that let time pass, or look at the truth.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/performing/performance.h"
+#include "emulator/play/performing/watches.h"
+#include "emulator/play/scenario/requests.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/expression/tokens.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 
@@ -162,7 +179,7 @@ void Performance::perform(const AssertStep& step) {
     }
   });
   if (untrue.empty()) return;
-  throw StepError("'" + untrue.front() + "' is not so", untrue.front(), explained.front(),
+  throw StepError("'" + untrue.front() + "' does not hold", untrue.front(), explained.front(),
                   {explained.begin() + 1, explained.end()});
 }
 

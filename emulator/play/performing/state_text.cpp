@@ -1,13 +1,23 @@
 #include "emulator/play/performing/state_text.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/expression/number.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 

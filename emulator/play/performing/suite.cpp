@@ -4,12 +4,23 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/text/parse_integer.h"
+#include "emulator/play/performing/run.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::play {
 
@@ -24,7 +35,7 @@ class Board {
     while (const auto number = take()) {
       Entry entry;
       try {
-        entry.results = play(scenarios_[*number], options_for(scenarios_[*number]));
+        entry.results = run_scenario(scenarios_[*number], options_for(scenarios_[*number]));
       } catch (...) {
         entry.error = std::current_exception();
       }
@@ -95,8 +106,8 @@ std::vector<Scenario> choose(std::vector<Scenario> scenarios, const std::string&
   return chosen;
 }
 
-void play_all(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
-              const std::function<void(const std::vector<ScenarioResult>&)>& tell) {
+void run_suite(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
+               const std::function<void(const std::vector<ScenarioResult>&)>& tell) {
   Board board(scenarios);
   std::vector<std::jthread> threads;
   const std::size_t count = std::min(static_cast<std::size_t>(std::max(jobs, 1)), scenarios.size());

@@ -1,5 +1,5 @@
-// Many scenarios at once: which of them, on how many threads. Worlds share nothing, so the results, and the
-// order in which they are told, do not depend on that.
+// Plays many scenarios: which of them, and on how many threads. Worlds share nothing, so neither the results
+// nor their order depend on the threads.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emulator/play/performing/runner.h"
+#include "emulator/play/performing/run.h"
 
 namespace understudy::emulator::play {
 
@@ -18,19 +18,19 @@ struct Shard {
   std::size_t number = 1;
   std::size_t of = 1;
 };
-/// "2/4"; nothing if it is not that.
+/// Reads "2/4"; nothing if the text is something else.
 std::optional<Shard> parse_shard(std::string_view text);
 
-/// Those whose name fits the pattern (`*`, `?`, `[abc]`; an empty one fits all), and of those a shard. The
-/// order stays as it is.
+/// Those whose names match the pattern (`*`, `?`, `[abc]`; an empty one matches all), and of those one shard,
+/// in the same order.
 std::vector<Scenario> choose(std::vector<Scenario> scenarios, const std::string& pattern, Shard shard);
 
-/// How a scenario is to be played. It is asked on the threads that play.
-using OptionsFor = std::function<PlayOptions(const Scenario&)>;
+/// How a scenario is to be played. Called on the threads that play.
+using OptionsFor = std::function<RunOptions(const Scenario&)>;
 
-/// Plays all on `jobs` threads. `tell` gets the results of each scenario, in their order, on the thread that
-/// calls. What play() throws comes out here, after the results of all scenarios before that one.
-void play_all(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
-              const std::function<void(const std::vector<ScenarioResult>&)>& tell);
+/// Plays all on `jobs` threads. `tell` gets the results of each scenario, in order, on the calling thread.
+/// What run_scenario() throws comes out here, after the results of all scenarios before that one.
+void run_suite(std::span<const Scenario> scenarios, const OptionsFor& options_for, int jobs,
+               const std::function<void(const std::vector<ScenarioResult>&)>& tell);
 
 }  // namespace understudy::emulator::play

@@ -1,6 +1,14 @@
 #include "emulator/play/performing/watches.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/world/expression/expression.h"
 
 namespace understudy::emulator::play {
 

@@ -26,18 +26,18 @@ class SpanWatch final : public world::TickWatcher {
     std::vector<std::string> state;
   };
 
-  /// `describe` tells the state around a violation. All must outlive it.
+  /// `describe` returns the state around a violation. All must outlive this.
   SpanWatch(const world::World& world, const world::ValueSource& values,
             std::vector<std::string> (*describe)(const world::World&))
       : world_(world), values_(values), describe_(describe) {}
 
   void on_tick(Tick tick) override;
   void open(Span span) { spans_.push_back(std::move(span)); }
-  /// False if none of that name is open.
+  /// Returns false if no span of that name is open.
   bool close(const std::string& name);
 
   bool is_empty() const { return spans_.empty(); }
-  /// The first one; nothing is looked at after it.
+  /// The first violation; nothing is looked at after it.
   const std::optional<Violation>& violation() const { return violation_; }
 
   const std::vector<Span>& save() const { return spans_; }
@@ -51,12 +51,12 @@ class SpanWatch final : public world::TickWatcher {
   std::optional<Violation> violation_;
 };
 
-/// At which ticks a condition held, from when it is added to the world.
+/// At which ticks a condition held, from the moment when this is added to the world.
 class ConditionHistory final : public world::TickWatcher {
  public:
   /// What it has seen so far, as a value.
   struct State {
-    std::vector<Tick> changes;  // it holds from the first on, not from the second on, and so forth
+    std::vector<Tick> changes;  // it holds from the first one, does not hold from the second one, and so on
     Tick last = 0;
   };
 

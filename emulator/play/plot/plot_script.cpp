@@ -1,10 +1,17 @@
 #include "emulator/play/plot/plot_script.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/register_map/register_map.h"
+#include "emulator/play/plot/trace_table.h"
 #include "emulator/play/report/axis_scale.h"
 #include "emulator/play/report/envelope.h"
 #include "emulator/world/expression/number.h"

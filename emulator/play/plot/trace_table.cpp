@@ -1,8 +1,14 @@
 #include "emulator/play/plot/trace_table.h"
 
 #include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <system_error>
 
+#include "base/files/file_error.h"
 #include "base/files/text_file.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 
 namespace understudy::emulator::play {

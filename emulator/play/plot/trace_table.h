@@ -21,8 +21,7 @@ struct TraceTable {
 TraceTable parse_csv_trace(std::string_view text, const std::string& name);
 TraceTable parse_vcd_trace(std::string_view text, const std::string& name);
 
-/// By its ending, .csv or .vcd. Throws FileError, also for a file that cannot be read, and for one without
-/// rows.
+/// By its ending, .csv or .vcd. Throws FileError, also if the file cannot be read or has no rows.
 TraceTable read_trace(const std::string& path);
 
 }  // namespace understudy::emulator::play

@@ -1,7 +1,16 @@
 // The part of IEEE 1364's value change dumps that this program writes.
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
+#include "base/files/file_error.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/play/plot/trace_table.h"
 

@@ -1,9 +1,16 @@
 // Steps that say how the others follow each other: snapshot, restore, fork, repeat, for, include.
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/world/names/names.h"
 
 namespace understudy::emulator::play {
@@ -35,7 +42,7 @@ void read_restore(StepsReader& reader, const world::YamlFields& step, const worl
   if (it == snapshots.end()) {
     std::vector<std::string> names;
     for (const auto& [known, moment] : snapshots) names.push_back(known);
-    value.fail("no snapshot taken before is called " + quoted(name) + suggestion(name, names));
+    value.fail("no earlier snapshot is called " + quoted(name) + suggestion(name, names));
   }
   static_cast<StoryMoment&>(reader.story()) = StoryMoment(it->second);
   reader.add(step, "restore " + name, RestoreStep{name});

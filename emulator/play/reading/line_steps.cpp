@@ -1,12 +1,22 @@
 // Steps that use the line: write, expect, send.
+#include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
+#include "emulator/device/model.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
-#include "emulator/play/script/requests.h"
+#include "emulator/play/scenario/requests.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/expression/tolerance.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::play {
@@ -24,12 +34,12 @@ Answer read_answer(const world::YamlFields& step) {
       reply.fail(quoted(reply.text()) +
                  " is unknown; expected nothing (what is read is compared without `reply`)");
     }
-    if (answer.exception) reply.fail("an exception is a reply; expected one of both");
+    if (answer.exception) reply.fail("an exception is a reply; expected one of the two");
     answer.silence = SendStep{}.within;
   }
   if (step.has("within")) {
     const world::YamlFields within = step.at("within");
-    if (!answer.silence) within.fail("is for `reply: nothing` only; expected that beside it");
+    if (!answer.silence) within.fail("belongs to `reply: nothing`; expected that beside it");
     answer.silence = read_within(within);
   }
   return answer;
@@ -97,7 +107,8 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
     Target target = reader.trial().target(field, name);
     if (target.is_value) {
       field.fail(name +
-                 " is not a register, and is not written over the line so; expected `send: { text: ... }`");
+                 " is not a register, and cannot be written over the line like this; expected `send: { text: "
+                 "... }`");
     }
     if (write.answer.silence && is_bit(target)) {
       field.fail(
@@ -120,7 +131,7 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
     if (target.is_value && expect.answer.exception)
       field.fail(name + " is not a register; expected no exception");
     if (target.is_value && expect.answer.silence)
-      field.fail(name + " is not a register, and is looked at past the line; expected no `reply`");
+      field.fail(name + " is not a register, and is read without the line; expected no `reply`");
     world::Tolerance wanted = reader.trial().value_to_expect(field, target);
     sentence.add(name + ": " + wanted.text);
     expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});

@@ -1,15 +1,23 @@
 // Steps that do what people and machines do to devices: inputs, faults, power, programs, memories.
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/memory/nv_file.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
+#include "emulator/world/faults/fault.h"
 
 namespace understudy::emulator::play {
 
@@ -50,7 +58,7 @@ void read_inject(StepsReader& reader, const world::YamlFields& step, const world
   if (value.has("name")) {
     inject.name = value.at("name").text();
     if (inject.name.empty() || inject.name == "all") {
-      value.at("name").fail(understudy::quoted(inject.name) + " is not a name of a fault; expected another");
+      value.at("name").fail(understudy::quoted(inject.name) + " is not a name for a fault; expected another");
     }
     if (std::find(in_force.begin(), in_force.end(), inject.name) != in_force.end()) {
       value.at("name").fail(understudy::quoted(inject.name) +

@@ -1,8 +1,18 @@
 #include "emulator/play/reading/parameters.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
+#include "emulator/world/expression/term.h"
+#include "emulator/world/expression/tokens.h"
 #include "emulator/world/names/names.h"
 
 namespace understudy::emulator::play {
@@ -50,9 +60,8 @@ class Numbers final : public world::NameResolver, public world::ValueSource {
       numbers_.push_back(quantity.number);
       return {static_cast<std::int32_t>(numbers_.size() - 1), quantity.unit};
     } catch (const world::ExpressionError&) {
-      throw world::NameError(
-          "parameter " + quoted(name) + " is " + quoted(*text) +
-          ", with which nothing can be computed; expected a number, a duration or a voltage");
+      throw world::NameError("parameter " + quoted(name) + " is " + quoted(*text) +
+                             ", which cannot be computed with; expected a number, a duration or a voltage");
     }
   }
   world::Number value(std::int32_t handle) const override {
@@ -87,7 +96,7 @@ bool is_name(const std::string& name) {
 void Parameters::define(const std::string& name, const std::string& value) {
   if (!is_name(name)) {
     throw world::NameError(quoted(name) +
-                           " is not a name of a parameter; expected letters, digits and _, a letter first");
+                           " is not a name for a parameter; expected letters, digits and _, a letter first");
   }
   if (find(name) != nullptr)
     throw world::NameError(quoted(name) + " is defined already; expected another name");
@@ -130,7 +139,7 @@ std::string Parameters::apply(const std::string& written) const {
     if (end == std::string::npos) throw world::NameError("'${' does not end; expected '}' behind it");
     made += written.substr(at, begin - at) +
             evaluated(std::string_view(written).substr(begin + 2, end - begin - 2));
-    if (made.size() > kLongest) throw world::NameError("grows too long; expected a million bytes at most");
+    if (made.size() > kLongest) throw world::NameError("grows too long; expected at most a million bytes");
     at = end + 1;
   }
 }

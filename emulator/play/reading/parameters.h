@@ -15,11 +15,11 @@ namespace understudy::emulator::play {
 class Parameters final : public world::ScalarRule {
  public:
   Parameters() = default;
-  /// Those of `outer`, which must outlive it, and some more.
+  /// The parameters of `outer`, which must outlive it, and some more.
   explicit Parameters(const Parameters& outer) : outer_(&outer) {}
   Parameters& operator=(const Parameters&) = delete;
 
-  /// Throws NameError for what is not a name, or is one already.
+  /// Throws NameError if it is not a name, or if that name is taken.
   void define(const std::string& name, const std::string& value);
   /// Throws NameError or ExpressionError.
   std::string apply(const std::string& written) const override;

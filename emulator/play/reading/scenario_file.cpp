@@ -1,18 +1,37 @@
 #include "emulator/play/reading/scenario_file.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "base/files/file_claims.h"
+#include "base/files/file_error.h"
 #include "base/files/output_file.h"
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/memory/nv_file.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/scenario_form.h"
 #include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/reading/trial.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/names/names.h"
 
 namespace understudy::emulator::play {
 
@@ -68,7 +87,7 @@ class ScenarioReader {
           Scenario scenario = read_case(row);
           if (!names.insert(scenario.name).second) {
             row.where->fail("makes a second scenario called " + understudy::quoted(scenario.name) +
-                            "; expected other values than before");
+                            "; expected different values");
           }
           scenarios.push_back(std::move(scenario));
         } catch (const FileError& error) {

@@ -16,7 +16,7 @@ inline constexpr world::Form kCasesForm = world::list_form(world::kTextByName);
 
 inline constexpr std::array kScenarioKeys{
     world::kVersionKey,
-    world::KeyRow{"name", "What it is about, as a sentence; the file's name without it.", &world::kText},
+    world::KeyRow{"name", "What it is about, as a sentence; by default the file's name.", &world::kText},
     world::KeyRow{"bench", "The bench, or the path of its file.", &kBenchOrFileForm, true},
     world::KeyRow{"nv", "What the devices' memories hold at first: files of NV images, by device.",
                   &world::kTextByName},

@@ -1,5 +1,5 @@
-// What the scenarios of one run have read already. Many name the same bench and the same files of steps: each
-// is read, and the bench checked, once.
+// What the scenarios of one run have read already. Many name the same bench and the same files of steps; each
+// file is read, and the bench checked, only once.
 #pragma once
 
 #include <map>

@@ -18,7 +18,7 @@ inline constexpr std::array kAnswerKeys{
 
 inline constexpr std::array kWaitKeys{
     world::KeyRow{"until", "The condition, looked at in every tick without the line.", &world::kText, true},
-    world::KeyRow{"within", "It fails if this long is not enough.", &world::kDuration, true},
+    world::KeyRow{"within", "It fails if this is not long enough.", &world::kDuration, true},
     world::KeyRow{"takes", "How long it takes from the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
     world::KeyRow{"poll", "Reads the registers over the line this often instead.", &world::kDuration}};
 inline constexpr world::Form kWaitForm = world::keys_form(kWaitKeys);
@@ -28,7 +28,7 @@ inline constexpr world::Form kAssertForm = world::either_form(kAssertWays);
 
 inline constexpr std::array kSpanKeys{
     world::KeyRow{"what", "The condition, looked at in every tick.", &world::kText, true},
-    world::KeyRow{"name", "For `end`; the condition itself without it.", &world::kText}};
+    world::KeyRow{"name", "For `end`; by default the condition itself.", &world::kText}};
 inline constexpr world::Form kSpanKeysForm = world::keys_form(kSpanKeys);
 inline constexpr std::array<const world::Form*, 2> kSpanWays{&world::kText, &kSpanKeysForm};
 inline constexpr world::Form kSpanForm = world::either_form(kSpanWays);
@@ -42,12 +42,12 @@ inline constexpr world::Form kPowerForm = world::names_form(kPowerWordsForm);
 inline constexpr std::array<const world::Form*, 2> kReplyLinesWays{&world::kText, &world::kTextList};
 inline constexpr world::Form kReplyLinesForm = world::either_form(kReplyLinesWays);
 inline constexpr std::array kSendKeys{
-    world::KeyRow{"line", "On which line; the only one without it.", &world::kText},
+    world::KeyRow{"line", "On which line; by default the only one.", &world::kText},
     world::KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
     world::KeyRow{"reply", "The bytes that must come, or `nothing`.", &world::kText},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr std::array kSendTextKeys{
-    world::KeyRow{"line", "On which line; the only one without it.", &world::kText},
+    world::KeyRow{"line", "On which line; by default the only one.", &world::kText},
     world::KeyRow{"text", "A line of text, without its end.", &world::kText, true},
     world::KeyRow{"reply", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
@@ -56,7 +56,7 @@ inline constexpr world::Form kSendTextForm = world::keys_form(kSendTextKeys);
 inline constexpr std::array<const world::Form*, 2> kSendWays{&kSendBytesForm, &kSendTextForm};
 inline constexpr world::Form kSendForm = world::either_form(kSendWays);
 inline constexpr std::array kHearKeys{
-    world::KeyRow{"line", "On which line; the only one without it.", &world::kText},
+    world::KeyRow{"line", "On which line; by default the only one.", &world::kText},
     world::KeyRow{"text", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm, true},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr world::Form kHearForm = world::keys_form(kHearKeys);

@@ -1,7 +1,11 @@
 #include "emulator/play/reading/step_rows.h"
 
+#include <array>
+#include <span>
+
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
+#include "emulator/world/bench_file/form.h"
 
 namespace understudy::emulator::play {
 
@@ -16,10 +20,10 @@ std::span<const StepRow> step_rows() {
               kAnswerKeys},
       StepRow{{"send", "Sends bytes as they are, or a line of text, and compares the reply.", &kSendForm},
               read_send},
-      StepRow{{"hear", "Hears lines that a device says unasked.", &kHearForm}, read_hear},
+      StepRow{{"hear", "Hears lines that a device sends unasked.", &kHearForm}, read_hear},
       // Time and truth.
       StepRow{{"wait", "Waits until a condition holds.", &kWaitForm}, read_wait},
-      StepRow{{"advance", "Lets simulated time go on.", &world::kDuration}, read_advance},
+      StepRow{{"advance", "Lets simulated time pass.", &world::kDuration}, read_advance},
       StepRow{{"assert", "What must be true now, without the line.", &kAssertForm}, read_assert},
       StepRow{{"always", "What must be true in every tick from now on.", &kSpanForm},
               read_always,
@@ -30,7 +34,8 @@ std::span<const StepRow> step_rows() {
               {},
               StepRow::Names::gives},
       StepRow{{"end", "Ends an `always` or `never`.", &world::kText}, read_end, {}, StepRow::Names::wants},
-      StepRow{{"reset", "Counts the greatest speeds and accelerations anew.", &kResetForm}, read_reset},
+      StepRow{{"reset", "Starts counting the greatest speeds and accelerations anew.", &kResetForm},
+              read_reset},
       StepRow{{"say", "A sentence for whoever reads along.", &world::kText}, read_say},
       // From outside.
       StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &world::kTextByName},
@@ -51,7 +56,7 @@ std::span<const StepRow> step_rows() {
               {},
               StepRow::Names::gives},
       // The course of things.
-      StepRow{{"snapshot", "Keeps the state by this name.", &world::kText},
+      StepRow{{"snapshot", "Keeps the state under this name.", &world::kText},
               read_snapshot,
               {},
               StepRow::Names::gives},

@@ -1,5 +1,5 @@
 // The kinds of steps, a row each: how a file spells it, what it is for, what its value looks like and who
-// reads it. A new kind is a row here, a struct in scenario.h, and what the runner does for it.
+// reads it. A new kind is a row here, a struct in scenario.h, and what a performance does for it.
 #pragma once
 
 #include <array>
@@ -18,10 +18,11 @@ class StepsReader;
 
 struct StepRow {
   world::KeyRow key;
-  /// Adds the step that `value` describes. It stands in the map `step`, with keys of `beside` at most.
+  /// Adds the step that `value` describes. It stands in the map `step`, which may have no other keys than
+  /// those of `beside`.
   void (*read)(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
   std::span<const world::KeyRow> beside{};
-  /// Where it cannot be read: whether others may want a name that it would have given, or it one of theirs.
+  /// If it cannot be read: whether other steps may need a name that it would have given, or it one of theirs.
   enum class Names : std::uint8_t { none, gives, wants } names = Names::none;
 };
 

@@ -1,13 +1,24 @@
 #include "emulator/play/reading/steps_reader.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "base/files/file_error.h"
 #include "base/files/text_file.h"
 #include "base/text/suggestion.h"
+#include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/step_rows.h"
+#include "emulator/play/reading/trial.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/faults/fault.h"
 
 namespace understudy::emulator::play {
 

@@ -1,4 +1,4 @@
-// Steps as a scenario file has them into the list that is played: loops, tables and includes are unrolled,
+// Turns the steps of a scenario file into the list that is played: loops, tables and includes are unrolled,
 // and everything is checked on the way.
 #pragma once
 
@@ -11,7 +11,7 @@
 #include "emulator/play/reading/shared_reading.h"
 #include "emulator/play/reading/story.h"
 #include "emulator/play/reading/trial.h"
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 
@@ -40,7 +40,7 @@ class StepsReader {
  public:
   StepsReader(const Trial& trial, FileReading& file, const std::string& path);
 
-  /// Throws all that is wrong with them.
+  /// Throws a list of everything that is wrong with them.
   Steps read(const world::YamlFields& list, const Parameters& parameters);
 
   // --- for the readers of single kinds of steps (step_rows.h) ------------------------------------
@@ -55,7 +55,7 @@ class StepsReader {
     saved_.emplace_back(path, field);
   }
   const std::vector<std::pair<std::string, world::YamlFields>>& saved() const { return saved_; }
-  /// One step more; `text` says what it does.
+  /// Adds a step; `text` says what it does.
   template <typename What>
   void add(const world::YamlFields& where, const std::string& text, What what) {
     count(where);
@@ -63,12 +63,12 @@ class StepsReader {
         {.file = where.file(), .line = where.line(), .text = one_line(text), .what = std::move(what)});
     count_bytes(where, into_->back());
   }
-  /// The steps of a list, in this place, with other parameters.
+  /// Adds the steps of a list at this place, with other parameters.
   void read_here(const world::YamlFields& list, const Parameters& parameters);
-  /// The steps of a list, from the story so far, which goes on as if they had not been.
+  /// Reads the steps of a list from the story so far, which goes on as if they had not been there.
   Steps read_branch(const world::YamlFields& list);
   void read_included(const world::YamlFields& field);
-  /// Whether a step could not be read: another round of a loop would tell the same.
+  /// Whether a step could not be read: another round of a loop would only repeat the complaint.
   bool has_complaints() const { return complaints_.count() > 0; }
 
  private:

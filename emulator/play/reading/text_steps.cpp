@@ -1,4 +1,10 @@
 // Steps with lines of text: send (with `text`), hear.
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/model.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"

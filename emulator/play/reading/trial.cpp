@@ -1,11 +1,34 @@
 #include "emulator/play/reading/trial.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
-#include "emulator/play/script/requests.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/play/scenario/requests.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
+#include "emulator/world/expression/term.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/expression/tolerance.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 
@@ -77,7 +100,7 @@ Target Trial::target(const world::YamlFields& field, const std::string& written)
     if (rest == name) world::find_device(known(), known().size() == 1 ? "" : name.substr(0, dot));
     const auto address = parse_integer(rest);
     if (!address || *address > UINT16_MAX) {
-      field.fail(quoted(rest) + " is not a number of a register; expected 0 to 0xFFFF");
+      field.fail(quoted(rest) + " is not a register number; expected 0 to 0xFFFF");
     }
     target.address = static_cast<std::uint16_t>(*address);
     return target;

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/probe/probes.h"
 #include "emulator/world/world.h"
@@ -20,7 +20,7 @@ class Trial {
   const world::Bench& bench() const { return bench_; }
   const world::KnownDevices& known() const { return world_.known(); }
 
-  // All of these take what a field says, or complain of it.
+  // Each of these returns what a field says, or complains about it.
   std::size_t device(const world::YamlFields& field, const std::string& name) const;
   std::size_t line(const world::YamlFields& field, const std::string& name) const;
   /// A register or a number, as a key or in an expression.
@@ -31,13 +31,14 @@ class Trial {
   std::string changing_condition(const world::YamlFields& field) const;
   /// One that a host could evaluate by reading registers.
   void demand_registers_only(const world::YamlFields& field) const;
-  /// What is written to a register; where that `is_refused` it may be out of the register's range.
+  /// A value to be written to a register. It may be out of the register's range if the write is to be refused
+  /// (`is_refused`).
   std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
-  /// Text for a register map's device: a program, or an image of its memory.
+  /// Text for a device: a program, or an image of its memory.
   void demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,
                       const std::string& name) const;
-  /// A fault that this world can have: what it waits for is there. `other_key` is for others.
+  /// A fault that this world can have: what it waits for exists. `other_key` is for others.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
   void demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;
 

@@ -1,11 +1,18 @@
 // Steps that look, without the line: wait, advance, assert, always, never, end, reset, say.
 #include <algorithm>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/expression/tolerance.h"
 
 namespace understudy::emulator::play {
 

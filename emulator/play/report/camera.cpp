@@ -1,8 +1,13 @@
 #include "emulator/play/report/camera.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/speech/modbus_words.h"
@@ -13,7 +18,7 @@ namespace {
 
 using Kind = SeenSignal::Kind;
 
-// A scene keeps so many frames from its beginning, and as many from its end.
+// A scene keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
 constexpr double kMillivolts = 1000;
 
@@ -61,12 +66,12 @@ void Camera::watch_lines() {
   requests_.assign(world_.line_count(), {});
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     framers_.push_back(world_.line(i).packets(i, [this](const pty::CapturedPacket& packet) { add(packet); }));
-    world_.line(i).line.add_observer(*framers_.back());
+    world_.add_observer(i, *framers_.back());
   }
 }
 
 void Camera::ignore_lines() {
-  for (std::size_t i = 0; i < framers_.size(); ++i) world_.line(i).line.remove_observer(*framers_[i]);
+  for (std::size_t i = 0; i < framers_.size(); ++i) world_.remove_observer(i, *framers_[i]);
   framers_.clear();
 }
 

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
 
 namespace understudy::emulator::play {
 

@@ -1,6 +1,5 @@
-// One signal over time in a bounded number of points, however long it goes on: where there are too many
-// values, the first, the least, the greatest and the last of each stretch of time are kept, at the times at
-// which they were.
+// One signal over time in a bounded number of points, however long it goes on: if there are too many values,
+// the first, the least, the greatest and the last of each stretch of time are kept, each at its own time.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +22,8 @@ class Envelope {
   /// Ticks ascend; an earlier one, or the last one again, is left out.
   void add(Tick tick, double value);
 
-  /// In the order of time. Where a value stays for a while only its first and its last point are there, so a
-  /// line from point to point is what was added, or encloses it.
+  /// In the order of time. Where a value stays the same for a while only its first and last points are kept,
+  /// so a line from point to point is what was added, or encloses it.
   std::vector<Point> points() const;
   /// Whether it ever had two values.
   bool varies() const { return !stretches_.empty() && least_ != greatest_; }

@@ -38,10 +38,10 @@ struct SeenFrame {
   std::string text;        // decoded
   std::string bytes;       // "01 03 00 00"
   std::string remark;      // "dropped: bad CRC"; empty if there is nothing to say
-  bool is_struck = false;  // by a fault; without bytes: one that is not here, or was before
+  bool is_struck = false;  // by a fault; without bytes: one that was dropped, or already seen
 };
 
-/// A stretch of the play in which time only goes on: each `restore` begins another one.
+/// A stretch of the play in which time only goes forward: each `restore` begins another one.
 struct Scene {
   std::size_t first_step = 0;  // of the result's
   SimTime begin{0};

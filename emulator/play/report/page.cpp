@@ -1,14 +1,20 @@
 #include "emulator/play/report/page.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/report/axis_scale.h"
 #include "emulator/play/report/footage.h"
 #include "emulator/play/report/page_parts.h"
 #include "emulator/play/report/picture.h"
 #include "emulator/play/results/junit.h"
+#include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 
 namespace understudy::emulator::play {

@@ -1,5 +1,7 @@
 #include "emulator/play/report/page_parts.h"
 
+#include <string_view>
+
 namespace understudy::emulator::play {
 
 const std::string_view kPageStyle = R"(

@@ -1,10 +1,14 @@
 #include "emulator/play/report/picture.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/report/axis_scale.h"
+#include "emulator/play/report/footage.h"
 #include "emulator/play/report/picture_words.h"
 #include "emulator/play/results/junit.h"
 

@@ -1,6 +1,12 @@
 #include "emulator/play/report/picture_words.h"
 
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/simulated_time.h"
 #include "emulator/play/report/axis_scale.h"
+#include "emulator/play/report/footage.h"
 
 namespace understudy::emulator::play {
 

@@ -1,4 +1,4 @@
-// What a picture shows, in words, for whoever cannot see it.
+// What a picture shows, in words, for those who cannot see it.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace understudy::emulator::play {
 /// One line: "a move: what moved and switched, from 0s to 3.2s".
 std::string picture_name(const Scene& scene, std::string_view of);
 
-/// Each signal that varies, with its extremes and where it ends, and when it failed.
+/// Each signal that varies, with its extremes and its last value, and when the play failed.
 std::string picture_words(const Scene& scene, std::optional<SimTime> failed_at);
 
 }  // namespace understudy::emulator::play

@@ -1,8 +1,15 @@
 #include "emulator/play/results/junit.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/simulated_time.h"
+#include "emulator/play/results/result.h"
 #include "emulator/play/results/result_text.h"
 
 namespace understudy::emulator::play {

@@ -1,4 +1,4 @@
-// What came of playing a scenario, as a value: for a terminal, for JUnit, for a report.
+// The outcome of playing a scenario, as a value: for a terminal, for JUnit, for a report.
 #pragma once
 
 #include <cstdint>
@@ -42,10 +42,10 @@ struct ScenarioResult {
   } verdict = Verdict::passed;
   std::string name{};  // "a move takes its time", a branch "a move takes its time / with a stall"
   std::string file{};
-  std::vector<StepResult> steps{};           // the last one is that which failed; of a branch its own
-  std::optional<Failure> failure{};          // if it failed
-  SimTime simulated{0};                      // how long it was played; of a branch, from its fork on
-  std::uint64_t outcome_hash = 0;            // of all output, if that was asked for (outcome_hash.h)
+  std::vector<StepResult> steps{};   // the last one is the one that failed; for a branch, only its own steps
+  std::optional<Failure> failure{};  // if it failed
+  SimTime simulated{0};              // how long it was played; for a branch, from its fork on
+  std::uint64_t outcome_hash = 0;    // of all output, if that was asked for (outcome_hash.h)
   std::shared_ptr<const Footage> footage{};  // of a report, if one was asked for
   std::vector<std::string> manners{};        // what a lint has found, if one was asked for; single lines
   std::string recording{};                   // its path, if one was made; of a trace and a capture as well

@@ -1,8 +1,15 @@
 #include "emulator/play/results/result_text.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
+#include "emulator/play/results/result.h"
 
 namespace understudy::emulator::play {
 

@@ -14,7 +14,7 @@ std::string seconds_text(SimTime time);
 
 /// "ok    feed.yaml: a move takes its time (3.06s)".
 std::string verdict_line(const ScenarioResult& result);
-/// A line for each step: when it began and ended, where it stands, what it is.
+/// A line for each step: when it began and ended, where it is in the file, what it does.
 std::vector<std::string> step_lines(const ScenarioResult& result);
 /// What failed, what was expected, what came, the last frames and the state around it; empty if nothing
 /// failed.

@@ -1,10 +1,18 @@
 #include "emulator/play/schema/json_schema.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "emulator/play/reading/scenario_form.h"
 #include "emulator/play/reading/step_rows.h"
 #include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/form.h"
 
 namespace understudy::emulator::play {
 

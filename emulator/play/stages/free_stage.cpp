@@ -1,8 +1,18 @@
 #include "emulator/play/stages/free_stage.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/play/stages/modbus_host.h"
 #include "emulator/world/speech/modbus_words.h"
 
@@ -17,21 +27,23 @@ SimTime silence_between_frames(const pty::LineSettings& settings) {
 /// The master on one line: knows when something was last said on it, and takes what is said to it.
 class FreeStage::Host final : public pty::LineObserver {
  public:
-  explicit Host(world::WorldLine& line)
-      : line_(line.line), stations_(line.stations), settings_(line.line.options().settings) {
-    line_.host_settings(pty::HostSettings{.baud = settings_.baud, .stop_bits = settings_.stop_bits});
-    line_.add_observer(*this);
+  Host(world::World& world, std::size_t number)
+      : world_(world), number_(number), settings_(line().options().settings) {
+    world_.host_settings(number_,
+                         pty::HostSettings{.baud = settings_.baud, .stop_bits = settings_.stop_bits});
+    world_.add_observer(number_, *this);
   }
-  ~Host() override { line_.remove_observer(*this); }
+  ~Host() override { world_.remove_observer(number_, *this); }
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  pty::Line& line() { return line_; }
+  const pty::Line& line() const { return world_.line(number_).line; }
+  void say(std::span<const std::uint8_t> bytes) { world_.receive(number_, bytes); }
   SimTime silence() const { return silence_between_frames(settings_); }
   /// The longest time between two bytes of one reply: the next may begin just before t3.5 are over.
   SimTime longest_pause() const { return silence() + duration_of(1); }
   SimTime duration_of(std::size_t count) const {
-    if (line_.options().timing == pty::Timing::instant) return SimTime{0};
+    if (line().options().timing == pty::Timing::instant) return SimTime{0};
     return settings_.duration_of(static_cast<std::int64_t>(count));
   }
 
@@ -44,21 +56,22 @@ class FreeStage::Host final : public pty::LineObserver {
 
   /// What has come since the last call.
   void take(std::vector<std::uint8_t>& bytes) {
-    const auto came = line_.output();
+    const auto came = line().output();
     bytes.insert(bytes.end(), came.begin(), came.end());
-    line_.take_output(came.size());
+    take_output(came.size());
   }
-  /// The same as lines of text; it stays there.
+  /// Like the above, as lines of text; it stays there.
   world::LinesHeard lines() const {
-    const auto came = line_.output();
+    const auto came = line().output();
     return world::lines_in({reinterpret_cast<const char*>(came.data()), came.size()});
   }
-  void discard() { line_.take_output(line_.output().size()); }
+  void discard() { take_output(line().output().size()); }
+  void take_output(std::size_t count) { world_.take_output(number_, count); }
 
   /// How many frames were carried out so far.
   std::uint64_t requests() const {
     std::uint64_t sum = 0;
-    for (const auto& station : stations_) sum += station->counters().requests;
+    for (const auto& station : world_.line(number_).stations) sum += station->counters().requests;
     return sum;
   }
 
@@ -73,8 +86,8 @@ class FreeStage::Host final : public pty::LineObserver {
   void run(SimTime) override {}
 
  private:
-  pty::Line& line_;
-  const std::vector<std::unique_ptr<world::LineStation>>& stations_;
+  world::World& world_;
+  std::size_t number_;
   pty::LineSettings settings_;  // as the line has it in the beginning; a host does not follow a DIP switch
   static constexpr SimTime kEver = SimTime::min() / 2;
   SimTime quiet_since_ = kEver;
@@ -83,7 +96,7 @@ class FreeStage::Host final : public pty::LineObserver {
 FreeStage::FreeStage(const world::Bench& bench, FreeStageOptions options)
     : world_(bench, world::WorldOptions{.strict_framing = true}, options.log), options_(std::move(options)) {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
-    hosts_.push_back(std::make_unique<Host>(world_.line(i)));
+    hosts_.push_back(std::make_unique<Host>(world_, i));
   }
 }
 
@@ -211,7 +224,7 @@ std::vector<std::string> FreeStage::converse(std::size_t line, const std::option
   }
   const std::size_t wanted_lines = wanted.lines.size();
   if (!text && wanted_lines > 0 && heard.finished >= wanted_lines) {
-    host.line().take_output(heard.ends[wanted_lines - 1]);
+    host.take_output(heard.ends[wanted_lines - 1]);
     heard.lines.resize(wanted_lines);
   } else {
     host.discard();
@@ -232,7 +245,7 @@ void FreeStage::send_text(Host& host, const std::string& text) {
   const std::string line = text + '\r';
   const std::vector<std::uint8_t> bytes(line.begin(), line.end());
   host.keep_busy(world_.now() + host.duration_of(bytes.size()));
-  host.line().receive(bytes, world_.now());
+  host.say(bytes);
 }
 
 /// After t3.5 and the gap; on return all of it is on the line, though not over.
@@ -249,7 +262,7 @@ void FreeStage::send(Host& host, std::span<const std::uint8_t> bytes) {
   host.keep_busy(world_.now() + host.duration_of(bytes.size()));
   while (true) {
     const auto part = bytes.first(std::min(bytes.size(), host.line().room()));
-    host.line().receive(part, world_.now());
+    host.say(part);
     bytes = bytes.subspan(part.size());
     if (bytes.empty()) break;
     advance_to_next(host.quiet_since());

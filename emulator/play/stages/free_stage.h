@@ -1,4 +1,4 @@
-// A stage in free time: simulated time goes on as fast as it can, and the host is on the line itself. It is a
+// A stage in free time: simulated time passes as fast as it can, and the host is on the line itself. It is a
 // correct Modbus RTU master: a silence of t3.5 before each frame (and what the scenario adds to it), no gap
 // within one; a reply is over when it is complete, or when t3.5 of silence follow its last byte.
 #pragma once
@@ -16,7 +16,7 @@ namespace understudy::emulator::play {
 struct FreeStageOptions {
   SimTime gap{0};                                    // beyond t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  std::function<void(const std::string&)> log = {};  // what devices and lines have to tell
+  std::function<void(const std::string&)> log = {};  // what devices and lines have to say
 };
 
 /// t3.5, rounded up to a nanosecond: 3.5 characters, and 1.75 ms above 19200 baud (MODBUS over Serial Line

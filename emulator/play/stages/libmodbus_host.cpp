@@ -5,14 +5,28 @@
 #include <modbus/modbus-rtu.h>
 #include <modbus/modbus.h>
 #include <poll.h>
+#include <sys/types.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <optional>
+#include <span>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
-#include "pty/pseudo_terminal.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/speech/text_lines_heard.h"
+#include "pty/line_settings.h"
+#include "pty/port_link.h"
 
 namespace understudy::emulator::play {
 

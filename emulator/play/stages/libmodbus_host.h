@@ -1,4 +1,4 @@
-// libmodbus as the master on a serial port: what a real host would see of it.
+// libmodbus as the master on a serial port: what a real host would see.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +27,11 @@ class LibmodbusHost {
 
   HostReply read_registers(int station, std::uint16_t first, int count);
   HostReply write_registers(int station, std::uint16_t first, std::span<const std::uint16_t> words);
-  /// Bytes as they are, past libmodbus; see Stage::exchange(). `sending`: how long they are on the line.
+  /// Raw bytes, without libmodbus; see Stage::exchange(). `sending`: how long they are on the line.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
 
-  /// Lines of text, past libmodbus; see Stage::converse().
+  /// Lines of text, without libmodbus; see Stage::converse().
   std::vector<std::string> converse(const std::optional<std::string>& text, const world::LinesWanted& wanted,
                                     serve::WallTime sending, serve::WallTime within);
   void say(const std::string& text);

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
+#include "emulator/play/stages/stage.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::play {

@@ -14,10 +14,10 @@ std::vector<std::uint8_t> read_request(int station, std::uint16_t first, int cou
 std::vector<std::uint8_t> write_request(int station, std::uint16_t first,
                                         std::span<const std::uint16_t> words);
 
-/// How many bytes a host waits for that has sent `request` and has got `reply` so far.
+/// How many bytes a host that has sent `request`, and has received `reply` so far, waits for.
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
-/// What `reply`, all that came, says to a request of read_request() or write_request().
+/// What `reply`, everything that came, means as the answer to a request of read_request() or write_request().
 HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 
 }  // namespace understudy::emulator::play

@@ -1,14 +1,38 @@
 #include "emulator/play/stages/real_stage.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <functional>
 #include <future>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
+#include "emulator/device/model.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/free_stage.h"
+#include "emulator/play/stages/libmodbus_host.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/play/stages/write_clock.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/daemon/daemon_thread.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
 
 namespace understudy::emulator::play {
 

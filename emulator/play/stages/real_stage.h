@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/libmodbus_host.h"
 #include "emulator/play/stages/stage.h"
 #include "emulator/play/stages/write_clock.h"
@@ -17,7 +17,7 @@
 
 namespace understudy::emulator::play {
 
-/// Somebody has given the play up.
+/// Somebody has abandoned the play.
 struct StageGivenUp : std::runtime_error {
   StageGivenUp() : std::runtime_error("the play was given up") {}
 };
@@ -25,19 +25,19 @@ struct StageGivenUp : std::runtime_error {
 struct RealStageOptions {
   SimTime gap{0};                                    // beyond t3.5
   SimTime timeout = std::chrono::milliseconds(500);  // from a request's end to the first byte of its reply
-  /// False: the hosts on its lines are others, and it has none of its own.
+  /// False: the hosts on its lines are other programs, and the stage has none.
   bool has_hosts = true;
-  /// Once it is true, whatever waits for time to pass throws StageGivenUp; so it does where the daemon has
-  /// ended, as time stands from then on. Null: nobody gives up.
+  /// Once it is true, everything that waits for time to pass throws StageGivenUp. So it does when the daemon
+  /// has ended, since time then stands still. Null: nobody gives up.
   const std::atomic<bool>* given_up = nullptr;
 };
 
 class RealStage final : public Stage {
  public:
-  /// Another thread runs the daemon. Once that has ended, however it did, it must leave the world alone as
-  /// long as this lives. Throws pty::PortError.
+  /// Another thread runs the daemon. Once the daemon has ended, for whatever reason, that thread must leave
+  /// the world alone as long as this stage lives. Throws pty::PortError.
   RealStage(serve::Daemon& daemon, RealStageOptions options);
-  /// The same with a daemon of its own, which has been started.
+  /// Like the above, with its own daemon, which has been started.
   RealStage(std::unique_ptr<serve::DaemonThread> thread, RealStageOptions options);
   ~RealStage() override;
   RealStage(const RealStage&) = delete;
@@ -55,7 +55,7 @@ class RealStage final : public Stage {
   void with_world(const std::function<void(world::World&)>& act) override;
   bool run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) override;
   void advance(SimTime by) override;
-  /// Right after run_until() has found what it looked for: that tick.
+  /// The tick at which run_until() found what it was looking for; only valid right after that.
   SimTime now() override;
   Tick tick_of_last_write() override;
 
@@ -65,7 +65,7 @@ class RealStage final : public Stage {
   LibmodbusHost& host(std::size_t line);
   SimTime time_to_send(std::size_t line, const std::string& text) const;
   void throw_if_given_up() const;
-  /// How long simulated time takes to get to `time`, by the clock on the wall; nothing while it stands.
+  /// How long simulated time takes to get to `time`, by the wall clock; nothing while it stands.
   std::optional<serve::WallTime> wall_time_until(SimTime time);
 
   std::unique_ptr<serve::DaemonThread> own_;
@@ -77,8 +77,8 @@ class RealStage final : public Stage {
   std::optional<SimTime> found_at_;                    // by run_until(), and no time was let pass since
 };
 
-/// In real time, by the scenario's bench and gap, with ports that nobody else has. Its
-/// devices' memories begin as their files say, and leave those alone.
+/// In real time, by the scenario's bench and gap, with ports of its own. The devices' memories begin as their
+/// files say, and never write those files.
 std::unique_ptr<Stage> make_real_stage(const Scenario& scenario);
 
 }  // namespace understudy::emulator::play

@@ -10,14 +10,14 @@ WriteClock::~WriteClock() { ignore(); }
 
 void WriteClock::watch() {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
-    world::WorldLine& line = world_.line(i);
+    const world::WorldLine& line = world_.line(i);
     framers_.push_back(line.packets(i, [this, i](const pty::CapturedPacket& packet) { hear(i, packet); }));
-    line.line.add_observer(*framers_.back());
+    world_.add_observer(i, *framers_.back());
   }
 }
 
 void WriteClock::ignore() {
-  for (std::size_t i = 0; i < framers_.size(); ++i) world_.line(i).line.remove_observer(*framers_[i]);
+  for (std::size_t i = 0; i < framers_.size(); ++i) world_.remove_observer(i, *framers_[i]);
   framers_.clear();
 }
 

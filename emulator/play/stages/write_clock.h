@@ -19,9 +19,9 @@ class WriteClock {
   WriteClock(const WriteClock&) = delete;
   WriteClock& operator=(const WriteClock&) = delete;
 
-  /// The tick that it acts from; 0 if there was none. One that was refused is none.
+  /// The tick that it acts from; 0 if there was none. Refused writes do not count.
   Tick tick_of_last_write() const { return last_; }
-  /// The lines were put into another state: what they were just hearing is forgotten.
+  /// The lines were put into another state: half-heard frames are forgotten.
   void begin_anew();
 
  private:

@@ -1,9 +1,14 @@
 #include "emulator/serve/control/control_door.h"
 
+#include <functional>
+#include <memory>
+#include <string>
+
 #include "emulator/serve/control/messages.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/sockets.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/daemon/door.h"
 
 namespace understudy::emulator::serve {
 

@@ -7,8 +7,8 @@
 
 namespace understudy::emulator::serve {
 
-/// At `path`: throws ControlError if that cannot be had. Empty: at one of its own (sockets.h); where that
-/// cannot be had the daemon is told, and goes on without.
+/// At `path`: throws ControlError if it cannot be opened there. Empty: at a path that no other daemon has
+/// (sockets.h); if it cannot be opened there, the log says so and the daemon goes on without a socket.
 DoorMaker control_door(const std::string& path = "");
 
 }  // namespace understudy::emulator::serve

@@ -1,11 +1,19 @@
 // What a user does to devices and machines from outside: inputs, power, programs, faults.
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/faults/trigger.h"
 #include "emulator/world/names/level.h"
 #include "emulator/world/names/names.h"
 

@@ -1,9 +1,15 @@
 // What goes over the lines, in words.
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/frames/frame_log.h"
+#include "pty/capture.h"
 
 namespace understudy::emulator::serve {
 
@@ -22,7 +28,7 @@ std::uint64_t demand_count(const Json& message, const char* key) {
 Json frames_message(Daemon& daemon, const Json& message) {
   demand_keys(message, {"do", "since", "last"});
   if (message.contains("since") && message.contains("last")) {
-    throw MessageError("since: is given beside last; expected one of them");
+    throw MessageError("since: is given together with last; expected one of them");
   }
   daemon.catch_up();
   const world::FrameLog& log = daemon.frames();

@@ -1,9 +1,13 @@
 #include "emulator/serve/control/message_fields.h"
 
-#include "base/text/one_line.h"
-
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "base/text/one_line.h"
 
 namespace understudy::emulator::serve {
 

@@ -1,4 +1,4 @@
-// What the control messages are read with. Only files of this folder include it: the JSON library is slow to
+// For reading control messages. Only files in this folder include it, because the JSON library is slow to
 // compile.
 #pragma once
 
@@ -27,11 +27,11 @@ struct MessageError : std::runtime_error {
 /// All of these throw MessageError.
 void demand_keys(const Json& message, std::initializer_list<std::string_view> known);
 const Json& demand(const Json& message, const char* key);
-/// A whole number as such, else the real one.
+/// A whole number as an integer, any other as a real number.
 Json json_of(double value);
 std::string demand_text(const Json& message, const char* key);
 
-/// The faults there are, and what has come of them.
+/// The faults, and what they have done.
 Json faults_message_part(const world::World& world);
 
 }  // namespace understudy::emulator::serve

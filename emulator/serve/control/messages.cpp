@@ -1,9 +1,14 @@
 #include "emulator/serve/control/messages.h"
 
 #include <array>
+#include <exception>
+#include <functional>
+#include <string>
+#include <string_view>
 
 #include "base/text/one_line.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/strict_json.h"
@@ -49,7 +54,7 @@ const Verb& demand_verb(const Json& message) {
     if (word == verb.name) return verb;
     names += (names.empty() ? "" : ", ") + std::string(verb.name);
   }
-  throw MessageError(understudy::quoted(word) + " is nothing to do; expected one of " + names);
+  throw MessageError(understudy::quoted(word) + " is not a command; expected one of " + names);
 }
 
 }  // namespace
@@ -78,7 +83,7 @@ void handle_message(Daemon& daemon, const std::string& line,
     const Json message = world::parse_strict_json<Json>(
         line,
         [](const std::string& key) {
-          return MessageError(understudy::quoted(key) + " is there twice; expected it once");
+          return MessageError(understudy::quoted(key) + " appears twice; expected it once");
         },
         kDeepest);
     const Verb& verb = demand_verb(message);

@@ -1,5 +1,4 @@
-// A text that may be longer than the window it is shown in: which part of it is shown, and the keys that move
-// it.
+// A text that may be longer than the window that shows it: which part is visible, and the keys that move it.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +10,8 @@ namespace understudy::emulator::serve {
 
 class ScrolledView {
  public:
-  /// Lines are folded where they are longer than the window; where there are more than `rows`, the last row
-  /// tells which are shown.
+  /// Lines that are wider than the window are folded; if there are more than `rows`, the last row says which
+  /// ones are shown.
   std::vector<std::string> fit(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns);
   /// Keys as a terminal sends them: arrows, j, k, Page Up, Page Down, space, b, Home, End, g, G. True for q.
   bool press(std::string_view keys);

@@ -1,18 +1,25 @@
 #include "emulator/serve/control/server.h"
 
-#include "base/text/one_line.h"
-
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/time.h>
+#include <sys/types.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+
+#include "base/text/one_line.h"
+#include "emulator/serve/loop/event_loop.h"
 
 namespace understudy::emulator::serve {
 
@@ -122,8 +129,8 @@ void ControlServer::accept_clients() {
   }
 }
 
-/// There are no descriptors left: who waits would be told again and again. They wait until a client has gone,
-/// or for a moment, as others may give descriptors back.
+/// There are no descriptors left: waiting clients would be reported again and again. They wait until a client
+/// has gone, or for a moment, as others may give descriptors back.
 void ControlServer::rest() {
   loop_.change_interest(listener_, 0);
   rests_until_ = wall_now() + kRest;

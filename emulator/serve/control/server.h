@@ -1,5 +1,5 @@
-// The control socket: a Unix stream socket that only its owner may open. A message is a line, so is its
-// reply; what they say is for messages.h.
+// The control socket: a Unix stream socket that only its owner may open. Each message is one line, and so is
+// its reply; messages.h knows what they say.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::serve {
 
-/// The socket could not be had: one line that names the path and what was expected.
+/// The socket could not be opened: one line that names the path and what was expected.
 struct ControlError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -24,14 +24,14 @@ class ControlServer final : public Door {
   using Reply = std::function<void(const std::string& line)>;  // may be called later, once
   using Handler = std::function<void(const std::string& line, const Reply& reply)>;
 
-  /// A dead socket at `path` is replaced, anything else that is there is left alone. Throws ControlError.
+  /// A dead socket at `path` is replaced; anything else there is left alone. Throws ControlError.
   ControlServer(EventLoop& loop, std::string path, Handler handler);
   ~ControlServer() override;
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
 
   const std::string& path() const override { return path_; }
-  /// Where new clients wait for descriptors.
+  /// New clients wait here for descriptors.
   std::optional<WallTime> next_look() const override { return rests_until_; }
   void look(WallTime now) override;
 
@@ -55,11 +55,11 @@ class ControlServer final : public Door {
   std::optional<WallTime> rests_until_;  // nobody is let in until then
 };
 
-/// Whether somebody listens at that path.
+/// Whether anybody listens at that path.
 bool is_answered(const std::string& path);
 
-/// Sends one message and waits for its reply, without the line's end: as long as it takes, or for so long.
-/// Throws ControlError.
+/// Sends one message and waits for its reply, without the line's end: as long as it takes, or at most this
+/// long. Throws ControlError.
 std::string ask_control(const std::string& path, const std::string& message,
                         std::optional<std::chrono::milliseconds> patience = {});
 

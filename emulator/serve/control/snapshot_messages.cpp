@@ -1,12 +1,20 @@
 // Snapshots of the running world, in files of the user's.
+#include <cstdint>
 #include <cstring>
+#include <exception>
+#include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "base/files/text_file.h"
+#include "base/state/state_error.h"
 #include "base/text/one_line.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
 
 namespace understudy::emulator::serve {

@@ -2,13 +2,19 @@
 
 #include <signal.h>
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "base/text/parse_integer.h"
 #include "emulator/serve/control/server.h"
@@ -46,8 +52,7 @@ std::string control_folder() {
   // Somebody else's folder of that name would let them read along.
   if (lstat(folder.c_str(), &status) < 0 || !S_ISDIR(status.st_mode) || status.st_uid != getuid() ||
       (status.st_mode & 077) != 0) {
-    throw ControlError(folder +
-                       ": is not a private folder of ours; expected to make it, or --control SOCKET");
+    throw ControlError(folder + ": is not a private folder of your own; expected one, or --control SOCKET");
   }
   return folder;
 }

@@ -1,15 +1,29 @@
 #include <unistd.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "base/simulated_time.h"
 #include "base/version.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/terminals.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/pacer.h"
+#include "emulator/serve/ports/port.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/view/world_view.h"
+#include "pty/line.h"
+#include "pty/line_settings.h"
 
 namespace understudy::emulator::serve {
 

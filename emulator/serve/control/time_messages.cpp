@@ -1,9 +1,18 @@
 // Messages that stop simulated time, or move it on.
+#include <chrono>
 #include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
+#include "base/simulated_time.h"
 #include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/tokens.h"
 #include "emulator/world/probe/probes.h"
 
 namespace understudy::emulator::serve {

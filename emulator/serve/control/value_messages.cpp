@@ -1,17 +1,27 @@
 // Messages about what can be named: registers, and everything else that conditions can see.
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "base/text/one_line.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
+#include "emulator/world/expression/term.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/probe/probes.h"
 

@@ -1,6 +1,8 @@
 #include "emulator/serve/control/value_text.h"
 
-#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/world/expression/number.h"

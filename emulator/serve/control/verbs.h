@@ -1,5 +1,5 @@
-// The control messages that are not of registers, each with its reply. All throw MessageError or
-// NameError, and have changed nothing then.
+// The control messages that are not about registers, each with its reply. If one throws (MessageError or
+// NameError), nothing has changed.
 #pragma once
 
 #include "emulator/serve/control/message_fields.h"
@@ -7,7 +7,8 @@
 
 namespace understudy::emulator::serve {
 
-/// Replies with what `make` makes, or with why not; null is not a reply yet.
+/// Replies with the result of `make`, or with the reason why there is none; null means that there is no reply
+/// yet.
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make);
 
 Json status_message(Daemon& daemon, const Json& message);
@@ -49,7 +50,7 @@ Json resume_message(Daemon& daemon, const Json& message);
 /// {"do":"advance","by":"250ms"}. The reply comes when simulated time is there.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply comes at the end of the
-/// first tick at which it is true, or when the time is over; "reached" tells which.
+/// first tick at which it is true, or when the time is over; "reached" says which.
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 
 }  // namespace understudy::emulator::serve

@@ -5,6 +5,8 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "emulator/serve/control/message_fields.h"

@@ -4,17 +4,42 @@
 #include <signal.h>
 #include <sys/eventfd.h>
 #include <sys/signalfd.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include "base/files/growing_file.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
+#include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/pacer.h"
+#include "emulator/serve/ports/port.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/bench_text.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/recording/recording_spool.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
+#include "emulator/world/trace/trace_file.h"
+#include "emulator/world/trace/world_capture.h"
+#include "emulator/world/world.h"
+#include "pty/port_link.h"
 
 namespace understudy::emulator::serve {
 
@@ -285,8 +310,8 @@ void Daemon::work_on_advance() {
 
 std::string_view Daemon::why_no_restore() const {
   if (advance_done_) return "time is being advanced; expected `restore` after that";
-  if (recording_) return "a recording is being made, which has one course; expected none";
-  if (trace_) return "a trace is being made, which has one course; expected none";
+  if (recording_) return "a recording is being made, which cannot go back; expected none";
+  if (trace_) return "a trace is being made, which cannot go back; expected none";
   return {};
 }
 

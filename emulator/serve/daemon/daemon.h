@@ -1,5 +1,5 @@
-// A world in touch with the outside: ports, control socket, pacing, signals. One thread, one event loop;
-// it wakes for what is readable and for what is due, not for every tick.
+// A world in touch with the outside: ports, control socket, pacing, signals. One thread, one event loop; it
+// wakes up for what is readable and for what is due, not for every tick.
 #pragma once
 
 #include <functional>
@@ -46,7 +46,8 @@ struct DaemonOptions {
 
 class Daemon {
  public:
-  /// Opens everything, or throws what says why not (SettingError, PortError, ControlError, CaptureError).
+  /// Opens everything, or throws an error that says why not (SettingError, PortError, ControlError,
+  /// CaptureError).
   Daemon(const world::Bench& bench, const DaemonOptions& options,
          std::function<void(const std::string&)> log);
   ~Daemon();
@@ -57,25 +58,26 @@ class Daemon {
   void run();
   /// Ends run() soon. On the thread that runs it.
   void stop() { stopping_ = true; }
-  /// Has `act` called on the thread that runs the daemon, between two looks at the world. From any thread. It
-  /// may put the world into another state; simulated time goes on from there. Once run() has left, however it
-  /// did, nothing is called any more: what still waits is dropped, and this returns false.
+  /// Has `act` called on the thread that runs the daemon, between two looks at the world. Call it from any
+  /// thread. `act` may put the world into another state; simulated time goes on from there. Once run() has
+  /// left, for whatever reason, nothing is called any more: what is still waiting is dropped, and this
+  /// returns false.
   bool post(std::function<void()> act);
-  /// Has `work` done on a helper thread, and posts what comes of it. For what would make the devices wait.
+  /// Has `work` done on a helper thread, and posts its result. For work that would make the devices wait.
   void do_aside(std::function<std::function<void()>()> work);
   /// Whether run() has left.
   bool is_over();
-  /// For what else is to be waited for.
+  /// For other things to wait for.
   EventLoop& loop() { return loop_; }
 
   world::World& world() { return world_; }
   const world::World& world() const { return world_; }
   const Pacer& pacer() const { return pacer_; }
   const std::vector<std::unique_ptr<Port>>& ports() const { return ports_; }
-  /// Of its door; empty if it has none.
+  /// The path of its door; empty if it has none.
   const std::string& control_path() const;
   const std::string& bench_path() const { return bench_path_; }
-  /// The last ones that went over the lines.
+  /// The last frames that went over the lines.
   const world::FrameLog& frames() const { return frames_; }
 
   /// An advance that is under way ends here.
@@ -83,22 +85,22 @@ class Daemon {
   /// False while an advance is under way.
   bool resume();
   /// Moves simulated time on by `duration`, or to the end of the first tick at which `is_there` is true
-  /// (asked at the end of every tick), then calls `done`. Only where the clock stands; false otherwise, or
-  /// while another advance is under way.
+  /// (asked at the end of every tick), then calls `done`. Only if the clock stands; returns false otherwise,
+  /// or while another advance is under way.
   bool advance(SimTime duration, std::function<void()> done, std::function<bool()> is_there = {});
-  /// Brings the world to the present moment, or as far as it comes in a few milliseconds.
+  /// Brings the world to the present moment, or as far as it gets in a few milliseconds.
   void catch_up();
-  /// Like catch_up(), but as far as it comes in a tenth of a second: for what is stamped with this moment.
+  /// Like catch_up(), but as far as it gets in a tenth of a second: for what is stamped with this moment.
   void catch_up_for_bytes();
 
-  /// Of the bench that the world is of, for snapshots.
+  /// The hash of the world's bench, for snapshots.
   std::uint64_t bench_hash() const { return bench_hash_; }
-  /// What it reads and writes besides them.
+  /// Other files that it reads and writes.
   FileClaims files() const;
   /// Why the world cannot be put into another state now; empty if it can.
   std::string_view why_no_restore() const;
   /// Puts the world into another state; simulated time goes on from there, and the lines have the hosts that
-  /// are there now. Throws StateError, and nothing has changed then.
+  /// are there now. If it throws (StateError), nothing has changed.
   void restore(const world::WorldState& state);
 
  private:

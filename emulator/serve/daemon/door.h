@@ -1,5 +1,5 @@
-// The way in for those who ask a daemon things: a control socket (control/control_door.h). A daemon knows no
-// more of it than when it wants to be looked after.
+// The way in for those who ask a daemon things: a control socket (control/control_door.h). All that a daemon
+// knows about it is when to look after it.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,13 @@ class Door {
   virtual ~Door() = default;
   /// Where it is in the file system.
   virtual const std::string& path() const = 0;
-  /// When look() should be called, though nothing is readable.
+  /// When look() should be called even if nothing is readable.
   virtual std::optional<WallTime> next_look() const = 0;
   virtual void look(WallTime now) = 0;
 };
 
-/// Makes one that lives as long as the daemon, served by its event loop; null: there is none. `log` gets why.
+/// Makes a door that lives as long as the daemon, served by its event loop; null if it could not, and `log`
+/// is told why.
 using DoorMaker =
     std::function<std::unique_ptr<Door>(Daemon& daemon, const std::function<void(const std::string&)>& log)>;
 

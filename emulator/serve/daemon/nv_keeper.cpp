@@ -1,11 +1,22 @@
 #include "emulator/serve/daemon/nv_keeper.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/nv_file.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/world.h"
 #include "pty/port_link.h"
 
 namespace understudy::emulator::serve {

@@ -1,4 +1,4 @@
-// Keeps the files of the devices' memories up to date with what their simulated memories have kept.
+// Keeps the files of the devices' memories up to date with the simulated memories.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@
 
 namespace understudy::emulator::serve {
 
-/// Gives every device without a file of its own one in `folder`, which is made if it is not there (unless it
-/// is empty: then they have none), and reads those that exist into the settings.
-/// Throws NvError "path: field: what", or std::system_error.
+/// Gives every device that has no file one in `folder`, which is made if it does not exist (if `folder` is
+/// empty they stay without), and reads the existing files into the settings. Throws NvError "path: field:
+/// what", or std::system_error.
 void read_memories(world::Bench& bench, const std::string& folder);
 
 class NvKeeper {
  public:
-  /// The world that was made from the bench. What differs from its file already is written now. Throws
-  /// pty::PortError where another process keeps one of these files.
+  /// The world that was made from the bench. Memories that differ from their files are written now. Throws
+  /// pty::PortError if another process keeps one of these files.
   NvKeeper(const world::Bench& bench, const world::World& world, std::function<void(const std::string&)> log);
   ~NvKeeper();  // writes what has changed, and waits for it
   NvKeeper(const NvKeeper&) = delete;
@@ -30,9 +30,9 @@ class NvKeeper {
 
   /// Hands what has changed to the helper thread, at most once in NvWriter::kCoalesce.
   void look(WallTime now);
-  /// When it wants to look again, if there is something to hand over or to hear of.
+  /// When it needs to look again, if there is something to hand over or a result to collect.
   std::optional<WallTime> next_look() const;
-  /// The world has another state: whatever their revisions, the files are not of its memories.
+  /// The world has another state: whatever their revisions, the files do not match its memories.
   void world_restored();
 
  private:

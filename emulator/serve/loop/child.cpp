@@ -3,15 +3,25 @@
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/timerfd.h>
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/files/descriptor.h"
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/serve/loop/parent_signals.h"
 
 namespace understudy::emulator::serve {
 

@@ -1,5 +1,5 @@
-// A command as a child process, in a process group of its own, so that what it starts ends with it. Where we
-// have the terminal, the group has it meanwhile, as a shell would do: Ctrl-C and Ctrl-Z reach the command.
+// A command as a child process, in its own process group, so that everything it starts ends with it. If we
+// have the terminal, the group gets it meanwhile, as from a shell: Ctrl-C and Ctrl-Z reach the command.
 #pragma once
 
 #include <sys/types.h>
@@ -21,28 +21,28 @@ struct ChildError : std::runtime_error {
 };
 
 struct ChildCommand {
-  std::vector<std::string> words;  // the program and its arguments
-  std::vector<std::pair<std::string, std::string>>
-      environment;  // beside our own, or instead of what is there
+  std::vector<std::string> words;                                // the program and its arguments
+  std::vector<std::pair<std::string, std::string>> environment;  // in addition to our own, or replacing them
 };
 
-/// One at a time: it takes care of every child that this process has, or is given when its parent has gone.
+/// One at a time: it looks after every child that this process has, and every orphan that it is given.
 class Child {
  public:
-  /// Between asking a group to end and making it end.
+  /// The time between asking a group to end and killing it.
   static constexpr WallTime kGrace = std::chrono::seconds(5);
 
-  /// Starts it; `over` is called once, when it has ended and its whole group is gone. Throws ChildError.
+  /// Starts it; `over` is called once, when the command has ended and its whole group is gone. Throws
+  /// ChildError.
   Child(EventLoop& loop, const ParentSignals& signals, const ChildCommand& command,
         std::function<void()> over);
-  /// Whatever is left of the group is killed.
+  /// Kills whatever is left of the group.
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   /// To be called for SIGCHLD.
   void look_after_children();
-  /// To the group; what is still there after kGrace is killed.
+  /// Sends a signal to the group; what is still there after kGrace is killed.
   void end_with(int signal_number);
 
   /// What the command ended with: its exit code, or 128 + n if signal n ended it.
@@ -67,7 +67,7 @@ class Child {
   pid_t pid_ = -1;  // and the number of its group
   int terminal_ = -1;
   int timer_ = -1;
-  WallTime deadline_{0};  // when the group is made to end; 0: nobody has asked it to
+  WallTime deadline_{0};  // when the group will be killed; 0: nobody has asked it to end
   bool has_ended_ = false;
   bool is_over_ = false;
   bool was_asked_ = false;

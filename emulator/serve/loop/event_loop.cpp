@@ -7,7 +7,14 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 namespace understudy::emulator::serve {
 

@@ -1,5 +1,5 @@
 // Waiting for descriptors and for a moment, on one thread: epoll in one small class. What must not wait
-// (ports, signals) comes first in every turn; what others ask of us gets a slice of time behind it.
+// (ports, signals) comes first in every turn; after that, requests from others get a slice of time.
 #pragma once
 
 #include <chrono>
@@ -23,19 +23,19 @@ class EventLoop {
   EventLoop& operator=(const EventLoop&) = delete;
 
   enum Readiness : std::uint32_t { readable = 1, writable = 2 };
-  /// Of all that is ready, what is `later` is called when all else was, one after the other in turn, and for
-  /// kLaterSlice at most: however many there are, the rest is looked at again soon.
+  /// Of everything that is ready, what is `later` is called last, one after the other in turn, and for at
+  /// most kLaterSlice: however many there are, the others are looked at again soon.
   enum class Rank : std::uint8_t { first, later };
   static constexpr WallTime kLaterSlice = std::chrono::milliseconds(1);
 
-  /// Calls `ready` whenever the descriptor is ready for what is in `interest` (or has hung up).
+  /// Calls `ready` whenever the descriptor is ready for one of `interest` (or has hung up).
   void watch(int descriptor, std::uint32_t interest, std::function<void(std::uint32_t ready)> ready,
              Rank rank = Rank::first);
   void change_interest(int descriptor, std::uint32_t interest);
   void unwatch(int descriptor);
 
-  /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what
-  /// is ready. A moment in the past only looks.
+  /// Waits until something is ready, or `until` has come (nothing: as long as it takes), and calls what is
+  /// ready. With a moment in the past it does not wait.
   void wait(std::optional<WallTime> until);
 
  private:
@@ -51,7 +51,7 @@ class EventLoop {
   int epoll_ = -1;
   int later_ = -1;  // another epoll, in that one
   int timer_ = -1;
-  WallTime alarm_{0};  // what the timer is, or was last, set for
+  WallTime alarm_{0};  // what the timer is set for, or was last set for
   std::map<int, Watch> watches_;
 };
 

@@ -1,9 +1,19 @@
 #include "emulator/serve/loop/pacer.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/serve/loop/event_loop.h"
 
 namespace understudy::emulator::serve {
 

@@ -21,9 +21,9 @@ struct Speed {
   } kind = Kind::factor;
   double factor = 1.0;
 
-  /// Free running is bounded, so that what a host does takes some simulated time and not years of it.
+  /// Free running is bounded, so that what a host does takes some simulated time, but not years.
   static constexpr double kFreest = 10'000;
-  /// Simulated seconds a second, at most; of `manual`: 0.
+  /// The most simulated seconds a second; 0 for `manual`.
   double rate() const;
 };
 
@@ -57,8 +57,8 @@ class Pacer {
   /// When simulated time will be there; nothing while the clock stands still.
   std::optional<WallTime> wall_time_of(SimTime time) const;
 
-  /// The edge woke at `wall` for something planned for `planned`. Records how late that is; a stall is
-  /// slipped: returns the wall time that was left out, or 0.
+  /// The edge woke up at `wall` for something planned for `planned`. Records how late that is; a stall is
+  /// left out of simulated time: returns the wall time that was left out, or 0.
   WallTime woke(WallTime planned, WallTime wall);
 
   void pause(WallTime wall);
@@ -66,7 +66,7 @@ class Pacer {
   bool paused() const { return paused_; }
   /// The clock stands: paused, or manual.
   bool standing() const { return paused_ || speed_.kind == Speed::Kind::manual; }
-  /// Simulated time was moved by hand, or ran ahead (free): go on from there.
+  /// Simulated time was moved by hand, or ran ahead (free): it goes on from there.
   void moved_to(SimTime time, WallTime wall);
 
   const Speed& speed() const { return speed_; }

@@ -4,8 +4,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <functional>
 #include <system_error>
 #include <utility>
+
+#include "emulator/serve/loop/event_loop.h"
 
 namespace understudy::emulator::serve {
 

@@ -9,8 +9,8 @@
 
 namespace understudy::emulator::serve {
 
-/// While it lives, those that ask us to end and those that tell of children come through a descriptor, and
-/// those that an edge must survive (a reader that goes away) are ignored. To be made before any other thread.
+/// While it lives, signals that ask us to end and signals about children come through a descriptor, and those
+/// that an edge must survive (a reader that goes away) are ignored. Make it before any other thread.
 class ParentSignals {
  public:
   ParentSignals();
@@ -18,11 +18,11 @@ class ParentSignals {
   ParentSignals(const ParentSignals&) = delete;
   ParentSignals& operator=(const ParentSignals&) = delete;
 
-  /// Calls `on_signal` with the number of each that comes.
+  /// Calls `on_signal` with the number of each signal that comes.
   void watch(EventLoop& loop, std::function<void(int signal_number)> on_signal);
   void unwatch(EventLoop& loop) const { loop.unwatch(descriptor_); }
 
-  /// In a child, before it becomes another program: all of them as they were before.
+  /// In a child, before it becomes another program: restores all signals to what they were before.
   void restore() const;
 
  private:

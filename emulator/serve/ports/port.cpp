@@ -2,6 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
 
 namespace understudy::emulator::serve {
 
@@ -77,11 +89,11 @@ void Port::on_presence(std::span<const std::uint8_t> bytes) {
   if (!presence.opened && !presence.closed) return receive(bytes);
   catch_up_();
   // Both at once: one went and another came, or one came and has gone again.
-  if (presence.closed && terminal_.host_present()) line().host_closed();
-  if (presence.opened) line().host_opened();
+  if (presence.closed && terminal_.host_present()) world_.host_closed(line_number_);
+  if (presence.opened) world_.host_opened(line_number_);
   if (presence.closed && !terminal_.host_present()) {
-    line().host_settings(terminal_.poll_host_settings());
-    line().host_closed();
+    world_.host_settings(line_number_, terminal_.poll_host_settings());
+    world_.host_closed(line_number_);
     leave_behind(bytes);
     keep_what_was_left_behind();
   } else {
@@ -119,7 +131,7 @@ void Port::leave_behind(std::span<const std::uint8_t> bytes) {
 void Port::pass_on_what_was_left_behind() {
   while (const std::size_t count = std::min(left_behind_.size(), line().room())) {
     catch_up_();
-    line().receive_departed(std::span(left_behind_).first(count), world_.now());
+    world_.receive_departed(line_number_, std::span(left_behind_).first(count));
     left_behind_.erase(left_behind_.begin(), left_behind_.begin() + static_cast<std::ptrdiff_t>(count));
     world_.advance_to(world_.now());
   }
@@ -142,8 +154,8 @@ void Port::on_data(std::uint32_t ready) {
 void Port::receive(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return;
   catch_up_();
-  if (terminal_.host_present()) line().host_settings(terminal_.poll_host_settings());
-  line().receive(bytes, world_.now());
+  if (terminal_.host_present()) world_.host_settings(line_number_, terminal_.poll_host_settings());
+  world_.receive(line_number_, bytes);
   world_.advance_to(world_.now());
   last_bytes_ = wall_now();
 }
@@ -170,19 +182,19 @@ void Port::look(WallTime now, bool clock_stands) {
   }
   if (clock_stands && last_bytes_ > WallTime{0} && now >= last_bytes_ + world::kFramePatience) {
     last_bytes_ = WallTime{0};
-    line().nothing_more(world_.now());
+    world_.nothing_more(line_number_);
   }
 }
 
 void Port::world_restored() {
   if (line().is_host_open() != terminal_.host_present()) {
     if (terminal_.host_present()) {
-      line().host_opened();
+      world_.host_opened(line_number_);
     } else {
-      line().host_closed();
+      world_.host_closed(line_number_);
     }
   }
-  line().host_settings(terminal_.poll_host_settings());
+  world_.host_settings(line_number_, terminal_.poll_host_settings());
   last_bytes_ = wall_now();  // of a frame that is half heard
   flush();
 }
@@ -192,7 +204,7 @@ void Port::flush() {
   while (!line().output().empty()) {
     const std::size_t taken = terminal_.write(line().output());
     if (taken == 0) break;  // nobody reads
-    line().take_output(taken);
+    world_.take_output(line_number_, taken);
   }
   const std::uint32_t interest = (line().room() > 0 && left_behind_.empty() ? EventLoop::readable : 0U) |
                                  (line().output().empty() ? 0U : EventLoop::writable);

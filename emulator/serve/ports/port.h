@@ -1,5 +1,5 @@
-// A port: one line of the world joined to one pseudo-terminal. Bytes cross here, nothing else does; what
-// happens at this edge (a slow host, a full buffer) never reaches into the model.
+// A port: one line of the world joined to one pseudo-terminal. Only bytes cross here; what happens at this
+// edge (a slow host, a full buffer) never reaches into the model.
 #pragma once
 
 #include <functional>
@@ -23,13 +23,14 @@ class Port {
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Hands over what the wire has brought, and takes bytes again where the line has room.
+  /// Hands over what the wire has brought, and takes more bytes if the line has room.
   void flush();
-  /// When look() should be called, though nothing is readable: a host's going is in doubt, a frame is
-  /// incomplete while the clock stands, or the pseudo-terminal was lost and could not be had again yet.
+  /// When look() should be called even if nothing is readable: a host may have gone, a frame is incomplete
+  /// while the clock stands, or the pseudo-terminal was lost and could not be opened again yet.
   std::optional<WallTime> next_look(bool clock_stands);
   void look(WallTime now, bool clock_stands);
-  /// The world has another state: its line gets the host that is there now, and what it was saying is said.
+  /// The world has another state: its line gets the host that is there now, and what the old line was saying
+  /// is dropped.
   void world_restored();
 
   const pty::PseudoTerminal& terminal() const { return terminal_; }
@@ -39,7 +40,6 @@ class Port {
 
  private:
   const pty::Line& line() const { return world_.line(line_number_).line; }
-  pty::Line& line() { return world_.line(line_number_).line; }
   void on_data(std::uint32_t ready);
   void watch();
   void keep_watch();
@@ -56,9 +56,9 @@ class Port {
   std::function<void(const std::string&)> log_;
   pty::PseudoTerminal terminal_;
   std::vector<std::uint8_t> left_behind_;  // by hosts that have closed; at most kLeftBehindCapacity
-  WallTime second_look_{0};                // when a doubtful going is looked at again; 0: there is none
+  WallTime second_look_{0};                // when to check again whether the host has gone; 0: no need
   bool is_watching_ = false;               // the terminal's descriptors
-  WallTime next_recovery_{0};              // of a lost terminal, when it is tried again; 0: it is not lost
+  WallTime next_recovery_{0};              // when to try to open a lost terminal again; 0: it is not lost
   WallTime last_bytes_{0};                 // when the host's last bytes came; 0: nothing is waited for
 };
 

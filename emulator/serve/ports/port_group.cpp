@@ -2,10 +2,14 @@
 
 #include <grp.h>
 #include <sys/stat.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "base/text/parse_integer.h"
 #include "pty/port_link.h"
@@ -24,7 +28,7 @@ void share_port(const std::string& path, gid_t group) {
   // The group first: until then the old one must not gain anything.
   if (chown(path.c_str(), static_cast<uid_t>(-1), group) != 0 || chmod(path.c_str(), kOwnerAndGroup) != 0) {
     throw pty::PortError(path + ": cannot be given to group " + std::to_string(group) + ": " +
-                         std::strerror(errno) + "; expected a group that we are a member of");
+                         std::strerror(errno) + "; expected a group that you are a member of");
   }
 }
 

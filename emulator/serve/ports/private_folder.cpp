@@ -9,9 +9,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <cstddef>
 #include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
 
+#include "base/files/descriptor.h"
 #include "pty/port_link.h"
 
 namespace understudy::emulator::serve {

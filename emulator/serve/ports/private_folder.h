@@ -10,15 +10,15 @@ namespace understudy::emulator::serve {
 /// What its path begins with.
 inline constexpr const char* kPrivateFolders = "/tmp/understudy-";
 
-/// How long what failures have left in such folders is kept.
+/// How long files that failures left in such folders are kept.
 inline constexpr std::chrono::hours kLeftOversKept{7 * 24};
 
-/// Removes the folders of ours with that beginning in which nothing has changed for so long, and whose owner
-/// is gone. What is not named as such a folder is, or another user's, is left alone.
+/// Removes our folders with that beginning in which nothing has changed for this long, and whose owner is
+/// gone. Anything with another kind of name, or another user's, is left alone.
 void remove_left_overs(const std::string& beginning = kPrivateFolders,
                        std::chrono::seconds kept = kLeftOversKept);
 
-/// A folder of its own below /tmp, made when it is first asked for and removed (empty) at the end.
+/// A private folder below /tmp, made when it is first asked for, and removed (if empty) at the end.
 class PrivateFolder {
  public:
   PrivateFolder() = default;
@@ -30,7 +30,7 @@ class PrivateFolder {
 
  private:
   std::string path_;
-  Descriptor lock_;  // it has an owner who lives
+  Descriptor lock_;  // locked: its owner is alive
 };
 
 }  // namespace understudy::emulator::serve

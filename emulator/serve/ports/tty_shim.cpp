@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string>
+#include <system_error>
 
 namespace understudy::emulator::serve {
 
@@ -23,7 +25,7 @@ std::string tty_shim_path() {
 std::string preload_with_tty_shim() {
   const std::string path = tty_shim_path();
   if (path.find_first_of(" :") != std::string::npos) {
-    throw NoTtyShim(path + ": LD_PRELOAD takes no spaces or colons; expected the program elsewhere");
+    throw NoTtyShim(path + ": LD_PRELOAD cannot hold spaces or colons; expected the program elsewhere");
   }
   const char* const others = std::getenv("LD_PRELOAD");
   return others == nullptr || *others == '\0' ? path : path + ":" + others;

@@ -1,4 +1,4 @@
-// Where the library is that lets parity-minded hosts use a pseudo-terminal (pty/tty_shim.cpp).
+// Where to find the library that lets hosts that insist on parity use a pseudo-terminal (pty/tty_shim.cpp).
 #pragma once
 
 #include <stdexcept>
@@ -10,10 +10,10 @@ struct NoTtyShim : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Its path: in lib/understudy beside the running program or beside its folder. Throws NoTtyShim.
+/// Its path: in lib/understudy beside the running program, or beside the program's folder. Throws NoTtyShim.
 std::string tty_shim_path();
 
-/// LD_PRELOAD with it in front of what is preloaded already. Throws NoTtyShim where its path cannot be
+/// LD_PRELOAD with the library in front of what is preloaded already. Throws NoTtyShim if its path cannot be
 /// written there.
 std::string preload_with_tty_shim();
 

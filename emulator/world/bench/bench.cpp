@@ -6,6 +6,19 @@
 
 namespace understudy::emulator::world {
 
+KnownDevices known_devices_of(const Bench& bench) {
+  KnownDevices known;
+  for (const DeviceSetup& device : bench.devices) {
+    const Firmware firmware = device.settings.firmware;
+    known.push_back(
+        {device.settings.name, device.model, firmware != 0 ? firmware : device.model->firmwares.back()});
+  }
+  for (const LineSetup& line : bench.lines) {
+    for (const std::size_t device : line.stations) known[device].line = line.name;
+  }
+  return known;
+}
+
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text) {
   constexpr double kMostPercent = 10;
   constexpr double kPpmOfPercent = 10'000;

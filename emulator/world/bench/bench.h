@@ -62,12 +62,15 @@ struct Bench {
   std::vector<MachineSetup> machines;
   std::vector<WireSetup> wires;
   std::vector<InputSetup> inputs;
-  std::vector<Fault> faults;       // those there are from the beginning
+  std::vector<Fault> faults;       // those that exist from the beginning
   std::uint64_t seed = 0;          // where randomness begins
-  std::vector<FileClaim> files{};  // that it was read from, but for memories
+  std::vector<FileClaim> files{};  // that it was read from, except memories
 };
 
-/// "2%", "0.5%", 0% to 10% in millionths; nothing if it is no such share.
+/// The devices by name, with the lines that they stand on.
+KnownDevices known_devices_of(const Bench& bench);
+
+/// "2%", "0.5%", 0% to 10% in millionths; nothing if it is not such a share.
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);
 inline constexpr std::string_view kBaudToleranceExpected = "expected 0% to 10%, as in 2%";
 

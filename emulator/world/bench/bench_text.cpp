@@ -10,17 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-KnownDevices known_devices(const Bench& bench) {
-  KnownDevices known;
-  for (const DeviceSetup& device : bench.devices) {
-    known.push_back({device.settings.name, device.model, device.settings.firmware});
-  }
-  for (const LineSetup& line : bench.lines) {
-    for (const std::size_t device : line.stations) known[device].line = line.name;
-  }
-  return known;
-}
-
 Json device_text(const DeviceSetup& device) {
   const DeviceSettings& settings = device.settings;
   Json text{{"model", device.model->name}};
@@ -97,7 +86,7 @@ Json machine_text(const PlantSetup& plant, const Model& model) {
 }  // namespace
 
 std::string to_text(const Bench& bench) {
-  const KnownDevices known = known_devices(bench);
+  const KnownDevices known = known_devices_of(bench);
   const auto terminal = [&](std::size_t device, int number) {
     return known[device].name + "." +
            std::string(known[device].model->terminals[static_cast<std::size_t>(number)].name);

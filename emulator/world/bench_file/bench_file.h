@@ -8,7 +8,7 @@
 
 namespace understudy::emulator::world {
 
-/// The name that readers of benches know it by.
+/// The name by which readers of benches know it.
 using BenchError = FileError;
 
 class YamlFields;
@@ -17,18 +17,18 @@ class YamlFields;
 /// given. Throws FileError.
 Bench load_bench(ModelList models, const std::string& path, const std::string& links = "");
 
-/// The same where another file names it: that is where it is told if it cannot be read.
+/// Like the above, if another file names it: if it cannot be read, the message points there.
 Bench load_bench(ModelList models, const YamlFields& path);
 
-/// The same from a text; `name` stands for the file in messages, paths are relative to `folder`.
+/// Like the above, from a text; `name` stands for the file in messages, paths are relative to `folder`.
 Bench parse_bench(ModelList models, const std::string& text, const std::string& name,
                   const std::string& folder, const std::string& links = "");
 
-/// The bench that is inside a recording. It has everything in itself: whoever names a path there wants
-/// something read or written that is none of a recording's business, and is refused.
+/// The bench that is inside a recording. It is complete: a path there would have something read or written
+/// that does not belong to the recording, so it is refused.
 Bench parse_recorded_bench(ModelList models, const std::string& text);
 
-/// One that is written inside another file, as the value of a key.
+/// A bench that is written inside another file, as the value of a key.
 Bench read_bench(ModelList models, const YamlFields& fields, const std::string& folder);
 
 }  // namespace understudy::emulator::world

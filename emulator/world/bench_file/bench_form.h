@@ -25,11 +25,10 @@ inline constexpr Form kAddressForm = integer_form(0, 255);
 inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, digits, _ and -.", &kText,
                                  true};
 inline constexpr KeyRow kModelKey{"model", "A model, as `understudy models` lists them.", &kText, true};
-inline constexpr KeyRow kAddressKey{"address", "The station number (1 without it).", &kAddressForm};
-inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version; the newest without it.", &kText};
+inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1).", &kAddressForm};
+inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version (default: the newest).", &kText};
 inline constexpr Form kModulesForm = integer_form(1, 255);
-inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, where it is a chain.",
-                                    &kModulesForm};
+inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, if it is a chain.", &kModulesForm};
 inline constexpr std::array<const Form*, 2> kSetValueWays{&kRegisterValueForm, &kText};
 inline constexpr Form kSetValueForm = either_form(kSetValueWays);  // text: a real number
 inline constexpr Form kSetForm = names_form(kSetValueForm);
@@ -59,8 +58,8 @@ inline constexpr std::array<std::string_view, 2> kTimings{"wire", "instant"};
 inline constexpr Form kTimingForm = words_form(kTimings);
 inline constexpr std::array kLineKeys{
     KeyRow{"link", "Where hosts open it; relative to this file.", &kText},
-    KeyRow{"baud", "The speed that the devices are set to; the factory's without it.", &kBaudForm},
-    KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard: 2% without it.",
+    KeyRow{"baud", "The speed that the devices are set to; by default the factory's.", &kBaudForm},
+    KeyRow{"baud_tolerance", "How much faster or slower a host may be and still be heard (default: 2%).",
            &kText},
     KeyRow{"timing", "Whether bytes take their time.", &kTimingForm},
     KeyRow{"stations", "The devices on the line.", &kStationsForm, true}};
@@ -74,20 +73,20 @@ inline constexpr Form kPerRevolutionForm = integer_form(1, 10'000'000);
 inline constexpr KeyRow kHysteresisKey{"hysteresis", "Pulses between on and off.", &kHysteresisForm};
 inline constexpr std::array<std::string_view, 2> kContacts{"opens", "closes"};
 inline constexpr Form kContactForm = words_form(kContacts);
-inline constexpr KeyRow kContactKey{"contact", "What it does where it is on: closes (without it), or opens.",
+inline constexpr KeyRow kContactKey{"contact", "What it does where it is on: closes (default), or opens.",
                                     &kContactForm};
 inline constexpr std::array kHomeKeys{
     KeyRow{"at", "The first position where the switch is on.", &kPositionForm, true},
     KeyRow{"width", "How many positions it is on for.", &kWidthForm, true}, kHysteresisKey, kContactKey,
-    KeyRow{"input", "The input that it is wired to; the controller's own without it.", &kText}};
+    KeyRow{"input", "The input that it is wired to; by default the controller's own.", &kText}};
 inline constexpr std::array kLimitKeys{
     KeyRow{"lower", "The lower switch is on there and below.", &kPositionForm},
     KeyRow{"upper", "The upper switch is on there and above.", &kPositionForm},
     kHysteresisKey,
     kContactKey,
-    KeyRow{"lower_input", "The input that the lower one is wired to; the controller's own without it.",
+    KeyRow{"lower_input", "The input that the lower one is wired to; by default the controller's own.",
            &kText},
-    KeyRow{"upper_input", "The input that the upper one is wired to; the controller's own without it.",
+    KeyRow{"upper_input", "The input that the upper one is wired to; by default the controller's own.",
            &kText}};
 inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
 inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
@@ -97,11 +96,11 @@ inline constexpr std::array kEncoderKeys{
     KeyRow{"per_revolution", "Its counts for a revolution.", &kPerRevolutionForm, true},
     KeyRow{"motor_pulses_per_revolution", "The motor's pulses for one.", &kPerRevolutionForm},
     KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
-    KeyRow{"on", "What turns it: the machine (without it), or a hand wheel.", &kEncoderPlaceForm}};
+    KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm}};
 inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
 inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
 inline constexpr std::array kDriveKeys{
-    KeyRow{"ready_after", "From its enabling to `ready`.", &kDuration},
+    KeyRow{"ready_after", "The time from being enabled to `ready`.", &kDuration},
     KeyRow{"enabled_by", "The servo output's level that enables it.", &kOnOrOffForm},
     KeyRow{"alarm_contact", "What its alarm contact does in an alarm.", &kContactForm}};
 inline constexpr Form kHomeForm = keys_form(kHomeKeys);
@@ -141,7 +140,7 @@ inline constexpr KeyRow kSeedKey{"seed", "Where randomness begins.", &kSeedForm}
 
 inline constexpr std::array kBenchKeys{kVersionKey, kLinesKey,  kDevicesKey, kPlantKey,
                                        kWiresKey,   kInputsKey, kFaultsKey,  kSeedKey};
-/// A bench inside another file needs no version of its own.
+/// A bench inside another file does not need a version.
 inline constexpr std::array kInlineBenchKeys{kLinesKey,  kDevicesKey, kPlantKey, kWiresKey,
                                              kInputsKey, kFaultsKey,  kSeedKey};
 inline constexpr Form kBenchForm = keys_form(kBenchKeys);

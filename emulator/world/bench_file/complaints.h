@@ -1,4 +1,4 @@
-// All that is wrong with a file, where its reader can go on after a part that it could not read.
+// Everything that is wrong with a file, for readers that can go on after a part that they could not read.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace understudy::emulator::world {
 
-/// Ends the reading: what follows would be wrong for the same reason. Goes through all that attempts it.
+/// Ends the reading: what follows would be wrong for the same reason. Passes through every attempt().
 struct LastError : FileError {
   using FileError::FileError;
 };
 
-/// What a part refers to could not be read, which has been told already.
+/// What a part refers to could not be read, which has been reported already.
 struct Untold {};
 
 class Complaints {
@@ -37,7 +37,7 @@ class Complaints {
     }
     return false;
   }
-  /// Attempts all of it, and throws what was wrong.
+  /// Attempts all of it, and throws everything that was wrong.
   template <typename Read>
   void demand(const Read& read) {
     try {
@@ -46,7 +46,7 @@ class Complaints {
     }
     throw_if_any();
   }
-  /// Nothing is told twice. `behind` is added to each. Throws a LastError where it is too much.
+  /// Reports nothing twice. `behind` is added to each. Throws a LastError if there are too many.
   void add(const FileError& error, const std::string& behind = "");
   std::size_t count() const { return complaints_.size(); }
   /// Throws a FileError with the first of them, in the file's order: the files as they came.

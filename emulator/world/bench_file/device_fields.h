@@ -1,4 +1,4 @@
-// What a bench file says of a device.
+// What a bench file says about a device.
 #pragma once
 
 #include <optional>
@@ -21,10 +21,10 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
                         Complaints& complaints);
 
-/// Keeps all that the model refuses of a device, and takes it away: what is left suits the model.
+/// Reports everything that the model refuses in a device, and removes it: what is left suits the model.
 void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& complaints);
 
-/// A path in `folder`; refused without one.
+/// A path in `folder`; refused if there is no folder.
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field);
 
 }  // namespace understudy::emulator::world

@@ -30,7 +30,7 @@ FaultText text_of_fault(const YamlFields& fields, std::string_view other_key) {
 }
 
 /// Of a fault that could not be read.
-void check_condition_of(const YamlFields& when, const World& world) {
+void check_condition_of(const YamlFields& when, const Inventory& inventory) {
   if (!when.is_scalar()) return;
   FaultTrigger trigger;
   try {
@@ -39,7 +39,7 @@ void check_condition_of(const YamlFields& when, const World& world) {
     throw Untold();  // with the fault
   }
   try {
-    check_condition(world, trigger.when);
+    check_condition(inventory, trigger.when);
   } catch (const NameError& error) {
     when.fail(error.what());
   }
@@ -83,12 +83,12 @@ std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& de
   }
 }
 
-void demand_possible(const YamlFields& fields, const World& world, const std::optional<Fault>& fault,
+void demand_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
                      Complaints& complaints) {
   complaints.attempt([&] {
     try {
-      if (fault) return check_fault(world, *fault);
-      if (const auto when = fields.find("when")) check_condition_of(*when, world);
+      if (fault) return check_fault(inventory, *fault);
+      if (const auto when = fields.find("when")) check_condition_of(*when, inventory);
     } catch (const FaultFieldError& error) {
       fields.at(error.field).fail(error.complaint);
     } catch (const NameError& error) {

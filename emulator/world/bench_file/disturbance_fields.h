@@ -1,4 +1,4 @@
-// What a bench file says of its inputs and of what is broken at first.
+// What a bench file says about inputs, and about what is broken at first.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,9 @@
 #include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/view/inventory.h"
 
 namespace understudy::emulator::world {
-
-class World;
 
 /// One entry of `inputs`: "feeder.DIN_10: on", "feeder.AIN_A: 2.5V".
 InputSetup read_input(const YamlFields& field, const std::string& name, const KnownDevices& devices);
@@ -22,9 +21,9 @@ InputSetup read_input(const YamlFields& field, const std::string& name, const Kn
 std::optional<Fault> read_fault(const YamlFields& fields, const KnownDevices& devices, Complaints& complaints,
                                 std::string_view other_key = {});
 
-/// Complains of a fault that the world cannot have. What it waits for is judged even where the fault itself
+/// Complains about a fault that the bench cannot have. What it waits for is judged even if the fault itself
 /// could not be read.
-void demand_possible(const YamlFields& fields, const World& world, const std::optional<Fault>& fault,
+void demand_possible(const YamlFields& fields, const Inventory& inventory, const std::optional<Fault>& fault,
                      Complaints& complaints);
 
 }  // namespace understudy::emulator::world

@@ -12,7 +12,7 @@ namespace understudy::emulator::world {
 inline constexpr std::array kFaultKeys{
     // Kinds, in the order of Fault::Kind.
     KeyRow{"stall", "The motor of this axis is blocked.", &kText},
-    KeyRow{"lost_steps", "One pulse in so many on this axis is lost: `one_in`.", &kText},
+    KeyRow{"lost_steps", "One pulse in this many on this axis is lost: `one_in`.", &kText},
     KeyRow{"slip", "The machine on this axis is pushed.", &kText},
     KeyRow{"alarm", "The drive of this axis has an alarm.", &kText},
     KeyRow{"stuck", "This input stays as it is.", &kText},
@@ -34,8 +34,8 @@ inline constexpr std::array kFaultKeys{
     KeyRow{"one_in", "lost_steps: one pulse in this many is lost.", &kText},
     KeyRow{"pulses", "slip: how far.", &kText},
     KeyRow{"level", "stuck: on or off.", &kText},
-    KeyRow{"counts", "turn: how far; encoder_noise: so many too many.", &kText},
-    KeyRow{"in", "turn: how long it takes; at once without it.", &kText},
+    KeyRow{"counts", "turn: how far; encoder_noise: this many too many.", &kText},
+    KeyRow{"in", "turn: how long it takes; by default at once.", &kText},
     KeyRow{"period", "encoder_noise: too few for the second half of it.", &kText},
     KeyRow{"by", "slow, delay: how late.", &kText},
     KeyRow{"code", "exception: which.", &kText},
@@ -43,7 +43,7 @@ inline constexpr std::array kFaultKeys{
     KeyRow{"after", "duplicate: how much later; noise: the bytes behind.", &kText},
     KeyRow{"before", "noise: the bytes in front.", &kText},
     KeyRow{"with", "collision: what the other one says.", &kText},
-    KeyRow{"of", "reply (without it), request or both.", &kText},
+    KeyRow{"of", "reply (default), request or both.", &kText},
     // The trigger.
     KeyRow{"function", "Requests with this function.", &kText},
     KeyRow{"station", "Requests for this station.", &kText},
@@ -53,18 +53,18 @@ inline constexpr std::array kFaultKeys{
     KeyRow{"at", "The first from then on.", &kText},
     KeyRow{"from", "From then on.", &kText},
     KeyRow{"to", "Before then.", &kText},
-    KeyRow{"for", "For so long, once it strikes.", &kText},
+    KeyRow{"for", "For this long, once it strikes.", &kText},
     KeyRow{"when", "While this condition holds.", &kText},
     KeyRow{"chance", "By chance: 5%.", &kText},
-    KeyRow{"seed", "Of its own randomness.", &kText},
-    KeyRow{"times", "So often at most.", &kText},
+    KeyRow{"seed", "The seed of its own randomness.", &kText},
+    KeyRow{"times", "At most this many times.", &kText},
 };
 
 namespace fault_form {
 constexpr auto with_name() {
   std::array<KeyRow, kFaultKeys.size() + 1> keys{};
   std::copy(kFaultKeys.begin(), kFaultKeys.end(), keys.begin());
-  keys.back() = KeyRow{"name", "What `clear` calls it; the fault itself without it.", &kText};
+  keys.back() = KeyRow{"name", "What `clear` calls it; by default the fault itself.", &kText};
   return keys;
 }
 }  // namespace fault_form

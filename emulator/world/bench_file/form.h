@@ -1,5 +1,5 @@
 // The vocabulary that a file format is declared in: which keys there are, and what their values look like.
-// The readers take from it which keys they know, `understudy schema` makes a JSON Schema of it.
+// The readers learn from it which keys they know; `understudy schema` turns it into a JSON Schema.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ constexpr Form integer_form(std::int64_t lowest, std::int64_t highest) {
 constexpr Form words_form(std::span<const std::string_view> words) {
   return {.kind = Form::Kind::words, .words = words};
 }
-/// The referred must outlive the form: all of them are constants.
+/// What it refers to must outlive the form: all of it is constant.
 constexpr Form list_form(const Form& of, int count = 0) {
   return {.kind = Form::Kind::list, .of = &of, .count = count};
 }

@@ -1,4 +1,4 @@
-// What a bench file says of a machine.
+// What a bench file says about a machine.
 #pragma once
 
 #include "emulator/world/bench/bench.h"

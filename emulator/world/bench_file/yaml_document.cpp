@@ -92,7 +92,7 @@ struct PlainWords {
   std::string_view words;
 };
 constexpr std::string_view kOtherIndentation =
-    "this line is indented otherwise than those it belongs to; expected the same number of spaces";
+    "this line is indented differently from those it belongs to; expected the same number of spaces";
 constexpr std::string_view kMissingComma =
     "a ',' is missing before this; expected one between the entries of a '{' or '['";
 constexpr std::array kPlainWords{

@@ -23,16 +23,17 @@ struct YamlNode;  // yaml_document.h
 class ScalarRule {
  public:
   virtual ~ScalarRule() = default;
-  /// Asked only for texts with `${` in them: all others are as they are. Throws a std::runtime_error of one
+  /// Called only for texts with `${` in them: all others stay as they are. Throws a std::runtime_error of one
   /// line for a text it cannot take.
   virtual std::string apply(const std::string& written) const = 0;
 };
 
-/// Where in which file a node stands, and how to complain about it. All that can fail throws FileError
+/// Where a node is in its file, and how to complain about it. All that can fail throws FileError
 /// "file:line:column: field: what".
 class YamlFields {
  public:
-  /// The one document of a text; a map. Messages call it `what`; an empty file is told what is `expected`.
+  /// The one document of a text; a map. Messages call it `what`; for an empty file they say what was
+  /// `expected`.
   static YamlFields parse(const std::string& text, const std::string& file, const std::string& what,
                           const std::string& expected);
 
@@ -44,14 +45,15 @@ class YamlFields {
   std::string folder() const;
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// The same, but read by another rule, which must outlive it and what is taken from it. Null: as written.
+  /// Like this node, but read by another rule, which must outlive it and what is taken from it. Null: as
+  /// written.
   YamlFields with_rule(const ScalarRule* rule) const;
 
   bool is_map() const;
   bool is_list() const;
   bool is_scalar() const;
 
-  /// Demands a map without duplicate keys. All that is wrong is thrown together.
+  /// Demands a map without duplicate keys. Everything that is wrong is thrown together.
   void demand_map() const;
   /// And whose keys are all `known`.
   void demand_keys(std::span<const KeyRow> known) const;
@@ -88,7 +90,7 @@ class YamlFields {
   [[noreturn]] void refuse_key(const std::string& key, std::span<const KeyRow> known) const;
   std::string field_of(const std::string& key) const { return is_root_ ? key : field_ + "." + key; }
 
-  // Both are shared with all that is in it.
+  // Both are shared with everything in it.
   std::shared_ptr<const std::string> file_;
   std::shared_ptr<const YamlNode> node_;
   std::string field_;

@@ -13,7 +13,7 @@ inline constexpr std::size_t kDeepestStack = 64;
 
 class CodeWriter {
  public:
-  /// `offset` is where in the text it comes from. ExpressionError if it needs too deep a stack.
+  /// `offset` is where in the text it comes from. Throws Throws ExpressionError if it needs too deep a stack.
   void emit(Instruction::Kind kind, std::size_t offset, Operator operation = Operator::add,
             std::size_t argument = 0);
   void emit_constant(Number number, std::size_t offset);
@@ -22,13 +22,13 @@ class CodeWriter {
   /// A name known by its handle is used again, in its first spelling.
   void emit_name(NamedNumber number, std::string_view spelling, std::size_t offset);
 
-  /// A jump forward, which land() leads to where the code ends by then.
+  /// A jump forward, to where the code ends when land() is called.
   std::size_t emit_jump(Instruction::Kind kind, std::size_t offset);
   void land(std::size_t jump);
   /// Between the two ways of a choice: either leaves its value, not both.
   void drop_value() { --stack_; }
 
-  /// Gives away what is written, and begins anew. `text` is where it comes from.
+  /// Returns what is written, and starts again. `text` is where it comes from.
   Expression take();
   void set_text(std::string_view text) { made_.text = text; }
 

@@ -1,7 +1,7 @@
 // Conditions as scenarios, fault triggers and `ctl run-until` write them (docs/expressions.md):
 //   feeder.STATUS.4 == 0 && time >= 250ms
 // Text is parsed once, all names looked up and all units checked; what is left is a value that is evaluated
-// as often as needed without allocating, and that knows nothing of the world but small handles.
+// as often as needed without allocating, and that knows the world only by small handles.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // From text to an Expression, in one pass: each rule of the grammar is a function that writes the code of
-// what it read. Precedence is C's. Where C's precedence is known for surprising people (`a & 4 == 4`, `a < b
-// < c`, `not a == b`), parentheses are demanded.
+// what it read. Precedence is C's. Where C's precedence is known to surprise people (`a & 4 == 4`, `a < b <
+// c`, `not a == b`), parentheses are demanded.
 #pragma once
 
 #include <string>
@@ -18,17 +18,17 @@ class ExpressionParser {
  public:
   ExpressionParser(std::string_view text, const NameResolver& names);
 
-  /// Reads as much as is an expression.
+  /// Reads as far as it is an expression.
   Term expression();
   /// Steps over `sign` if that is next.
   bool skip(std::string_view sign);
-  /// "1%", "0.5%" in millionths of a percent; reads nothing if it is not that.
+  /// "1%", "0.5%" in millionths of a percent; reads nothing if there is something else.
   bool percentage(std::int64_t& millionths);
   bool at_end() const { return token_.kind == Token::Kind::end; }
   void expect_end() const;
   /// Where the next word begins.
   std::size_t offset() const { return token_.begin; }
-  /// Gives away the code of what was read since the last time.
+  /// Returns the code of what was read since the last time.
   Expression take() { return code_.take(); }
 
  private:

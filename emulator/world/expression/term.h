@@ -1,4 +1,4 @@
-// What is known of a part of an expression before it is evaluated, and which parts fit together.
+// What is known about a part of an expression before it is evaluated, and which parts fit together.
 #pragma once
 
 #include <string>

@@ -276,7 +276,7 @@ Token Lexer::sign() {
   }
   std::size_t end = next_ + 1;
   while (end < text_.size() && continues_character(text_[end])) ++end;
-  fail(next_, quoted(text_.substr(next_, end - next_)) + " is part of no expression");
+  fail(next_, quoted(text_.substr(next_, end - next_)) + " cannot be part of an expression");
 }
 
 }  // namespace understudy::emulator::world

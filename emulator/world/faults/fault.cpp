@@ -155,7 +155,7 @@ void set_fields(const KnownDevices& devices, const FaultKindRow& kind, const Fau
     } else if (!set_trigger_field(fault.trigger, name, value)) {
       std::vector<std::string> known = trigger_fields();
       for (const FaultFieldRow& field : kind.fields) known.emplace_back(field.name);
-      throw NameError(one_line(name) + ": is nothing it has" + suggestion(name, known));
+      throw NameError(one_line(name) + ": is not a field here" + suggestion(name, known));
     }
   }
   for (const FaultFieldRow& row : kind.fields) {

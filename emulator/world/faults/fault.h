@@ -1,4 +1,4 @@
-// What a user breaks to see how a host copes: the machine and its wiring, devices, and what goes over the
+// What a user breaks, to see how a host copes: the machine and its wiring, devices, and what goes over the
 // line; and when (trigger.h). docs/faults.md explains each kind.
 #pragma once
 
@@ -17,11 +17,11 @@ namespace understudy::emulator::world {
 struct Fault {
   enum class Kind : std::uint8_t {
     // of the machine, at an axis or (stuck) an input
-    stall,       // the motor is blocked, every pulse is lost
-    lost_steps,  // every `amount`th pulse is lost
-    slip,        // the machine is moved by `amount` pulses by force; over at once
-    alarm,       // the drive is in alarm; with a drive it stays so until the controller clears it afterwards
-    stuck,       // an input stays at the level `amount`, whatever drives it
+    stall,          // the motor is blocked, every pulse is lost
+    lost_steps,     // every `amount`th pulse is lost
+    slip,           // the machine is moved by `amount` pulses by force; over at once
+    alarm,          // the drive is in alarm; a real drive stays so until the controller clears it afterwards
+    stuck,          // an input stays at the level `amount`, whatever drives it
     encoder_noise,  // the encoder counts `amount` too many, then too few, half a `period_ticks` each
     turn,           // the wheel of an encoder of its own is turned by `amount` counts, over `over_ticks`
     // of a device
@@ -58,14 +58,14 @@ struct Fault {
 constexpr bool is_of_wire(Fault::Kind kind) { return kind >= Fault::Kind::drop || kind == Fault::Kind::slow; }
 /// What is done to a request or its reply: it needs frames, whatever its trigger says.
 constexpr bool is_of_frames(Fault::Kind kind) { return kind >= Fault::Kind::slow; }
-/// What is done to the machine and not wrong with it: it cannot be cleared.
+/// A single act on the machine, not something wrong with it: it cannot be cleared.
 constexpr bool is_done_at_once(Fault::Kind kind) {
   return kind == Fault::Kind::slip || kind == Fault::Kind::turn;
 }
 /// Whether something must happen before it strikes: a frame, a time, a condition.
 bool waits(const Fault& fault);
 
-/// A fault as text has it: `stall feeder.A`, `lost_steps feeder.A one_in=50`, `drop feeder nth=3`.
+/// A fault as text: `stall feeder.A`, `lost_steps feeder.A one_in=50`, `drop feeder nth=3`.
 struct FaultText {
   std::string kind;
   std::string place;
@@ -82,13 +82,13 @@ struct FaultFieldError : NameError {
   std::string complaint;
 };
 
-/// Throws NameError for what the bench does not have. What `when` names only the world knows (World::check).
+/// Throws NameError for what the bench does not have. What `when` names is judged by check_fault.h.
 Fault find_fault(const KnownDevices& devices, const FaultText& text);
-/// As find_fault() takes it, and the same on one line.
+/// As find_fault() takes it, and on one line.
 FaultText fault_text(const KnownDevices& devices, const Fault& fault);
 std::string to_text(const KnownDevices& devices, const Fault& fault);
 
-/// A fault with all that has come of it.
+/// A fault, and what it has done so far.
 struct ArmedFault {
   Fault fault;
   FaultCourse course{};

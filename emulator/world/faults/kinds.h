@@ -1,4 +1,4 @@
-// The kinds of faults and their fields, as text has them.
+// The kinds of faults and their fields, as they are written in text.
 #pragma once
 
 #include <array>

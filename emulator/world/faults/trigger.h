@@ -1,9 +1,9 @@
 // When a fault strikes: at which frames, at which times, under which condition, how often and for how long.
 //
-// A trigger is asked on occasions. What is done to frames is asked at each frame of its place; a fault of the
-// machine or of a device at each frame too, if its trigger is about frames, else when time or a condition may
-// have changed it. What it was asked and what it struck is counted in a FaultCourse: with that a trigger is a
-// function of the occasions alone, so it strikes the same ones in every run.
+// A trigger is asked on occasions. Faults of frames are asked at each frame of their place; so are faults of
+// the machine or of a device if their trigger is about frames, else they are asked when time or a condition
+// may have changed. A FaultCourse counts the occasions and the hits: with it a trigger is a function of the
+// occasions alone, so it hits the same ones in every run.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@ struct FaultTrigger {
   std::int64_t first_address = -1;  // a register from here to `last_address` is in it; -1: any
   std::int64_t last_address = -1;
   // Which occasions match as well.
-  SimTime at{-1};         // the first one from then on; with `lasts` all until that is over. -1: whenever
+  SimTime at{-1};         // the first one from then on; with `lasts` all until that is over. -1: any time
   SimTime from{0};        // included
   SimTime to = kForever;  // not included
   std::string when{};     // an expression; empty: always
-  // Which of those that match are hit: all of this must hold.
+  // Which of those that match are hit: all of these must hold.
   std::int64_t first_nth = 1;
   std::int64_t last_nth = kNever;
   std::int64_t every = 0;   // its number is a multiple; 0: any
   std::int64_t chance = 0;  // in kAlways; 0: not by chance
   std::int64_t seed = -1;   // of its own stream; -1: made of the world's seed and the fault's number
   // How much of it.
-  std::int64_t times = 0;  // so many hits at most; 0: any
+  std::int64_t times = 0;  // at most this many hits; 0: any number
   SimTime lasts{0};        // `for`: whatever matches within that time after a hit is hit as well
 
   bool operator==(const FaultTrigger&) const = default;
@@ -74,23 +74,24 @@ class ConditionSource {
   ~ConditionSource() = default;
 };
 
-/// Whether it is about frames, so that time alone does not strike.
+/// Whether it is about frames, so that time alone does not trigger it.
 bool is_about_frames(const FaultTrigger& trigger);
 /// Whether nothing but time decides, so that it strikes at exact moments and not at ticks.
 bool is_of_time_alone(const FaultTrigger& trigger);
 
-/// One occasion of frames; whether it is hit. Chance is drawn from `stream` if the trigger has no seed.
+/// Judges one frame; returns whether it is hit. Chance is drawn from `stream` if the trigger has no seed.
 bool strikes_frame(const FaultTrigger& trigger, FaultCourse& course, const FrameFacts& frame,
                    ConditionSource& conditions, std::uint64_t stream);
 
-/// A look at a trigger that is not about frames; whether it strikes now. In `course` is whether it is in
-/// force.
+/// Looks at a trigger that is not about frames; returns whether it strikes now. `course` says whether it is
+/// in force.
 bool strikes_time(const FaultTrigger& trigger, FaultCourse& course, SimTime now, ConditionSource& conditions,
                   std::uint64_t stream);
 
-/// The next moment to look at a trigger of time alone; kForever if nothing comes of it any more.
+/// The next moment to look at a trigger of time alone; kForever if it is finished.
 SimTime next_moment(const FaultTrigger& trigger, const FaultCourse& course);
-/// The first tick after `done` whose end may change something about another one; kNever if only a frame can.
+/// For other triggers: the first tick after `done` whose end may change something; kNever if only a frame
+/// can.
 Tick next_look(const FaultTrigger& trigger, const FaultCourse& course, Tick done);
 
 /// The `n`th number, from 1, of the splitmix64 stream that begins at `seed`.

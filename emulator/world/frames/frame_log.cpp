@@ -11,12 +11,12 @@ FrameLog::~FrameLog() { ignore(); }
 void FrameLog::watch() {
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     framers_.push_back(world_.line(i).packets(i, [this](const pty::CapturedPacket& packet) { add(packet); }));
-    world_.line(i).line.add_observer(*framers_.back());
+    world_.add_observer(i, *framers_.back());
   }
 }
 
 void FrameLog::ignore() {
-  for (std::size_t i = 0; i < framers_.size(); ++i) world_.line(i).line.remove_observer(*framers_[i]);
+  for (std::size_t i = 0; i < framers_.size(); ++i) world_.remove_observer(i, *framers_[i]);
   framers_.clear();
 }
 

@@ -1,5 +1,5 @@
-// Remembers the last frames that went over the lines of a world, to be told when something has failed, or
-// when somebody wants to look. They are read into words only when they are told.
+// Remembers the last frames that went over a world's lines, to show them when something has failed, or when
+// somebody wants to look. They are put into words only when they are shown.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@ namespace understudy::emulator::world {
 
 class FrameLog {
  public:
-  /// As many as `kept` are remembered. The world must outlive it.
+  /// Remembers at most `kept`. The world must outlive it.
   explicit FrameLog(World& world, std::size_t kept = kKept);
   ~FrameLog();
   FrameLog(const FrameLog&) = delete;
@@ -32,12 +32,12 @@ class FrameLog {
     std::string text;
     std::string remark;  // why it was dropped, and the like
   };
-  /// At most `most` of those that are remembered, from that number on.
+  /// At most `most` of the remembered ones, from that number on.
   std::vector<Told> since(std::uint64_t number, std::size_t most) const;
   /// Of the frame that comes next.
   std::uint64_t next_number() const { return next_number_; }
 
-  /// The lines were put into another state: what they were just hearing is forgotten.
+  /// The lines were put into another state: half-heard frames are forgotten.
   void begin_anew();
 
  private:

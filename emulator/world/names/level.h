@@ -10,8 +10,8 @@
 
 namespace understudy::emulator::world {
 
-/// Nothing for text that is not a level of such an input. Whether the input can have it is for
-/// demand_level().
+/// Nothing for text that is not a level of such an input. demand_level() decides whether the input can have
+/// it.
 std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind kind);
 /// "on or off", "a voltage such as 2.5V", "a number".
 std::string_view level_example(TerminalRow::Kind kind);

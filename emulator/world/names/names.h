@@ -14,7 +14,7 @@
 
 namespace understudy::emulator::world {
 
-/// One line: which name is not known, and the nearest that is.
+/// One line: which name is unknown, and the nearest known one.
 struct NameError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -38,8 +38,8 @@ struct RegisterName {
 };
 RegisterName find_register(const KnownDevices& devices, std::string_view name);
 
-/// A value of a device without registers (NamedValues), "robot.T2PE"; nothing where the device has
-/// registers. Whether it has such a value only the device knows.
+/// A value of a device without registers (NamedValues), "robot.T2PE"; nothing where the device has registers.
+/// Only the device knows whether it has such a value.
 struct ValueName {
   std::size_t device = 0;
   std::string name;
@@ -66,12 +66,12 @@ AxisName find_axis(const KnownDevices& devices, std::string_view name);
 
 /// Whether something of that name is at a device.
 using HasName = std::function<bool(const KnownDevice& device, std::string_view name)>;
-/// What is wrong with a name that begins with no device, where there are several: it is a device's itself
-/// (then `example` is what may stand behind it), or something at some of them, or unknown.
+/// What is wrong with a name that does not begin with a device, if there are several: it is a device's name
+/// (then `example` is what may follow it), or something that some of them have, or unknown.
 NameError name_without_device(const KnownDevices& devices, std::string_view name, const HasName& has,
                               std::string_view example);
 
-/// A device by its name; an empty name will do where there is only one.
+/// A device by its name; an empty name will do if there is only one.
 std::size_t find_device(const KnownDevices& devices, std::string_view name);
 
 }  // namespace understudy::emulator::world

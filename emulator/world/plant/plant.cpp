@@ -175,15 +175,15 @@ void PlantAxis::check(const State& state) {
   demand_within(state.position_pulses, -kFarthest_pulses, kFarthest_pulses);
   for (const std::int64_t pulses :
        {state.lost_pulses, state.pulses_to_lose, state.loses_one_in, state.faults.loses_one_in}) {
-    demand_state(pulses >= 0, "a machine cannot lose less than nothing");
+    demand_state(pulses >= 0, "a machine has lost a negative number of pulses");
     demand_reach(pulses);
   }
   demand_reach(state.faults.slipped_pulses);
   demand_reach(state.wheel_counts);
   demand_reach(state.turn_counts);
   demand_reach(state.turn_ticks);
-  demand_state(state.ticks_to_turn >= 0, "a wheel has less than no time to turn");
-  demand_state(state.ticks_to_turn <= state.turn_ticks, "a wheel has more time to turn than its turn takes");
+  demand_state(state.ticks_to_turn >= 0, "a wheel's time to turn is negative");
+  demand_state(state.ticks_to_turn <= state.turn_ticks, "a wheel has more time left than its turn takes");
   demand_reach(state.faults.encoder_noise_counts);
   if (state.enabled_at != kNever) demand_reach(state.enabled_at);
 }

@@ -1,6 +1,6 @@
 // The machine around a controller's axis: how far it travels, where its switches are, what its encoder
-// counts, and the drive that turns its motor. Positions are pulses of the motor, by a
-// scale of the machine's own: where it stands at first is part of its setup.
+// counts, and the drive that turns its motor. Positions are pulses of the motor, on the machine's own scale:
+// where it stands at first is part of its setup.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct PlantSetup {
   /// The limit switches: on at the position and beyond.
   std::optional<std::int64_t> lower_limit;
   std::optional<std::int64_t> upper_limit;
-  /// A switch that is on lets go only so far outside the place where it came on.
+  /// A switch that is on lets go only this far outside the place where it came on.
   std::int64_t home_hysteresis_pulses = 0;
   std::int64_t limit_hysteresis_pulses = 0;
   /// Whether the switch opens where it is on (and is closed elsewhere).
@@ -56,18 +56,18 @@ struct PlantSetup {
   int encoder_counts_per_revolution = 0;  // 0: no encoder
   int pulses_per_revolution = 1;
   bool encoder_reversed = false;
-  /// The encoder is on a wheel of its own, that turn() turns and no motor.
+  /// The encoder is on a separate wheel, which turn() turns and no motor does.
   bool has_wheel = false;
   std::optional<DriveSetup> drive;
 };
 
 /// What is wrong with a machine.
 struct MachineFaults {
-  bool stalled = false;                   // the motor is blocked: every pulse is lost
-  std::int64_t loses_one_in = 0;          // one pulse in this many is lost; 0: none
-  std::int64_t slipped_pulses = 0;        // how far it has been pushed by force since the last tick
-  bool alarm = false;                     // what the drive's alarm is for; it outlives it until it is cleared
-  std::int64_t encoder_noise_counts = 0;  // so many too many
+  bool stalled = false;             // the motor is blocked: every pulse is lost
+  std::int64_t loses_one_in = 0;    // one pulse in this many is lost; 0: none
+  std::int64_t slipped_pulses = 0;  // how far it has been pushed by force since the last tick
+  bool alarm = false;               // the cause of the drive's alarm, which outlasts it until it is cleared
+  std::int64_t encoder_noise_counts = 0;  // this many too many
   bool operator==(const MachineFaults&) const = default;
 };
 
@@ -89,20 +89,20 @@ class alignas(64) PlantAxis {
     move_switches();
   }
 
-  /// So many steps, as far as the stops let it; the rest is lost.
+  /// Moves this many steps, as far as the stops let it; the rest is lost.
   void move(std::int64_t steps);
   /// One tick: the pulses of the controller, and its outputs at its end, which only a drive heeds.
   void step(Tick tick, std::int64_t pulses, DriveInputs inputs);
-  /// The same for a tick in which nothing changes but the place, and the encoder with it, as almost every
-  /// tick is: it costs one cache line. False for any other, and nothing is done then.
+  /// Does a tick in which nothing changes but the place, and the encoder with it, as in almost every tick: it
+  /// costs one cache line. Returns false for any other tick, and does nothing.
   bool step_quietly(std::int64_t pulses) {
     const std::int64_t place = state_.position_pulses + pulses;
     if (place < quiet_from_ || place > quiet_to_) return false;
     state_.position_pulses = place;
     return true;
   }
-  /// The wheel of the encoder, evenly over so many ticks from the next one on; what is left of a turn before
-  /// joins it.
+  /// Turns the encoder's wheel, evenly over this many ticks from the next one on; what is left of an earlier
+  /// turn is added.
   void turn(std::int64_t counts, Tick ticks);
   MachineFaults& faults() {
     disturb();
@@ -128,7 +128,7 @@ class alignas(64) PlantAxis {
   /// counts evenly; a reversed encoder counts the same edges the other way. Wraps at 62 bits, so that the
   /// difference of two fits.
   std::int64_t encoder_counts() const;
-  /// The same after a quiet step.
+  /// Like the above, after a quiet step.
   std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
 
   /// The first tick after `done` at which something changes by itself; kNever if nothing does.
@@ -151,20 +151,20 @@ class alignas(64) PlantAxis {
     Tick enabled_at = kNever;
     MachineFaults faults;
     std::int64_t wheel_counts = 0;
-    // The wheel's turn: so many counts in so many ticks, and how many of those are left.
+    // The wheel's turn: counts, the ticks that they take, and how many of those are left.
     std::int64_t turn_counts = 0;
     Tick turn_ticks = 0;
     Tick ticks_to_turn = 0;
     bool operator==(const State&) const = default;
   };
   const State& save() const { return state_; }
-  /// Throws StateError for what no machine can be.
+  /// Throws StateError if no machine can be in that state.
   static void check(const State& state);
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:
-  /// Of the setup what an encoder's count is made from.
+  /// The part of the setup that an encoder's count is made from.
   struct Encoder {
     std::int64_t pulses_at_0 = 0;
     int counts_per_revolution = 0;
@@ -188,7 +188,7 @@ class alignas(64) PlantAxis {
   }
   /// Finds out how far it may go before it has to.
   void find_quiet_places();
-  /// How much of it there was room for.
+  /// Returns how far it really moved.
   std::int64_t shift(std::int64_t steps);
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);

@@ -19,11 +19,11 @@ class Peaks final : public TickWatcher {
   /// What it has seen so far, as a value.
   using State = std::vector<std::vector<Peak>>;  // [device][axis]
 
-  /// From this moment on; the view must outlive it. For World::add_watcher().
+  /// Watches from this moment on; the view must outlive it. For World::add_watcher().
   explicit Peaks(const WorldView& view);
 
   void on_tick(Tick tick) override;
-  /// Begins anew; the speed at this moment does not count.
+  /// Starts again; the speed at this moment does not count.
   void reset();
 
   const Peak& peak(std::size_t device, int axis) const {

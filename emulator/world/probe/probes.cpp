@@ -1,28 +1,17 @@
 #include "emulator/world/probe/probes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "base/text/one_line.h"
-#include "base/text/suggestion.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/terminals.h"
-#include "emulator/world/names/names.h"
 
 namespace understudy::emulator::world {
 
 namespace {
-
-/// "feeder.A.pulses" at its first dot; nothing behind it if there is none.
-std::pair<std::string_view, std::string_view> at_dot(std::string_view name) {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string_view::npos) return {name, {}};
-  return {name.substr(0, dot), name.substr(dot + 1)};
-}
 
 /// Whole where it is; a real number of an expression is always finite.
 Number number_of(double value) {
@@ -32,139 +21,10 @@ Number number_of(double value) {
   return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 }
 
-// What every device has.
-constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replies", "exceptions"};
-
-/// Registers, terminals, axes (of "A.pulses"), and what every device has.
-bool has_name(const KnownDevice& device, std::string_view name) {
-  return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
-         find_register(*device.model, name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
-         (name.find('.') != std::string_view::npos && find_axis(*device.model, at_dot(name).first) >= 0);
-}
-
 }  // namespace
 
-NamedNumber Probes::resolve(std::string_view name) const {
-  for (std::size_t i = 0; i < probes_.size(); ++i) {
-    if (probes_[i].name == name) return {static_cast<std::int32_t>(i), probes_[i].unit};
-  }
-  Probe probe = find(name);
-  probe.name = name;
-  probes_.push_back(probe);
-  return {static_cast<std::int32_t>(probes_.size() - 1), probe.unit};
-}
-
-bool Probes::find_of_axis(std::string_view rest, Probe& probe) const {
-  static constexpr std::array<std::pair<std::string_view, What>, 13> kOfAxis{{
-      {"pulses", What::pulses},
-      {"speed", What::speed},
-      {"pwm", What::pwm},
-      {"greatest_speed", What::greatest_speed},
-      {"greatest_acceleration", What::greatest_acceleration},
-      {"position", What::position},
-      {"lost", What::lost},
-      {"encoder", What::encoder},
-      {"home", What::home},
-      {"upper_limit", What::upper_limit},
-      {"lower_limit", What::lower_limit},
-      {"ready", What::ready},
-      {"alarm", What::alarm},
-  }};
-  const auto [axis_name, what_name] = at_dot(rest);
-  const Model& model = view_.device(probe.device).model();
-  const int axis = find_axis(model, axis_name);
-  if (axis < 0 || rest.find('.') == std::string_view::npos) return false;
-  std::vector<std::string> known;
-  for (const auto& [word, what] : kOfAxis) {
-    if (what == What::pwm && !view_.device(probe.device).axes()->duty_percent(axis)) continue;
-    known.emplace_back(word);
-    if (word != what_name) continue;
-    probe.what = what;
-    probe.place = axis;
-    return true;
-  }
-  if (what_name.empty()) {
-    const std::string whole = view_.known()[probe.device].name + "." + std::string(axis_name);
-    std::string values;
-    for (const std::string& word : known) values += (values.empty() ? "" : ", ") + whole + "." + word;
-    throw NameError(quoted(whole) + " is an axis; expected one of its values: " + values);
-  }
-  throw NameError("axis " + std::string(axis_name) + " has no " + quoted(what_name) +
-                  suggestion(what_name, known));
-}
-
-Probes::Probe Probes::find(std::string_view name) const {
-  Probe probe;
-  if (name == "time") {
-    probe.unit = Unit::nanoseconds;
-    return probe;
-  }
-  const auto [first, behind] = at_dot(name);
-  static constexpr std::array<std::pair<std::string_view, What>, 3> kOfLine{{
-      {"bytes_in", What::bytes_in},
-      {"bytes_out", What::bytes_out},
-      {"collisions", What::collisions},
-  }};
-  for (std::size_t i = 0; i < view_.line_count(); ++i) {
-    if (view_.line(i).line.name() != first) continue;
-    for (const auto& [word, what] : kOfLine) {
-      if (word != behind) continue;
-      probe.what = what;
-      probe.device = i;
-      return probe;
-    }
-  }
-  // Where there is one device its name may be left out.
-  const KnownDevices& known = view_.known();
-  std::string_view rest = name;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (known[i].name != first || behind.empty()) continue;
-    probe.device = i;
-    rest = behind;
-  }
-  if (rest == name && known.size() != 1) throw name_without_device(known, name, has_name, "NAME");
-  static constexpr std::array<What, kOfDevice.size()> kWhatOfDevice{What::power, What::requests,
-                                                                    What::replies, What::exceptions};
-  for (std::size_t i = 0; i < kOfDevice.size(); ++i) {
-    if (kOfDevice[i] != rest) continue;
-    probe.what = kWhatOfDevice[i];
-    return probe;
-  }
-  const Axes* const axes = view_.device(probe.device).axes();
-  if (rest == "pulse_format" && axes != nullptr && !axes->pulse_formats().empty()) {
-    probe.what = What::pulse_format;
-    return probe;
-  }
-  if (find_of_axis(rest, probe)) return probe;
-  const KnownDevice& device = known[probe.device];
-  if (const auto place = find_register(*device.model, rest, device.firmware)) {
-    probe.what = What::reg;
-    probe.reg = *place;
-    return probe;
-  }
-  if (const int terminal = find_terminal(*device.model, rest); terminal >= 0) {
-    const TerminalRow::Kind kind = device.model->terminals[static_cast<std::size_t>(terminal)].kind;
-    probe.what = is_input(kind) ? What::input : What::output;
-    probe.place = terminal;
-    if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
-    return probe;
-  }
-  const Device& there = view_.device(probe.device);
-  const NamedValues* const values = there.named_values();
-  const bool has_value = values != nullptr && values->value_named(rest).has_value();
-  if (!has_value) find_of_axis(std::string(rest) + ".", probe);  // tells of an axis alone
-  if (rest == device.name) throw NameError(quoted(rest) + " is a device; expected " + device.name + ".NAME");
-  if (there.register_bank() != nullptr) {
-    throw NameError(device.name + ": " + why_no_register(*device.model, rest, device.firmware));
-  }
-  if (!has_value) throw NameError(why_no_value(there, rest));
-  probe.what = What::named;
-  probe.value_name = rest;
-  return probe;
-}
-
 std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
-  const Probe& probe = probes_[static_cast<std::size_t>(handle)];
+  const Probe& probe = names_.probe(handle);
   if (probe.what != What::reg && probe.what != What::named) return std::nullopt;
   return probe.device;
 }
@@ -186,7 +46,7 @@ double Probes::peak_value(const Probe& probe) const {
 }
 
 Number Probes::value(std::int32_t handle) const {
-  const Probe& probe = probes_[static_cast<std::size_t>(handle)];
+  const Probe& probe = names_.probe(handle);
   const auto count = [](std::uint64_t number) { return Number(static_cast<std::int64_t>(number)); };
   switch (probe.what) {
     case What::time: return view_.now().count();

@@ -1,32 +1,13 @@
-// What can be seen of a world without its lines, by name: for expressions in scenarios, fault triggers,
-// `ctl run-until`, traces. Looking changes nothing.
-//
-//   time                       simulated time, a duration
-//   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
-//   robot.T2PE                 values of devices without registers (NamedValues)
-//   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
-//                              of the same name comes first
-//   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
-//   feeder.A.speed             what it runs at by plan, in pulses a second, real
-//   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
-//   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
-//                              scenarios, since their begin or the last `reset: peaks`
-//   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
-//   feeder.A.encoder           its encoder's count
-//   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive
-//   feeder.power               1 while it has power
-//   feeder.pulse_format        which of its forms the pulses have, by number; where the model has several
-//   feeder.requests, .replies, .exceptions    of its stations
-//   rs485.bytes_in, .bytes_out, .collisions   of a line
+// What can be seen of a world by the names of probe_names.h: their values at this moment. Looking changes
+// nothing.
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/probe/peaks.h"
+#include "emulator/world/probe/probe_names.h"
 #include "emulator/world/view/world_view.h"
 
 namespace understudy::emulator::world {
@@ -34,62 +15,26 @@ namespace understudy::emulator::world {
 class Probes final : public NameResolver, public ValueSource {
  public:
   /// Both must outlive it. Without peaks their names are known, but have no value.
-  explicit Probes(const WorldView& view, const Peaks* peaks = nullptr) : view_(view), peaks_(peaks) {}
+  explicit Probes(const WorldView& view, const Peaks* peaks = nullptr)
+      : view_(view), peaks_(peaks), names_(view) {}
 
   /// Throws NameError. A name that was resolved before gets its handle again.
-  NamedNumber resolve(std::string_view name) const override;
+  NamedNumber resolve(std::string_view name) const override { return names_.resolve(name); }
   /// A register of a device without power is 0. NameError for what nobody keeps here.
   Number value(std::int32_t handle) const override;
   /// The device whose register or value it is: without power it has none.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
 
  private:
-  enum class What : std::uint8_t {
-    time,
-    reg,
-    named,
-    input,
-    output,
-    pulses,
-    speed,
-    pwm,
-    greatest_speed,
-    greatest_acceleration,
-    position,
-    lost,
-    encoder,
-    home,
-    upper_limit,
-    lower_limit,
-    ready,
-    alarm,
-    power,
-    pulse_format,
-    requests,
-    replies,
-    exceptions,
-    bytes_in,
-    bytes_out,
-    collisions,
-  };
-  struct Probe {
-    What what = What::time;
-    std::size_t device = 0;  // or the line
-    int place = 0;           // axis or terminal
-    NamedPlace reg{};
-    std::string value_name{};
-    Unit unit = Unit::none;
-    std::string name;
-  };
+  using What = ProbeNames::What;
+  using Probe = ProbeNames::Probe;
 
-  Probe find(std::string_view name) const;
-  bool find_of_axis(std::string_view rest, Probe& probe) const;
   std::uint64_t count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const;
   double peak_value(const Probe& probe) const;
 
   const WorldView& view_;
   const Peaks* peaks_;
-  mutable std::vector<Probe> probes_;  // by handle
+  ProbeNames names_;
 };
 
 }  // namespace understudy::emulator::world

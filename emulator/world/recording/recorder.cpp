@@ -10,9 +10,9 @@ using What = RecordedEvent::What;
 class Recorder::LineEar final : public pty::LineObserver {
  public:
   LineEar(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
-    line().add_observer(*this);
+    recorder_.world_.add_observer(number_, *this);
   }
-  ~LineEar() override { line().remove_observer(*this); }
+  ~LineEar() override { recorder_.world_.remove_observer(number_, *this); }
   LineEar(const LineEar&) = delete;
   LineEar& operator=(const LineEar&) = delete;
 
@@ -42,7 +42,6 @@ class Recorder::LineEar final : public pty::LineObserver {
   void run(SimTime) override {}
 
  private:
-  pty::Line& line() { return recorder_.world_.line(number_).line; }
   void note(What what, std::span<const std::uint8_t> bytes = {}) {
     RecordedEvent event{.what = what, .where = number_};
     event.bytes.assign(bytes.begin(), bytes.end());

@@ -12,8 +12,8 @@ namespace understudy::emulator::world {
 
 class Recorder final : private OutsideListener {
  public:
-  /// Begins now: `take` gets the header's line, then one for each event, each with its end. The world must
-  /// outlive it.
+  /// Begins now: `take` gets the header's line, then a line for each event, each with its line end. The world
+  /// must outlive it.
   Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
   ~Recorder() override;
   Recorder(const Recorder&) = delete;

@@ -64,12 +64,12 @@ std::string hex_of(const std::vector<std::uint8_t>& bytes) {
 Json parse_line(std::string_view line) {
   try {
     Json parsed = parse_strict_json<Json>(line, [](const std::string& key) {
-      return RecordingError(understudy::quoted(key) + ": is there twice; expected it once");
+      return RecordingError(understudy::quoted(key) + ": appears twice; expected it once");
     });
     if (!parsed.is_object()) throw RecordingError("line: is not an object; expected one");
     return parsed;
   } catch (const Json::exception&) {
-    throw RecordingError("line: is torn or no JSON; expected one object");
+    throw RecordingError("line: is torn or not JSON; expected one object");
   }
 }
 
@@ -90,15 +90,16 @@ std::int64_t number_at(const Json& object, const char* key, std::int64_t lowest,
   const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
   if (!value.is_number_integer() || huge || value.get<std::int64_t>() < lowest ||
       value.get<std::int64_t>() > highest) {
-    throw RecordingError(std::string(key) + ": is not a number that can be; expected " +
-                         std::to_string(lowest) + " to " + std::to_string(highest));
+    throw RecordingError(std::string(key) + ": is not a possible number; expected " + std::to_string(lowest) +
+                         " to " + std::to_string(highest));
   }
   return value.get<std::int64_t>();
 }
 
 bool truth_at(const Json& object, const char* key) {
   const Json& value = demand(object, key);
-  if (!value.is_boolean()) throw RecordingError(std::string(key) + ": is neither; expected true or false");
+  if (!value.is_boolean())
+    throw RecordingError(std::string(key) + ": is neither true nor false; expected one of the two");
   return value.get<bool>();
 }
 
@@ -107,7 +108,7 @@ std::vector<std::uint8_t> bytes_at(const Json& object, const char* key) {
   const auto digit = [&](char c) -> std::uint8_t {
     if (c >= '0' && c <= '9') return static_cast<std::uint8_t>(c - '0');
     if (c >= 'a' && c <= 'f') return static_cast<std::uint8_t>(c - 'a' + 10);
-    throw RecordingError(std::string(key) + ": is not a row of bytes; expected two digits for each");
+    throw RecordingError(std::string(key) + ": is not a sequence of bytes; expected two digits for each");
   };
   if (text.size() % 2 != 0)
     throw RecordingError(std::string(key) + ": ends in half a byte; expected two digits");
@@ -123,7 +124,7 @@ Fault fault_at(const Json& object, const KnownDevices& devices) {
   if (!fault.is_object() || fault.empty()) throw RecordingError("fault: is not an object; expected one");
   FaultText text{};
   for (const auto& [name, value] : fault.items()) {
-    if (!value.is_string()) throw RecordingError("fault: holds what is not text; expected texts");
+    if (!value.is_string()) throw RecordingError("fault: holds something that is not text; expected texts");
     if (&value != &fault.front()) {
       text.fields.emplace_back(name, value.get<std::string>());
       continue;
@@ -169,7 +170,7 @@ std::string to_line(const RecordingHeader& header) {
 RecordingHeader parse_header(std::string_view text) {
   const Json line = parse_line(text);
   if (!line.contains("understudy") || !line.contains("kind") || line["kind"] != kRecordingKind) {
-    throw RecordingError("kind: is missing or another; expected a recording");
+    throw RecordingError("kind: is missing or something else; expected a recording");
   }
   number_at(line, "understudy", kRecordingFormat, kRecordingFormat);
   RecordingHeader header;
@@ -329,12 +330,12 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
 
 void apply(World& world, const RecordedEvent& event) {
   switch (event.what) {
-    case What::opened: world.line(event.where).line.host_opened(); break;
-    case What::closed: world.line(event.where).line.host_closed(); break;
-    case What::settings: world.line(event.where).line.host_settings(event.host); break;
-    case What::bytes: world.line(event.where).line.receive(event.bytes, world.now()); break;
-    case What::departed: world.line(event.where).line.receive_departed(event.bytes, world.now()); break;
-    case What::nothing_more: world.line(event.where).line.nothing_more(world.now()); break;
+    case What::opened: world.host_opened(event.where); break;
+    case What::closed: world.host_closed(event.where); break;
+    case What::settings: world.host_settings(event.where, event.host); break;
+    case What::bytes: world.receive(event.where, event.bytes); break;
+    case What::departed: world.receive_departed(event.where, event.bytes); break;
+    case What::nothing_more: world.nothing_more(event.where); break;
     case What::input:
       world.set_external_input(event.where, event.place, static_cast<std::int32_t>(event.value));
       break;

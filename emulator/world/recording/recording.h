@@ -32,7 +32,7 @@ struct RecordedEvent {
     closed,    // and closed it
     settings,  // set `baud` and `stop_bits`; no baud: left them as they were
     bytes,     // wrote `bytes`
-    departed,  // the same, by one that has closed since
+    departed,  // likewise, but has closed since
     nothing_more,
     said,     // `bytes` were said on the line: what a replay is compared with
     input,    // terminal `place` of device `where` was given `value`
@@ -67,7 +67,7 @@ struct RecordingError : std::runtime_error {
 RecordingHeader parse_header(std::string_view text);
 RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, std::size_t line_count);
 
-/// Does to the world what the event tells (nothing for `said` and `end`), at the world's present time.
+/// Does to the world what the event says (nothing for `said` and `end`), at the world's present time.
 void apply(World& world, const RecordedEvent& event);
 
 }  // namespace understudy::emulator::world

@@ -1,5 +1,5 @@
-// The recording of a daemon that may run for months: a file that grows, and begins again from a snapshot when
-// it has grown too large. The one before it stays beside it as FILE.1, so the last `cap_bytes` of history are
+// The recording of a daemon that may run for months: a file that grows, and starts again from a snapshot when
+// it has grown too large. The previous one stays beside it as FILE.1, so the last `cap_bytes` of history are
 // always there.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace understudy::emulator::world {
 
 inline constexpr std::size_t kRecordingCapBytes = std::size_t{64} << 20;
-/// What the name of the one before it ends in.
+/// How the previous one's name ends.
 inline constexpr const char* kOlderPart = ".1";
 
 class RecordingSpool {
@@ -25,7 +25,8 @@ class RecordingSpool {
   RecordingSpool(const RecordingSpool&) = delete;
   RecordingSpool& operator=(const RecordingSpool&) = delete;
 
-  /// Begins again if it is time to. Between two looks at the world, not from within World::advance_to().
+  /// Starts again if it is time to. Call it between two looks at the world, not from within
+  /// World::advance_to().
   void look();
 
  private:

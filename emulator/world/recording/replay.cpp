@@ -25,11 +25,11 @@ class Speeches {
   explicit Speeches(World& world) : world_(world) {
     for (std::size_t i = 0; i < world.line_count(); ++i) {
       ears_.push_back(std::make_unique<Ear>(*this, i));
-      world.line(i).line.add_observer(*ears_.back());
+      world.add_observer(i, *ears_.back());
     }
   }
   ~Speeches() {
-    for (std::size_t i = 0; i < ears_.size(); ++i) world_.line(i).line.remove_observer(*ears_[i]);
+    for (std::size_t i = 0; i < ears_.size(); ++i) world_.remove_observer(i, *ears_[i]);
   }
   Speeches(const Speeches&) = delete;
   Speeches& operator=(const Speeches&) = delete;
@@ -90,11 +90,10 @@ std::string compare(const World& world, Speeches& speeches, const RecordedEvent&
     ++same;
   }
   if (said.bytes != recorded.bytes) {
-    return "byte " + std::to_string(bytes_before + same + 1) + ": expected " + expected + "; said was " +
-           came;
+    return "byte " + std::to_string(bytes_before + same + 1) + ": expected " + expected + "; got " + came;
   }
   if (said.line != recorded.where || said.at != recorded.at) {
-    return "expected " + expected + "; said was " + came;
+    return "expected " + expected + "; got " + came;
   }
   return {};
 }
@@ -135,7 +134,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
   const auto expect_silence = [&] {
     if (speeches.waiting().empty()) return;
     const Speeches::Speech& said = speeches.waiting().front();
-    result.difference = "said was " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
+    result.difference = "got " + text_of(world, said.line, said.at, said.bytes) + "; expected nothing";
   };
   while (result.difference.empty() && !result.has_end && std::getline(recording, line)) {
     ++line_number;
@@ -167,7 +166,7 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
   }
   if (result.has_end && std::getline(recording, line)) {
     ++line_number;
-    throw fail("line: stands behind the end; expected nothing more");
+    throw fail("line: comes after the end; expected nothing more");
   }
   const bool is_stopped = until && result.difference.empty();
   if (is_stopped && !result.has_end) world.advance_to(*until);

@@ -14,7 +14,7 @@ namespace understudy::emulator::world {
 struct ReplayResult {
   enum class Verdict : std::uint8_t {
     same,       // every byte, at its time
-    different,  // `difference` tells the first
+    different,  // `difference` is the first one
     stopped,    // as asked, or at its end if that comes first
   } verdict = Verdict::same;
   std::string difference;  // one line
@@ -30,19 +30,21 @@ struct Replayed {
   ReplayResult result;
 };
 
-/// Looks on while a recording runs: made when the world is as the recording begins, gone before the world is.
+/// Looks on while a recording runs: made when the world is as the recording begins, destroyed before the
+/// world.
 class ReplayWatcher {
  public:
   virtual ~ReplayWatcher() = default;
-  /// At the world's present time, before it is done to the world; `line_number` in the recording.
+  /// Called at the world's present time, before the event is done to the world; `line_number` in the
+  /// recording.
   virtual void happened(const RecordedEvent&, std::size_t /*line_number*/) {}
-  /// The recording was played as far as it goes, or to where it differs.
+  /// The recording was played to its end, or to where it differs.
   virtual void ended() {}
 };
 using ReplayWatcherMaker = std::function<std::unique_ptr<ReplayWatcher>(World&)>;
 
 /// Its devices are of one of the models. `name` stands for the file in messages: RecordingError "name:line:
-/// field: what". `until`: goes no further than that. `watch` may give a watcher. `done` gets the world when
+/// field: what". `until`: goes no further than that. `watch` may return a watcher. `done` gets the world when
 /// all is over.
 Replayed replay(ModelList models, std::istream& recording, const std::string& name,
                 std::optional<SimTime> until, const ReplayWatcherMaker& watch = {},

@@ -58,15 +58,13 @@ class LineSpeech {
   /// A message of a host in words.
   virtual std::string request_text(const LineStations& stations,
                                    std::span<const std::uint8_t> request) const = 0;
-  /// What a station answered. `request` is empty where it is not known.
+  /// What a station answered. `request` is empty if it is not known.
   virtual std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                                  std::span<const std::uint8_t> reply) const = 0;
 
   // --- faults ------------------------------------------------------------------------------------
   /// What a fault's trigger asks of a message.
   virtual FrameFacts facts_of(const HeardFrame& frame) const = 0;
-  /// Whether there is nothing that demand_possible() refuses.
-  virtual bool takes_every_fault() const { return true; }
   /// Throws NameError for a fault that its messages cannot have.
   virtual void demand_possible(const std::string& /*device*/, const Fault& /*fault*/) const {}
 

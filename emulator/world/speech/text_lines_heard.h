@@ -24,7 +24,7 @@ struct LinesWanted {
   std::vector<std::string> lines;  // none: whatever comes, until time is over
   bool is_answer = false;  // to what was just said; the last line may have no end then, as a prompt has
 };
-/// Whether that, or something else instead of it, has come.
+/// Whether that has come, or something else instead.
 bool has_come(const LinesWanted& wanted, const LinesHeard& heard);
 
 }  // namespace understudy::emulator::world

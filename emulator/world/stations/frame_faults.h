@@ -1,4 +1,4 @@
-// What a station asks about each frame where something is broken.
+// What a station asks about each frame when something is broken.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@ struct HeardFrame {
 
 class FrameFaults {
  public:
-  /// Its last character has come: whether the device takes it for over at once.
+  /// Its last character has come: whether the device takes it as complete at once.
   virtual bool is_early(const HeardFrame& frame) = 0;
   /// It is over: what the wire has done to it.
   virtual std::vector<pty::WireFault> on_request(const HeardFrame& frame) = 0;
 
   struct Treatment {
-    int exception = 0;        // it is refused with that, whatever it is; 0: it is carried out
-    bool is_answered = true;  // false: the power goes as it has been carried out
+    int exception = 0;        // it is refused with this exception; 0: it is carried out
+    bool is_answered = true;  // false: the power fails as soon as it has been carried out
   };
   /// It is for the device, which is about to carry it out.
   virtual Treatment on_serving(const HeardFrame& frame) = 0;

@@ -1,4 +1,4 @@
-// A device's presence on a line, whatever is spoken there: what a world does with it.
+// A device's presence on a line, whatever is spoken there, as the world sees it.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,24 @@ class LineStation : public pty::Station, private FaultyWire::End {
 
   pty::LineSettings settings() const final { return device_.line_settings(); }
 
-  /// What it was hearing, and what it has still to say, is forgotten.
+  /// Forgets what it was hearing, and what it still has to say.
   virtual void reset() = 0;
 
   /// Where something is broken that frames meet; null: nothing is. The device's number is told with each
   /// frame.
   void set_faults(FrameFaults* faults, std::size_t device) { wire_.set_faults(faults, device); }
 
-  /// The device may have come to speak unasked. True if it has something to say: then due() has changed.
+  /// The device may have something to say unasked. Returns whether it has: then due() has changed.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
   const StationCounters& counters() const { return counters_; }
-  /// Those that were heard and made nothing of.
+  /// Those that were heard and ignored.
   virtual std::uint64_t dropped_bytes() const = 0;
 
   // --- its state: what it hears and has counted; the device's is its own ---------------------------
   virtual void write_state(StateWriter& writer) const = 0;
-  /// Reads it, and gives what puts it in force, which throws nothing. Throws StateError or
+  /// Reads it; calling the result puts it in force, which does not throw. Throws StateError or
   /// std::invalid_argument for what this station cannot be.
   virtual std::function<void()> read_state(StateReader& reader) = 0;
   /// Reads two, and tells where they differ (base/state/difference.h).

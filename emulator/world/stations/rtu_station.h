@@ -44,7 +44,7 @@ class RtuStation final : public LineStation {
   State save() const;
   /// Throws std::invalid_argument for what this station cannot be.
   void check(const State& state) const;
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

@@ -1,4 +1,4 @@
-// Serves Modbus requests from a device's register map. Knows functions and exceptions, nothing of frames,
+// Serves Modbus requests from a device's register map. Knows functions and exceptions, but not frames,
 // addresses or time. (MODBUS Application Protocol V1.1b3.)
 #pragma once
 
@@ -50,7 +50,7 @@ struct ModbusReply {
 };
 
 /// Carries out one request (function code and data) and makes its reply. A request that gets an exception
-/// has changed nothing. Tested in this order: function, quantity and byte count, addresses, values, and
+/// has changed nothing. It is tested in this order: function, quantity and byte count, addresses, values, and
 /// whether the device takes it now.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);
 

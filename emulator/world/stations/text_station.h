@@ -1,4 +1,4 @@
-// A device that is spoken to in lines of text, on its line: makes lines of characters, hands them to the
+// A device that is spoken to in lines of text, on its line: joins characters into lines, hands them to the
 // device, and sends what it has said: an answer to a line, or something unasked.
 //
 // A device with flow control is held by the host's XOFF until its XON comes, or the power goes: it hears, but
@@ -22,9 +22,9 @@ class TextStation final : public LineStation {
  public:
   /// Characters that are given to the line at once.
   static constexpr std::size_t kPiece = 1024;
-  /// The same where the host may hold it: what has been given cannot be held any more.
+  /// The same if the host may hold it: what the line has been given cannot be held any more.
   static constexpr std::size_t kPieceThatCanBeHeld = 1;
-  /// Beyond that many characters it takes no more from the device, until some have gone.
+  /// With this many characters waiting it takes no more from the device, until some have gone.
   static constexpr std::size_t kMostOutgoing = 64 * 1024;
 
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
@@ -42,7 +42,7 @@ class TextStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// What has been heard and is still to be carried out: at its time, within the event that brought it.
+  /// What has been heard and still has to be carried out: at its time, within the event that brought it.
   struct Waiting {
     bool has_heard = false;  // false: the character is only echoed
     pty::HeardText heard;
@@ -65,7 +65,7 @@ class TextStation final : public LineStation {
   State save() const;
   /// Throws std::invalid_argument for what this station cannot be.
   void check(const State& state) const;
-  /// The same, and nothing has changed then.
+  /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:

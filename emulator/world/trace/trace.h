@@ -1,5 +1,5 @@
-// Traces: what can be seen of a world, at every tick at which something of it changed. As CSV for
-// spreadsheets and `understudy plot`, as VCD for GTKWave.
+// Traces: what can be seen of a world, at every tick at which any of it changed. As CSV for spreadsheets and
+// `understudy plot`, as VCD for GTKWave.
 #pragma once
 
 #include <functional>

@@ -16,8 +16,8 @@ bool is_trace_name(const std::string& path);
 
 class TraceFile {
  public:
-  /// Opens it; what is there stays until begin(). It will have what trace_signals() has; `log` gets a word if
-  /// it ends early. The world must outlive it. Throws NameError (nothing is opened then) and
+  /// Opens it; what is there stays until begin(). It will hold what trace_signals() returns; `log` gets a
+  /// line if it ends early. The world must outlive it. Throws NameError (nothing is opened then) and
   /// GrowingFileError.
   TraceFile(World& world, const std::string& path, const std::vector<std::string>& also,
             std::function<void(const std::string&)> log);

@@ -23,15 +23,15 @@ WorldCapture::WorldCapture(World& world, const std::string& path, std::function<
 void WorldCapture::begin() {
   file_.begin(lines_of(world_));
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
-    WorldLine& line = world_.line(i);
+    const WorldLine& line = world_.line(i);
     lines_.push_back(line.packets(i, [this](const pty::CapturedPacket& packet) { file_.add(packet); }));
-    line.line.add_observer(*lines_.back());
+    world_.add_observer(i, *lines_.back());
   }
 }
 
 WorldCapture::~WorldCapture() {
   for (std::size_t i = 0; i < lines_.size(); ++i) {
-    world_.line(i).line.remove_observer(*lines_[i]);
+    world_.remove_observer(i, *lines_[i]);
     lines_[i]->finish();
   }
   file_.finish();

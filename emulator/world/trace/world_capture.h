@@ -14,7 +14,7 @@ namespace understudy::emulator::world {
 
 class WorldCapture {
  public:
-  /// Opens the file, as pty/capture_file.h has it; what is there stays until begin(). The world must outlive
+  /// Opens the file, as pty/capture_file.h does; what is there stays until begin(). The world must outlive
   /// it. Throws pty::CaptureError.
   WorldCapture(World& world, const std::string& path, std::function<void(const std::string&)> log);
   ~WorldCapture();  // what waits for its end is a packet then

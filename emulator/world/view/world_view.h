@@ -1,5 +1,5 @@
-// What can be looked at in a world: devices, lines, machines, time. Whoever looks (probes, peaks) knows no
-// more of a world than this; looking changes nothing.
+// What can be looked at in a running world: what there is (inventory.h), and how it is doing. Whoever looks
+// (probes, peaks) knows no more of a world than this; looking changes nothing.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
-#include "emulator/world/names/names.h"
 #include "emulator/world/plant/plant.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/stations/line_station.h"
+#include "emulator/world/view/inventory.h"
 #include "pty/line.h"
 #include "pty/rtu_framer.h"
 
@@ -23,7 +23,7 @@ struct WorldLine {
   pty::Line line;
   const LineSpeech& speech;
   LineStations stations;
-  pty::RtuFraming framing{};  // as its stations have it; of different silences the shortest
+  pty::RtuFraming framing{};  // as its stations have it; the shortest of different silences
 
   /// As of `speech`.
   std::string request_text(std::span<const std::uint8_t> request) const {
@@ -37,24 +37,23 @@ struct WorldLine {
   }
 };
 
-class WorldView {
+class WorldView : public Inventory {
  public:
   virtual SimTime now() const = 0;
-  virtual std::size_t line_count() const = 0;
   virtual const WorldLine& line(std::size_t number) const = 0;
   virtual std::size_t device_count() const = 0;
-  virtual const Device& device(std::size_t number) const = 0;
-  /// For finding things by name.
-  virtual const KnownDevices& known() const = 0;
   virtual const PlantAxis& plant(std::size_t device, int axis) const = 0;
   /// All pulses since the world began, in the motor's sense.
   virtual std::int64_t sent_pulses(std::size_t device, int axis) const = 0;
+
+  const std::string& line_name(std::size_t number) const final { return line(number).line.name(); }
+  const PlantSetup& machine(std::size_t device, int axis) const final { return plant(device, axis).setup(); }
 
  protected:
   ~WorldView() = default;
 };
 
-/// Sees every tick, quiet or not, when all of it is over. May act on the world as the outside does.
+/// Sees every tick, quiet or not, when it is completely over. May act on the world as the outside does.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;

@@ -1,11 +1,18 @@
 #include "interpreter/simple2/execution/execution.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
+#include "interpreter/simple2/dialect.h"
+#include "interpreter/simple2/execution/flow.h"
+#include "interpreter/simple2/execution/motion.h"
+#include "interpreter/simple2/execution/step.h"
 #include "interpreter/simple2/execution/table.h"
 #include "interpreter/simple2/instructions.h"
+#include "interpreter/simple2/machine.h"
 #include "interpreter/simple2/parameter_names.h"
+#include "interpreter/simple2/program.h"
 
 namespace understudy::interpreter::simple2 {
 namespace {

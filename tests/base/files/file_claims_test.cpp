@@ -30,7 +30,7 @@ class FileClaimsTest : public testing::Test {
 
   std::string folder_;
   FileClaims claims_;
-  const std::string refusal_ = "is the bench itself; expected a path of its own";
+  const std::string refusal_ = "is the bench itself; expected another path";
 };
 
 TEST_F(FileClaimsTest, AFileIsItselfHoweverItsPathIsSpelled) {
@@ -55,10 +55,9 @@ TEST_F(FileClaimsTest, AFileThatIsNotThereYetIsOneAsWell) {
   fs::create_directory_symlink("inner", at("linked folder"));
   claims_.add({at("inner/../new.txt"), "what --capture writes"});
   claims_.add({at("linked folder/later.txt"), "what --trace writes"});
-  EXPECT_EQ(claims_.objection_to(at("new.txt")), "is what --capture writes; expected a path of its own");
-  EXPECT_EQ(claims_.objection_to(at("dangling")), "is what --capture writes; expected a path of its own");
-  EXPECT_EQ(claims_.objection_to(at("inner/later.txt")),
-            "is what --trace writes; expected a path of its own");
+  EXPECT_EQ(claims_.objection_to(at("new.txt")), "is what --capture writes; expected another path");
+  EXPECT_EQ(claims_.objection_to(at("dangling")), "is what --capture writes; expected another path");
+  EXPECT_EQ(claims_.objection_to(at("inner/later.txt")), "is what --trace writes; expected another path");
   EXPECT_EQ(claims_.objection_to(at("later.txt")), "");
   // In a folder that is not there either, by the words alone.
   claims_.add({at("none/a"), "what --record writes"});
@@ -78,18 +77,18 @@ TEST_F(FileClaimsTest, WhatIsNoRegularFileIsLeftOut) {
 TEST_F(FileClaimsTest, TheFirstClaimStands) {
   claims_.add({{at("bench.yaml"), "included"}, {at("other.yaml"), "a program"}});
   EXPECT_EQ(claims_.objection_to(at("bench.yaml")), refusal_);
-  EXPECT_EQ(claims_.objection_to(at("other.yaml")), "is a program; expected a path of its own");
+  EXPECT_EQ(claims_.objection_to(at("other.yaml")), "is a program; expected another path");
 }
 
 TEST_F(FileClaimsTest, AFolderIsRefusedForAClaimedFileAmongThoseItGets) {
   const std::vector<std::string> endings{".jsonl", ".jsonl.1"};
   EXPECT_EQ(claims_.objection_to_folder(folder_, endings), "");
   EXPECT_EQ(claims_.objection_to_folder(folder_, {".yaml"}),
-            "holds bench.yaml, which is the bench itself; expected a folder of its own");
+            "holds bench.yaml, which is the bench itself; expected another folder");
   EXPECT_EQ(claims_.objection_to_folder(at("inner"), {".yaml"}), "");
   claims_.add({at("inner/a.jsonl.1"), "what --junit writes"});
   EXPECT_EQ(claims_.objection_to_folder(at("inner/."), endings),
-            "holds a.jsonl.1, which is what --junit writes; expected a folder of its own");
+            "holds a.jsonl.1, which is what --junit writes; expected another folder");
   EXPECT_EQ(claims_.objection_to_folder(folder_, endings), "");
 }
 

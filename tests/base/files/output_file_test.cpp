@@ -50,7 +50,7 @@ TEST_F(OutputFileTest, IsOnesOwn) {
   {
     OutputFile first(path);
     first.begin("mine");
-    EXPECT_EQ(refusal(path), "another program is writing it; expected a path of its own");
+    EXPECT_EQ(refusal(path), "another program is writing it; expected another path");
   }
   EXPECT_EQ(refusal(path), "");
   EXPECT_EQ(pty::contents_of(path), "mine");
@@ -88,7 +88,7 @@ TEST_F(OutputFileTest, IsNoStrangersFileInAnOpenFolder) {
   ASSERT_EQ(::chmod(file.c_str(), 0666), 0);
   ASSERT_EQ(::chown(file.c_str(), 12345, 12345), 0);
   const std::string expected =
-      "it is another user's file in a folder that is open to all; expected a path of ours";
+      "it is another user's file in a folder that everyone can write to; expected a path of your own";
   {
     const OrdinaryUser user(folder_ / "");
     EXPECT_EQ(refusal(file), "") << "the folder is not open to all";
@@ -118,7 +118,7 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
   EXPECT_EQ(refusal(link), "") << "the folder is not open to all";
   ASSERT_EQ(::chmod(open_folder.c_str(), 01777), 0);
   EXPECT_EQ(refusal(link),
-            "it is another user's link in a folder that is open to all; expected a path of ours");
+            "it is another user's link in a folder that everyone can write to; expected a path of your own");
   ASSERT_EQ(::lchown(link.c_str(), ::geteuid(), 0), 0);
   EXPECT_EQ(refusal(link), "");
   // Nor through a folder on the way.
@@ -126,8 +126,9 @@ TEST_F(OutputFileTest, IsNotReachedByAStrangersLinkInAnOpenFolder) {
   fs::create_directory_symlink(fs::path(precious).parent_path(), way);
   EXPECT_EQ(refusal(way + "/precious"), "");
   ASSERT_EQ(::lchown(way.c_str(), 12345, 12345), 0);
-  EXPECT_EQ(refusal(way + "/precious"),
-            way + " is another user's link in a folder that is open to all; expected a path of ours");
+  EXPECT_EQ(
+      refusal(way + "/precious"),
+      way + "is another user's link in a folder that everyone can write to; expected a path of your own");
 }
 
 }  // namespace output_file_test

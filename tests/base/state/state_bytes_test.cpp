@@ -153,12 +153,12 @@ TEST(StateBytes, WhatATypeCannotBeIsRefused) {
   EXPECT_EQ(refusal<Point>(bytes({101, 0, 0, 0})), "a number is beyond its range");
   EXPECT_EQ(refusal<Point>(bytes({0x9C, 0xFF, 0, 0})), "");  // -100
   EXPECT_EQ(refusal<Point>(bytes({0x9B, 0xFF, 0, 0})), "a number is beyond its range");
-  EXPECT_EQ(refusal<std::uint32_t>(bytes({1, 2, 3, 4, 5})), "there are more bytes than it takes");
+  EXPECT_EQ(refusal<std::uint32_t>(bytes({1, 2, 3, 4, 5})), "bytes are left over");
   // Four thousand million elements: refused before there is room for them.
   EXPECT_EQ(refusal<std::vector<Point>>(bytes({0xFF, 0xFF, 0xFF, 0xFF, 0})), "the bytes end too early");
   using Map = std::map<std::uint8_t, std::uint8_t>;
-  EXPECT_EQ(refusal<Map>(bytes({2, 0, 0, 0, 7, 8, 7, 8})), "its entries are in disorder");
-  EXPECT_EQ(refusal<Map>(bytes({2, 0, 0, 0, 9, 8, 7, 8})), "its entries are in disorder");
+  EXPECT_EQ(refusal<Map>(bytes({2, 0, 0, 0, 7, 8, 7, 8})), "its entries are out of order");
+  EXPECT_EQ(refusal<Map>(bytes({2, 0, 0, 0, 9, 8, 7, 8})), "its entries are out of order");
   const std::vector<std::byte> whole = sample_bytes();
   for (std::size_t size = 0; size < whole.size(); ++size) {
     EXPECT_EQ(refusal<Sample>({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}),

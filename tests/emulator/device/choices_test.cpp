@@ -62,7 +62,7 @@ TEST(Choices, EveryRowOfEveryModelSaysEverything) {
     std::set<std::string_view> ids;
     ASSERT_FALSE(model->choices.empty()) << model->name;
     for (const ChoiceRow& row : model->choices) {
-      EXPECT_TRUE(ids.insert(row.id).second) << row.id << " is there twice";
+      EXPECT_TRUE(ids.insert(row.id).second) << row.id << " appears twice";
       EXPECT_EQ(row.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string_view::npos)
           << row.id;
       EXPECT_FALSE(row.section.empty()) << row.id;
@@ -73,7 +73,7 @@ TEST(Choices, EveryRowOfEveryModelSaysEverything) {
       for (const std::string_view option : options_of(row)) {
         EXPECT_FALSE(option.empty()) << row.id;
         EXPECT_EQ(option.find(' '), std::string_view::npos) << row.id << ": " << option;
-        EXPECT_TRUE(options.insert(option).second) << row.id << ": " << option << " is there twice";
+        EXPECT_TRUE(options.insert(option).second) << row.id << ": " << option << " appears twice";
       }
     }
   }

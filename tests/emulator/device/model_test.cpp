@@ -129,7 +129,7 @@ TEST(MakeDevice, RegistersOfNewerFirmwareCannotBeSetInOlderOnes) {
   DeviceSettings settings;
   settings.firmware = 150;
   settings.set = {{"NEW_PWD", 1}};
-  EXPECT_TRUE(error_of(settings).starts_with("set: register 'NEW_PWD' is there from firmware 1.51 on"));
+  EXPECT_TRUE(error_of(settings).starts_with("set: register 'NEW_PWD' exists from firmware 1.51 on"));
   settings.firmware = 151;
   EXPECT_EQ(error_of(settings), "");
 }

@@ -187,7 +187,7 @@ class RandomEvents {
 
 void apply(World& world, const Event& event) {
   switch (event.kind) {
-    case Kind::frame: world.line(0).line.receive(event.bytes, event.at); break;
+    case Kind::frame: world.receive(0, event.bytes, event.at); break;
     case Kind::input: world.set_external_input(event.device, event.terminal, event.level); break;
     case Kind::power: world.switch_power(event.device, event.level != 0); break;
     case Kind::inject: world.inject(event.fault); break;

@@ -18,7 +18,7 @@ const std::string kDay = play::kServoOn + play::kExampleMove +
                          "  - expect: { feeder.DIN_10: 1 }\n";
 
 std::uint64_t outcome(const std::string& steps, bool bulk_ticks = true, const std::string& more = "") {
-  const play::PlayOptions options{
+  const play::RunOptions options{
       .make_stage =
           [&](const play::Scenario& scenario) {
             auto stage = play::make_free_stage(scenario);

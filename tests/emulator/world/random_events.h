@@ -103,7 +103,7 @@ inline void apply(World& world, const Event& event) {
   if (event.terminal >= 0) {
     world.set_external_input(event.device, event.terminal, event.on);
   } else {
-    world.line(0).line.receive(event.bytes, event.at);
+    world.receive(0, event.bytes, event.at);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/world/snapshot.h"
+#include "emulator/world/state_fields.h"
 #include "emulator/world/stations/rtu_station.h"
 #include "tests/emulator/world/two_devices.h"
 
@@ -39,7 +40,7 @@ TEST(SnapshotDifference, IsToldByPathAndName) {
       {"feeder.axes[0].homed: false against true", [](World& w) { state_of(w, 0).axes[0].homed = true; }},
       {"feeder.program[255].flag: 0 against 9", [](World& w) { state_of(w, 0).program.set_cell(1023, 9); }},
       {"feeder.timers[1].value: 0 against 3", [](World& w) { state_of(w, 0).timers[1].value = 3; }},
-      {"rs485.is_host_open: true against false", [](World& w) { w.line(0).line.host_closed(); }},
+      {"rs485.is_host_open: true against false", [](World& w) { w.host_closed(0); }},
       {"rs485.turner.counters.replies: 0 against 2",
        [](World& w) {
          auto& station = dynamic_cast<RtuStation&>(*w.line(0).stations[1]);
@@ -51,7 +52,7 @@ TEST(SnapshotDifference, IsToldByPathAndName) {
        [](World& w) {
          pty::Line::State state = w.line(0).line.save();
          state.edge.counters.bytes_discarded = 4;
-         w.line(0).line.restore(state);
+         StateOf<World>::line(w, 0).restore(state);
        }},
   };
   for (const auto& [told, change] : cases) {
@@ -101,7 +102,7 @@ void expect_all_told(World& world) {
 TEST(SnapshotDifference, NothingOfASimple2StaysUntold) {
   World world = make_world("wire");
   world.inject(find_fault(world.known(), {"drop", "feeder", {{"nth", "3"}}}));
-  world.line(0).line.receive(write_request(1, 0x1014, 1), 0ns);
+  world.receive(0, write_request(1, 0x1014, 1), 0ns);
   world.advance_to(3ms);
   expect_all_told(world);
 }
@@ -113,8 +114,7 @@ TEST(SnapshotDifference, NothingOfASlimStaysUntold) {
                   "t.yaml", "."),
       {}, {});
   for (const std::string line : {"DLP\r", "MA 1000\r", "END\r", "MR 500\r", "T1MR 200\r", "N3=7\r"}) {
-    world.line(0).line.receive({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
-                               world.now());
+    world.receive(0, {reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}, world.now());
     world.advance_to(world.now() + 20ms);
   }
   expect_all_told(world);

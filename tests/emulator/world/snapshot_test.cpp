@@ -292,7 +292,7 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
             [&](WorldState& s) { s.parts[i].bytes.pop_back(); });
     refused(good.parts[i].name + ": the bytes end too early",
             [&](WorldState& s) { s.parts[i].bytes.clear(); });
-    refused(good.parts[i].name + ": there are more bytes than it takes",
+    refused(good.parts[i].name + ": bytes are left over",
             [&](WorldState& s) { s.parts[i].bytes.push_back(std::byte{0}); });
   }
   World alone(
@@ -301,7 +301,7 @@ TEST(Snapshot, WhatIsOfAnotherWorldIsRefusedAndChangesNothing) {
                   "one.yaml", "."),
       {}, {});
   const WorldState of_alone = save(alone);
-  EXPECT_EQ(refusal_of(alone, good), "world: it has other devices");
+  EXPECT_EQ(refusal_of(alone, good), "world: its devices are different");
   EXPECT_EQ(save(alone), of_alone);
 }
 
@@ -344,7 +344,7 @@ TEST(Snapshot, AFaultLastsNoLongerThanTimeIsCounted) {
   const auto place = std::ranges::search(bytes, bytes_of(kLasts));
   ASSERT_EQ(place.size(), sizeof kLasts);
   std::ranges::copy(bytes_of(tick_at(kForever) + 1), place.begin());
-  EXPECT_EQ(refusal_of(world, bad), "world: a fault lasts longer than there is time");
+  EXPECT_EQ(refusal_of(world, bad), "world: a fault lasts beyond the end of time");
   EXPECT_EQ(save(world), good);
 }
 
@@ -370,7 +370,7 @@ void flip_bytes(std::uint64_t seed_value, const std::string& timing, std::size_t
         continue;
       }
       ++taken;
-      world.line(0).line.receive(read_request(1, 0, 1), world.now());
+      world.receive(0, read_request(1, 0, 1));
       world.advance_to(world.now() + 25ms);
       save(world);
       restore(world, good);

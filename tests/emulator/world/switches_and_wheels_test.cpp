@@ -22,7 +22,7 @@ std::string text_of(const std::string& machine, const std::string& wires, const 
 
 void expect_passes(const std::string& text) {
   const play::ScenarioResult result =
-      play::play(play::parse_scenarios(models::all_models(), text, "test.yaml").front(), {}).front();
+      play::run_scenario(play::parse_scenarios(models::all_models(), text, "test.yaml").front(), {}).front();
   EXPECT_TRUE(play::has_passed(result)) << text << play::why(result);
 }
 

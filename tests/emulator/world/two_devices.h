@@ -77,9 +77,9 @@ inline void set_input(World& world, std::string_view name, bool on) {
 }
 
 inline Bytes take_output(World& world) {
-  pty::Line& line = world.line(0).line;
+  const pty::Line& line = world.line(0).line;
   const Bytes bytes(line.output().begin(), line.output().end());
-  line.take_output(bytes.size());
+  world.take_output(0, bytes.size());
   return bytes;
 }
 

@@ -75,8 +75,8 @@ TEST(WorldEquivalence, FramesGivenInAdvanceAreServedAtTheirTimes) {
       const Bytes frame =
           i == 0 ? write_request(0, 0x1013, 1) : write_request(1 + i % 2, 0x1000 + i % 6, 1 + i);
       plain.advance_to(at);
-      plain.line(0).line.receive(frame, at);
-      ahead.line(0).line.receive(frame, at);
+      plain.receive(0, frame, at);
+      ahead.receive(0, frame, at);
     }
     plain.advance_to(at + 1s);
     ahead.advance_to(at + 1s);

@@ -58,7 +58,7 @@ TEST(World, IsDueNextTickAfterOutsideInputAndThenAtItsOwnEvent) {
 TEST(World, IsDueWhenACharacterIsOnItsLine) {
   World world = make_world("wire", 115'200);
   world.advance_to(5ms);
-  world.line(0).line.receive(Bytes{0x55}, 5ms);
+  world.receive(0, Bytes{0x55}, 5ms);
   EXPECT_EQ(world.next_due(), 5ms + 95'486ns);  // 11 bits
 }
 
@@ -82,7 +82,7 @@ TEST(World, ATickComesBeforeAFrameAtTheSameInstant) {
     set(world, "feeder.Aaxis_Speed", 20);
     const SimTime served = in_time ? 20ms - 1ns : 20ms;
     world.advance_to(served - exchange);
-    world.line(0).line.receive(write_request(1, 0x1005, 1), served - exchange);
+    world.receive(0, write_request(1, 0x1005, 1), served - exchange);
     world.advance_to(20ms - 1ns);
     EXPECT_EQ(get(world, "feeder.Aaxis_Move_INC"), in_time);
     world.advance_to(20ms);
@@ -105,8 +105,8 @@ TEST(World, ARequestReadsWhatTheTickAtItsInstantHasDone) {
   set(world, "feeder.Aaxis_Speed", 20);
   set(world, "feeder.Aaxis_Move_INC", 1);  // t = 0 in tick 1
   // Given in advance: one for the last nanosecond of tick 49, one for the instant of tick 50.
-  world.line(0).line.receive(read_request(1, 0x0E04, 1), 50ms - 1ns);
-  world.line(0).line.receive(read_request(1, 0x0E04, 1), 50ms);
+  world.receive(0, read_request(1, 0x0E04, 1), 50ms - 1ns);
+  world.receive(0, read_request(1, 0x0E04, 1), 50ms);
   world.advance_to(60ms);
   EXPECT_EQ(take_output(world), [] {
     Bytes both = framed({0x01, 0x03, 0x02, 0x00, 43});  // t = 48 ms: 48 - 5
@@ -192,11 +192,11 @@ TEST(World, TwoDevicesOnALineAnswerEachForItself) {
                                                           {3, {}},
                                                           {15, {}},
                                                           {0, {}}}) {
-      world.line(0).line.receive(read_request(station, 0x0002, 1), world.now());
+      world.receive(0, read_request(station, 0x0002, 1));
       world.advance_to(world.now() + 20ms);
       EXPECT_EQ(take_output(world), reply) << timing << " " << station;
     }
-    world.line(0).line.receive(write_request(2, 0x1014, 1), world.now());
+    world.receive(0, write_request(2, 0x1014, 1));
     world.advance_to(world.now() + 20ms);
     EXPECT_EQ(take_output(world), write_request(2, 0x1014, 1)) << timing;
     EXPECT_EQ(get(world, "feeder.Aaxis_SVON"), 0) << timing;
@@ -206,7 +206,7 @@ TEST(World, TwoDevicesOnALineAnswerEachForItself) {
 
 TEST(World, ABroadcastIsObeyedByBothInSilence) {
   World world = make_world("wire", 19'200);
-  world.line(0).line.receive(write_request(0, 0x1013, 1), world.now());  // ALL_SVON
+  world.receive(0, write_request(0, 0x1013, 1));  // ALL_SVON
   world.advance_to(20ms);
   EXPECT_EQ(take_output(world), Bytes{});
   EXPECT_EQ(get(world, "feeder.STATUS"), 0xC00);

@@ -86,7 +86,7 @@ TEST(Simple2ListingError, TellsHowManyOperandsThereAre) {
 
 TEST(Simple2ListingError, FindsWhatIsWrongWithALabel) {
   expect_messages({
-      {"a: NOP\nA: NOP", "2:1: label: 'A' is there twice; expected another name than in line 1"},
+      {"a: NOP\nA: NOP", "2:1: label: 'A' appears twice; expected a different name from the one in line 1"},
       {"again: NOP\nJump agian",
        "2:6: operand 1: no line is labelled 'agian'; expected a label (nearest: 'again')"},
       {"Jump again", std::string("1:6: operand 1: no line is labelled 'again'; expected ") + kFlag},
@@ -102,16 +102,16 @@ TEST(Simple2ListingError, FindsWhatIsWrongWithALabel) {
       {"5: NOP",
        "1:1: label: '5:' is not a label; expected a name of letters, digits and '_' before ':', or @0 to "
        "@255"},
-      {"NOP\nlast:", "2:1: label: 'last:' marks no line; expected an instruction"},
+      {"NOP\nlast:", "2:1: label: 'last:' does not mark a line; expected an instruction"},
       {"JMP4: @5 NOP", "1:7: label: a line has one flag, and this is its second; expected JMP4 alone"},
       {"@5 .line 1 2 3 4", "1:16: label: a line has one flag, and this is its second; expected JMP5 alone"},
       {"a: @200 NOP", "1:1: label: 'a' is on a line without a flag; expected @1 to @64, or none"},
       {"JMP5: NOP\n@5 END",
-       "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag of its own"},
+       "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
       {"a: @5 NOP\n@5 END",
-       "1:4: label: JMP5 leads to line 2, the last that has it; expected a flag of its own"},
+       "1:4: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
       {"JMP5: NOP\nJMP5: NOP",
-       "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag of its own"},
+       "1:1: label: JMP5 leads to line 2, the last that has it; expected a flag that no other line has"},
   });
 }
 
@@ -119,8 +119,7 @@ TEST(Simple2ListingError, FindsWhatIsWrongWithAPlace) {
   expect_messages({
       {".at 256", "1:5: .at: 256 is out of range; expected a line from 0 to 255"},
       {".at", "1:1: .at: takes one number; expected a line from 0 to 255"},
-      {"NOP\n.at 0\nEND",
-       "3:1: line: line 0 of the program comes from line 1 already; expected a line that is free"},
+      {"NOP\n.at 0\nEND", "3:1: line: line 0 of the program comes from line 1 already; expected a free line"},
       {".line 1 2 3", "1:1: .line: takes four numbers; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
       {".line 1 2 x 4", "1:11: .line: 'x' is not a number; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
       {".line 1 2 3 256", "1:13: .line: 256 is out of range; expected CMD DATA1 DATA2 JMP, each 0 to 255"},
@@ -133,7 +132,7 @@ TEST(Simple2ListingError, AllowsNoMoreThan256Lines) {
   EXPECT_TRUE(errors_of(text).empty());
   text += "first: Jump first\nEND\n";
   EXPECT_EQ(errors_of(text), std::vector<std::string>{
-                                 "257:8: line: the program is full; expected 256 lines at most, 0 to 255"});
+                                 "257:8: line: the program is full; expected at most 256 lines, 0 to 255"});
 }
 
 TEST(Simple2ListingError, AllowsNoMoreThan64Flags) {
@@ -142,7 +141,7 @@ TEST(Simple2ListingError, AllowsNoMoreThan64Flags) {
   EXPECT_TRUE(errors_of(text).empty());
   EXPECT_EQ(
       errors_of(text + "  one_more: NOP"),
-      std::vector<std::string>{"65:3: label: no flag is left for 'one_more'; expected 64 flags at most"});
+      std::vector<std::string>{"65:3: label: no flag is left for 'one_more'; expected at most 64 flags"});
 }
 
 TEST(Simple2ListingError, ReportsAllOfThemInTheOrderOfTheText) {
@@ -157,7 +156,7 @@ TEST(Simple2ListingError, ReportsAllOfThemInTheOrderOfTheText) {
                 "2:1: mnemonic: no instruction is called 'Ot'; expected an instruction (nearest: 'Out')",
                 "3:5: operand 1: 'DOUT_9' does not exist; expected DOUT_0 to DOUT_6",
                 "3:12: operand 2: 'maybe' is not a level; expected ON or OFF",
-                "5:1: label: 'a' is there twice; expected another name than in line 4",
+                "5:1: label: 'a' appears twice; expected a different name from the one in line 4",
                 "5:8: operands: END is given 1; expected none",
             }));
 }

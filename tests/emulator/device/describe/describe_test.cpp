@@ -58,7 +58,7 @@ TEST(Describe, OtherWordsAreNotDescribed) {
 TEST(Describe, RegistersAreTheManualsOneRowAQuantity) {
   std::map<std::string, Fact> rows;
   for (const Fact& row : Csv("registers").rows) {
-    EXPECT_TRUE(rows.emplace(row.at("address"), row).second) << row.at("address") << " is there twice";
+    EXPECT_TRUE(rows.emplace(row.at("address"), row).second) << row.at("address") << " appears twice";
   }
   const auto facts = simple2_r3_registers();
   std::size_t quantities = 0;
@@ -147,7 +147,7 @@ TEST(Describe, SectionsInAnotherLanguageAreTranslated) {
     std::set<std::string_view> translated;
     for (const SectionRow& row : model->sections) {
       EXPECT_TRUE(is_ascii(row.in_english) && !row.in_english.empty()) << row.name;
-      EXPECT_TRUE(translated.insert(row.name).second) << row.name << " is there twice";
+      EXPECT_TRUE(translated.insert(row.name).second) << row.name << " appears twice";
     }
     EXPECT_EQ(sections, translated) << model->name << ": Model::sections is not what its rows name";
     for (const Fact& row : Csv("choices", *model).rows) {

@@ -33,11 +33,11 @@ inline Given with(const std::string& choice, const std::string& option) {
 
 /// The device's reply to a frame on its line, at once; no bytes if it is silent.
 inline std::vector<std::uint8_t> ask(OneSimple2& feeder, const std::vector<std::uint8_t>& frame) {
-  pty::Line& line = feeder.world().line(0).line;
-  line.receive(frame, feeder.world().now());
+  const pty::Line& line = feeder.world().line(0).line;
+  feeder.world().receive(0, frame);
   feeder.run(20);
   const std::vector<std::uint8_t> reply(line.output().begin(), line.output().end());
-  line.take_output(reply.size());
+  feeder.world().take_output(0, reply.size());
   return reply;
 }
 

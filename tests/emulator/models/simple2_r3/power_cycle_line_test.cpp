@@ -27,7 +27,7 @@ struct PoweredLine {
               [this](const std::string& line) { log.push_back(line); }) {}
 
   void to(SimTime time) { world.advance_to(time); }
-  void say(const world::Bytes& bytes) { world.line(0).line.receive(bytes, world.now()); }
+  void say(const world::Bytes& bytes) { world.receive(0, bytes); }
   void power(std::size_t device, bool on) { world.switch_power(device, on); }
   void cycle(std::size_t device) {
     power(device, false);
@@ -221,7 +221,7 @@ TEST(PowerCycleOnTheLine, TheSpeedIsThatOfTheSwitchWhenThePowerComes) {
 TEST(PowerCycleOnTheLine, AStationThatIsOffIsNotCalledDeaf) {
   PoweredLine line("wire", 115'200);
   line.to(10ms);
-  line.world.line(0).line.host_settings(pty::HostSettings{.baud = 115'200, .stop_bits = 1});
+  line.world.host_settings(0, pty::HostSettings{.baud = 115'200, .stop_bits = 1});
   line.power(kFeeder, false);
   EXPECT_EQ(line.ask(kReadHardware), world::Bytes{});
   EXPECT_EQ(line.ask(world::read_request(2, 1, 1)), kHardwareOfTurner);

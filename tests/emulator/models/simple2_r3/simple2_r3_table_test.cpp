@@ -133,7 +133,7 @@ TEST(Simple2Parameters, AreThe175NumbersOfTheManual) {
         const auto at = static_cast<std::uint16_t>(candidate.address + i * candidate.stride);
         const Place place = simple2().registers->at(Table::holding, at, kNewest, true);
         EXPECT_TRUE(place) << row.register_name << " " << i;
-        EXPECT_TRUE(places.emplace(row.first + i, place).second) << row.first + i << " is there twice";
+        EXPECT_TRUE(places.emplace(row.first + i, place).second) << row.first + i << " appears twice";
       }
     }
   }

@@ -116,8 +116,8 @@ TEST(Simple2State, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   constexpr std::size_t kImage = kPower + 1 + 8;
   refused("the bytes end too early", [](Saved& s) { s.clear(); });
   refused("the bytes end too early", [](Saved& s) { s.pop_back(); });
-  refused("there are more bytes than it takes", [](Saved& s) { s.push_back({}); });
-  refused("it has other terminals", [](Saved& s) { s[0] = std::byte{kTerminalCount - 1}; });
+  refused("bytes are left over", [](Saved& s) { s.push_back({}); });
+  refused("its terminals are different", [](Saved& s) { s[0] = std::byte{kTerminalCount - 1}; });
   refused("a number is beyond its range", [](Saved& s) { s[4] = std::byte{2}; });  // DIN 0
   refused("a number is beyond its range", [](Saved& s) { s[7] = std::byte{0xFF}; });
   refused("a yes or no must be 0 or 1", [](Saved& s) { s[kPower] = std::byte{2}; });

@@ -53,8 +53,7 @@ class DialogueScript {
 
   void type(const std::string& line) { send(line + "\r"); }
   void send(const std::string& bytes) {
-    pty::Line& wire = world_.line(0).line;
-    wire.receive(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), world_.now());
+    world_.receive(0, std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
     world_.advance_to(world_.now());
     listen();
   }
@@ -108,10 +107,9 @@ class DialogueScript {
   }
 
   void listen() {
-    pty::Line& wire = world_.line(0).line;
-    const auto output = wire.output();
+    const auto output = world_.line(0).line.output();
     rest_.append(output.begin(), output.end());
-    wire.take_output(output.size());
+    world_.take_output(0, output.size());
     for (std::size_t end = rest_.find("\r\n"); end != std::string::npos; end = rest_.find("\r\n")) {
       said_.push_back(rest_.substr(0, end));
       rest_.erase(0, end + 2);

@@ -110,13 +110,13 @@ std::size_t most_waiting(const Choices& choices) {
   world::Bench bench = slim_bench(1, choices);
   bench.lines[0].timing = pty::Timing::wire;
   world::World world(bench, world::WorldOptions{}, [](const std::string&) {});
-  pty::Line& line = world.line(0).line;
+  const pty::Line& line = world.line(0).line;
   const std::string typed = "PG\r$A\rOUT \"" + std::string(48, 'x') + "\"\rJP $A\r\rG\r";
-  line.receive({reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()}, world.now());
+  world.receive(0, {reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()});
   std::size_t most = 0;
   for (int ms = 1; ms <= 5000; ++ms) {
     world.advance_to(std::chrono::milliseconds(ms));
-    line.take_output(line.output().size());
+    world.take_output(0, line.output().size());
     most = std::max(most, dynamic_cast<const Slim&>(world.device(0)).state().speech.size());
   }
   return most;

@@ -19,15 +19,15 @@ struct Wire {
   }
   void send(std::string_view text) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-    world->line(0).line.receive(bytes, world->now());
+    world->receive(0, bytes);
     pass(SimTime{0});
   }
   void pass(SimTime time) { world->advance_to(world->now() + time); }
   /// What has come since the last call.
   std::string heard() {
-    pty::Line& line = world->line(0).line;
+    const pty::Line& line = world->line(0).line;
     const std::string text(line.output().begin(), line.output().end());
-    line.take_output(text.size());
+    world->take_output(0, text.size());
     return text;
   }
   std::string answer(std::string_view text) {

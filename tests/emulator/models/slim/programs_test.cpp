@@ -179,14 +179,14 @@ TEST(SlimPrograms, PrintsNoFasterThanItsLineCarries) {
   world::Bench bench = slim_bench(1);
   bench.lines[0].timing = pty::Timing::wire;
   world::World world(bench, world::WorldOptions{}, [](const std::string&) {});
-  pty::Line& line = world.line(0).line;
+  const pty::Line& line = world.line(0).line;
   const std::string typed = "PG\r$A\rOUT \"" + std::string(98, 'x') + "\"\rJP $A\r\rG\r";
-  line.receive({reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()}, world.now());
+  world.receive(0, {reinterpret_cast<const std::uint8_t*>(typed.data()), typed.size()});
   std::size_t said = 0;
   for (int second = 1; second <= 20; ++second) {
     world.advance_to(std::chrono::seconds(second));
     said += line.output().size();
-    line.take_output(line.output().size());
+    world.take_output(0, line.output().size());
     EXPECT_LT(dynamic_cast<const Slim&>(world.device(0)).state().speech.size(), 2 * 1024u);
   }
   // 960 characters a second, but for what is typed first and for pauses of a tick between texts.

@@ -38,12 +38,12 @@ class LintTest : public testing::Test {
                                   "test.yaml", "/tmp"),
                {}, {}),
         lint_(world_) {
-    world_.line(0).line.host_settings(pty::HostSettings{.baud = 19200, .stop_bits = 1});
+    world_.host_settings(0, pty::HostSettings{.baud = 19200, .stop_bits = 1});
   }
 
   void send(const Bytes& bytes, SimTime at) {
     world_.advance_to(at);
-    world_.line(0).line.receive(bytes, at);
+    world_.receive(0, bytes, at);
   }
   Texts findings_at(SimTime end) {
     world_.advance_to(end);
@@ -186,8 +186,8 @@ TEST_F(InstantLintTest, WhereBytesTakeNoTimeTheHostIsNotHeldToAny) {
 
 // --- in scenarios ----------------------------------------------------------------------------------
 
-PlayOptions with_lint(bool with_hash = false) {
-  PlayOptions options{.with_hash = with_hash};
+RunOptions with_lint(bool with_hash = false) {
+  RunOptions options{.with_hash = with_hash};
   options.onlookers.push_back([](world::World& world) { return std::make_unique<Lint>(world); });
   return options;
 }

@@ -5,7 +5,7 @@
 #include <set>
 #include <sstream>
 
-#include "emulator/play/performing/runner.h"
+#include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
 
@@ -102,9 +102,9 @@ Outcome outcome_of(const std::vector<ScenarioResult>& results) {
 }
 
 std::vector<ScenarioResult> played_with_hash(const Scenario& scenario) {
-  PlayOptions options;
+  RunOptions options;
   options.with_hash = true;
-  return play(scenario, options);
+  return run_scenario(scenario, options);
 }
 
 class ChoiceCheck {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "emulator/device/choices.h"
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::play {
 

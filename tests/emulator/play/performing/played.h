@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "emulator/models/models.h"
-#include "emulator/play/performing/runner.h"
+#include "emulator/play/performing/run.h"
 #include "emulator/play/reading/scenario_file.h"
 #include "emulator/play/results/result_text.h"
 #include "emulator/play/stages/free_stage.h"
@@ -29,9 +29,9 @@ inline Scenario scenario_of(const std::string& steps, const std::string& more = 
 
 /// The result of a scenario without branches.
 inline ScenarioResult played(const std::string& steps, const std::string& more = "",
-                             const PlayOptions& options = {}) {
+                             const RunOptions& options = {}) {
   const Scenario scenario = scenario_of(steps, more);
-  return play(scenario, options).front();
+  return run_scenario(scenario, options).front();
 }
 
 inline std::string why(const ScenarioResult& result) {

@@ -7,7 +7,7 @@ namespace understudy::emulator::play {
 namespace real_time_test {
 
 ScenarioResult played_in_real_time(const std::string& steps) {
-  PlayOptions options;
+  RunOptions options;
   options.make_stage = make_real_stage;
   return played(steps, "", options);
 }
@@ -27,9 +27,9 @@ TEST(RealTime, BringsWhatIsReadAndWhatIsRefused) {
 class WriteClockTest : public testing::Test {
  protected:
   Tick after(const std::vector<std::uint8_t>& frame) {
-    world_.line(0).line.receive(frame, world_.now());
+    world_.receive(0, frame);
     world_.advance_to(world_.now() + std::chrono::milliseconds(50));
-    world_.line(0).line.take_output(world_.line(0).line.output().size());
+    world_.take_output(0, world_.line(0).line.output().size());
     return clock_.tick_of_last_write();
   }
   world::World world_{scenario_of("  - advance: 1ms\n").bench, {}, {}};

@@ -100,7 +100,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
        "3: parameters.a: 'a' is used nowhere; expected ${a} somewhere in the scenario"},
       {with("parameters: { a: 1, a: 2 }\n" + used), "3: parameters.a: is given twice; expected it once"},
       {with("parameters: { and: 1 }"),
-       "3: parameters.and: 'and' is not a name of a parameter; expected letters, digits and _, a letter "
+       "3: parameters.and: 'and' is not a name for a parameter; expected letters, digits and _, a letter "
        "first"},
       {with("parameters: { a: [ 1 ] }\n" + used), "3: parameters.a: expected a word or a number"},
       {with("parameters: { a: \"${b}\", b: 1 }\n" + used),
@@ -114,7 +114,7 @@ TEST_F(ScenarioErrors, ParametersAndCases) {
       {with("cases: [ { a: 1, b: 2 }, { a: 2 } ]\nname: ${a}${b}"),
        "4: name: column 1 of 'b': no parameter is called 'b'; expected 'a'  (a=2)"},
       {with("cases: [ { a: 1 }, { a: 1 } ]\n" + used),
-       "3: cases[1]: makes a second scenario called '1'; expected other values than before  (a=1)"},
+       "3: cases[1]: makes a second scenario called '1'; expected different values  (a=1)"},
       {with("cases: [ { a: 1, a: 2 } ]\n" + used), "3: cases[0].a: is given twice; expected it once"},
       {with("gap: ${a}"), "3: gap: column 1 of 'a': no parameter is called 'a'; there are none"},
       {"understudy: 1\nbench: feeder.yaml\nparameters: { a: 1 }\nsteps: [ { say: ${a} } ]\n",
@@ -137,11 +137,11 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: 1 }",
        ".reply: '1' is unknown; expected nothing (what is read is compared without `reply`)"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, within: 1s }",
-       ".within: is for `reply: nothing` only; expected that beside it"},
+       ".within: belongs to `reply: nothing`; expected that beside it"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: nothing, within: 0s }",
        ".within: takes no time; expected some"},
       {"{ expect: { feeder.HW_Code: 1 }, reply: nothing, exception: 2 }",
-       ".reply: an exception is a reply; expected one of both"},
+       ".reply: an exception is a reply; expected one of the two"},
       {"{ write: { feeder.DOUT_ALL.1: 1 }, reply: nothing }",
        ".write.feeder.DOUT_ALL.1: a bit's register is read before it is written; expected whole registers "
        "with `reply: nothing`"},
@@ -167,9 +167,9 @@ TEST_F(ScenarioErrors, Registers) {
       {"write: { feeder.STATUS.16: 1 }",
        ".write.feeder.STATUS.16: feeder: register 'STATUS' has no bit '16'; expected 0 to 15"},
       {"write: { feeder.0x10000: 1 }",
-       ".write.feeder.0x10000: '0x10000' is not a number of a register; expected 0 to 0xFFFF"},
+       ".write.feeder.0x10000: '0x10000' is not a register number; expected 0 to 0xFFFF"},
       {"write: { feeder.12.3: 1 }",
-       ".write.feeder.12.3: '12.3' is not a number of a register; expected 0 to 0xFFFF"},
+       ".write.feeder.12.3: '12.3' is not a register number; expected 0 to 0xFFFF"},
       {"write: { 0x1014: 1 }",
        ".write.0x1014: '0x1014' needs its device in front; expected one of feeder.0x1014, turner.0x1014"},
       {"write: { feeder.Aaxis_SVON: 1, feeder.Aaxis_SVON: 0 }",
@@ -284,7 +284,7 @@ TEST_F(ScenarioErrors, FromOutside) {
       {"inject: { name: x }", ".inject: is empty; expected a fault, as in `{ stall: feeder.A }`"},
       {"inject: { stall: feeder.C }", ".inject: no axis of feeder is called 'C'; expected one of A, B"},
       {"inject: { stall: feeder.A, name: all }",
-       ".inject.name: 'all' is not a name of a fault; expected another"},
+       ".inject.name: 'all' is not a name for a fault; expected another"},
       {"clear: jam", ".clear: no fault in force here is called 'jam'; there is none"},
       {"power: { feeder: down }", ".power.feeder: 'down' is unknown; expected on, off or cycle"},
       {"power: { feder: on }", ".power.feder: no device is called 'feder'; the nearest is 'feeder'"},
@@ -312,16 +312,16 @@ TEST_F(ScenarioErrors, FromOutside) {
                   .starts_with("scenario.yaml:5: steps[0].program.feeder: line 2: "));
   folder_.write("mill.json",
                 to_json({.model = "simple2-r3", .firmware = "1.52", .registers = {{"Aaxis_SVON", 1}}}));
-  EXPECT_EQ(
-      complaint("  - memory: { feeder: mill.json }\n"),
-      "scenario.yaml:4: steps[0].memory.feeder: registers: 'Aaxis_SVON' is not kept over power-off; expected "
-      "one that is");
+  EXPECT_EQ(complaint("  - memory: { feeder: mill.json }\n"),
+            "scenario.yaml:4: steps[0].memory.feeder: registers: 'Aaxis_SVON' is not kept through power-off; "
+            "expected "
+            "one that is");
 }
 
 TEST_F(ScenarioErrors, TheCourseOfThings) {
   expect_step_complaints({
       {"snapshot: ''", ".snapshot: is empty; expected a name"},
-      {"restore: homed", ".restore: no snapshot taken before is called 'homed'; there is none"},
+      {"restore: homed", ".restore: no earlier snapshot is called 'homed'; there is none"},
       {"fork: {}", ".fork: is empty; expected continuations by name"},
       {"fork: { a: [] }", ".fork.a: is empty; expected at least one step"},
       {"fork: { a: [ advance: 1ms ], a: [ advance: 1ms ] }", ".fork.a: is given twice; expected it once"},
@@ -329,7 +329,7 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
       {"repeat: { times: 0, steps: [ advance: 1ms ] }",
        ".repeat.times: '0' is not possible; expected a whole number from 1 to 100000"},
       {"repeat: { times: 2, as: and, steps: [ advance: 1ms ] }",
-       ".repeat.as: 'and' is not a name of a parameter; expected letters, digits and _, a letter first"},
+       ".repeat.as: 'and' is not a name for a parameter; expected letters, digits and _, a letter first"},
       {"repeat: { times: 2, as: i, steps: [ repeat: { times: 2, as: i, steps: [ advance: 1ms ] } ] }",
        ".repeat.steps[0].repeat.as: 'i' is defined already; expected another name"},
       {"for: { each: [], as: i, steps: [ advance: 1ms ] }",
@@ -349,10 +349,10 @@ TEST_F(ScenarioErrors, TheCourseOfThings) {
   // What a continuation makes is not there beside it, nor after it.
   const std::string fork = "  - fork:\n      a: [ snapshot: inner ]\n";
   EXPECT_EQ(complaint(fork + "      b: [ restore: inner ]\n"),
-            "scenario.yaml:6: steps[0].fork.b[0].restore: no snapshot taken before is called 'inner'; there "
+            "scenario.yaml:6: steps[0].fork.b[0].restore: no earlier snapshot is called 'inner'; there "
             "is none");
   EXPECT_EQ(complaint(fork + "  - restore: inner\n"),
-            "scenario.yaml:6: steps[1].restore: no snapshot taken before is called 'inner'; there is none");
+            "scenario.yaml:6: steps[1].restore: no earlier snapshot is called 'inner'; there is none");
   // The faults are again what they were.
   EXPECT_EQ(complaint("  - snapshot: well\n  - inject: { stall: feeder.A, name: jam }\n  - restore: well\n"
                       "  - clear: jam\n"),

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "emulator/models/models.h"
-#include "emulator/play/performing/runner.h"
+#include "emulator/play/performing/run.h"
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
@@ -29,7 +29,7 @@ TEST_F(ScenarioOutputs, AreNothingThatIsRead) {
     std::string steps;
     std::string complaint;  // behind the file's name
   };
-  const std::string own = "; expected a path of its own";
+  const std::string own = "; expected another path";
   const std::vector<Case> cases = {
       {"feeder.yaml", "  - save: { feeder: scenario.yaml }\n",
        "4: steps[0].save.feeder: scenario.yaml is the scenario itself" + own},
@@ -112,7 +112,7 @@ TEST_F(ScenarioOutputs, ReplaceNothingButImages) {
   std::filesystem::remove(folder_.path("there"));
   const auto scenario = folder_.parse(ScenarioFolder::scenario_of(steps));
   folder_.write("there", "precious");
-  const auto results = play(scenario.front());
+  const auto results = run_scenario(scenario.front());
   ASSERT_TRUE(results.front().failure);
   EXPECT_NE(results.front().failure->what.find("it is not an NV image"), std::string::npos)
       << results.front().failure->what;
@@ -126,10 +126,9 @@ TEST_F(ScenarioOutputs, OfTwoCasesAreTwoFiles) {
         file + "' }\n");
   };
   EXPECT_EQ(complaint_of("after-${speed}.json"), "");
-  EXPECT_EQ(
-      complaint_of("new.json"),
-      "scenario.yaml:6: steps[1].save.feeder: new.json is what another case saves; expected a path of its "
-      "own  (speed=2)");
+  EXPECT_EQ(complaint_of("new.json"),
+            "scenario.yaml:6: steps[1].save.feeder: new.json is what another case saves; expected another "
+            "path  (speed=2)");
 }
 
 TEST_F(ScenarioOutputs, AreKnownBeforeTheRun) {

@@ -105,8 +105,8 @@ std::vector<Scenario> many() {
 std::string told(const std::vector<Scenario>& scenarios, int jobs) {
   std::vector<ScenarioResult> all;
   std::string text;
-  const auto options_for = [](const Scenario&) { return PlayOptions{.with_hash = true}; };
-  play_all(scenarios, options_for, jobs, [&](const std::vector<ScenarioResult>& results) {
+  const auto options_for = [](const Scenario&) { return RunOptions{.with_hash = true}; };
+  run_suite(scenarios, options_for, jobs, [&](const std::vector<ScenarioResult>& results) {
     for (const ScenarioResult& result : results) {
       text += verdict_line(result) + " " + std::to_string(result.outcome_hash) + "\n" + why(result);
       all.push_back(result);
@@ -130,7 +130,7 @@ TEST(Suite, WithoutScenariosNothingIsTold) {
 TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
   const auto scenarios = many();
   std::atomic<int> made = 0;
-  const PlayOptions options{.make_stage = [&](const Scenario& scenario) -> std::unique_ptr<Stage> {
+  const RunOptions options{.make_stage = [&](const Scenario& scenario) -> std::unique_ptr<Stage> {
     ++made;
     if (scenario.name == "move 5") throw std::runtime_error("no port is free");
     return make_free_stage(scenario);
@@ -140,7 +140,7 @@ TEST(Suite, ThatNoStageCanBeHadIsThrownAfterWhatCameBefore) {
     names.push_back(results.front().name);
   };
   try {
-    play_all(
+    run_suite(
         scenarios, [&](const Scenario&) { return options; }, 4, tell);
     ADD_FAILURE() << "expected it to throw";
   } catch (const std::runtime_error& error) {

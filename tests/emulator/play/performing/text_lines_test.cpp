@@ -29,9 +29,9 @@ struct Outcome {
 Outcome play_text(const std::string& steps, bool is_real, const std::string& timing = "wire") {
   const Scenario scenario =
       parse_scenarios(world::models_and_echo_box(), text_scenario(steps, timing), "test.yaml").front();
-  PlayOptions options;
+  RunOptions options;
   if (is_real) options.make_stage = [](const Scenario& of) { return make_real_stage(of); };
-  const ScenarioResult result = play(scenario, options).front();
+  const ScenarioResult result = run_scenario(scenario, options).front();
   return {has_passed(result), result.failure ? result.failure->what : std::string()};
 }
 

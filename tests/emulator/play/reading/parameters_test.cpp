@@ -69,7 +69,7 @@ TEST_F(ParametersTest, ComplainOfWhatTheyAreNot) {
       {"${}", "column 1 of '': unexpected end; expected a name, a number or '('"},
       {"${speed + }", "column 9 of 'speed + ': unexpected end; expected a name, a number or '('"},
       {"${word + 1}",
-       "column 1 of 'word + 1': parameter 'word' is 'feeder', with which nothing can be computed; expected a "
+       "column 1 of 'word + 1': parameter 'word' is 'feeder', which cannot be computed with; expected a "
        "number, a duration or a voltage"},
       {"${speed / 0}", "column 7 of 'speed / 0': division by zero  (speed is 200)"},
   };

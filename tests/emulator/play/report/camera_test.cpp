@@ -6,8 +6,8 @@
 namespace understudy::emulator::play {
 namespace camera_test {
 
-PlayOptions filmed(bool with_hash = false) {
-  PlayOptions options{.with_hash = with_hash};
+RunOptions filmed(bool with_hash = false) {
+  RunOptions options{.with_hash = with_hash};
   options.onlookers.push_back([](world::World& world) { return std::make_unique<Camera>(world); });
   return options;
 }
@@ -106,7 +106,7 @@ TEST(Camera, BeginsAnotherSceneWhereTimeGoesBack) {
 TEST(Camera, ABranchHasASceneOfItsOwn) {
   const Scenario scenario =
       scenario_of(kServoOn + "  - fork: { a: [ advance: 5ms ], b: [ advance: 7ms ] }\n");
-  const auto results = play(scenario, filmed());
+  const auto results = run_scenario(scenario, filmed());
   ASSERT_EQ(results.size(), 3U);
   for (const std::size_t branch : {1U, 2U}) {
     ASSERT_EQ(results[branch].footage->scenes.size(), 1U);

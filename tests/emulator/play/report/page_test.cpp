@@ -14,14 +14,14 @@
 namespace understudy::emulator::play {
 namespace page_test {
 
-PlayOptions filmed() {
-  PlayOptions options;
+RunOptions filmed() {
+  RunOptions options;
   options.onlookers.push_back([](world::World& world) { return std::make_unique<Camera>(world); });
   return options;
 }
 
 std::string page_of(const std::string& steps) {
-  return report_page(play(scenario_of(steps), filmed()), "1.2.3");
+  return report_page(run_scenario(scenario_of(steps), filmed()), "1.2.3");
 }
 
 /// Says what is wrong with a page: tags that do not match, names used twice, links that lead nowhere; and
@@ -91,7 +91,8 @@ TEST(ReportPage, IsWellFormedWhateverHasHappened) {
   EXPECT_EQ(complaints_of_a_parser(page_of(kDay)), "");
   EXPECT_EQ(complaints_of_a_parser(page_of("  - assert: 1 == 2\n" + kDay)), "");
   EXPECT_EQ(complaints_of_a_parser(report_page({}, "1.2.3")), "");
-  EXPECT_EQ(complaints_of_a_parser(report_page(play(scenario_of(kDay)), "1.2.3")), "");  // without footage
+  EXPECT_EQ(complaints_of_a_parser(report_page(run_scenario(scenario_of(kDay)), "1.2.3")),
+            "");  // without footage
 }
 
 TEST(ReportPage, NeedsNothingFromElsewhere) {
@@ -179,7 +180,8 @@ TEST(ReportPage, SaysWhatAPictureShows) {
 }
 
 TEST(ReportPage, NamesTheRecordingThatWasKept) {
-  std::vector<ScenarioResult> results = play(scenario_of("  - assert: feeder.DIN_10 == 1\n"), filmed());
+  std::vector<ScenarioResult> results =
+      run_scenario(scenario_of("  - assert: feeder.DIN_10 == 1\n"), filmed());
   EXPECT_EQ(report_page(results, "1.2.3").find("understudy replay"), std::string::npos);
   results.at(0).recording = "/tmp/a&b.jsonl";
   const std::string page = report_page(results, "1.2.3");

@@ -54,7 +54,7 @@ const std::vector<ScenarioResult> kResults = {
      .file = "a.yaml",
      .steps = {{"a.yaml", 3, "advance 1s", SimTime{0}, SimTime{1'000'000'000}},
                {"a.yaml", 4, "assert x < 1 ]]>", SimTime{1'000'000'000}, SimTime{1'000'000'000}, true}},
-     .failure = Failure{.at = SimTime{1'000'000'000}, .what = "'x < 1' is not so", .expected = "x < 1"},
+     .failure = Failure{.at = SimTime{1'000'000'000}, .what = "'x < 1' does not hold", .expected = "x < 1"},
      .simulated = SimTime{1'000'000'000}},
     {.verdict = Verdict::not_reached, .name = "it / a branch", .file = "a.yaml"},
     {.name = "another", .file = "b.yaml", .simulated = SimTime{25}},
@@ -70,8 +70,8 @@ TEST(Junit, IsReadBackAsItWasMeant) {
       "    testcase classname='b.yaml' name='another' time='0.000000025'\n"
       "  testsuite errors='0' failures='1' name='a.yaml' skipped='1' tests='2' time='1.000000000'\n"
       "    testcase classname='a.yaml' name='it\\'s \"<odd>\" & more' time='1.000000000'\n"
-      "      failure message=\"'x < 1' is not so\" type='expectation' \"a.yaml:4: assert x < 1 ]]>\\n  "
-      "'x < 1' is not so\\n  expected: x < 1\"\n"
+      "      failure message=\"'x < 1' does not hold\" type='expectation' \"a.yaml:4: assert x < 1 ]]>\\n  "
+      "'x < 1' does not hold\\n  expected: x < 1\"\n"
       "      system-out '0s to 1s  a.yaml:3  advance 1s\\n1s to 1s  a.yaml:4  assert x < 1 ]]>  FAILED'\n"
       "    testcase classname='a.yaml' name='it / a branch' time='0.000000000'\n"
       "      skipped message='a step before its fork failed'\n");

@@ -28,10 +28,10 @@ class HeardStage : public pty::LineObserver {
  public:
   explicit HeardStage(const std::string& bench, FreeStageOptions options = {})
       : stage(world::parse_bench(models::all_models(), bench, "bench.yaml", "."), std::move(options)) {
-    stage.with_world([&](world::World& world) { world.line(0).line.add_observer(*this); });
+    stage.with_world([&](world::World& world) { world.add_observer(0, *this); });
   }
   ~HeardStage() override {
-    stage.with_world([&](world::World& world) { world.line(0).line.remove_observer(*this); });
+    stage.with_world([&](world::World& world) { world.remove_observer(0, *this); });
   }
   void on_start_bit(SimTime at) override {
     if (starts.empty() || at - last_start > std::chrono::milliseconds(1)) starts.push_back(at);

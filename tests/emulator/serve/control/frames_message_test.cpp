@@ -12,8 +12,8 @@ struct FramesRig : DaemonRig {
   void say(Bytes bytes, bool with_checksum = true) {
     if (with_checksum) pty::append_rtu_crc(bytes);
     world::World& world = daemon.world();
-    world.line(0).line.host_opened();
-    world.line(0).line.receive(bytes, world.now());
+    world.host_opened(0);
+    world.receive(0, bytes);
     world.advance_to(world.now() + std::chrono::milliseconds(100));
   }
   /// "1 -> write ...", and the next number.

@@ -180,11 +180,11 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
       {"{\"do\":null}", no_object},
       {"{\"do\":[\"status\"]}", no_object},
       {"{\"do\":\"\"}",
-       "'' is nothing to do; expected one of status, identify, get, eval, set, input, power, program, "
+       "'' is not a command; expected one of status, identify, get, eval, set, input, power, program, "
        "inject, "
        "clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
-      {"{\"do\":\"jump\"}", "'jump' is nothing to do; expected "},
-      {"{\"do\":\"a\\nb\"}", "'a\\nb' is nothing to do; expected "},
+      {"{\"do\":\"jump\"}", "'jump' is not a command; expected "},
+      {"{\"do\":\"a\\nb\"}", "'a\\nb' is not a command; expected "},
       {"{\"do\":\"status\",\"x\":1}", "'x' is not a key of this message"},
       {"{\"do\":\"pause\",\"values\":{}}", "'values' is not a key of this message"},
       {"{\"do\":\"resume\",\"by\":\"1s\"}", "'by' is not a key of this message"},
@@ -257,13 +257,13 @@ TEST(ControlMessages, BadValuesGetOneLineAndChangeNothing) {
       {eval("feeder.STATUS == yes"),
        "column 18 of 'feeder.STATUS == yes': 'yes' is not known here; expected on"},
       {R"({"do":"eval"})", "'expression' is missing"},
-      {R"({"do":"frames","since":1,"last":1})", "since: is given beside last; expected one of them"},
+      {R"({"do":"frames","since":1,"last":1})", "since: is given together with last; expected one of them"},
       {R"({"do":"frames","since":-1})", "since: expected a whole number"},
       {set(R"({"":1})"), "no device is called ''"},
       {set(R"({"feeder.":1})"), "feeder: no register is called ''"},
       {set(R"({"feeder.Aaxis_Sped":1})"),
        "feeder: no register is called 'Aaxis_Sped'; the nearest is 'Aaxis_Speed'"},
-      {set(R"({"turner.NEW_PWD":1})"), "turner: register 'NEW_PWD' is there from firmware 1.51 on"},
+      {set(R"({"turner.NEW_PWD":1})"), "turner: register 'NEW_PWD' exists from firmware 1.51 on"},
       // Good ones beside them change nothing either.
       {set(R"({"feeder.Aaxis_Speed":1,"turner.Aaxis_Speed":2,"feeder.Aaxis_AccTime":3001})"),
        "feeder.Aaxis_AccTime: 3001 is out of range; expected 0 to 3000"},
@@ -335,7 +335,7 @@ TEST(ControlMessages, AKeyThatIsThereTwiceIsRefusedAndDoesNothing) {
             "feeder.Aaxis_Speed"}}) {
     const Json reply = rig.ask(message);
     EXPECT_EQ(reply["ok"], false) << message;
-    EXPECT_EQ(reply["error"], "'" + key + "' is there twice; expected it once");
+    EXPECT_EQ(reply["error"], "'" + key + "' appears twice; expected it once");
   }
   EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["paused"], false);
   EXPECT_TRUE(rig.is_untouched());

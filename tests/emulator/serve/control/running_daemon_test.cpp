@@ -239,7 +239,7 @@ TEST(RunningDaemon, WhatIsNoSnapshotIsRefusedAndChangesNothing) {
   EXPECT_EQ(daemon.ask(restore)["error"],
             file + ": file: cannot be read (No such file or directory); expected a snapshot");
   for (const auto& [text, error] : std::vector<std::pair<std::string, std::string>>{
-           {"", "file: is torn or no JSON; expected a snapshot"},
+           {"", "file: is torn or not JSON; expected a snapshot"},
            {std::string(100'000, '['),
             "file: is nested deeper than anything that is written; expected a snapshot"},
            {R"({"understudy":1,"state":{"a":{}}})",

@@ -114,8 +114,8 @@ TEST(ReadMemories, RefusesWhatIsNoMemoryOfTheDeviceAndLeavesItAlone) {
   const TestFolder folder;
   const std::string whole = image_text({{"Parms_Speed1", 5}});
   const std::pair<std::string, const char*> cases[] = {
-      {whole.substr(0, whole.size() / 2), ": is torn or no JSON"},
-      {"", "line 1: is torn or no JSON"},
+      {whole.substr(0, whole.size() / 2), ": is torn or not JSON"},
+      {"", "line 1: is torn or not JSON"},
       {"{}", "understudy: is missing"},
       {image_text({}, "super-40nc"), "model: is the memory of a 'super-40nc'"},
       {image_text({{"Parms_Speed17", 5}}), "'Parms_Speed17'"},

@@ -138,7 +138,7 @@ TEST(BenchErrors, Lines) {
        "3: lines.a.timing: 'fast' is not a timing; expected wire or instant"},
       {with_line("link: '', " + kStation), "3: lines.a.link: is empty; expected a path"},
       {with_line("link: \"a\\nb\", " + kStation),
-       "3: lines.a.link: has a control character; expected a path without"},
+       "3: lines.a.link: has a control character; expected a path without one"},
       {with_line("link: [ a ], " + kStation), "3: lines.a.link: expected a word or a number"},
       {with_line("link: \"tcp://:1502\", " + kStation),
        "3: lines.a.link: 'tcp://:1502' is an address of a network; expected a path, for a serial port"},

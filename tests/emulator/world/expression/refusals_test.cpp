@@ -61,12 +61,12 @@ TEST(ExpressionRefusals, AnUnexpectedBeginningOrEndIsRefused) {
       {"a = 5", 3, "'=' is not an operator; expected '==' to compare"},
       {"a <> 5", 3, "'<>' is not an operator; expected '!='"},
       {"a; b", 2, "unexpected ';'; expected an operator or the end"},
-      {"a $ b", 3, "'$' is part of no expression"},
-      {"a == ${n}", 6, "'$' is part of no expression"},
-      {"a ≤ 5", 3, "'≤' is part of no expression"},
-      {"feeder['≤'] $", 13, "'$' is part of no expression"},  // columns count characters, not bytes
-      {"1 ≥ 2", 3, "'≥' is part of no expression"},
-      {"a\n== $", 6, "'$' is part of no expression"},
+      {"a $ b", 3, "'$' cannot be part of an expression"},
+      {"a == ${n}", 6, "'$' cannot be part of an expression"},
+      {"a ≤ 5", 3, "'≤' cannot be part of an expression"},
+      {"feeder['≤'] $", 13, "'$' cannot be part of an expression"},  // columns count characters, not bytes
+      {"1 ≥ 2", 3, "'≥' cannot be part of an expression"},
+      {"a\n== $", 6, "'$' cannot be part of an expression"},
   });
 }
 

@@ -96,8 +96,8 @@ class FaultyLine {
   Answer ask(const Bytes& frame) {
     const SimTime begin = (world_.now() / kEvery + 1) * kEvery;
     world_.advance_to(begin);
-    pty::Line& line = world_.line(0).line;
-    line.receive(frame, begin);
+    const pty::Line& line = world_.line(0).line;
+    world_.receive(0, frame, begin);
     Answer answer;
     while (world_.now() < begin + kEvery - std::chrono::milliseconds(1)) {
       const SimTime next =
@@ -106,7 +106,7 @@ class FaultyLine {
       const auto came = line.output();
       if (!came.empty() && answer.bytes.empty()) answer.after = world_.now() - begin;
       answer.bytes.insert(answer.bytes.end(), came.begin(), came.end());
-      line.take_output(came.size());
+      world_.take_output(0, came.size());
     }
     return answer;
   }

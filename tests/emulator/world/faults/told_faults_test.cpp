@@ -15,14 +15,14 @@ using Lines = std::vector<std::string>;
 class Captured {
  public:
   explicit Captured(FaultyLine& line)
-      : line_(line.world().line(0)), frames_(0, line_.framing, [this](const pty::CapturedPacket& packet) {
+      : world_(line.world()), frames_(0, world_.line(0).framing, [this](const pty::CapturedPacket& packet) {
           std::string text;
           pty::append_text_packet(text, std::vector<pty::CapturedLine>{{"L", 19200}}, packet, 0);
           lines_.push_back(text.substr(text.find(' ') + 1, text.size() - text.find(' ') - 2));
         }) {
-    line_.line.add_observer(frames_);
+    world_.add_observer(0, frames_);
   }
-  ~Captured() { line_.line.remove_observer(frames_); }
+  ~Captured() { world_.remove_observer(0, frames_); }
   Captured(const Captured&) = delete;
   Captured& operator=(const Captured&) = delete;
 
@@ -32,7 +32,7 @@ class Captured {
   }
 
  private:
-  WorldLine& line_;
+  World& world_;
   Lines lines_;
   pty::CaptureFrames frames_;
 };
@@ -142,8 +142,8 @@ TEST(ToldFaults, AReplyToNobodySaysBoth) {
   FaultyLine line;
   Captured captured(line);
   line.inject("corrupt_checksum feeder");
-  line.world().line(0).line.receive(kAskFeeder, line.world().now());
-  line.world().line(0).line.host_closed();
+  line.world().receive(0, kAskFeeder);
+  line.world().host_closed(0);
   line.world().advance_to(std::chrono::milliseconds(50));
   EXPECT_EQ(captured.lines().back(),
             "out L 01 03 02 C0 01 29 7B  # to nobody: no host has the line open; "
@@ -163,15 +163,15 @@ TEST(ToldFaults, ALineOfTextIsToldOfBesideIt) {
                         std::string(packet.bytes.begin(), packet.bytes.end()) + pty::comment_of(packet));
       },
       true);
-  world.line(0).line.add_observer(frames);
+  world.add_observer(0, frames);
   world.inject(find_fault(world.known(), fault_words("drop chain nth=1")));
   world.inject(find_fault(world.known(), fault_words("delay chain of=request by=20ms nth=2")));
   for (const int ms : {100, 200}) {
     world.advance_to(std::chrono::milliseconds(ms));
-    world.line(0).line.receive(Bytes{'?', 'P', 'E', '\r'}, world.now());
+    world.receive(0, Bytes{'?', 'P', 'E', '\r'});
   }
   world.advance_to(std::chrono::milliseconds(300));
-  world.line(0).line.remove_observer(frames);
+  world.remove_observer(0, frames);
   ASSERT_GE(lines.size(), 4u);
   EXPECT_EQ(lines[0], "in ?PE\r");
   EXPECT_EQ(lines[1], "out fault 1 drop: not said");

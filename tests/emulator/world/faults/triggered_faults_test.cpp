@@ -71,7 +71,7 @@ TEST(TriggeredFaults, AFrameBreaksAMachineUntilItIsCleared) {
     line.ask_all({kAskFeeder, kSwitchServoOn, kAskTurner});
     EXPECT_EQ(probe(line.world(), "feeder.DIN_3"), 0);
     line.world().advance_to(400ms);
-    line.world().line(0).line.receive(kSetSpeed, 400ms);
+    line.world().receive(0, kSetSpeed, 400ms);
     line.world().advance_to(405ms);
     EXPECT_FALSE(line.course(number).in_force);
     line.world().advance_to(406ms);  // carried out at 405,333,333 ns
@@ -307,11 +307,10 @@ TEST(FaultState, IsSavedAndRestoredWithAllThatIsUnderWay) {
                                     kAskFeeder,     kAskTurner, kAskFeeder};
     for (SimTime now = from; now < to; now += 7ms) {
       world.advance_to(now);
-      if (now % 49ms == 0ms)
-        world.line(0).line.receive(frames[static_cast<std::size_t>(now / 49ms) % 7], now);
+      if (now % 49ms == 0ms) world.receive(0, frames[static_cast<std::size_t>(now / 49ms) % 7], now);
       const auto said = world.line(0).line.output();
       came.emplace_back(said.begin(), said.end());
-      world.line(0).line.take_output(said.size());
+      world.take_output(0, said.size());
     }
     return came;
   };

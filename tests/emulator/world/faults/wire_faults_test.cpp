@@ -232,7 +232,7 @@ TEST(WireFaults, SlowDevicesCarryOutRequestsLate) {
   line.inject("slow feeder by=30ms nth=2");
   EXPECT_EQ(line.ask(kAskFeeder), (Answer{kUsual, kFeederSays}));
   line.world().advance_to(200ms);
-  line.world().line(0).line.receive(kSetSpeed, 200ms);
+  line.world().receive(0, kSetSpeed, 200ms);
   const auto speed = [&] {
     const RegisterName name = find_register(line.world().known(), "feeder.Aaxis_Speed");
     return read_value(*line.world().device(0).register_bank(), name.place);

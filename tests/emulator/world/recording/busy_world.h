@@ -75,12 +75,12 @@ class BusyWorld {
   }
 
   void act() {
-    pty::Line& line = world_.line(0).line;
+    const pty::Line& line = world_.line(0).line;
     switch (below(14)) {
-      case 0: line.host_closed(); break;
+      case 0: world_.host_closed(0); break;
       case 1:
-        line.host_opened();
-        line.host_settings(pty::HostSettings{.baud = below(4) == 0 ? 9600 : 19200, .stop_bits = 1});
+        world_.host_opened(0);
+        world_.host_settings(0, pty::HostSettings{.baud = below(4) == 0 ? 9600 : 19200, .stop_bits = 1});
         break;
       case 2: set_input(world_, below(2) == 0 ? "feeder.DIN_2" : "turner.DIN_10", below(2) == 0); break;
       case 3:
@@ -105,19 +105,19 @@ class BusyWorld {
         world_.load_program(0, "again: Out DOUT_4 ON\n Delay_mSec 7\n VAR_Inc MEM1\n Jump again\n");
         break;
       case 9: world_.write(0, {.table = Table::holding, .first = 0x3000, .words = {0, 0}, .count = 1}); break;
-      case 10: line.nothing_more(world_.now()); break;
+      case 10: world_.nothing_more(0); break;
       default: {
         Bytes bytes = frame();
         if (below(8) == 0)
           bytes.resize(static_cast<std::size_t>(below(static_cast<std::int64_t>(bytes.size()))));
         if (below(8) == 0)
-          line.receive_departed(bytes, world_.now());
+          world_.receive_departed(0, bytes);
         else
-          line.receive(bytes, world_.now());
+          world_.receive(0, bytes);
       }
     }
     said_ += line.output().size();
-    line.take_output(line.output().size());
+    world_.take_output(0, line.output().size());
   }
 
   std::mt19937_64 random_;

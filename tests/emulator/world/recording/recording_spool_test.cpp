@@ -33,7 +33,7 @@ struct SpooledWorld {
   /// A request and its reply, so many times.
   void talk(RecordingSpool& recording, int times) {
     for (int i = 0; i < times; ++i) {
-      world.line(0).line.receive(write_request(1, 0x1002, i % 500 + 1), world.now());
+      world.receive(0, write_request(1, 0x1002, i % 500 + 1));
       world.advance_to(world.now() + std::chrono::milliseconds(20));
       take_output(world);
       recording.look();

@@ -101,12 +101,11 @@ TEST(Replay, ReportsWhatIsMissingOrExtraOrAtAnotherTime) {
                           "\n";
   EXPECT_EQ(play(header + request + reply("5333333") + end).result.verdict, Verdict::same);
   const std::string text = "01 06 10 14 00 01 0C CE on rs485 at ";
-  EXPECT_EQ(play(header + request + end).result.difference,
-            "said was " + text + "5.333333ms; expected nothing");
+  EXPECT_EQ(play(header + request + end).result.difference, "got " + text + "5.333333ms; expected nothing");
   EXPECT_EQ(play(header + request + reply("5333333") + reply("6000000") + end).result.difference,
             "expected " + text + "6ms; nothing was said");
   EXPECT_EQ(play(header + request + reply("5333334") + end).result.difference,
-            "expected " + text + "5.333334ms; said was " + text + "5.333333ms");
+            "expected " + text + "5.333334ms; got " + text + "5.333333ms");
 }
 
 TEST(Replay, ARecordingMayBeginInTheMiddleWithASnapshot) {
@@ -170,32 +169,32 @@ TEST(Replay, WhatIsNoRecordingIsRefusedWithItsLine) {
       to_line(RecordingHeader{.version = "1", .bench = bench, .options = {}, .snapshot = {}}) + "\n";
   const auto event = [&](const std::string& line) { return refusal(header + line + "\n"); };
   EXPECT_EQ(refusal(""), "a.jsonl:1: recording: is empty or cannot be read; expected a header");
-  EXPECT_EQ(refusal("{\n"), "a.jsonl:1: line: is torn or no JSON; expected one object");
+  EXPECT_EQ(refusal("{\n"), "a.jsonl:1: line: is torn or not JSON; expected one object");
   EXPECT_EQ(refusal("[]\n"), "a.jsonl:1: line: is not an object; expected one");
   EXPECT_EQ(refusal("{\"understudy\":1,\"kind\":\"nv-image\"}\n"),
-            "a.jsonl:1: kind: is missing or another; expected a recording");
+            "a.jsonl:1: kind: is missing or something else; expected a recording");
   EXPECT_EQ(refusal(to_line(RecordingHeader{
                         .version = "1", .bench = "understudy: 1", .options = {}, .snapshot = {}}) +
                     "\n"),
             "a.jsonl:1: bench: bench:1:1: bench: 'lines' is missing; expected it here");
-  EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': is there twice; expected it once");
+  EXPECT_EQ(event(R"({"t":1,"do":"end","t":2})"), "a.jsonl:2: 't': appears twice; expected it once");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"end\"}\n{\"t\":6,\"do\":\"open\",\"line\":0}\n"),
-            "a.jsonl:3: line: stands behind the end; expected nothing more");
+            "a.jsonl:3: line: comes after the end; expected nothing more");
   EXPECT_EQ(event("{}"), "a.jsonl:2: do: is missing; expected one");
   EXPECT_EQ(event(R"({"t":1,"do":"dance"})"),
             "a.jsonl:2: do: 'dance' is not an event; expected one of a recording");
   EXPECT_EQ(event(R"({"t":-1,"do":"end"})"),
-            "a.jsonl:2: t: is not a number that can be; expected 0 to 3153600000000000000");
+            "a.jsonl:2: t: is not a possible number; expected 0 to 3153600000000000000");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":1,"bytes":"00"})"),
-            "a.jsonl:2: line: is not a number that can be; expected 0 to 0");
+            "a.jsonl:2: line: is not a possible number; expected 0 to 0");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0"})"),
             "a.jsonl:2: bytes: ends in half a byte; expected two digits");
   EXPECT_EQ(event(R"({"t":1,"do":"in","line":0,"bytes":"0G"})"),
-            "a.jsonl:2: bytes: is not a row of bytes; expected two digits for each");
+            "a.jsonl:2: bytes: is not a sequence of bytes; expected two digits for each");
   EXPECT_EQ(event(R"({"t":1,"do":"input","device":0,"terminal":99,"level":0})").substr(0, 22),
             "a.jsonl:2: terminal: i");
   EXPECT_EQ(event(R"({"t":1,"do":"power","device":0,"on":1})"),
-            "a.jsonl:2: on: is neither; expected true or false");
+            "a.jsonl:2: on: is neither true nor false; expected one of the two");
   EXPECT_EQ(event(R"({"t":1,"do":"program","device":0,"text":"Fly"})").substr(0, 20), "a.jsonl:2: mnemonic:");
   EXPECT_EQ(refusal(header + "{\"t\":5,\"do\":\"open\",\"line\":0}\n{\"t\":4,\"do\":\"end\"}\n"),
             "a.jsonl:3: t: goes back in time; expected the events in their order");

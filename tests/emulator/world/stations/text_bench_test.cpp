@@ -174,7 +174,7 @@ TEST(TextBench, ARecordingOfItIsPlayedBitForBit) {
                       [&](std::string_view line) { text += line; });
     const auto say = [&](std::string_view line) {
       world.advance_to(world.now());  // what was due comes first
-      world.line(0).line.receive(std::vector<std::uint8_t>(line.begin(), line.end()), world.now());
+      world.receive(0, std::vector<std::uint8_t>(line.begin(), line.end()));
       world.advance_to(world.now() + 33'333us);
     };
     say("SAY a\r");
@@ -259,7 +259,7 @@ TEST(TextBench, AnImageThatDoesNotSuitIsRefused) {
   };
   EXPECT_EQ(parse(R"("reals":{"R0":"1"})"), "reals: 'R0': is not a number; expected one");
   EXPECT_EQ(parse(R"("reals":[1])"), "reals: is not an object; expected names and values");
-  EXPECT_EQ(parse(R"("reals":{"R0":1,"R0":2})"), "'R0': is there twice; expected it once");
+  EXPECT_EQ(parse(R"("reals":{"R0":1,"R0":2})"), "'R0': appears twice; expected it once");
   EXPECT_EQ(parse(R"("program":"A")"), "program: is not a list of lines; expected one");
   EXPECT_EQ(parse(R"("program":["A",1])"), "program: is not a list of lines; expected one");
 }

@@ -27,13 +27,13 @@ struct Rig {
   }
   void say(std::string_view text) {
     const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-    world.line(0).line.receive(bytes, world.now());
+    world.receive(0, bytes);
   }
   /// What has come since the last call.
   std::string heard() {
     const auto output = world.line(0).line.output();
     std::string text(output.begin(), output.end());
-    world.line(0).line.take_output(output.size());
+    world.take_output(0, output.size());
     return text;
   }
   std::string answer(std::string_view text, SimTime within = 200ms) {
@@ -165,8 +165,8 @@ TEST(TextStation, WhatItWasSayingEndsWithItsPower) {
 TEST(TextStation, AnAnswerIsForTheHostThatAsked) {
   Rig rig;
   rig.say("SAY a\r");
-  rig.world.line(0).line.host_closed();
-  rig.world.line(0).line.host_opened();
+  rig.world.host_closed(0);
+  rig.world.host_opened(0);
   rig.world.advance_to(rig.world.now() + 100ms);
   EXPECT_EQ(rig.heard(), "");
   EXPECT_EQ(rig.world.line(0).stations[0]->counters().requests, 1u);

@@ -66,7 +66,7 @@ struct Traced {
 
 Traced traced() {
   Traced traced;
-  play::PlayOptions options;
+  play::RunOptions options;
   options.onlookers.push_back([&](World& world) -> std::unique_ptr<play::Onlooker> {
     return std::make_unique<TracingOnlooker>(world, traced.csv, traced.vcd);
   });

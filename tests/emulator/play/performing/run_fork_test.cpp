@@ -7,7 +7,7 @@ namespace runner_fork_test {
 using Verdict = ScenarioResult::Verdict;
 
 std::vector<ScenarioResult> all_of(const std::string& steps, bool with_hash = false) {
-  return play(scenario_of(steps), {.with_hash = with_hash});
+  return run_scenario(scenario_of(steps), {.with_hash = with_hash});
 }
 
 std::vector<std::string> verdicts(const std::vector<ScenarioResult>& results) {

@@ -1,4 +1,4 @@
-// Records a play, so that what came of it can be run again: `understudy replay`.
+// Records a play, so that it can be run again: `understudy replay`.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,14 @@
 
 namespace understudy::emulator::play {
 
-/// A recording has one course. Where the play goes back to an earlier state, or is a branch that begins in
-/// one, the recording begins anew from that state's snapshot: it always leads from there to the play's end.
-class PlayRecorder final : public Onlooker {
+/// A recording cannot go back in time. When the play returns to an earlier state, or is a branch that begins
+/// in one, the recording starts again from that state's snapshot, so it always leads from there to the play's
+/// end.
+class PerformanceRecorder final : public Onlooker {
  public:
-  /// The header as for the world's power-up. The file is there until somebody else removes it. Throws
+  /// Begins with the header for the world's power-up. The file remains until somebody else removes it. Throws
   /// GrowingFileError.
-  PlayRecorder(world::World& world, world::RecordingHeader header, std::string path);
+  PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path);
 
   void world_restored(std::size_t steps) override;
   void step_over() override;

@@ -1,5 +1,5 @@
 // What a play was is in its recording, wherever it went back to an earlier state.
-#include "emulator/play/performing/play_recorder.h"
+#include "emulator/play/performing/performance_recorder.h"
 #include "emulator/models/models.h"
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 #include "tests/emulator/play/performing/scenario_folder.h"
 
 namespace understudy::emulator::play {
-namespace play_recorder_test {
+namespace performance_recorder_test {
 
 /// The results of a scenario and its branches, each with a recording.
 std::vector<ScenarioResult> recorded(const Scenario& scenario, const ScenarioFolder& folder) {
-  PlayOptions options;
+  RunOptions options;
   int count = 0;
   options.onlookers.push_back([&](world::World& world) {
     world::RecordingHeader header{.version = "1.2.3",
@@ -23,10 +23,10 @@ std::vector<ScenarioResult> recorded(const Scenario& scenario, const ScenarioFol
                                   .options = {.strict_framing = true},
                                   .seed = scenario.bench.seed,
                                   .snapshot = {}};
-    return std::make_unique<PlayRecorder>(world, std::move(header),
-                                          folder.path(std::to_string(count++) + ".jsonl"));
+    return std::make_unique<PerformanceRecorder>(world, std::move(header),
+                                                 folder.path(std::to_string(count++) + ".jsonl"));
   });
-  return play(scenario, options);
+  return run_scenario(scenario, options);
 }
 
 struct Again {
@@ -47,7 +47,7 @@ Again again(const ScenarioResult& result) {
   return again;
 }
 
-TEST(PlayRecorder, ARecordingLeadsToTheSameEnd) {
+TEST(PerformanceRecorder, ARecordingLeadsToTheSameEnd) {
   const ScenarioFolder folder;
   const Scenario scenario = scenario_of(kServoOn + kExampleMove +
                                         "  - advance: 500ms\n"
@@ -67,7 +67,7 @@ TEST(PlayRecorder, ARecordingLeadsToTheSameEnd) {
   EXPECT_EQ(replayed.header.snapshot, "");
 }
 
-TEST(PlayRecorder, ABranchBeginsWithTheStateAtItsFork) {
+TEST(PerformanceRecorder, ABranchBeginsWithTheStateAtItsFork) {
   const ScenarioFolder folder;
   const auto results =
       recorded(scenario_of(kServoOn + kExampleMove +
@@ -87,7 +87,7 @@ TEST(PlayRecorder, ABranchBeginsWithTheStateAtItsFork) {
   EXPECT_EQ(stopped.result.bytes_said, 8U);
 }
 
-TEST(PlayRecorder, BeginsAnewWhereAStateIsRestored) {
+TEST(PerformanceRecorder, BeginsAnewWhereAStateIsRestored) {
   const ScenarioFolder folder;
   const ScenarioResult result = recorded(scenario_of(kServoOn + "  - snapshot: still\n" + kExampleMove +
                                                      "  - advance: 1s\n"
@@ -103,5 +103,5 @@ TEST(PlayRecorder, BeginsAnewWhereAStateIsRestored) {
   EXPECT_EQ(replayed.result.bytes_said, 8U);  // of the last write alone
 }
 
-}  // namespace play_recorder_test
+}  // namespace performance_recorder_test
 }  // namespace understudy::emulator::play

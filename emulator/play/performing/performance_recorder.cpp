@@ -1,18 +1,28 @@
-#include "emulator/play/performing/play_recorder.h"
+#include "emulator/play/performing/performance_recorder.h"
 
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <utility>
 
+#include "base/files/growing_file.h"
+#include "emulator/play/results/result.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/recording/recording_spool.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 
-PlayRecorder::PlayRecorder(world::World& world, world::RecordingHeader header, std::string path)
+PerformanceRecorder::PerformanceRecorder(world::World& world, world::RecordingHeader header, std::string path)
     : world_(world), header_(std::move(header)), path_(std::move(path)) {
   begin();
 }
 
-void PlayRecorder::begin() {
+void PerformanceRecorder::begin() {
   spool_.reset();  // the one before is over, and its file is free
   // What breaks off is played as far as it goes: nobody needs to be told while the play is on.
   const auto log = [](const std::string&) {};
@@ -21,16 +31,16 @@ void PlayRecorder::begin() {
                                                    world::kRecordingCapBytes, log);
 }
 
-void PlayRecorder::world_restored(std::size_t) {
+void PerformanceRecorder::world_restored(std::size_t) {
   header_.snapshot = world::to_text(
       world::save(world_),
       world::bench_hash(world::parse_recorded_bench(world::models_of(world_.known()), header_.bench)));
   begin();
 }
 
-void PlayRecorder::step_over() { spool_->look(); }
+void PerformanceRecorder::step_over() { spool_->look(); }
 
-void PlayRecorder::finish(ScenarioResult& result) {
+void PerformanceRecorder::finish(ScenarioResult& result) {
   spool_.reset();
   result.recording = path_;
 }

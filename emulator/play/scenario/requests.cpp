@@ -1,7 +1,16 @@
-#include "emulator/play/script/requests.h"
+#include "emulator/play/scenario/requests.h"
 
 #include <algorithm>
-#include <utility>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "emulator/device/register_map/row.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/names/names.h"
 
 namespace understudy::emulator::play {
 

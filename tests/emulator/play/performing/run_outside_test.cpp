@@ -28,7 +28,7 @@ class Folder {
   ScenarioResult play(const std::string& steps, const std::string& more = "") const {
     const auto scenarios =
         parse_scenarios(models::all_models(), scenario_text(steps, more), (path_ / "test.yaml").string());
-    return play::play(scenarios.front()).front();
+    return play::run_scenario(scenarios.front()).front();
   }
 
  private:

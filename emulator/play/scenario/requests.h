@@ -1,4 +1,5 @@
-// Which words of a device are meant by names, and how few requests bring them: neighbours share one.
+// Which words of a device the names mean, and how to read or write them in as few requests as possible:
+// neighbours share one.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/play/script/scenario.h"
+#include "emulator/play/scenario/scenario.h"
 
 namespace understudy::emulator::play {
 
@@ -23,7 +24,7 @@ struct Words {
   int end() const { return first + count; }
 };
 
-/// Whether one bit of a register is meant: its others are read before it is written.
+/// Whether one bit of a register is meant: the other bits are read before it is written.
 inline bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
 
 /// Where a target lies. `low_word_first`: as its device has it at this moment. A bit lies where its register
@@ -39,7 +40,7 @@ struct Request {
 /// In the order of the entries; an entry joins the request before it if its words follow those, or are among
 /// them.
 std::vector<Request> read_requests(std::span<const Words> entries);
-/// The same for writing: only words that follow join, and an entry that `stands_alone` never does.
+/// For writing: an entry joins only if its words follow, and never if it `stands_alone`.
 std::vector<Request> write_requests(std::span<const Words> entries,
                                     const std::function<bool(std::size_t)>& stands_alone);
 
@@ -52,8 +53,8 @@ Limits limits_of(const Target& target);
 
 /// What the words of a target say.
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first);
-/// The words that bring a value to a target, one bit of it where a bit is meant: `present` is what they hold
-/// now. Throws NameError for a value that does not fit.
+/// The words that set a target, or one bit of it, to a value: `present` is what they hold now. Throws
+/// NameError for a value that does not fit.
 std::vector<std::uint16_t> words_with(const Target& target, Value value, bool low_word_first,
                                       std::span<const std::uint16_t> present = {});
 

@@ -77,11 +77,11 @@ TEST(RunnerTimes, StepsThatPassNoTimeMayStandBetweenAWriteAndItsWait) {
 TEST(RunnerTimes, WhatABranchWaitsForIsLookedForFromTheWriteAsWell) {
   const std::string wait = "wait: { until: feeder.A.pulses == 0, within: 1s, takes: 0ms }";
   const auto results =
-      play(scenario_of(kServoOn + kExampleMove + "  - fork:\n      one: [ say: one, " + wait +
-                       " ]\n      two: [ wait: { until: feeder.A.pulses < 1, within: 1s, "
-                       "takes: 0ms } ]\n  - snapshot: there\n  - " +
-                       wait + "\n  - restore: there\n  - " + wait + "\n"),
-           {});
+      run_scenario(scenario_of(kServoOn + kExampleMove + "  - fork:\n      one: [ say: one, " + wait +
+                               " ]\n      two: [ wait: { until: feeder.A.pulses < 1, within: 1s, "
+                               "takes: 0ms } ]\n  - snapshot: there\n  - " +
+                               wait + "\n  - restore: there\n  - " + wait + "\n"),
+                   {});
   ASSERT_EQ(results.size(), 3U);
   for (const ScenarioResult& result : results) EXPECT_TRUE(has_passed(result)) << result.name << why(result);
 }
@@ -203,7 +203,7 @@ TEST(RunnerTruths, AreLookedAtWithoutTheLine) {
       "  - assert: rs485.bytes_in == 0 && time == 0\n");
   const Failure failure =
       failing("  - assert: [ feeder.power, feeder.STATUS == 1, time == 0, feeder.A.pulses > 5 ]\n");
-  EXPECT_EQ(failure.what, "'feeder.STATUS == 1' is not so");
+  EXPECT_EQ(failure.what, "'feeder.STATUS == 1' does not hold");
   EXPECT_EQ(failure.came, "feeder.STATUS == 1  (feeder.STATUS is 0)");
   EXPECT_EQ(failure.details, std::vector<std::string>{"feeder.A.pulses > 5  (feeder.A.pulses is 0)"});
 }

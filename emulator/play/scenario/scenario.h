@@ -1,5 +1,5 @@
 // A scenario: a bench and the steps of a play on it, checked against each other. Made by scenario_file.h,
-// played by runner.h. Loops, tables of cases, includes and parameters are gone by then: what is left is a
+// played by run.h. Loops, tables of cases, includes and parameters are gone by then: what is left is a
 // list.
 #pragma once
 
@@ -30,10 +30,10 @@ struct Target {
   bool is_value = false;      // of a device without registers: looked at past the line
 };
 
-/// What a device is to answer to each request of a step: that it is done, an exception, or nothing.
+/// How a device must answer each request of a step: done, an exception, or nothing.
 struct Answer {
   std::optional<int> exception{};
-  std::optional<SimTime> silence{};  // nothing may come for so long
+  std::optional<SimTime> silence{};  // for how long nothing may come
   bool is_good() const { return !exception && !silence; }
 };
 
@@ -49,7 +49,7 @@ struct WriteStep {
   Answer answer{};
 };
 
-/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception, reply: as with write.
+/// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception, reply: as for write.
 struct ExpectStep {
   struct Entry {
     Target target;
@@ -120,7 +120,7 @@ struct SendStep {
 
 /// send: { line: serial, text: "?PE", reply: "100", within: 100ms }: a line of text, without its end; reply:
 /// one line, or a list of them, or nothing, where none may come in that time; without reply the device only
-/// hears it. hear: { line: serial, text: "DONE", within: 2s }: lines that it says unasked, since the last
+/// hears it. hear: { line: serial, text: "DONE", within: 2s }: lines that it sends unasked, since the last
 /// `send`.
 struct TextStep {
   std::size_t line = 0;
@@ -136,8 +136,8 @@ struct ProgramStep {
   std::string file;  // for messages
 };
 
-/// memory: { feeder: after.json }: the device's non-volatile memory as the file has it; save: writes the
-/// file.
+/// memory: { feeder: after.json }: the device's non-volatile memory must be what the file says; save: writes
+/// the file.
 struct MemoryStep {
   enum class What : std::uint8_t { expect, save } what = What::expect;
   std::size_t device = 0;
@@ -180,7 +180,7 @@ struct Step {
       what;
 };
 
-/// One case of a scenario file: a file with a table of cases makes one of each row.
+/// One case of a scenario file: a file with a table of cases makes one for each row.
 struct Scenario {
   std::string name;  // with the case's parameters: "a move takes its time (speed=200)"
   std::string file;

@@ -1,12 +1,22 @@
-#include "emulator/play/performing/runner.h"
+#include "emulator/play/performing/run.h"
 
+#include <cstddef>
+#include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "emulator/play/performing/onlooker.h"
 #include "emulator/play/performing/performance.h"
+#include "emulator/play/results/result.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/free_stage.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 
@@ -53,12 +63,12 @@ class Onlookers {
   std::vector<std::unique_ptr<Onlooker>> onlookers_;
 };
 
-class Runner {
+class Run {
  public:
-  Runner(const Scenario& scenario, const PlayOptions& options) : scenario_(scenario), options_(options) {}
+  Run(const Scenario& scenario, const RunOptions& options) : scenario_(scenario), options_(options) {}
 
   /// From power-up on, or from a checkpoint.
-  void play(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
+  void perform(const std::string& name, const Steps& steps, const Checkpoint& begin, Checkpoints known) {
     const std::size_t number = results_.size();
     results_.push_back({.name = name, .file = scenario_.file});
     Performance performance(scenario_, options_.make_stage(scenario_), options_.with_hash);
@@ -111,7 +121,7 @@ class Runner {
       for (const ForkStep::Branch& branch : fork.step->branches) {
         const std::string its_name = name + " / " + branch.name;
         if (fork.begin) {
-          play(its_name, branch.steps, fork.begin, fork.known);
+          perform(its_name, branch.steps, fork.begin, fork.known);
         } else {
           leave_out(its_name, branch.steps);
         }
@@ -127,8 +137,9 @@ class Runner {
     if (const auto found = known.find(step.name); found != known.end()) {
       performance.restore(*found->second);
     } else {
-      result.failure = Failure{.at = performance.now(),
-                               .what = "no snapshot is called '" + step.name + "'; expected one from before"};
+      result.failure =
+          Failure{.at = performance.now(),
+                  .what = "no snapshot is called '" + step.name + "'; expected one taken earlier"};
     }
   }
 
@@ -145,7 +156,7 @@ class Runner {
   }
 
   const Scenario& scenario_;
-  const PlayOptions& options_;
+  const RunOptions& options_;
   std::vector<ScenarioResult> results_;
 };
 
@@ -155,10 +166,10 @@ std::unique_ptr<Stage> make_free_stage(const Scenario& scenario) {
   return std::make_unique<FreeStage>(scenario.bench, FreeStageOptions{.gap = scenario.gap});
 }
 
-std::vector<ScenarioResult> play(const Scenario& scenario, const PlayOptions& options) {
-  Runner runner(scenario, options);
-  runner.play(scenario.name, scenario.steps, {}, {});
-  return runner.take();
+std::vector<ScenarioResult> run_scenario(const Scenario& scenario, const RunOptions& options) {
+  Run run(scenario, options);
+  run.perform(scenario.name, scenario.steps, {}, {});
+  return run.take();
 }
 
 }  // namespace understudy::emulator::play

@@ -50,7 +50,7 @@ class WrittenDown final : public Stage {
 
 std::vector<std::string> requests_of(const std::string& steps) {
   std::vector<std::string> requests;
-  const PlayOptions options{.make_stage = [&](const Scenario& scenario) {
+  const RunOptions options{.make_stage = [&](const Scenario& scenario) {
     return std::make_unique<WrittenDown>(make_free_stage(scenario), requests);
   }};
   const ScenarioResult result = played(steps, "", options);

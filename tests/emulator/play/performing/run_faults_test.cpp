@@ -81,12 +81,12 @@ TEST(ScenarioFaults, ThatAreWrongAreErrorsOfTheFile) {
   };
   const std::string at = "test.yaml:5: steps[0].inject";
   EXPECT_EQ(complaint("{ dorp: feeder }"), at + ": 'dorp' is not a fault; the nearest is 'drop'");
-  EXPECT_EQ(complaint("{ drop: feeder, nht: 3 }"), at + ".nht: is nothing it has; the nearest is 'nth'");
+  EXPECT_EQ(complaint("{ drop: feeder, nht: 3 }"), at + ".nht: is not a field here; the nearest is 'nth'");
   EXPECT_EQ(complaint("{ drop: feeder, when: feeder.A.puls > 3 }"),
             at + ".when: column 1 of 'feeder.A.puls > 3': axis A has no 'puls'; the nearest is 'pulses'");
   EXPECT_EQ(complaint("{ drop: feedr }"), at + ": no device is called 'feedr'; the nearest is 'feeder'");
   EXPECT_EQ(complaint("{ drop: feeder, nth: 3, name: all }"),
-            at + ".name: 'all' is not a name of a fault; expected another");
+            at + ".name: 'all' is not a name for a fault; expected another");
 }
 
 }  // namespace runner_faults_test

@@ -1,0 +1,49 @@
+// What of a bench has been read so far, by name, and the names of what could not be read: of those nothing
+// can be said, and what refers to them is left untold.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::world {
+
+class BenchNames {
+ public:
+  /// The bench is still being read; it must outlive this.
+  explicit BenchNames(const Bench& bench) : bench_(bench) {}
+
+  // --- what could not be read --------------------------------------------------------------------
+  void lose_device(const std::string& name) { lost_devices_.insert(name); }
+  void find_device_again(const std::string& name) { lost_devices_.erase(name); }
+  /// A line, or a machine ("feeder.A"), or a part of it.
+  void lose_part(const std::string& name) { lost_parts_.insert(name); }
+  void find_part_again(const std::string& name) { lost_parts_.erase(name); }
+  bool is_lost_part(const std::string& name) const { return lost_parts_.contains(name); }
+  /// Whether a text names any of it.
+  bool names_lost(std::string_view text) const;
+  /// Whether a value of a map does.
+  bool has_lost(const YamlFields& map) const;
+
+  // --- what was read: these fail with the names that would do, or as Untold -----------------------
+  /// -1 if there is none.
+  int find_device(const std::string& name) const;
+  std::size_t demand_device(const YamlFields& field, const std::string& name) const;
+  /// "feeder.A" into the device and what is behind the dot.
+  std::pair<std::size_t, std::string> split(const YamlFields& field, const std::string& name,
+                                            const char* example) const;
+  std::pair<std::size_t, int> demand_terminal(const YamlFields& field, const std::string& name,
+                                              TerminalRow::Kind kind, const char* example) const;
+  const Model& model_of(std::size_t device) const { return *bench_.devices[device].model; }
+
+ private:
+  const Bench& bench_;
+  std::set<std::string> lost_devices_;
+  std::set<std::string> lost_parts_;
+};
+
+}  // namespace understudy::emulator::world

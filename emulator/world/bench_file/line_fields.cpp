@@ -1,0 +1,58 @@
+#include "emulator/world/bench_file/line_fields.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "base/text/one_line.h"
+#include "emulator/world/bench_file/device_fields.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+constexpr std::size_t kLongestLinkName = 200;  // a link has a lock beside it
+
+}  // namespace
+
+pty::Timing read_timing(const YamlFields& timing) {
+  if (timing.text() != "wire" && timing.text() != "instant") {
+    timing.fail(understudy::quoted(timing.text()) + " is not a timing; expected wire or instant");
+  }
+  return timing.text() == "wire" ? pty::Timing::wire : pty::Timing::instant;
+}
+
+std::int64_t read_baud_tolerance(const YamlFields& tolerance) {
+  if (const auto ppm = parse_baud_tolerance(tolerance.text())) return *ppm;
+  tolerance.fail(understudy::quoted(tolerance.text()) + " is not a share of the speed; " +
+                 std::string(kBaudToleranceExpected));
+}
+
+std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,
+                      const std::vector<LineSetup>& lines) {
+  namespace fs = std::filesystem;
+  const std::string written = link.text();
+  if (written.find("://") != std::string::npos)
+    link.fail(understudy::quoted(written) +
+              " is an address of a network; expected a path, for a serial port");
+  std::string path = path_in(folder, link);
+  if (one_line(path) != path) link.fail("has a control character; expected a path without one");
+  const std::string name = fs::path(path).filename().string();
+  if (name.size() > kLongestLinkName) {
+    link.fail("has a name of " + std::to_string(name.size()) + " characters; expected at most " +
+              std::to_string(kLongestLinkName));
+  }
+  std::error_code ignored;
+  const fs::file_type there = fs::symlink_status(path, ignored).type();
+  if (name.empty() || name == "." || name == ".." || there == fs::file_type::directory)
+    link.fail(understudy::quoted(written) + " is a folder; expected a path for the link in it");
+  if (there == fs::file_type::character || there == fs::file_type::block)
+    link.fail(understudy::quoted(written) + " is a device of this machine; expected a path that is free");
+  const auto absolute = [](const std::string& some) { return fs::weakly_canonical(fs::absolute(some)); };
+  for (const LineSetup& other : lines) {
+    if (!other.link.empty() && absolute(other.link) == absolute(path))
+      link.fail("line " + understudy::quoted(other.name) + " has the same link; expected another path");
+  }
+  return path;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,23 @@
+// What a bench file says of a line, but for its stations.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::world {
+
+pty::Timing read_timing(const YamlFields& timing);
+
+/// In millionths.
+std::int64_t read_baud_tolerance(const YamlFields& tolerance);
+
+/// The path of a link, in `folder`; none of the other lines may have it.
+std::string read_link(const YamlFields& link, const std::optional<std::string>& folder,
+                      const std::vector<LineSetup>& lines);
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,14 @@
+// What a bench file says of its wires.
+#pragma once
+
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/bench_names.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+
+namespace understudy::emulator::world {
+
+/// One element of `wires`: "feeder.DOUT_4 -> turner.DIN_10", "feeder.A.home -> turner.DIN_10". The bench's
+/// devices and machines have been read.
+WireSetup read_wire(const YamlFields& wire, const Bench& bench, const BenchNames& names);
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,91 @@
+// The names of what can be seen of a world without its lines: for expressions in scenarios, fault triggers,
+// `ctl run-until`, traces. To understand them takes no world, only what there is (view/inventory.h); probes.h
+// looks at the values.
+//
+//   time                       simulated time, a duration
+//   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
+//   robot.T2PE                 values of devices without registers (NamedValues)
+//   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
+//                              of the same name comes first
+//   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
+//   feeder.A.speed             what it runs at by plan, in pulses a second, real
+//   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
+//   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
+//                              scenarios, since their begin or the last `reset: peaks`
+//   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
+//   feeder.A.encoder           its encoder's count
+//   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive
+//   feeder.power               1 while it has power
+//   feeder.pulse_format        which of its forms the pulses have, by number; where the model has several
+//   feeder.requests, .replies, .exceptions    of its stations
+//   rs485.bytes_in, .bytes_out, .collisions   of a line
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/view/inventory.h"
+
+namespace understudy::emulator::world {
+
+class ProbeNames final : public NameResolver {
+ public:
+  enum class What : std::uint8_t {
+    time,
+    reg,
+    named,
+    input,
+    output,
+    pulses,
+    speed,
+    pwm,
+    greatest_speed,
+    greatest_acceleration,
+    position,
+    lost,
+    encoder,
+    home,
+    upper_limit,
+    lower_limit,
+    ready,
+    alarm,
+    power,
+    pulse_format,
+    requests,
+    replies,
+    exceptions,
+    bytes_in,
+    bytes_out,
+    collisions,
+  };
+  struct Probe {
+    What what = What::time;
+    std::size_t device = 0;  // or the line
+    int place = 0;           // axis or terminal
+    NamedPlace reg{};
+    std::string value_name{};
+    Unit unit = Unit::none;
+    std::string name;
+  };
+
+  /// It must outlive this.
+  explicit ProbeNames(const Inventory& inventory) : inventory_(inventory) {}
+
+  /// Throws NameError. A name that was resolved before gets its handle again.
+  NamedNumber resolve(std::string_view name) const override;
+  const Probe& probe(std::int32_t handle) const { return probes_[static_cast<std::size_t>(handle)]; }
+  /// Whether only a scenario keeps it, so that a world alone has no value of that name.
+  bool is_of_scenarios(std::int32_t handle) const;
+
+ private:
+  Probe find(std::string_view name) const;
+  bool find_of_axis(std::string_view rest, Probe& probe) const;
+
+  const Inventory& inventory_;
+  mutable std::vector<Probe> probes_;  // by handle
+};
+
+}  // namespace understudy::emulator::world

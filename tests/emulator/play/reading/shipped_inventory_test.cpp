@@ -1,0 +1,38 @@
+// The inventory of each bench that is shipped, alone or in a scenario, is that of its world.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "emulator/models/models.h"
+#include "emulator/play/reading/scenario_file.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "tests/emulator/world/view/same_inventory.h"
+
+namespace understudy::emulator::play {
+namespace shipped_inventory_test {
+
+TEST(ShippedInventory, IsThatOfTheWorldMadeOfTheBench) {
+  int benches = 0;
+  int scenarios = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(PROJECT_FOLDER "/scenarios")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string path = entry.path().string();
+    SCOPED_TRACE(path);
+    const FileKind kind = kind_of_file(path);
+    if (kind == FileKind::bench) {
+      world::expect_same_inventory(world::load_bench(models::all_models(), path));
+      ++benches;
+    } else if (kind == FileKind::scenario) {
+      for (const Scenario& scenario : load_scenarios(models::all_models(), path)) {
+        world::expect_same_inventory(scenario.bench);
+        ++scenarios;
+      }
+    }
+  }
+  EXPECT_GE(benches, 6);
+  EXPECT_GE(scenarios, 100);
+}
+
+}  // namespace shipped_inventory_test
+}  // namespace understudy::emulator::play
