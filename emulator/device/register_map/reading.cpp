@@ -1,0 +1,88 @@
+// Requests that read consecutive words or bits.
+#include <algorithm>
+
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/present.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// Whether a request may find nothing there, by the policy.
+bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
+  switch (bank.map_policy().unmapped) {
+    case MapPolicy::Unmapped::refused: return false;
+    case MapPolicy::Unmapped::reads_zero: return true;
+    case MapPolicy::Unmapped::holes_read_zero:
+      return address < static_cast<std::size_t>(bank.map().end_of(table));
+  }
+  return false;
+}
+
+/// Whether the word at an address can be read; `place` is empty where it reads zero.
+Objection readable(const RegisterBank& bank, Table table, std::size_t address, Place& place) {
+  if (!place) {
+    return may_read_hole(bank, table, address) ? Objection{}
+                                               : objection(Refusal::no_register, Cause::no_register, address);
+  }
+  if (place.row->access != Access::write) return {};
+  if (bank.map_policy().write_only == MapPolicy::WriteOnly::refused) {
+    return objection(Refusal::no_register, Cause::write_only, address);
+  }
+  place = {};
+  return {};
+}
+
+}  // namespace
+
+Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
+                       std::span<std::uint16_t> words) {
+  const bool low_first = bank.low_word_first();
+  const bool pairs_whole = bank.map_policy().read_halves == MapPolicy::ReadHalves::come_whole;
+  if (first + words.size() > 65536) return objection(Refusal::no_register, Cause::no_register, first);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::size_t address = first + i;
+    Place place = bank.at(table, static_cast<std::uint16_t>(address), low_first);
+    if (const Objection refused = readable(bank, table, address, place)) return refused;
+    if (!place) {
+      words[i] = 0;
+      continue;
+    }
+    if (pairs_whole && is_cut(place, i == 0, i + 1 == words.size(), low_first)) {
+      return objection(Refusal::no_register, Cause::cut_pair, address);
+    }
+    mention_if_missed(bank, place);
+    words[i] = word_of(present_bits(bank, place), place.part);
+  }
+  return admission(bank, {.table = table, .first = first, .count = words.size()}, Checked::everything);
+}
+
+Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t first, std::size_t count,
+                            std::span<std::uint8_t> packed) {
+  if (first + count > 65536) return objection(Refusal::no_register, Cause::no_register, first);
+  std::fill(packed.begin(), packed.end(), std::uint8_t{0});
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t address = first + i;
+    Place place = bank.at(table, static_cast<std::uint16_t>(address));
+    if (const Objection refused = readable(bank, table, address, place)) return refused;
+    if (!place) {
+      ++i;
+      continue;
+    }
+    mention_if_missed(bank, place);
+    // The rest of the row follows where its bits are neighbours.
+    const RegisterRow& row = *place.row;
+    const bool is_stored = row.reader == nullptr && !row.is_view;
+    const auto rest = static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
+    const std::size_t end = std::min(count, i + rest);
+    const std::uint32_t* stored =
+        is_stored ? bank.image().data() + static_cast<std::size_t>(place.slot) : nullptr;
+    for (; i < end; ++i, ++place.index) {
+      const std::uint32_t bit = stored != nullptr ? *stored++ : present_bits(bank, place);
+      packed[i / 8] |= static_cast<std::uint8_t>((bit & 1U) << i % 8);
+    }
+  }
+  return admission(bank, {.table = table, .first = first, .count = count}, Checked::everything);
+}
+
+}  // namespace understudy::emulator
