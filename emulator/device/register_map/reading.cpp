@@ -33,6 +33,19 @@ Objection readable(const RegisterBank& bank, Table table, std::size_t address, P
   return {};
 }
 
+/// The lowest bit of each, from bit number `at` on; whole bytes at once.
+void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::uint8_t> packed) {
+  std::size_t i = 0;
+  const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
+  for (; i < bits.size() && at % 8 != 0; ++at) one();
+  for (; i + 8 <= bits.size(); i += 8, at += 8) {
+    std::uint32_t byte = 0;
+    for (std::size_t bit = 0; bit < 8; ++bit) byte |= (bits[i + bit] & 1U) << bit;
+    packed[at / 8] = static_cast<std::uint8_t>(byte);
+  }
+  for (; i < bits.size(); ++at) one();
+}
+
 }  // namespace
 
 Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
@@ -63,7 +76,7 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
   for (std::size_t i = 0; i < count;) {
     const std::size_t address = first + i;
-    Place place = bank.at(table, static_cast<std::uint16_t>(address));
+    Place place = bank.at(table, static_cast<std::uint16_t>(address), true);
     if (const Objection refused = readable(bank, table, address, place)) return refused;
     if (!place) {
       ++i;
@@ -75,11 +88,13 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
     const bool is_stored = row.reader == nullptr && !row.is_view;
     const auto rest = static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
     const std::size_t end = std::min(count, i + rest);
-    const std::uint32_t* stored =
-        is_stored ? bank.image().data() + static_cast<std::size_t>(place.slot) : nullptr;
+    if (is_stored) {
+      pack(bank.image().subspan(static_cast<std::size_t>(place.slot), end - i), i, packed);
+      i = end;
+      continue;
+    }
     for (; i < end; ++i, ++place.index) {
-      const std::uint32_t bit = stored != nullptr ? *stored++ : present_bits(bank, place);
-      packed[i / 8] |= static_cast<std::uint8_t>((bit & 1U) << i % 8);
+      packed[i / 8] |= static_cast<std::uint8_t>((present_bits(bank, place) & 1U) << i % 8);
     }
   }
   return admission(bank, {.table = table, .first = first, .count = count}, Checked::everything);
