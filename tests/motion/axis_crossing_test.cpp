@@ -4,7 +4,7 @@
 #include "tests/motion/axis_scenario.h"
 
 namespace understudy::motion {
-namespace {
+namespace axis_crossing_test {
 
 /// As `single` single ticks, by as few steps as it takes.
 void go_to(AxisCourse& course, Tick until, AxisScenario& scenario, Tick& crossed) {
@@ -118,5 +118,5 @@ TEST(AxisCrossing, WhatIsCarriedEvenlyIsCarriedAtOnce) {
   }
 }
 
-}  // namespace
+}  // namespace axis_crossing_test
 }  // namespace understudy::motion

@@ -6,7 +6,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace homing_mark_test {
 
 /// 500 rpm and 20 rpm, as the factory has them, from a start speed of 1 rpm.
 Super40ncMark mark(std::int64_t distance, std::int64_t search) {
@@ -156,5 +156,5 @@ TEST(HomingMark, ASearchOfNothingIsRefused) {
   EXPECT_THROW(check(program), BadMotion);
 }
 
-}  // namespace
+}  // namespace homing_mark_test
 }  // namespace understudy::motion

@@ -9,7 +9,7 @@
 #include "tests/motion/random_moves.h"
 
 namespace understudy::motion {
-namespace {
+namespace path_run_open_test {
 
 Path piece(double from, double to) { return Shape::line_to(place_of(from, 0), place_of(to, 0)).path(); }
 
@@ -192,5 +192,5 @@ TEST(PathRunOpen, AGroupThatRunsDryLetsItsAxesGo) {
   EXPECT_FALSE(bench.axes[0].moving());
 }
 
-}  // namespace
+}  // namespace path_run_open_test
 }  // namespace understudy::motion

@@ -8,7 +8,7 @@
 #include "tests/motion/axis_scenario.h"
 
 namespace understudy::motion {
-namespace {
+namespace synchronous_speed_event_test {
 
 constexpr Events kConstant = bit(Event::constant_started) | bit(Event::constant_ended);
 
@@ -223,5 +223,5 @@ TEST(SyncSpeedEvent, TheShortWayThroughATickRaisesThemToo) {
   }
 }
 
-}  // namespace
+}  // namespace synchronous_speed_event_test
 }  // namespace understudy::motion

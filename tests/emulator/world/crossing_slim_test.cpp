@@ -8,7 +8,7 @@
 #include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace crossing_slim_test {
 
 using namespace std::chrono_literals;
 
@@ -123,8 +123,7 @@ void apply(World& world, const RandomDialogue::Act& act) {
     world.switch_power(0, act.power != 0);
   } else {
     const std::string sent = act.line + "\r";
-    world.line(0).line.receive(std::span(reinterpret_cast<const std::uint8_t*>(sent.data()), sent.size()),
-                               world.now());
+    world.receive(0, Bytes(sent.begin(), sent.end()), world.now());
   }
 }
 
@@ -173,5 +172,5 @@ TEST(SlimCrossing, AMoveOfAnHourIsAFewTicks) {
   EXPECT_LT(world.ticks_run(), 500u);
 }
 
-}  // namespace
+}  // namespace crossing_slim_test
 }  // namespace understudy::emulator::world

@@ -10,7 +10,7 @@
 #include "tests/emulator/world/stepping.h"
 
 namespace understudy::emulator::world {
-namespace {
+namespace crossing_test {
 
 using namespace std::chrono_literals;
 
@@ -267,5 +267,5 @@ TEST(WorldCrossing, TakenBackItCrossesAgain) {
   EXPECT_LT(world.ticks_run() - before, 100u);
 }
 
-}  // namespace
+}  // namespace crossing_test
 }  // namespace understudy::emulator::world

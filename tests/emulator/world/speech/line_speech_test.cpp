@@ -70,6 +70,7 @@ class Mute final : public Device {
   std::function<void()> read_own_state(StateReader&) override {
     return [] {};
   }
+  std::string own_difference(StateReader&, StateReader&) const override { return ""; }
 };
 
 TEST(LineSpeech, MakesAStationOnlyOfADeviceThatSpeaks) {
