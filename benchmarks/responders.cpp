@@ -58,13 +58,17 @@ Responder Responder::echo(std::size_t request_size, const std::vector<std::uint8
 }
 
 Responder Responder::libmodbus(int station, int address, int processor) {
+  return libmodbus_tables(station, {}, {.first = static_cast<unsigned>(address), .count = 1}, processor);
+}
+
+Responder Responder::libmodbus_tables(int station, Range coils, Range registers, int processor) {
   const Pty pty;
   const auto serve = [&] {
     modbus_t* const context = modbus_new_rtu(pty.path.c_str(), 19200, 'E', 8, 1);
     modbus_set_slave(context, station);
     modbus_set_socket(context, pty.master);
-    modbus_mapping_t* const mapping =
-        modbus_mapping_new_start_address(0, 0, 0, 0, static_cast<unsigned>(address), 1, 0, 0);
+    modbus_mapping_t* const mapping = modbus_mapping_new_start_address(
+        coils.first, coils.count, 0, 0, registers.first, registers.count, 0, 0);
     std::array<std::uint8_t, MODBUS_RTU_MAX_ADU_LENGTH> request{};
     for (;;) {
       const int size = modbus_receive(context, request.data());

@@ -17,6 +17,13 @@ class Responder {
   /// A libmodbus RTU slave with one holding register.
   static Responder libmodbus(int station, int address, int processor);
 
+  struct Range {
+    unsigned first = 0;
+    unsigned count = 0;
+  };
+  /// One with coils and holding registers.
+  static Responder libmodbus_tables(int station, Range coils, Range registers, int processor);
+
   const Process& process() const { return process_; }
   const std::string& port() const { return port_; }
 

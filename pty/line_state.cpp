@@ -50,7 +50,7 @@ void Line::check(const State& state) const {
   const LineSettings& settings = state.settings;
   demand(settings.baud > 0 && settings.baud <= 10'000'000 && settings.data_bits >= 5 &&
              settings.data_bits <= 8 && settings.stop_bits >= 1 && settings.stop_bits <= 2,
-         "its settings are none of a line");
+         "its settings are not those of a line");
   demand(state.input.size() <= kInputCapacity && state.edge.output.size() <= kOutputCapacity,
          "more bytes wait than it holds");
   const auto demand_burst = [&](const Burst& burst) {

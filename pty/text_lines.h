@@ -45,7 +45,8 @@ class TextLines {
   /// Forgets the unfinished line.
   void reset();
 
-  /// Characters that were given in no line: of overlong ones, and forgotten for an ESC.
+  /// Characters that were not part of any line: those of overlong lines, and those forgotten because of an
+  /// ESC.
   std::uint64_t dropped_bytes() const { return state_.dropped; }
 
   // --- its state -----------------------------------------------------------------------------
@@ -59,7 +60,7 @@ class TextLines {
     bool operator==(const State&) const = default;
   };
   const State& save() const { return state_; }
-  /// Throws std::invalid_argument for what cannot be.
+  /// Throws std::invalid_argument if it is impossible.
   static void check(const State& state);
   /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);

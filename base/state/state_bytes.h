@@ -1,5 +1,5 @@
-// State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding.
-// What a value consists of is said by its StateOf (fields.h), by which it is saved, restored and hashed.
+// State as bytes: the same on every machine, numbers in little endian, doubles by their bits, no padding. Its
+// StateOf (fields.h) says what a value consists of; by it the value is saved, restored and hashed.
 #pragma once
 
 #include <array>
@@ -242,7 +242,7 @@ void StateReader::read(T& value) {
   } else if constexpr (kIsVector<T>) {
     std::uint32_t count = 0;
     read(count);
-    // Each takes a byte at least: what is not there needs no room.
+    // Each takes at least a byte, so no room is made for what is not there.
     demand_state(count <= rest_.size(), "the bytes end too early");
     value.assign(count, {});
     read_all(value);
@@ -253,7 +253,7 @@ void StateReader::read(T& value) {
     for (; count > 0; --count) {
       typename T::key_type key{};
       read(key);
-      demand_state(value.empty() || value.rbegin()->first < key, "its entries are in disorder");
+      demand_state(value.empty() || value.rbegin()->first < key, "its entries are out of order");
       read(value[key]);
     }
   } else if constexpr (kIsArray<T>) {

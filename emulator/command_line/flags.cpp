@@ -330,9 +330,12 @@ struct CommandLine {
     command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
     command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
     command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
-    command->add_option("--function", poll.function, "Function code to read with: 3 or 4")
+    command
+        ->add_option(
+            "--function", poll.function,
+            "What to read addresses with: 1 coils, 2 discrete inputs, 3 holding or 4 input registers")
         ->capture_default_str();
-    command->add_option("--type", poll.type, "u16, s16, u32 or s32 of addresses without a model's name")
+    command->add_option("--type", poll.type, "u16, s16, u32, s32 or f32 of addresses without a model's name")
         ->capture_default_str();
     command->add_option("--timeout", poll.timeout, "How long to wait for a reply")->capture_default_str();
     command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);

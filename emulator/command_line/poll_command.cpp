@@ -17,6 +17,7 @@
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
+#include "base/text/parse_real.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/device/model.h"
@@ -30,10 +31,12 @@ namespace {
 
 struct Item {
   std::string label;
+  Table table = Table::holding;
   std::uint16_t address = 0;
   Type type = Type::u16;
   int count = 1;
   int bit = -1;
+  int bits = 1;  // from there on
   bool low_word_first = true;
   bool write = false;
   std::int64_t value = 0;
@@ -51,7 +54,37 @@ Type demand_type(const std::string& name) {
   if (name == "s16") return Type::s16;
   if (name == "u32") return Type::u32;
   if (name == "s32") return Type::s32;
-  throw UsageError("--type: " + quoted(name) + " is unknown; expected u16, s16, u32 or s32");
+  if (name == "f32") return Type::f32;
+  throw UsageError("--type: " + quoted(name) + " is unknown; expected u16, s16, u32, s32 or f32");
+}
+
+/// What a function code reads.
+Table table_of_function(int function) {
+  constexpr std::array kTables{Table::coil, Table::discrete, Table::holding, Table::input};
+  if (function < 1 || function > static_cast<int>(kTables.size()))
+    throw UsageError("--function: expected 1, 2, 3 or 4");
+  return kTables[static_cast<std::size_t>(function - 1)];
+}
+
+/// How many can be read at once.
+int most_at_once(const Item& item) {
+  if (item.type == Type::bit) return MODBUS_MAX_READ_BITS;
+  return is_32_bit(item.type) ? MODBUS_MAX_READ_REGISTERS / 2 : MODBUS_MAX_READ_REGISTERS;
+}
+
+/// The value to be written, when the item's type is known.
+void read_value_of(Item& item, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return;
+  item.write = true;
+  const std::string_view value = std::string_view(text).substr(equals + 1);
+  if (item.type != Type::f32) {
+    item.value = demand_integer(value, text);
+    return;
+  }
+  const auto real = parse_real(value);
+  if (!real) throw UsageError("poll: " + quoted(text) + " is not understood; expected NAME=NUMBER");
+  item.value = value_of_real(static_cast<float>(*real));
 }
 
 Item parse_item(const std::string& text, const PollArguments& arguments) {
@@ -59,22 +92,22 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
   const std::size_t equals = text.find('=');
   const std::string what = text.substr(0, equals);
   item.label = what;
-  if (equals != std::string::npos) {
-    item.write = true;
-    item.value = demand_integer(std::string_view(text).substr(equals + 1), text);
-  }
+  item.table = table_of_function(arguments.function);
   if (!what.empty() && what[0] >= '0' && what[0] <= '9') {
     const std::size_t colon = what.find(':');
     const std::int64_t address = demand_integer(std::string_view(what).substr(0, colon), text);
     if (address < 0 || address > 0xFFFF)
       throw UsageError("poll: address " + what + " is out of range; expected 0 to 0xFFFF");
     item.address = static_cast<std::uint16_t>(address);
-    item.type = demand_type(arguments.type);
+    item.type = is_table_of_bits(item.table) ? Type::bit : demand_type(arguments.type);
+    read_value_of(item, text);
+    // The function is what is read with.
+    if (item.write && item.table == Table::input) item.table = Table::holding;
     if (colon != std::string::npos) {
       const std::int64_t count = demand_integer(std::string_view(what).substr(colon + 1), text);
       if (item.write)
         throw UsageError("poll: " + quoted(text) + " writes a range; expected one ADDRESS=VALUE");
-      const int most = is_32_bit(item.type) ? 62 : 125;
+      const int most = most_at_once(item);
       if (count < 1 || count > most)
         throw UsageError("poll: count of " + what + " is out of range; expected 1 to " +
                          std::to_string(most));
@@ -95,12 +128,18 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
     throw UsageError("poll: " + why_no_register(model, what, model.firmwares.back()));
   }
   const Place& place = found->place;
+  // Where a model does not tell them apart, input registers are the holding registers.
+  const bool is_input_by_function =
+      place.row->table == Table::holding && arguments.function == 4 && !model.registers->has(Table::input);
+  item.table = is_input_by_function && text == what ? Table::input : place.row->table;
   item.low_word_first = model.registers->policy().low_word_first;
   item.type = place.part == Place::Part::whole ? place.row->type : Type::u16;
   const bool second =
       place.part != Place::Part::whole && (place.part == Place::Part::high) == item.low_word_first;
   item.address = static_cast<std::uint16_t>(place.address() + (second ? 1 : 0));
   item.bit = found->bit;
+  item.bits = found->width;
+  read_value_of(item, text);
   if (place.row->ranged && place.part == Place::Part::whole) item.range = range_text(*place.row);
   if (item.write && item.bit >= 0)
     throw UsageError("poll: " + quoted(text) + " writes a bit; expected a whole register");
@@ -161,21 +200,37 @@ std::int64_t value_of(const Item& item, const std::uint16_t* words) {
   } else if (item.type == Type::s16) {
     value = static_cast<std::int16_t>(words[0]);
   }
-  return item.bit < 0 ? value : (value >> item.bit) & 1;
+  return item.bit < 0 ? value : value >> item.bit & ((std::int64_t{1} << item.bits) - 1);
 }
 
-bool read_item(modbus_t* context, const Item& item, int function) {
+bool read_bits(modbus_t* context, const Item& item) {
+  std::array<std::uint8_t, MODBUS_MAX_READ_BITS> bits{};
+  const auto read = item.table == Table::coil ? modbus_read_bits : modbus_read_input_bits;
+  if (read(context, item.address, item.count, bits.data()) < 0) return false;
+  for (int i = 0; i < item.count; ++i) {
+    const int bit = bits[static_cast<std::size_t>(i)];
+    if (item.count == 1) {
+      std::printf("%s %d\n", item.label.c_str(), bit);
+    } else {
+      std::printf("0x%04X %d\n", static_cast<unsigned>(item.address + i), bit);
+    }
+  }
+  return true;
+}
+
+bool read_item(modbus_t* context, const Item& item) {
+  if (item.type == Type::bit) return read_bits(context, item);
   std::array<std::uint16_t, 125> words{};
   const int words_each = is_32_bit(item.type) ? 2 : 1;
-  const auto read = function == 4 ? modbus_read_input_registers : modbus_read_registers;
+  const auto read = item.table == Table::input ? modbus_read_input_registers : modbus_read_registers;
   if (read(context, item.address, item.count * words_each, words.data()) < 0) return false;
   for (int i = 0; i < item.count; ++i) {
-    const std::int64_t value = value_of(item, words.data() + i * words_each);
+    const std::string value =
+        value_text(value_of(item, words.data() + i * words_each), item.bit < 0 ? item.type : Type::u16);
     if (item.count == 1) {
-      std::printf("%s %lld\n", item.label.c_str(), static_cast<long long>(value));
+      std::printf("%s %s\n", item.label.c_str(), value.c_str());
     } else {
-      std::printf("0x%04X %lld\n", static_cast<unsigned>(item.address + i * words_each),
-                  static_cast<long long>(value));
+      std::printf("0x%04X %s\n", static_cast<unsigned>(item.address + i * words_each), value.c_str());
     }
   }
   return true;
@@ -183,6 +238,7 @@ bool read_item(modbus_t* context, const Item& item, int function) {
 
 bool write_item(modbus_t* context, const Item& item) {
   const auto bits = static_cast<std::uint32_t>(item.value);
+  if (item.type == Type::bit) return modbus_write_bit(context, item.address, item.value != 0 ? 1 : 0) == 1;
   if (!is_32_bit(item.type))
     return modbus_write_register(context, item.address, static_cast<std::uint16_t>(bits)) == 1;
   const auto low = static_cast<std::uint16_t>(bits);
@@ -194,9 +250,12 @@ bool write_item(modbus_t* context, const Item& item) {
 
 void demand_fitting(const Item& item) {
   if (!item.write) return;
+  if (item.table == Table::input || item.table == Table::discrete)
+    throw UsageError("poll: " + item.label + " can only be read; expected a coil or a holding register");
+  const bool is_bit = item.type == Type::bit;
   const bool wide = is_32_bit(item.type);
-  const std::int64_t lowest = wide ? INT32_MIN : INT16_MIN;
-  const std::int64_t highest = wide ? std::int64_t{UINT32_MAX} : std::int64_t{UINT16_MAX};
+  const std::int64_t lowest = is_bit ? 0 : wide ? INT32_MIN : INT16_MIN;
+  const std::int64_t highest = is_bit ? 1 : wide ? std::int64_t{UINT32_MAX} : std::int64_t{UINT16_MAX};
   if (item.value < lowest || item.value > highest) {
     const std::string words = std::to_string(lowest) + " to " + std::to_string(highest);
     throw UsageError("poll: " + std::to_string(item.value) + " does not fit into " + item.label +
@@ -209,7 +268,6 @@ void demand_fitting(const Item& item) {
 int poll_port(const PollArguments& arguments) {
   if (arguments.items.empty())
     throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
-  if (arguments.function != 3 && arguments.function != 4) throw UsageError("--function: expected 3 or 4");
   std::vector<Item> items;
   for (const std::string& text : arguments.items) {
     items.push_back(parse_item(text, arguments));
@@ -237,8 +295,7 @@ int poll_port(const PollArguments& arguments) {
     for (const Item& item : items) {
       // Whatever was said before, a device needs that silence to know that a frame has ended.
       std::this_thread::sleep_for(play::silence_between_frames({.baud = arguments.baud}));
-      const bool good =
-          item.write ? write_item(context.get(), item) : read_item(context.get(), item, arguments.function);
+      const bool good = item.write ? write_item(context.get(), item) : read_item(context.get(), item);
       const bool is_broadcast = arguments.station == 0 && errno == ETIMEDOUT;  // nobody answers that
       if (good || is_broadcast) continue;
       std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));

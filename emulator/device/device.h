@@ -89,8 +89,8 @@ class Device {
   virtual void run_interpreters(Tick tick);
   virtual void step_motion(Tick tick);
   virtual void update_outputs(Tick tick);
-  /// The first tick after `done` at which anything may change without help from outside; kNever if
-  /// none. The ticks before it may be left out: the state is then the same as if they had been run.
+  /// The first tick after `done` at which anything may change without help from outside; kNever if none. The
+  /// ticks before it may be skipped: the state is then the same as if they had been run.
   virtual Tick next_active_tick(Tick done) const;
   /// The first tick after `done` that has to be run as it is. Those before it only count on what moves, as
   /// far as each axis has room, and may be made up in one step by cross_to(). Not beyond `most` + 1.

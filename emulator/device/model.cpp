@@ -132,6 +132,8 @@ void set_registers(Device& device, const DeviceSettings& settings) {
         throw SettingEntryError("set", name, std::to_string(value) + " is out of range" + expected,
                                 std::to_string(value) + " is out of range for " + name + expected);
       }
+      case Refusal::busy:
+      case Refusal::failure: throw SettingEntryError("set", name, "the device does not take it now");
     }
   }
   for (const auto& [name, value] : settings.assignments) {

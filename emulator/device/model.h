@@ -118,10 +118,17 @@ struct LineRules {
   std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
 };
 
+/// What a model allows in one request where that is less than the standard does.
+struct FunctionLimit {
+  std::uint8_t code = 0;
+  int most = 0;  // bits or registers
+};
+
 /// How the model takes frames of Modbus RTU.
 struct RtuRules {
   pty::SimTime end_silence{0};              // its end-of-frame silence; it replies no earlier
   std::span<const std::uint8_t> functions;  // function codes it knows
+  std::span<const FunctionLimit> limits{};
 };
 
 /// What makes one device of a model.
@@ -157,7 +164,7 @@ struct Model {
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};  // of a model with ModbusStation
-  int most_modules = 0;           // the most that one device can consist of; 0: it is not a chain
+  int most_modules = 0;           // the most the most that one device can consist of; 0: it is not a chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
 };

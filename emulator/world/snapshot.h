@@ -48,8 +48,8 @@ void restore(World& world, const WorldState& state);
 /// StateError for what cannot be read as such a one.
 std::string difference(const World& world, const WorldState& a, const WorldState& b);
 
-/// Of all that the model does things by, and of nothing else: not of bytes that a host has not taken yet, of
-/// whether quiet ticks were crossed in bulk, or of what is counted of that.
+/// A hash of everything that decides what the model does, and of nothing else: not of bytes that a host has
+/// not taken yet, nor of whether quiet ticks were crossed in bulk, nor of counts of that.
 std::uint64_t hash(const World& world);
 
 }  // namespace understudy::emulator::world

@@ -135,7 +135,7 @@ class World final : public WorldView {
 
  private:
   template <class T>
-  friend struct understudy::StateOf;  // state_fields.h: what of all this is state
+  friend struct understudy::StateOf;  // state_fields.h: which of these are state
 
   struct Input {
     std::int32_t external = 0;

@@ -218,10 +218,10 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
   refused("more bytes wait than it holds", [](Line::State& s) { s.input.resize(Line::kInputCapacity + 1); });
   refused("more bytes wait than it holds",
           [](Line::State& s) { s.edge.output.resize(Line::kOutputCapacity + 1); });
-  refused("its characters have no time", [](Line::State& s) { s.input[0].end = SimTime::max(); });
-  refused("its characters have no time", [](Line::State& s) { s.arriving.count = 19'200; });
-  refused("its characters have no time", [](Line::State& s) { s.members[1].speech.count = -1; });
-  refused("its characters have no time", [](Line::State& s) { s.members[0].noticed_at = SimTime::min(); });
+  refused("its characters take no time", [](Line::State& s) { s.input[0].end = SimTime::max(); });
+  refused("its characters take no time", [](Line::State& s) { s.arriving.count = 19'200; });
+  refused("its characters take no time", [](Line::State& s) { s.members[1].speech.count = -1; });
+  refused("its characters take no time", [](Line::State& s) { s.members[0].noticed_at = SimTime::min(); });
   refused("its clock is beyond the end of time", [](Line::State& s) { s.edge.clock = SimTime::max(); });
 }
 

@@ -1,5 +1,6 @@
 #include "emulator/device/describe/describe.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -17,16 +18,6 @@ std::string hex2(unsigned number) {
   std::array<char, 8> text{};
   std::snprintf(text.data(), text.size(), "0x%02X", number);
   return text.data();
-}
-
-std::string_view to_string(Table table) {
-  switch (table) {
-    case Table::holding: return "holding";
-    case Table::input: return "input";
-    case Table::coil: return "coil";
-    case Table::discrete: return "discrete";
-  }
-  return "";
 }
 
 std::string_view to_string(Access access) {
@@ -56,7 +47,24 @@ std::string section_for_people(const Model& model, std::string_view section) {
   return std::string(section) + (english == section ? "" : " (" + std::string(english) + ")");
 }
 
-std::string width_of(const RegisterRow& row) { return is_32_bit(row.type) ? "32" : "16"; }
+std::string width_of(const RegisterRow& row) { return std::to_string(emulator::width_of(row.type)); }
+
+/// "0 READY, 4-7 STATE"
+std::string fields_of(const RegisterRow& row) {
+  std::string text;
+  for (const BitField& field : row.fields) {
+    text += (text.empty() ? "" : ", ") + std::to_string(field.bit);
+    if (field.width > 1) text += "-" + std::to_string(field.bit + field.width - 1);
+    text += " " + std::string(field.name);
+  }
+  return text;
+}
+
+template <typename Holds>
+bool any_row(const Model& model, Holds holds) {
+  const auto rows = register_rows(model);
+  return std::any_of(rows.begin(), rows.end(), holds);
+}
 
 Sheet registers(const Model& model, SheetFormat format) {
   const bool for_people = format == SheetFormat::table;
@@ -66,17 +74,26 @@ Sheet registers(const Model& model, SheetFormat format) {
   if (for_people) {
     for (const char* column : {"since", "section", "not modelled"}) sheet.columns.emplace_back(column);
   }
+  // Columns that only some models need.
+  const bool has_reals = any_row(model, [](const RegisterRow& row) { return row.type == Type::f32; });
+  const bool has_fields = any_row(model, [](const RegisterRow& row) { return !row.fields.empty(); });
+  if (has_reals) sheet.columns.emplace_back("real");
+  if (has_fields) sheet.columns.emplace_back("bits");
   for (const RegisterRow& row : register_rows(model)) {
     for (int index = 0; index < row.count; ++index) {
       sheet.rows.push_back(
           {std::string(to_string(row.table)), hex4(address_of(row, index)), RegisterMap::name_of(row, index),
            std::string(to_string(row.access)), width_of(row), is_signed(row.type) ? "1" : "0",
-           row.ranged ? std::to_string(row.min) : "", row.ranged ? std::to_string(row.max) : "",
-           std::string(row.unit), row.persistent ? "1" : "0", std::to_string(row.factory)});
-      if (!for_people) continue;
-      sheet.rows.back().push_back(row.since == 0 ? "" : version_text(row.since));
-      sheet.rows.back().push_back(section_for_people(model, row.section));
-      sheet.rows.back().emplace_back(row.unmodelled);
+           row.ranged ? value_text(row.min, row.type) : "", row.ranged ? value_text(row.max, row.type) : "",
+           std::string(row.unit), row.persistent ? "1" : "0", value_text(row.factory, row.type)});
+      auto& cells = sheet.rows.back();
+      if (for_people) {
+        cells.push_back(row.since == 0 ? "" : version_text(row.since));
+        cells.push_back(section_for_people(model, row.section));
+        cells.emplace_back(row.unmodelled);
+      }
+      if (has_reals) cells.emplace_back(row.type == Type::f32 ? "1" : "0");
+      if (has_fields) cells.push_back(fields_of(row));
     }
   }
   return sheet;

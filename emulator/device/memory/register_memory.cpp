@@ -1,35 +1,61 @@
 #include "emulator/device/memory/register_memory.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "base/text/one_line.h"
+#include "emulator/device/register_map/access.h"
 
 namespace understudy::emulator {
 
 void write_registers(const RegisterBank& bank, std::span<const std::uint32_t> kept, NvImage& image) {
   std::size_t slot = 0;
   for (const RegisterRow& row : bank.map().rows()) {
+    if (row.is_view) continue;
     for (int i = 0; i < row.count; ++i, ++slot) {
       if (!bank.keeps(row) || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
-      image.registers.emplace_back(RegisterMap::name_of(row, i), value_of(kept[slot], row.type));
+      const Value value = value_of(kept[slot], row.type);
+      std::string name = bank.map().unique_name(row, i);
+      // What is not a finite number is written as its bits.
+      if (row.type == Type::f32 && std::isfinite(real_of(value))) {
+        image.reals.emplace_back(std::move(name), real_of(value));
+      } else {
+        image.registers.emplace_back(std::move(name), value);
+      }
     }
   }
 }
 
 std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImage& image, Firmware newest) {
-  for (const auto& [key, is_there] :
-       {std::pair("reals", !image.reals.empty()), std::pair("program", !image.program.empty())}) {
+  const RegisterMap& map = bank.map();
+  const auto rows = map.rows();
+  const bool has_reals =
+      std::any_of(rows.begin(), rows.end(), [](const RegisterRow& row) { return row.type == Type::f32; });
+  for (const auto& [key, is_there] : {std::pair("reals", !image.reals.empty() && !has_reals),
+                                      std::pair("program", !image.program.empty())}) {
     if (!is_there) continue;
     throw NvError(std::string(key) + ": is not part of the memory of " + image.model + "; expected none");
   }
-  const RegisterMap& map = bank.map();
   std::vector<std::uint32_t> values;
-  for (const RegisterRow& row : map.rows()) {
+  for (const RegisterRow& row : rows) {
+    if (row.is_view) continue;
     values.insert(values.end(), static_cast<std::size_t>(row.count), static_cast<std::uint32_t>(row.factory));
   }
   std::vector<bool> is_named(values.size(), false);
-  for (const auto& [name, value] : image.registers) {
+  auto entries = image.registers;
+  for (const auto& [name, real] : image.reals) {
+    const auto found = map.find(name, newest);
+    if (!found) throw NvError("reals: " + map.why_not(name, newest));
+    const auto value = value_of_number(*found, real);
+    if (!found->is_real() || !value) {
+      throw NvError("reals: " + quoted(name) + " does not hold such a number; expected " +
+                    range_text(*found->place.row));
+    }
+    entries.emplace_back(name, *value);
+  }
+  for (const auto& [name, value] : entries) {
     const auto found = map.find(name, newest);
     if (!found || found->bit >= 0 || found->place.part != Place::Part::whole) {
       throw NvError("registers: " + map.why_not(name, newest));

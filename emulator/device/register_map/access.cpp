@@ -2,34 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <cmath>
+#include <vector>
+
+#include "emulator/device/register_map/present.h"
 
 namespace understudy::emulator {
 
 namespace {
-
-std::pair<Value, Value> limits_of(Type type) {
-  switch (type) {
-    case Type::u16: return {0, UINT16_MAX};
-    case Type::s16: return {INT16_MIN, INT16_MAX};
-    case Type::u32: return {0, UINT32_MAX};
-    case Type::s32: return {INT32_MIN, INT32_MAX};
-  }
-  return {0, 0};
-}
-
-Cell cell_of(const Place& place) { return {.argument = place.row->argument, .index = place.index}; }
-
-std::uint32_t present_bits(const RegisterBank& bank, const Place& place) {
-  if (place.row->reader != nullptr) {
-    return static_cast<std::uint32_t>(place.row->reader(bank, cell_of(place)));
-  }
-  return bank.image()[static_cast<std::size_t>(place.slot)];
-}
-
-std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
-  return static_cast<std::uint16_t>(part == Place::Part::high ? bits >> 16 : bits);
-}
 
 std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word) {
   switch (part) {
@@ -38,12 +18,6 @@ std::uint32_t with_word(std::uint32_t bits, Place::Part part, std::uint16_t word
     case Place::Part::high: return (bits & 0x0000'FFFFU) | (static_cast<std::uint32_t>(word) << 16);
   }
   return bits;
-}
-
-/// Reading back what was written misses nothing; reading what the controller should say by itself does.
-void mention_if_missed(const RegisterBank& bank, const Place& place) {
-  if (!place.row->unmodelled.empty() && place.row->access == Access::read)
-    bank.mention_unmodelled(*place.row);
 }
 
 /// One register that a request touches, with what the request makes of it.
@@ -62,16 +36,26 @@ bool in_range(const Change& change) {
   const RegisterRow& row = *change.place.row;
   if (!row.ranged) return true;
   const Value value = value_of(change.bits, row.type);
+  if (row.type == Type::f32) {  // what is not a number is in no range
+    return real_of(value) >= real_of(row.min) && real_of(value) <= real_of(row.max);
+  }
   return value >= row.min && value <= row.max;
 }
 
 void bring_into_range(Change& change) {
   const RegisterRow& row = *change.place.row;
-  change.bits = static_cast<std::uint32_t>(std::clamp(value_of(change.bits, row.type), row.min, row.max));
+  const Value value = value_of(change.bits, row.type);
+  if (row.type == Type::f32) {
+    change.bits = static_cast<std::uint32_t>(real_of(value) > real_of(row.max) ? row.max : row.min);
+  } else {
+    change.bits = static_cast<std::uint32_t>(std::clamp(value, row.min, row.max));
+  }
 }
 
-// A Modbus request brings at most 123 words; programs, scenarios and the control socket at most two.
-constexpr std::size_t kMostChanges = 128;
+// A Modbus request brings at most 123 words or 1,968 bits; programs, scenarios and the control socket at most
+// two words.
+constexpr std::size_t kManyWords = 128;
+constexpr std::size_t kMostWords = 2000;
 
 struct Changes {
   std::span<Change> all;
@@ -81,65 +65,125 @@ struct Changes {
 /// Calls `act` with room for the changes of this many words. Clearing room for the most would cost more than
 /// all the rest of a program's write.
 template <typename Act>
-Refusal with_room_for(std::size_t words, Act act) {
+auto with_room_for(std::size_t words, Act act) {
   if (words <= 2) {
     std::array<Change, 2> few;
     Changes changes{.all = few};
     return act(changes);
   }
-  std::array<Change, kMostChanges> many;
-  Changes changes{.all = many};
+  if (words <= kManyWords) {
+    std::array<Change, kManyWords> many;
+    Changes changes{.all = many};
+    return act(changes);
+  }
+  std::vector<Change> bits(std::min(words, kMostWords));
+  Changes changes{.all = bits};
   return act(changes);
 }
 
 /// Whether a register may be written what a request makes of it; what the policy lets in is brought into
 /// range.
-Refusal judge(Change& change, const MapPolicy& policy) {
-  if (!complete(change)) {
-    if (policy.halves == MapPolicy::Halves::come_whole) return Refusal::no_register;
-    // Half a value cannot be judged.
-    if (policy.halves == MapPolicy::Halves::may_be_written_alone) return Refusal::none;
+Objection judge(Change& change, const MapPolicy& policy) {
+  // Half a value cannot be judged.
+  if (!complete(change) && policy.halves == MapPolicy::Halves::may_be_written_alone) return {};
+  if (in_range(change)) return {};
+  if (policy.out_of_range == MapPolicy::OutOfRange::refused) {
+    return objection(Refusal::bad_value, Cause::out_of_range, change.place.address());
   }
-  if (in_range(change)) return Refusal::none;
-  if (policy.out_of_range == MapPolicy::OutOfRange::refused) return Refusal::bad_value;
   bring_into_range(change);
-  return Refusal::none;
+  return {};
 }
 
-/// What each register would hold, and whether that may be. Addresses are judged before values. Behind a
-/// refusal only those changes are left that are made all the same.
-Refusal gather(const RegisterBank& bank, Table table, std::uint16_t first,
-               std::span<const std::uint16_t> words, Changes& changes) {
+/// What each register would hold, wherever there is one that can be written.
+Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
   const MapPolicy& policy = bank.map_policy();
-  if (first + words.size() > 65536 || words.size() > kMostChanges) return Refusal::no_register;
+  const bool low_first = bank.low_word_first();
+  const auto words = request.words;
+  const bool pairs_whole = policy.halves == MapPolicy::Halves::come_whole;
+  if (request.first + words.size() > 65536 || words.size() > kMostWords) {
+    return objection(Refusal::no_register, Cause::no_register, request.first);
+  }
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const Place place = bank.at(table, static_cast<std::uint16_t>(first + i));
+    const std::size_t address = request.first + i;
+    const Place place = bank.at(request.table, static_cast<std::uint16_t>(address), low_first);
     if (!place) {
-      if (policy.unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
+      if (policy.unmapped != MapPolicy::Unmapped::reads_zero) {
+        return objection(Refusal::no_register, Cause::no_register, address);
+      }
       continue;
     }
+    if (place.row->message != nullptr) return objection(Refusal::no_register, Cause::cut_message, address);
     if (place.row->access == Access::read) {
-      if (policy.read_only == MapPolicy::ReadOnly::refused) return Refusal::no_register;
+      if (policy.read_only == MapPolicy::ReadOnly::refused) {
+        return objection(Refusal::no_register, Cause::read_only, address);
+      }
       continue;
     }
-    const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.slot == place.slot;
+    if (pairs_whole && is_cut(place, i == 0, i + 1 == words.size(), low_first)) {
+      return objection(Refusal::no_register, Cause::cut_pair, address);
+    }
+    const bool continues = changes.count > 0 && changes.all[changes.count - 1].place.is_same_register(place);
     if (!continues) changes.all[changes.count++] = {.place = place, .bits = present_bits(bank, place)};
     Change& change = changes.all[changes.count - 1];
     change.bits = with_word(change.bits, place.part, words[i]);
     if (place.part == Place::Part::low) change.low = true;
     if (place.part == Place::Part::high) change.high = true;
   }
-  for (std::size_t i = 0; i < changes.count; ++i) {
-    if (const Refusal refusal = judge(changes.all[i], policy); refusal != Refusal::none) {
-      changes.count = policy.partly == MapPolicy::Partly::up_to_the_refused ? i : 0;
-      return refusal;
-    }
+  return {};
+}
+
+/// What each register would hold, and whether that may be. Addresses are judged before values. Behind a
+/// refusal only those changes are left that are made all the same.
+Objection gather(const RegisterBank& bank, const RegisterRequest& request, Changes& changes) {
+  Objection refused = gather_addresses(bank, request, changes);
+  if (!refused) refused = admission(bank, request, Checked::addresses);
+  const MapPolicy& policy = bank.map_policy();
+  for (std::size_t i = 0; i < changes.count && !refused; ++i) {
+    refused = judge(changes.all[i], policy);
+    if (!refused) continue;
+    const bool is_partly_done =
+        refused.refusal == Refusal::bad_value && policy.partly == MapPolicy::Partly::up_to_the_refused;
+    changes.count = is_partly_done ? i : 0;
+    return refused;
   }
-  return Refusal::none;
+  if (!refused) refused = admission(bank, request, Checked::everything);
+  if (refused) changes.count = 0;
+  return refused;
+}
+
+/// The window that a request begins in; none if it does not.
+Place window_at(const RegisterBank& bank, Table table, std::uint16_t first) {
+  const Place place = bank.at(table, first);
+  return place && place.row->message != nullptr ? place : Place{};
+}
+
+/// All its words from the window's first one on, or none.
+Objection write_message(RegisterBank& bank, const Place& window, const RegisterRequest& request) {
+  const RegisterRow& row = *window.row;
+  const auto most = static_cast<std::size_t>(row.count);
+  if (window.index != 0) return objection(Refusal::no_register, Cause::cut_message, request.first);
+  if (request.count > most) {
+    return objection(Refusal::no_register, Cause::cut_message, request.first + most);
+  }
+  if (const Objection refused = admission(bank, request, Checked::addresses)) return refused;
+  if (request.count < static_cast<std::size_t>(row.least_words)) {
+    return objection(Refusal::bad_value, Cause::bad_message, request.first);
+  }
+  if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
+  const Refusal answer = row.message(bank, cell_of(window), request.words);
+  switch (answer) {
+    case Refusal::none: bank.registers_written(); return {};
+    case Refusal::busy: return objection(answer, Cause::busy, request.first);
+    case Refusal::failure: return objection(answer, Cause::failure, request.first);
+    case Refusal::no_register:
+    case Refusal::bad_value: break;
+  }
+  return objection(answer, Cause::bad_message, request.first);
 }
 
 void store(RegisterBank& bank, Change& change) {
   change.bits &= change.place.row->stored_bits;
+  if (change.place.row->is_view) return;
   bank.image()[static_cast<std::size_t>(change.place.slot)] = change.bits;
 }
 
@@ -152,7 +196,7 @@ void take_effect(RegisterBank& bank, const Change& change) {
     cell.high_half = !is_32_bit(row.type) || change.high;
     row.effect(bank, cell, value_of(change.bits, row.type));
   }
-  bank.register_written(row, static_cast<std::size_t>(change.place.slot));
+  if (!row.is_view) bank.register_written(row, static_cast<std::size_t>(change.place.slot));
 }
 
 /// Stores everything, then lets it take effect, both in ascending order; or each register in its turn.
@@ -176,15 +220,15 @@ Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value value
   const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
   const bool half = place.part != Place::Part::whole;
   if (named.bit >= 0) {
-    if (value != 0 && value != 1) return Refusal::bad_value;
-    const Value mask = Value{1} << named.bit;
+    const Value most = (Value{1} << named.width) - 1;
+    if (value < 0 || value > most) return Refusal::bad_value;
     const Value whole = read_value(bank, place);
-    value = value == 1 ? whole | mask : whole & ~mask;
+    value = (whole & ~(most << named.bit)) | value << named.bit;
     if (!half)
       value = value_of(static_cast<std::uint32_t>(value), row.type);  // the sign bit is a bit as well
   }
   // What does not fit the register's words cannot even be sent.
-  const auto [lowest, highest] = half ? std::pair<Value, Value>{0, UINT16_MAX} : limits_of(row.type);
+  const auto [lowest, highest] = half ? limits_of(Type::u16) : limits_of(row.type);
   if (value < lowest || value > highest) return Refusal::bad_value;
 
   const auto bits = static_cast<std::uint32_t>(value);
@@ -203,35 +247,14 @@ Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value value
 
 }  // namespace
 
-Refusal read_words(const RegisterBank& bank, Table table, std::uint16_t first,
-                   std::span<std::uint16_t> words) {
-  const MapPolicy& policy = bank.map_policy();
-  if (first + words.size() > 65536) return Refusal::no_register;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const Place place = bank.at(table, static_cast<std::uint16_t>(first + i));
-    if (!place) {
-      if (policy.unmapped == MapPolicy::Unmapped::refused) return Refusal::no_register;
-      words[i] = 0;
-      continue;
-    }
-    if (place.row->access == Access::write) {
-      if (policy.write_only == MapPolicy::WriteOnly::refused) return Refusal::no_register;
-      words[i] = 0;
-      continue;
-    }
-    mention_if_missed(bank, place);
-    words[i] = word_of(present_bits(bank, place), place.part);
-  }
-  return Refusal::none;
-}
-
-Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
-                    std::span<const std::uint16_t> words) {
+Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
+                        std::span<const std::uint16_t> words) {
+  const RegisterRequest request{.table = table, .first = first, .count = words.size(), .words = words};
+  if (const Place window = window_at(bank, table, first)) return write_message(bank, window, request);
   return with_room_for(words.size(), [&](Changes& changes) {
-    const Refusal refusal = gather(bank, table, first, words, changes);
-    if (refusal == Refusal::none || (refusal == Refusal::bad_value && changes.count > 0))
-      carry_out(bank, changes);
-    return refusal;
+    const Objection refused = gather(bank, request, changes);
+    if (!refused || changes.count > 0) carry_out(bank, changes);
+    return refused;
   });
 }
 
@@ -245,14 +268,34 @@ Value read_value(const RegisterBank& bank, const Place& place) {
 
 Value read_value(const RegisterBank& bank, const NamedPlace& place) {
   const Value value = read_value(bank, place.place);
-  return place.bit < 0 ? value : (value >> place.bit) & 1;
+  return place.bit < 0 ? value : value >> place.bit & ((Value{1} << place.width) - 1);
+}
+
+double number_of(const NamedPlace& place, Value value) {
+  return place.is_real() ? static_cast<double>(real_of(value)) : static_cast<double>(value);
+}
+
+std::optional<Value> value_of_number(const NamedPlace& place, double number) {
+  if (place.is_real()) {
+    const auto real = static_cast<float>(number);
+    if (std::isinf(real) && !std::isinf(number)) return std::nullopt;
+    return value_of_real(real);
+  }
+  constexpr double kMost = 1e15;  // beyond it every number is whole, and none fits
+  if (!(std::abs(number) <= kMost) || number != std::trunc(number)) return std::nullopt;
+  return static_cast<Value>(number);
 }
 
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write) {
-  if (place.place.row->access == Access::read) return Refusal::no_register;
+  const RegisterRow& row = *place.place.row;
+  if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;
   if (const Refusal refusal = words_for(bank, place, value, write); refusal != Refusal::none) return refusal;
   return with_room_for(write.count, [&](Changes& changes) {
-    return gather(bank, write.table, write.first, std::span(write.words).first(write.count), changes);
+    const RegisterRequest request{.table = write.table,
+                                  .first = write.first,
+                                  .count = write.count,
+                                  .words = std::span(write.words).first(write.count)};
+    return gather(bank, request, changes).refusal;
   });
 }
 
@@ -265,7 +308,7 @@ Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
   const RegisterRow& row = *place.row;
   if (named.bit < 0 && place.part == Place::Part::whole) {
     // What its words would come to when they are looked up again: programs write like this all the time.
-    if (row.access == Access::read) return Refusal::no_register;
+    if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;
     const auto [lowest, highest] = limits_of(row.type);
     if (value < lowest || value > highest) return Refusal::bad_value;
     if (!bank.has_row(row)) {
@@ -274,8 +317,7 @@ Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
     }
     std::array<Change, 1> one = {
         Change{.place = place, .bits = static_cast<std::uint32_t>(value), .low = true, .high = true}};
-    const Refusal refusal = judge(one[0], bank.map_policy());
-    if (refusal != Refusal::none) return refusal;
+    if (const Objection refused = judge(one[0], bank.map_policy())) return refused.refusal;
     Changes changes{.all = one, .count = 1};
     carry_out(bank, changes);
     return Refusal::none;

@@ -5,29 +5,40 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "emulator/device/register_map/register_bank.h"
 
 namespace understudy::emulator {
 
-/// Why a request was not carried out. Each protocol translates it (Modbus: an exception code).
-enum class Refusal : std::uint8_t {
-  none,
-  no_register,  // nothing at that address, a register cut in half where that is not allowed,
-                // or a write to what can only be read
-  bad_value,    // outside the register's range
-};
+/// Consecutive 16-bit words from `first` on, as the wire has them; or bits, a word each.
+Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
+                       std::span<std::uint16_t> words);
+Objection write_request(RegisterBank& bank, Table table, std::uint16_t first,
+                        std::span<const std::uint16_t> words);
+/// Consecutive bits, packed as the wire has them: the first is the lowest of the first byte.
+Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t first, std::size_t count,
+                            std::span<std::uint8_t> packed);
 
-/// Consecutive 16-bit words from `first` on, as the wire has them.
-Refusal read_words(const RegisterBank& bank, Table table, std::uint16_t first,
-                   std::span<std::uint16_t> words);
-Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
-                    std::span<const std::uint16_t> words);
+/// The same without the cause.
+inline Refusal read_words(const RegisterBank& bank, Table table, std::uint16_t first,
+                          std::span<std::uint16_t> words) {
+  return read_request(bank, table, first, words).refusal;
+}
+inline Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
+                           std::span<const std::uint16_t> words) {
+  return write_request(bank, table, first, words).refusal;
+}
 
 /// A register's present value (or a half's), as its type has it: signed or not.
 Value read_value(const RegisterBank& bank, const Place& place);
 Value read_value(const RegisterBank& bank, const NamedPlace& place);
+/// The number that a place's value stands for.
+double number_of(const NamedPlace& place, Value value);
+/// The value of a number for a place: a real's bits where it holds a real. None: a fraction for a whole
+/// number, or more than a single can hold.
+std::optional<Value> value_of_number(const NamedPlace& place, double number);
 
 /// A value for a named place, as the words that bring it.
 struct PreparedWrite {

@@ -13,12 +13,28 @@
 
 namespace understudy::emulator {
 
+/// A request for consecutive registers or bits that the map has found good.
+struct RegisterRequest {
+  Table table = Table::holding;
+  std::uint16_t first = 0;
+  std::size_t count = 0;
+  std::span<const std::uint16_t> words{};  // that it writes, a bit each in tables of bits; none: it reads
+  bool is_write() const { return !words.empty(); }
+};
+
+/// What of a request has been found good. A write is shown twice, a read once.
+enum class Checked : std::uint8_t { addresses, everything };
+
 class RegisterBank {
  public:
   const RegisterMap& map() const { return map_; }
   /// What the device has at an address, or by a name, in its firmware.
   Place at(Table table, std::uint16_t address) const {
     return map_.at(table, address, map_firmware_, low_word_first());
+  }
+  /// The same for many: `low_word_first` as the device has it at this moment.
+  Place at(Table table, std::uint16_t address, bool low_word_first_now) const {
+    return map_.at(table, address, map_firmware_, low_word_first_now);
   }
   std::optional<NamedPlace> find(std::string_view name) const { return map_.find(name, map_firmware_); }
   /// Why find() found nothing, as one line.
@@ -34,7 +50,15 @@ class RegisterBank {
   /// Whether a register survives power-off.
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
-  /// Called for each register that a request has written, after its effect.
+  /// Whether the device takes a request that is good so far: it may be busy, or fail. Asked before anything
+  /// is stored, of requests from outside; what it writes itself it is not asked.
+  virtual Refusal admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
+    return Refusal::none;
+  }
+  /// Its station has answered a request with an exception.
+  virtual void exception_answered(const Objection& /*objection*/) {}
+
+  /// Called for each register of the image that a request has written, after its effect.
   virtual void register_written(const RegisterRow& row, std::size_t slot) = 0;
   /// Called after a write request has been stored and all its effects have run.
   virtual void registers_written() {}

@@ -1,8 +1,10 @@
 #include "emulator/device/register_map/register_map.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <stdexcept>
+#include <utility>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
@@ -12,19 +14,64 @@ namespace understudy::emulator {
 std::string RegisterMap::name_of(const RegisterRow& row, int index, std::string_view pattern) {
   const std::size_t hole = pattern.find("{}");
   if (hole == std::string_view::npos) return std::string(pattern);
-  return std::string(pattern.substr(0, hole)) + std::to_string(row.first_number + index) +
+  const auto label = static_cast<std::size_t>(index);
+  return std::string(pattern.substr(0, hole)) +
+         (row.labels.empty() ? std::to_string(row.first_number + index * row.number_step)
+                             : std::string(row.labels[label])) +
          std::string(pattern.substr(hole + 2));
 }
 
 std::string RegisterMap::name_of(const RegisterRow& row, int index) { return name_of(row, index, row.name); }
 
+std::string RegisterMap::unique_name(const RegisterRow& row, int index) const {
+  std::string name = name_of(row, index);
+  if (places_called(std::nullopt, name, UINT16_MAX).size() < 2) return name;
+  return std::string(to_string(row.table)) + "." + name;
+}
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Table>, 4> kTables{{{"holding", Table::holding},
+                                                                     {"coil", Table::coil},
+                                                                     {"input", Table::input},
+                                                                     {"discrete", Table::discrete}}};
+
+/// What a row cannot be, whatever the other rows are.
+void demand_sense(const RegisterRow& row) {
+  const auto demand = [&](bool holds, const char* what) {
+    if (!holds) throw std::logic_error("register map: " + std::string(row.name) + " " + what);
+  };
+  const bool is_bit = row.type == Type::bit;
+  demand(is_bit == is_table_of_bits(row.table), "is not as wide as its table");
+  demand(!row.is_view || !row.persistent, "is a view, which keeps nothing");
+  const bool is_read_only_table = row.table == Table::input || row.table == Table::discrete;
+  demand(!is_read_only_table || row.access == Access::read, "is in a table that hosts cannot write");
+  demand(row.labels.empty() || row.labels.size() == static_cast<std::size_t>(row.count),
+         "has another number of labels");
+  demand(row.message == nullptr || (row.stride == 1 && row.type == Type::u16 && row.least_words >= 1 &&
+                                    row.least_words <= row.count),
+         "is not a window of words");
+  std::uint32_t taken = 0;
+  for (const BitField& field : row.fields) {
+    demand(field.bit >= 0 && field.width >= 1 && field.bit + field.width <= width_of(row.type),
+           "has a field that it has no bits for");
+    demand((taken & field.mask()) == 0, "has two fields in one bit");
+    taken |= field.mask();
+  }
+}
+
+}  // namespace
+
 RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
     : rows_(rows.begin(), rows.end()), policy_(policy) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    first_slots_.push_back(slot_count_);
-    place_words(rows_[i], static_cast<int>(i) + 1);
-    name_places(rows_[i], slot_count_);
-    slot_count_ += rows_[i].count;
+    const RegisterRow& row = rows_[i];
+    demand_sense(row);
+    const int first_slot = row.is_view ? Place::kNoSlot : slot_count_;
+    first_slots_.push_back(first_slot);
+    place_words(row, static_cast<int>(i) + 1);
+    name_places(row, first_slot);
+    if (!row.is_view) slot_count_ += row.count;
   }
 }
 
@@ -41,12 +88,13 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
                                " shares its address with another register");
       }
       entry = {static_cast<std::uint16_t>(row_number), static_cast<std::uint16_t>(index * 2 + word)};
+      table.end = std::max(table.end, address + 1);
     }
   }
 }
 
 void RegisterMap::add_name(const std::string& name, const Place& place) {
-  if (!names_.emplace(name, place).second) {
+  if (!tables_[static_cast<std::size_t>(place.row->table)].names.emplace(name, place).second) {
     throw std::logic_error("register map: two registers are named " + name);
   }
   names_in_order_.push_back(name);
@@ -54,7 +102,7 @@ void RegisterMap::add_name(const std::string& name, const Place& place) {
 
 void RegisterMap::name_places(const RegisterRow& row, int first_slot) {
   for (int index = 0; index < row.count; ++index) {
-    Place place{.row = &row, .index = index, .slot = first_slot + index};
+    Place place{.row = &row, .index = index, .slot = row.is_view ? Place::kNoSlot : first_slot + index};
     for (const std::string_view pattern : {row.name, row.alias}) {
       if (pattern.empty()) continue;
       const std::string name = name_of(row, index, pattern);
@@ -77,9 +125,10 @@ Place RegisterMap::at(Table table, std::uint16_t address, Firmware firmware, boo
   const std::size_t row_number = entry.row_number - 1U;
   const RegisterRow& row = rows_[row_number];
   if (firmware < row.since) return {};
+  const int index_in_row = entry.index_and_part / 2;
   Place place{.row = &row,
-              .index = entry.index_and_part / 2,
-              .slot = first_slots_[row_number] + entry.index_and_part / 2};
+              .index = index_in_row,
+              .slot = row.is_view ? Place::kNoSlot : first_slots_[row_number] + index_in_row};
   if (is_32_bit(row.type)) {
     const bool second_word = entry.index_and_part % 2 != 0;
     place.part = second_word == low_word_first ? Place::Part::high : Place::Part::low;
@@ -99,34 +148,84 @@ std::optional<std::uint16_t> address_of(std::string_view name) {
 }
 
 /// The word there, in the first table that has one; empty if none has. The model's own order of words counts.
-Place word_at(const RegisterMap& map, std::uint16_t address, Firmware firmware) {
-  for (const Table table : {Table::holding, Table::coil, Table::input, Table::discrete}) {
+Place word_at(const RegisterMap& map, std::optional<Table> only, std::uint16_t address, Firmware firmware) {
+  for (const auto& [name, table] : kTables) {
+    if (only && *only != table) continue;
     if (const Place place = map.at(table, address, firmware, map.policy().low_word_first)) return place;
   }
   return {};
 }
 
+/// "input.NAME" without its table, which is told.
+struct InTable {
+  std::optional<Table> table;
+  std::string_view name;
+};
+InTable without_table(std::string_view name) {
+  if (const std::size_t dot = name.find('.'); dot != std::string_view::npos) {
+    if (const auto table = table_called(name.substr(0, dot))) return {table, name.substr(dot + 1)};
+  }
+  return {std::nullopt, name};
+}
+
+/// How many bits of a value are at a place.
+int bits_at(const Place& place) {
+  const int width = width_of(place.row->type);
+  return place.part == Place::Part::whole ? width : 16;
+}
+
+/// The bits of a place that a number or a field's name stands for; none if it has no such bits.
+std::optional<NamedPlace> bits_called(const Place& place, std::string_view name) {
+  if (place.row->type == Type::bit) return std::nullopt;
+  int bit = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), bit);
+  if (error == std::errc{} && end == name.data() + name.size()) {
+    if (bit < 0 || bit >= bits_at(place)) return std::nullopt;
+    return NamedPlace{.place = place, .bit = bit};
+  }
+  if (place.part != Place::Part::whole) return std::nullopt;
+  for (const BitField& field : place.row->fields) {
+    if (field.name == name) return NamedPlace{.place = place, .bit = field.bit, .width = field.width};
+  }
+  return std::nullopt;
+}
+
+std::string expected_bits(const Place& place) {
+  if (place.row->type == Type::bit) return "expected none: it is a bit itself";
+  std::string text = "expected 0 to " + std::to_string(bits_at(place) - 1);
+  if (place.part != Place::Part::whole) return text;
+  for (const BitField& field : place.row->fields) text += ", " + std::string(field.name);
+  return text;
+}
+
 }  // namespace
 
-std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firmware) const {
-  NamedPlace found;
-  if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) {
-    const std::string_view digits = name.substr(dot + 1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), found.bit);
-    if (error != std::errc{} || end != digits.data() + digits.size() || found.bit < 0) return std::nullopt;
-    name = name.substr(0, dot);
+std::vector<Place> RegisterMap::places_called(std::optional<Table> only, std::string_view name,
+                                              Firmware firmware) const {
+  std::vector<Place> places;
+  const std::string key(name);
+  for (const auto& [word, table] : kTables) {
+    if (only && *only != table) continue;
+    const auto& names = tables_[static_cast<std::size_t>(table)].names;
+    const auto it = names.find(key);
+    if (it != names.end() && firmware >= it->second.row->since) places.push_back(it->second);
   }
-  if (const auto address = address_of(name)) {
-    found.place = word_at(*this, *address, firmware);
-    if (!found.place) return std::nullopt;
-  } else {
-    const auto it = names_.find(std::string(name));
-    if (it == names_.end() || firmware < it->second.row->since) return std::nullopt;
-    found.place = it->second;
+  return places;
+}
+
+std::optional<NamedPlace> RegisterMap::find(std::string_view whole_name, Firmware firmware) const {
+  const auto [table, name] = without_table(whole_name);
+  const std::size_t dot = name.rfind('.');
+  const std::string_view base = name.substr(0, dot);
+  Place place;
+  if (const auto address = address_of(base)) {
+    place = word_at(*this, table, *address, firmware);
+  } else if (const auto places = places_called(table, base, firmware); places.size() == 1) {
+    place = places.front();
   }
-  const bool whole_32 = is_32_bit(found.place.row->type) && found.place.part == Place::Part::whole;
-  if (found.bit >= (whole_32 ? 32 : 16)) return std::nullopt;
-  return found;
+  if (!place) return std::nullopt;
+  if (dot == std::string_view::npos) return NamedPlace{.place = place};
+  return bits_called(place, name.substr(dot + 1));
 }
 
 std::string version_text(Firmware firmware) {
@@ -134,37 +233,77 @@ std::string version_text(Firmware firmware) {
   return digits.substr(0, 1) + "." + digits.substr(1);
 }
 
-std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const {
+std::string RegisterMap::why_not(std::string_view whole_name, Firmware firmware) const {
+  const auto [table, name] = without_table(whole_name);
   const std::string_view base = name.substr(0, name.rfind('.'));
-  if (const auto it = names_.find(std::string(base)); it != names_.end()) {
-    if (firmware < it->second.row->since) {
-      return "register " + quoted(base) + " exists from firmware " + version_text(it->second.row->since) +
-             " on";
+  const std::string_view bit = name.substr(std::min(base.size() + 1, name.size()));
+  const auto places = places_called(table, base, firmware);
+  if (places.size() > 1) {
+    std::string text = quoted(base) + " is in several tables; expected one of ";
+    for (const Place& place : places) {
+      text += (&place == &places.front() ? "" : ", ") + std::string(to_string(place.row->table)) + "." +
+              std::string(name);
     }
-    const bool whole_32 = is_32_bit(it->second.row->type) && it->second.part == Place::Part::whole;
-    return "register " + quoted(base) + " has no bit " +
-           quoted(name.substr(std::min(base.size() + 1, name.size()))) + "; expected 0 to " +
-           (whole_32 ? "31" : "15");
+    return text;
+  }
+  if (places.size() == 1) {
+    return "register " + quoted(base) + " has no bit " + quoted(bit) + "; " + expected_bits(places.front());
+  }
+  if (const auto newer = places_called(table, base, UINT16_MAX); !newer.empty()) {
+    return "register " + quoted(base) + " exists from firmware " + version_text(newer.front().row->since) +
+           " on";
   }
   if (const auto address = address_of(base)) {
-    if (find(base, firmware)) {
-      return std::string(base) + " has no bit " + quoted(name.substr(base.size() + 1)) + "; expected 0 to 15";
+    if (const Place place = word_at(*this, table, *address, firmware)) {
+      return std::string(base) + " has no bit " + quoted(bit) + "; " + expected_bits(place);
     }
     return "no register is at " + std::string(base);
   }
-  return "no register is called " + quoted(name) + suggestion(base, names_in_order_);
+  if (table && !places_called(std::nullopt, base, firmware).empty()) {
+    return quoted(base) + " is not in the table " + quoted(to_string(*table)) + "; expected " +
+           std::string(to_string(places_called(std::nullopt, base, firmware).front().row->table)) + "." +
+           std::string(name);
+  }
+  return "no register is called " + quoted(whole_name) + suggestion(base, names_in_order_);
+}
+
+std::string_view to_string(Table table) {
+  for (const auto& [name, known] : kTables) {
+    if (known == table) return name;
+  }
+  return "";
+}
+
+std::optional<Table> table_called(std::string_view name) {
+  for (const auto& [known, table] : kTables) {
+    if (known == name) return table;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// The shortest text that a single reads back as.
+std::string real_text(Value value) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), real_of(value));
+  return error == std::errc{} ? std::string(text.data(), end) : std::string();
+}
+
+}  // namespace
+
+std::string value_text(Value value, Type type) {
+  return type == Type::f32 ? real_text(value) : std::to_string(value);
 }
 
 std::string range_text(const RegisterRow& row) {
-  if (row.stored_bits < 0xFFFF) return "0 to " + std::to_string(row.stored_bits);
-  if (row.ranged) return std::to_string(row.min) + " to " + std::to_string(row.max);
-  switch (row.type) {
-    case Type::u16: return "0 to 65535";
-    case Type::s16: return "-32768 to 32767";
-    case Type::u32: return "0 to 4294967295";
-    case Type::s32: return "-2147483648 to 2147483647";
+  if (row.stored_bits < 0xFFFF && row.type != Type::bit) return "0 to " + std::to_string(row.stored_bits);
+  if (row.type == Type::f32) {
+    return row.ranged ? real_text(row.min) + " to " + real_text(row.max) : "a real number";
   }
-  return "";
+  const TypeLimits limits = row.ranged ? TypeLimits{row.min, row.max} : limits_of(row.type);
+  return std::to_string(limits.lowest) + (row.type == Type::bit ? " or " : " to ") +
+         std::to_string(limits.highest);
 }
 
 }  // namespace understudy::emulator

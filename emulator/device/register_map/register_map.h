@@ -17,26 +17,37 @@ namespace understudy::emulator {
 
 /// One register, or one half of a 32-bit one.
 struct Place {
+  static constexpr int kNoSlot = -1;
+
   const RegisterRow* row = nullptr;
   int index = 0;
-  int slot = 0;  // in the register image
+  int slot = 0;  // in the register image; kNoSlot: a view of other state
   enum class Part : std::uint8_t { whole, low, high } part = Part::whole;
 
   explicit operator bool() const { return row != nullptr; }
   std::uint16_t address() const {  // of the whole's first word
     return static_cast<std::uint16_t>(row->address + index * row->stride);
   }
+  bool is_second_word(bool low_word_first) const {
+    return part != Part::whole && (part == Part::high) == low_word_first;
+  }
+  /// Whether both are words of one register.
+  bool is_same_register(const Place& other) const { return row == other.row && index == other.index; }
 };
 
-/// A place, or a bit of it: "STATUS.4".
+/// A place, or bits of it: "STATUS.4", "STATUS.READY".
 struct NamedPlace {
   Place place;
-  int bit = -1;
+  int bit = -1;   // the lowest of them; -1: the whole
+  int width = 1;  // how many
+
+  bool is_real() const { return bit < 0 && place.part == Place::Part::whole && place.row->type == Type::f32; }
 };
 
 class RegisterMap {
  public:
-  /// Throws std::logic_error if two rows claim one address or one name.
+  /// Throws std::logic_error if two rows of a table claim one address or one name, or a row does not make
+  /// sense.
   RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy);
   RegisterMap(const RegisterMap&) = delete;  // places point into it
   RegisterMap& operator=(const RegisterMap&) = delete;
@@ -50,7 +61,13 @@ class RegisterMap {
   /// device runs). Empty if nothing is there, for this firmware.
   Place at(Table table, std::uint16_t address, Firmware firmware, bool low_word_first) const;
 
-  /// "Aaxis_Pulse", "Aaxis_Pulse_L" (a half), "STATUS.4" (a bit).
+  bool has(Table table) const { return !tables_[static_cast<std::size_t>(table)].entries.empty(); }
+  /// Behind the last address of a table.
+  int end_of(Table table) const { return tables_[static_cast<std::size_t>(table)].end; }
+
+  /// "Aaxis_Pulse", "Aaxis_Pulse_L" (a half), "STATUS.4" (a bit), "STATUS.READY" (a field), "input.NAME"
+  /// where several tables have that name. "0x1000" is an address of the first table that has it: holding
+  /// registers, coils, input registers, discrete inputs.
   std::optional<NamedPlace> find(std::string_view name, Firmware firmware) const;
   /// Why find() found nothing, as one line: no such name (and the nearest), no such bit, a newer firmware.
   std::string why_not(std::string_view name, Firmware firmware) const;
@@ -58,11 +75,16 @@ class RegisterMap {
   /// "MAIN_LINE" + number + "_CMD": the name of a row's register.
   static std::string name_of(const RegisterRow& row, int index);
   static std::string name_of(const RegisterRow& row, int index, std::string_view pattern);
+  /// The same with its table in front where another table has that name as well: find() finds it by that.
+  std::string unique_name(const RegisterRow& row, int index) const;
 
  private:
   void place_words(const RegisterRow& row, int row_number);
   void name_places(const RegisterRow& row, int first_slot);
   void add_name(const std::string& name, const Place& place);
+  /// Those of a name, in one table or all of them, by this firmware.
+  std::vector<Place> places_called(std::optional<Table> table, std::string_view name,
+                                   Firmware firmware) const;
 
   // Which row and index serve an address; row numbers count from 1, so 0 is "nothing here".
   struct Entry {
@@ -71,6 +93,8 @@ class RegisterMap {
   };
   struct TableIndex {
     std::vector<Entry> entries;  // 65,536, or none if the model has no such table
+    int end = 0;
+    std::unordered_map<std::string, Place> names{};  // looked up, never iterated
   };
 
   std::vector<RegisterRow> rows_;
@@ -78,12 +102,18 @@ class RegisterMap {
   MapPolicy policy_;
   int slot_count_ = 0;
   std::array<TableIndex, 4> tables_;
-  std::unordered_map<std::string, Place> names_;  // looked up, never iterated
   std::vector<std::string> names_in_order_;
 };
 
+/// "holding", "input", "coil", "discrete".
+std::string_view to_string(Table table);
+std::optional<Table> table_called(std::string_view name);
+
 /// "0 to 3000", or what the width allows where the manual gives no range.
 std::string range_text(const RegisterRow& row);
+
+/// A value as its type has it: "-5", of a real "321.65".
+std::string value_text(Value value, Type type);
 
 /// 152 as "1.52".
 std::string version_text(Firmware firmware);

@@ -2,8 +2,12 @@
 // in the manual's order and spelling. Everything else about registers is read from these rows.
 #pragma once
 
+#include <bit>
 #include <cstdint>
+#include <span>
 #include <string_view>
+
+#include "emulator/device/register_map/refusal.h"
 
 namespace understudy::emulator {
 
@@ -13,16 +17,23 @@ class RegisterBankOf;
 
 enum class Table : std::uint8_t { holding, input, coil, discrete };
 enum class Access : std::uint8_t { read, write, read_write };
-enum class Type : std::uint8_t { u16, s16, u32, s32 };
+/// `bit`: of coils and discrete inputs, one for each address. `f32`: an IEEE 754 single.
+enum class Type : std::uint8_t { u16, s16, u32, s32, bit, f32 };
 
-/// Wide enough for every type's value.
+/// Wide enough for every type's value. A real is its 32 bits: real_of(), value_of_real().
 using Value = std::int64_t;
 
 /// A firmware version in hundredths: 1.52 is 152. 0 as "since": from the first on.
 using Firmware = std::uint16_t;
 
-constexpr bool is_32_bit(Type type) { return type == Type::u32 || type == Type::s32; }
-constexpr bool is_signed(Type type) { return type == Type::s16 || type == Type::s32; }
+constexpr bool is_32_bit(Type type) { return type == Type::u32 || type == Type::s32 || type == Type::f32; }
+constexpr bool is_signed(Type type) { return type == Type::s16 || type == Type::s32 || type == Type::f32; }
+/// In bits: 1, 16 or 32.
+constexpr int width_of(Type type) { return type == Type::bit ? 1 : is_32_bit(type) ? 32 : 16; }
+constexpr bool is_table_of_bits(Table table) { return table == Table::coil || table == Table::discrete; }
+
+constexpr float real_of(Value value) { return std::bit_cast<float>(static_cast<std::uint32_t>(value)); }
+constexpr Value value_of_real(float real) { return std::bit_cast<std::uint32_t>(real); }
 
 /// The low bits of a value, as a signed or unsigned quantity of the type.
 constexpr Value value_of(std::uint32_t bits, Type type) {
@@ -31,8 +42,27 @@ constexpr Value value_of(std::uint32_t bits, Type type) {
     case Type::s16: return static_cast<std::int16_t>(bits);
     case Type::u32: return bits;
     case Type::s32: return static_cast<std::int32_t>(bits);
+    case Type::bit: return bits & 1;
+    case Type::f32: return bits;
   }
   return 0;
+}
+
+/// What a type can hold; of reals, their bits.
+struct TypeLimits {
+  Value lowest = 0;
+  Value highest = 0;
+};
+constexpr TypeLimits limits_of(Type type) {
+  switch (type) {
+    case Type::u16: return {0, UINT16_MAX};
+    case Type::s16: return {INT16_MIN, INT16_MAX};
+    case Type::s32: return {INT32_MIN, INT32_MAX};
+    case Type::bit: return {0, 1};
+    case Type::u32:
+    case Type::f32: return {0, UINT32_MAX};
+  }
+  return {};
 }
 
 /// Which register of a row is meant, as its functions see it.
@@ -46,6 +76,8 @@ struct Cell {
 using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// What a write does beyond storing. Runs after the whole request is stored, in ascending order.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
+/// Takes the words that one request has written to a window, or refuses them and has changed nothing.
+using Message = Refusal (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
 /// A model's functions take its own device, of which the bank that they are called for is a part
 /// (register_bank.h). `D` may be incomplete where the rows stand.
@@ -63,6 +95,35 @@ struct Handler<function> {
     function(static_cast<RegisterBankOf<D>&>(bank).device(), cell, value);
   }
 };
+template <typename D, Refusal (*function)(D&, Cell, std::span<const std::uint16_t>)>
+struct Handler<function> {
+  static Refusal call(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words) {
+    return function(static_cast<RegisterBankOf<D>&>(bank).device(), cell, words);
+  }
+};
+
+/// Bits of a register that have a name: "STATUS.READY".
+struct BitField {
+  int bit = 0;  // the lowest of them
+  std::string_view name;
+  int width = 1;
+  Reader reader = nullptr;  // their present value, where it is not simply the register's
+
+  template <auto function>
+  constexpr BitField& reads() {
+    reader = Handler<function>::call;
+    return *this;
+  }
+  constexpr std::uint32_t mask() const { return (width >= 32 ? ~0U : (1U << width) - 1U) << bit; }
+};
+
+constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
+  BitField field;
+  field.bit = lowest;
+  field.name = name;
+  field.width = width;
+  return field;
+}
 
 struct RegisterRow {
   std::uint16_t address = 0;
@@ -83,7 +144,9 @@ struct RegisterRow {
   int count = 1;   // a range of `count` registers, `stride` addresses apart,
   int stride = 1;  // whose names carry first_number, first_number + 1, ...
   int first_number = 0;
-  std::string_view low_half = "_L";  // what the manual appends to the halves of a 32-bit register
+  int number_step = 1;
+  std::span<const std::string_view> labels{};  // or these, one each: the axes' names, for example
+  std::string_view low_half = "_L";            // what the manual appends to the halves of a 32-bit register
   std::string_view high_half = "_H";
 
   Firmware since = 0;
@@ -92,6 +155,10 @@ struct RegisterRow {
   int argument = 0;
   Reader reader = nullptr;
   Effect effect = nullptr;
+  bool is_view = false;  // of other state: no slot in the image, and not kept; without a reader `factory`
+  std::span<const BitField> fields{};
+  Message message = nullptr;    // a window: takes what one request writes from its first word on,
+  int least_words = 1;          // so many words or more, as one message
   bool acts_on_zero = true;     // false: a trigger, for which a written 0 does nothing
   std::string_view unmodelled;  // what is missing, if the register only stores and reads back
 
@@ -128,6 +195,20 @@ struct RegisterRow {
     first_number = number_of_first;
     return *this;
   }
+  /// The same where numbers go up in other steps: D8100, D8200, ...
+  constexpr RegisterRow& numbered_by(int step) {
+    number_step = step;
+    return *this;
+  }
+  /// One for each axis, `apart` addresses apart; "{}" in the name stands for the axis.
+  constexpr RegisterRow& each(std::span<const std::string_view> axes, int apart) {
+    labels = axes;
+    return times(static_cast<int>(axes.size()), apart, 0);
+  }
+  /// Like range(), of a real.
+  constexpr RegisterRow& real_range(float low, float high) {
+    return range(value_of_real(low), value_of_real(high));
+  }
   constexpr RegisterRow& halves(std::string_view low, std::string_view high) {
     low_half = low;
     high_half = high;
@@ -140,6 +221,27 @@ struct RegisterRow {
   template <auto function>
   constexpr RegisterRow& reads(int with_argument = 0) {
     reader = Handler<function>::call;
+    argument = with_argument;
+    return *this;
+  }
+  /// A view of other state, by a reader; writes reach that state by the effect.
+  template <auto function>
+  constexpr RegisterRow& shows(int with_argument = 0) {
+    is_view = true;
+    return reads<function>(with_argument);
+  }
+  /// A view that never changes.
+  constexpr RegisterRow& always(Value value) {
+    is_view = true;
+    return from_factory(value);
+  }
+  /// A view whose bits are other state.
+  constexpr RegisterRow& shows_bits(std::span<const BitField> of_it, int with_argument = 0) {
+    is_view = true;
+    return with_bits(of_it, with_argument);
+  }
+  constexpr RegisterRow& with_bits(std::span<const BitField> of_it, int with_argument = 0) {
+    fields = of_it;
     argument = with_argument;
     return *this;
   }
@@ -173,9 +275,36 @@ constexpr RegisterRow reg(std::uint16_t address, std::string_view name, Type typ
   return row;
 }
 
+constexpr RegisterRow reg(Table table, std::uint16_t address, std::string_view name, Type type,
+                          Access access) {
+  RegisterRow row = reg(address, name, type, access);
+  row.table = table;
+  return row;
+}
+constexpr RegisterRow input(std::uint16_t address, std::string_view name, Type type) {
+  return reg(Table::input, address, name, type, Access::read);
+}
+constexpr RegisterRow coil(std::uint16_t address, std::string_view name, Access access = Access::read_write) {
+  return reg(Table::coil, address, name, Type::bit, access);
+}
+constexpr RegisterRow discrete(std::uint16_t address, std::string_view name) {
+  return reg(Table::discrete, address, name, Type::bit, Access::read);
+}
+
+/// Words that one request writes as one message. "{}" in the name stands for the word's number.
+template <auto function>
+constexpr RegisterRow window(std::uint16_t address, std::string_view name, int words, int least = 1) {
+  RegisterRow row = reg(address, name, Type::u16, Access::write);
+  row.is_view = true;
+  row.message = Handler<function>::call;
+  row.least_words = least;
+  return row.times(words, 1, 0);
+}
+
 /// What a model answers where the map or the Modbus standard leaves it open.
 struct MapPolicy {
-  enum class Unmapped : std::uint8_t { refused, reads_zero } unmapped = Unmapped::refused;
+  /// `holes_read_zero`: before the last register of a table; beyond it and for writes it is refused.
+  enum class Unmapped : std::uint8_t { refused, reads_zero, holes_read_zero } unmapped = Unmapped::refused;
   enum class WriteOnly : std::uint8_t { reads_zero, refused } write_only = WriteOnly::reads_zero;
   enum class ReadOnly : std::uint8_t { refused, ignores_writes } read_only = ReadOnly::refused;
   /// Half of a 32-bit register alone: taken whatever the whole becomes, judged with the other half as it is,
@@ -185,6 +314,10 @@ struct MapPolicy {
     judged_with_the_other,
     come_whole
   } halves = Halves::may_be_written_alone;
+  enum class ReadHalves : std::uint8_t {
+    may_be_read_alone,
+    come_whole
+  } read_halves = ReadHalves::may_be_read_alone;
   enum class OutOfRange : std::uint8_t { refused, clamped } out_of_range = OutOfRange::refused;
   /// What a request with a value out of range leaves behind: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;

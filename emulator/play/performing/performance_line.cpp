@@ -177,7 +177,9 @@ void Performance::perform(const ExpectStep& step) {
         value = world::evaluate(world::parse_expression(name, eyes_->probes), eyes_->probes);
       });
     } else {
-      value = world::Number(value_in(target, words[next], low_word_first[next]));
+      const Value came_back = value_in(target, words[next], low_word_first[next]);
+      value = target.place && target.place->is_real() ? world::Number(number_of(*target.place, came_back))
+                                                      : world::Number(came_back);
       ++next;
     }
     if (wanted.holds(value)) continue;

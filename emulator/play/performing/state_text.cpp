@@ -34,7 +34,8 @@ std::string registers_text(const Device& device) {
     }
     if (!place) return;
     const Value value = read_value(*bank, *place);
-    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(value);
+    text += (text.empty() ? "" : ", ") + name + " " +
+            (place->is_real() ? value_text(value, Type::f32) : std::to_string(value));
     if (name != "STATUS") return;
     std::array<char, 16> hexadecimal{};
     std::snprintf(hexadecimal.data(), hexadecimal.size(), " (0x%04X)",

@@ -32,15 +32,10 @@ std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first)
 
 Limits limits_of(const Target& target) {
   if (!target.place) return {0, UINT16_MAX};
-  if (target.place->bit >= 0) return {0, 1};
+  if (target.place->bit >= 0) return {0, (Value{1} << target.place->width) - 1};
   if (target.place->place.part != Place::Part::whole) return {0, UINT16_MAX};
-  switch (target.place->place.row->type) {
-    case Type::u16: return {0, UINT16_MAX};
-    case Type::s16: return {INT16_MIN, INT16_MAX};
-    case Type::u32: return {0, UINT32_MAX};
-    case Type::s32: return {INT32_MIN, INT32_MAX};
-  }
-  return {};
+  const TypeLimits limits = emulator::limits_of(target.place->place.row->type);
+  return {limits.lowest, limits.highest};
 }
 
 Words words_of(const Target& target, bool low_word_first) {
@@ -96,7 +91,7 @@ std::vector<Request> write_requests(std::span<const Words> entries,
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first) {
   const std::uint32_t bits = bits_in(words, low_word_first);
   if (!target.place) return bits;
-  if (target.place->bit >= 0) return bits >> target.place->bit & 1;
+  if (target.place->bit >= 0) return Value{bits} >> target.place->bit & limits_of(target).high;
   if (target.place->place.part != Place::Part::whole) return bits;
   return value_of(bits, target.place->place.row->type);
 }
@@ -110,9 +105,9 @@ std::vector<std::uint16_t> words_with(const Target& target, Value value, bool lo
   }
   auto bits = static_cast<std::uint32_t>(value);
   if (target.place && target.place->bit >= 0) {
-    const std::uint32_t mask = 1U << target.place->bit;
-    const std::uint32_t whole = bits_in(present, low_word_first);
-    bits = value != 0 ? whole | mask : whole & ~mask;
+    const auto mask = static_cast<std::uint32_t>(limits.high << target.place->bit);
+    bits = (bits_in(present, low_word_first) & ~mask) | static_cast<std::uint32_t>(value)
+                                                            << target.place->bit;
   }
   const auto low = static_cast<std::uint16_t>(bits);
   const auto high = static_cast<std::uint16_t>(bits >> 16);

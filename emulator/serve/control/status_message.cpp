@@ -66,7 +66,8 @@ Json telling_registers(const Device& device) {
   for (const std::string_view name : device.model().state_registers) {
     const RegisterBank* const bank = device.register_bank();
     if (const auto place = bank != nullptr ? bank->find(name) : std::nullopt) {
-      values[std::string(name)] = read_value(*bank, *place);
+      const Value value = read_value(*bank, *place);
+      values[std::string(name)] = place->is_real() ? json_of(number_of(*place, value)) : Json(value);
     } else if (const NamedValues* const named = device.named_values()) {
       if (const auto value = named->value_named(name)) values[std::string(name)] = json_of(*value);
     }

@@ -29,13 +29,28 @@ namespace understudy::emulator::serve {
 
 namespace {
 
+/// A number for a register: a whole one, or a real one for a register that holds such.
+struct WantedRegister {
+  std::string name;
+  Json number;
+};
+
 /// What `set` wants: of registers, and of devices without them.
 struct WantedValues {
-  std::vector<std::pair<std::string, std::int64_t>> registers;
+  std::vector<WantedRegister> registers;
   std::vector<std::pair<world::ValueName, double>> values;
 };
 
-/// The object under "values": names with numbers, whole ones for registers.
+/// Whether a name is a register's that holds a real number.
+bool is_real_register(const world::KnownDevices& known, const std::string& name) {
+  try {
+    return world::find_register(known, name).place.is_real();
+  } catch (const world::NameError&) {
+    return false;  // it is complained of where it is looked up
+  }
+}
+
+/// The object under "values": names with numbers, whole ones for registers that hold no other.
 WantedValues named_values(const Json& message, const world::KnownDevices& known) {
   demand_keys(message, {"do", "values"});
   const Json& values = demand(message, "values");
@@ -50,8 +65,11 @@ WantedValues named_values(const Json& message, const world::KnownDevices& known)
       }
     }
     const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX;
-    if (!value.is_number_integer() || huge) throw MessageError(name + ": expected a whole number");
-    all.registers.emplace_back(name, value.get<std::int64_t>());
+    const bool is_real = value.is_number() && is_real_register(known, name);
+    if (!is_real && (!value.is_number_integer() || huge)) {
+      throw MessageError(name + ": expected a whole number");
+    }
+    all.registers.push_back({name, value});
   }
   return all;
 }
@@ -90,14 +108,26 @@ world::NamedNumber resolve(const world::World& world, const world::Probes& probe
   }
 }
 
-void demand_accepted(Refusal refusal, const std::string& name, std::int64_t value, const RegisterRow& row) {
+void demand_accepted(Refusal refusal, const std::string& name, const std::string& value,
+                     const RegisterRow& row) {
   switch (refusal) {
     case Refusal::none: return;
-    case Refusal::no_register: throw MessageError(name + " cannot be written; it is read-only");
+    case Refusal::no_register:
+      throw MessageError(row.message != nullptr
+                             ? name + " takes whole messages; expected a request from the line"
+                             : name + " cannot be written; it is read-only");
     case Refusal::bad_value:
-      throw MessageError(name + ": " + std::to_string(value) + " is out of range; expected " +
-                         range_text(row));
+      throw MessageError(name + ": " + value + " is out of range; expected " + range_text(row));
+    case Refusal::busy: throw MessageError(name + " cannot be written now; the device is busy");
+    case Refusal::failure: throw MessageError(name + " cannot be written; the device has failed");
   }
+}
+
+/// A number as a register has it.
+Value value_for(const world::RegisterName& place, const WantedRegister& wanted) {
+  if (!place.place.is_real()) return wanted.number.get<std::int64_t>();
+  if (const auto value = value_of_number(place.place, wanted.number.get<double>())) return *value;
+  throw MessageError(wanted.name + ": " + wanted.number.dump() + " is more than a single can hold");
 }
 
 /// Each is tried on a device that is made alike, so that all are given or none.
@@ -170,18 +200,19 @@ Json set_message(Daemon& daemon, const Json& message) {
   std::vector<world::RegisterName> places;
   std::vector<PreparedWrite> writes(wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const auto& [name, value] = wanted[i];
+    const std::string& name = wanted[i].name;
     const world::RegisterName place = world::find_register(world.known(), name);
     // Two bits, or halves, of one register would be judged one without the other.
     for (const world::RegisterName& other : places) {
-      if (other.device == place.device && other.place.place.slot == place.place.place.slot) {
+      if (other.device == place.device && other.place.place.is_same_register(place.place.place)) {
         throw MessageError(name + ": its register is named twice; expected it once");
       }
     }
     places.push_back(place);
     demand_power(world.device(place.device));
-    demand_accepted(prepare_value(*world.device(place.device).register_bank(), place.place, value, writes[i]),
-                    name, value, *place.place.place.row);
+    const Refusal refusal = prepare_value(*world.device(place.device).register_bank(), place.place,
+                                          value_for(place, wanted[i]), writes[i]);
+    demand_accepted(refusal, name, wanted[i].number.dump(), *place.place.place.row);
   }
   for (std::size_t i = 0; i < writes.size(); ++i) world.write(places[i].device, writes[i]);
   for (const auto& [place, value] : values) world.assign(place.device, place.name, value);

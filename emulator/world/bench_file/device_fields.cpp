@@ -64,7 +64,12 @@ NvImage read_memory(const YamlFields& field, const Model& model, Complaints& com
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
       if (model.registers == nullptr) return read_value_of_memory(name, number, image);
-      image.registers.emplace_back(name, number.integer(kRegisterValueForm));
+      const auto place = find_register(model, name, model.firmwares.back());
+      if (place && place->is_real()) {
+        image.reals.emplace_back(name, demand_real(number));
+      } else {
+        image.registers.emplace_back(name, number.integer(kRegisterValueForm));
+      }
     });
   }
   return image;

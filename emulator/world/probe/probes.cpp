@@ -57,7 +57,11 @@ Number Probes::value(std::int32_t handle) const {
   }
   const Device& device = view_.device(probe.device);
   switch (probe.what) {
-    case What::reg: return device.powered() ? read_value(*device.register_bank(), probe.reg) : 0;
+    case What::reg: {
+      if (!device.powered()) return 0;
+      const Value value = read_value(*device.register_bank(), probe.reg);
+      return probe.reg.is_real() ? number_of(emulator::number_of(probe.reg, value)) : Number(value);
+    }
     case What::named:
       return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
                               : Number(0);

@@ -21,8 +21,8 @@ std::string write_text(const PreparedWrite& write, const RegisterBank& bank) {
     bits = low_word_first ? bits | std::uint32_t{write.words[1]} << 16 : bits << 16 | write.words[1];
   }
   if (place && (write.count == 2 || place.part == Place::Part::whole)) {
-    return RegisterMap::name_of(*place.row, place.index) + "=" +
-           std::to_string(value_of(bits, place.row->type));
+    return bank.map().unique_name(*place.row, place.index) + "=" +
+           value_text(value_of(bits, place.row->type), place.row->type);
   }
   std::array<char, 8> address{};
   std::snprintf(address.data(), address.size(), "0x%04X", write.first);

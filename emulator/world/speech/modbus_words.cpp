@@ -72,7 +72,7 @@ class WordsText {
       const auto first = static_cast<std::uint32_t>(value_at(word));
       const auto second = static_cast<std::uint32_t>(value_at(word + 1));
       const std::uint32_t bits = bank->low_word_first() ? first | second << 16 : second | first << 16;
-      return name + " = " + std::to_string(value_of(bits, row.type));
+      return name + " = " + value_text(value_of(bits, row.type), row.type);
     }
     if (place.part != Place::Part::whole) {
       name += place.part == Place::Part::low ? row.low_half : row.high_half;

@@ -29,8 +29,7 @@ class LineStation : public pty::Station, private FaultyWire::End {
   /// Forgets what it was hearing, and what it still has to say.
   virtual void reset() = 0;
 
-  /// Where something is broken that frames meet; null: nothing is. The device's number is told with each
-  /// frame.
+  /// What is broken that frames meet; null: nothing. It gets the device's number with each frame.
   void set_faults(FrameFaults* faults, std::size_t device) { wire_.set_faults(faults, device); }
 
   /// The device may have something to say unasked. Returns whether it has: then due() has changed.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/stations/server.h"
 #include "emulator/world/stations/station_fields.h"
 #include "pty/rtu_crc.h"
@@ -86,6 +87,7 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
 
   ++counters_.replies;
   if (refuses) ++counters_.exceptions;
+  if (reply.objection) device_.register_bank()->exception_answered(reply.objection);
   std::array<std::uint8_t, pty::kRtuMaxFrame> buffer;
   buffer[0] = address;
   std::copy_n(reply.pdu.begin(), reply.size, buffer.begin() + 1);

@@ -35,7 +35,7 @@ class RtuStation final : public LineStation {
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
-  /// What it hears and has counted; the device's state is its own.
+  /// What it hears and has counted; the device's state is separate.
   struct State {
     pty::RtuFramer::State framer;
     StationCounters counters;

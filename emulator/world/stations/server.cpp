@@ -8,10 +8,14 @@ namespace understudy::emulator::world {
 
 namespace {
 
-constexpr std::size_t kMaxReadWords = 125;
-constexpr std::size_t kMaxWriteWords = 123;
+constexpr std::size_t kMostWordsRead = 125;
+constexpr std::size_t kMostWritten = 1968;  // bits, a word each while they are on their way
+constexpr std::uint16_t kOn = 0xFF00;
+constexpr std::uint16_t kOff = 0x0000;
 
-std::uint16_t word_at(std::span<const std::uint8_t> pdu, std::size_t at) {
+using Pdu = std::span<const std::uint8_t>;
+
+std::uint16_t word_at(Pdu pdu, std::size_t at) {
   return static_cast<std::uint16_t>(pdu[at] << 8 | pdu[at + 1]);
 }
 
@@ -20,80 +24,134 @@ void put_word(ModbusReply& reply, std::uint16_t word) {
   reply.pdu[reply.size++] = static_cast<std::uint8_t>(word);
 }
 
-ModbusReply exception(std::uint8_t function, ModbusException code) {
+ModbusException exception_for(const Objection& objection) {
+  if (objection.cause == Cause::unknown_function) return ModbusException::illegal_function;
+  switch (objection.refusal) {
+    case Refusal::bad_value: return ModbusException::illegal_data_value;
+    case Refusal::busy: return ModbusException::device_busy;
+    case Refusal::failure: return ModbusException::device_failure;
+    case Refusal::none:
+    case Refusal::no_register: break;
+  }
+  return ModbusException::illegal_data_address;
+}
+
+ModbusReply exception(std::uint8_t function, const Objection& objection) {
   ModbusReply reply;
   reply.pdu[0] = function | 0x80;
-  reply.pdu[1] = static_cast<std::uint8_t>(code);
+  reply.pdu[1] = static_cast<std::uint8_t>(exception_for(objection));
   reply.size = 2;
+  reply.objection = objection;
   return reply;
 }
 
-ModbusException exception_for(Refusal refusal) {
-  return refusal == Refusal::bad_value ? ModbusException::illegal_data_value
-                                       : ModbusException::illegal_data_address;
-}
+Objection bad_value(Cause cause) { return {Refusal::bad_value, cause, 0}; }
+
+/// A function of the model's that it serves from a table: by its own limit, and from the table that it has.
+struct Service {
+  const FunctionRow& row;
+  Table table;
+  std::size_t most;
+
+  bool is_of_bits() const { return is_table_of_bits(table); }
+  std::size_t bytes_for(std::size_t quantity) const {
+    return is_of_bits() ? (quantity + 7) / 8 : 2 * quantity;
+  }
+};
 
 /// The beginning of the request comes back: function, and the four bytes after it.
-ModbusReply echo(std::span<const std::uint8_t> pdu) {
+ModbusReply echo(Pdu pdu) {
   ModbusReply reply;
   std::copy_n(pdu.begin(), 5, reply.pdu.begin());
   reply.size = 5;
   return reply;
 }
 
-ModbusReply read_registers(const RegisterBank& bank, std::span<const std::uint8_t> pdu) {
-  const std::uint8_t function = pdu[0];
-  if (pdu.size() != 5) return exception(function, ModbusException::illegal_data_value);
+ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
+  if (pdu.size() != 5) return exception(pdu[0], bad_value(Cause::bad_length));
+  const std::uint16_t first = word_at(pdu, 1);
   const std::size_t quantity = word_at(pdu, 3);
-  if (quantity < 1 || quantity > kMaxReadWords)
-    return exception(function, ModbusException::illegal_data_value);
-  std::array<std::uint16_t, kMaxReadWords> words;
-  // The input registers of models that do not tell them apart are the holding registers.
-  const Refusal refusal = read_words(bank, Table::holding, word_at(pdu, 1), std::span(words).first(quantity));
-  if (refusal != Refusal::none) return exception(function, exception_for(refusal));
+  if (quantity < 1 || quantity > service.most) return exception(pdu[0], bad_value(Cause::bad_count));
+  const std::size_t bytes = service.bytes_for(quantity);
   ModbusReply reply;
-  reply.pdu[reply.size++] = function;
-  reply.pdu[reply.size++] = static_cast<std::uint8_t>(2 * quantity);
+  reply.pdu[0] = pdu[0];
+  reply.pdu[1] = static_cast<std::uint8_t>(bytes);
+  reply.size = 2;
+  if (service.is_of_bits()) {
+    const auto packed = std::span(reply.pdu).subspan(2, bytes);
+    const Objection refused = read_bits_request(bank, service.table, first, quantity, packed);
+    if (refused) return exception(pdu[0], refused);
+    reply.size += bytes;
+    return reply;
+  }
+  std::array<std::uint16_t, kMostWordsRead> words;
+  const Objection refused = read_request(bank, service.table, first, std::span(words).first(quantity));
+  if (refused) return exception(pdu[0], refused);
   for (std::size_t i = 0; i < quantity; ++i) put_word(reply, words[i]);
   return reply;
 }
 
-ModbusReply write_register(RegisterBank& bank, std::span<const std::uint8_t> pdu) {
-  if (pdu.size() != 5) return exception(pdu[0], ModbusException::illegal_data_value);
-  const std::array<std::uint16_t, 1> word{word_at(pdu, 3)};
-  const Refusal refusal = write_words(bank, Table::holding, word_at(pdu, 1), word);
-  return refusal == Refusal::none ? echo(pdu) : exception(pdu[0], exception_for(refusal));
+ModbusReply write_one(RegisterBank& bank, const Service& service, Pdu pdu) {
+  if (pdu.size() != 5) return exception(pdu[0], bad_value(Cause::bad_length));
+  std::uint16_t word = word_at(pdu, 3);
+  if (service.is_of_bits()) {
+    if (word != kOn && word != kOff) return exception(pdu[0], bad_value(Cause::bad_bit));
+    word = word == kOn ? 1 : 0;
+  }
+  const Objection refused = write_request(bank, service.table, word_at(pdu, 1), std::span(&word, 1));
+  return refused ? exception(pdu[0], refused) : echo(pdu);
 }
 
-ModbusReply write_registers(RegisterBank& bank, std::span<const std::uint8_t> pdu) {
-  if (pdu.size() < 6) return exception(pdu[0], ModbusException::illegal_data_value);
+ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
+  if (pdu.size() < 6) return exception(pdu[0], bad_value(Cause::bad_length));
   const std::size_t quantity = word_at(pdu, 3);
-  if (quantity < 1 || quantity > kMaxWriteWords || pdu[5] != 2 * quantity || pdu.size() != 6 + 2 * quantity) {
-    return exception(pdu[0], ModbusException::illegal_data_value);
+  if (quantity < 1 || quantity > service.most) return exception(pdu[0], bad_value(Cause::bad_count));
+  const std::size_t bytes = service.bytes_for(quantity);
+  if (pdu[5] != bytes || pdu.size() != 6 + bytes) return exception(pdu[0], bad_value(Cause::bad_length));
+  std::array<std::uint16_t, kMostWritten> words;
+  for (std::size_t i = 0; i < quantity; ++i) {
+    words[i] = service.is_of_bits() ? pdu[6 + i / 8] >> i % 8 & 1 : word_at(pdu, 6 + 2 * i);
   }
-  std::array<std::uint16_t, kMaxWriteWords> words;
-  for (std::size_t i = 0; i < quantity; ++i) words[i] = word_at(pdu, 6 + 2 * i);
-  const Refusal refusal =
-      write_words(bank, Table::holding, word_at(pdu, 1), std::span(words).first(quantity));
-  return refusal == Refusal::none ? echo(pdu) : exception(pdu[0], exception_for(refusal));
+  const Objection refused =
+      write_request(bank, service.table, word_at(pdu, 1), std::span(words).first(quantity));
+  return refused ? exception(pdu[0], refused) : echo(pdu);
+}
+
+/// Null where it cannot be served, or the model does not know it.
+const FunctionRow* find_function(const RtuRules& rules, std::uint8_t code) {
+  if (std::find(rules.functions.begin(), rules.functions.end(), code) == rules.functions.end())
+    return nullptr;
+  for (const FunctionRow& row : kModbusFunctions) {
+    if (row.code == code) return &row;
+  }
+  return nullptr;
+}
+
+Service service_of(const FunctionRow& row, const RtuRules& rules, const RegisterMap& map) {
+  Service service{.row = row, .table = row.table, .most = static_cast<std::size_t>(row.most)};
+  // The input registers of models that do not tell them apart are the holding registers.
+  if (row.table == Table::input && !map.has(Table::input)) service.table = Table::holding;
+  for (const FunctionLimit& limit : rules.limits) {
+    if (limit.code == row.code) service.most = std::min(service.most, static_cast<std::size_t>(limit.most));
+  }
+  return service;
 }
 
 }  // namespace
 
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
-  const std::uint8_t function = pdu.empty() ? 0 : pdu[0];
-  const auto known = device.model().rtu->functions;
-  if (std::find(known.begin(), known.end(), function) == known.end()) {
-    return exception(function, ModbusException::illegal_function);
-  }
+  const std::uint8_t code = pdu.empty() ? 0 : pdu[0];
+  const RtuRules& rules = *device.model().rtu;
+  const FunctionRow* const row = find_function(rules, code);
+  if (row == nullptr) return exception(code, bad_value(Cause::unknown_function));
   RegisterBank& bank = *device.register_bank();
-  switch (function) {
-    case 0x03:
-    case 0x04: return read_registers(bank, pdu);
-    case 0x06: return write_register(bank, pdu);
-    case 0x10: return write_registers(bank, pdu);
-    default: return exception(function, ModbusException::illegal_function);
+  const Service service = service_of(*row, rules, bank.map());
+  switch (row->kind) {
+    case FunctionRow::Kind::read: return read(bank, service, pdu);
+    case FunctionRow::Kind::write_one: return write_one(bank, service, pdu);
+    case FunctionRow::Kind::write_several: return write_several(bank, service, pdu);
   }
+  return exception(code, bad_value(Cause::unknown_function));
 }
 
 }  // namespace understudy::emulator::world

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "emulator/device/device.h"
+#include "emulator/device/register_map/refusal.h"
 
 namespace understudy::emulator::world {
 
@@ -14,6 +15,30 @@ enum class ModbusException : std::uint8_t {
   illegal_function = 1,
   illegal_data_address = 2,
   illegal_data_value = 3,
+  device_failure = 4,
+  device_busy = 6,
+};
+
+/// A function code: which table it reaches, how, and how much of it in one request.
+struct FunctionRow {
+  enum class Kind : std::uint8_t { read, write_one, write_several };
+
+  std::uint8_t code = 0;
+  Table table = Table::holding;
+  Kind kind = Kind::read;
+  int most = 1;  // bits or registers; a model may allow fewer (RtuRules::limits)
+};
+
+/// Those that can be served; a model knows some of them.
+inline constexpr FunctionRow kModbusFunctions[] = {
+    {0x01, Table::coil, FunctionRow::Kind::read, 2000},
+    {0x02, Table::discrete, FunctionRow::Kind::read, 2000},
+    {0x03, Table::holding, FunctionRow::Kind::read, 125},
+    {0x04, Table::input, FunctionRow::Kind::read, 125},
+    {0x05, Table::coil, FunctionRow::Kind::write_one, 1},
+    {0x06, Table::holding, FunctionRow::Kind::write_one, 1},
+    {0x0F, Table::coil, FunctionRow::Kind::write_several, 1968},
+    {0x10, Table::holding, FunctionRow::Kind::write_several, 123},
 };
 
 inline constexpr std::size_t kModbusMaxPdu = 253;
@@ -21,10 +46,12 @@ inline constexpr std::size_t kModbusMaxPdu = 253;
 struct ModbusReply {
   std::array<std::uint8_t, kModbusMaxPdu> pdu{};
   std::size_t size = 0;
+  Objection objection{};  // why it is an exception
 };
 
-/// Carries out one request (function code and data) and makes its reply. A request that gets an exception has
-/// changed nothing. It is tested in this order: function, quantity and byte count, addresses, values.
+/// Carries out one request (function code and data) and makes its reply. A request that gets an exception
+/// has changed nothing. It is tested in this order: function, quantity and byte count, addresses, values, and
+/// whether the device takes it now.
 ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu);
 
 }  // namespace understudy::emulator::world

@@ -65,7 +65,7 @@ struct StateOf<emulator::world::TextStation::State> {
 
 namespace understudy::emulator::world {
 
-/// Reads a state of `station` and checks it; the result puts it in force.
+/// Reads a state of `station` and checks it; calling the result puts it in force.
 template <class OneStation>
 std::function<void()> read_state_of(OneStation& station, StateReader& reader) {
   typename OneStation::State state;

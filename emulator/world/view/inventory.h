@@ -1,6 +1,6 @@
-// What there is in a world, by name and number, without looking at how it is doing: enough to understand
-// names and to say whether a fault could be had. A running world has one, and so has a bench of which no
-// world has been made.
+// What a world has, by name and number, without looking at how it is doing: enough to understand names and to
+// say whether a fault is possible. A running world has one, and so has a bench from which no world has been
+// made.
 #pragma once
 
 #include <cstddef>

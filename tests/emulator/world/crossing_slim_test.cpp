@@ -123,7 +123,7 @@ void apply(World& world, const RandomDialogue::Act& act) {
     world.switch_power(0, act.power != 0);
   } else {
     const std::string sent = act.line + "\r";
-    world.receive(0, Bytes(sent.begin(), sent.end()), world.now());
+    world.receive(0, std::span(reinterpret_cast<const std::uint8_t*>(sent.data()), sent.size()));
   }
 }
 

@@ -128,9 +128,7 @@ TEST(RegisterMap, HasNothingThatAFirmwareDoesNotHave) {
 }
 
 TEST(RegisterMap, TablesAreSpacesOfTheirOwn) {
-  RegisterRow coil = reg(0x0010, "Lamp", Type::u16, Access::read_write);
-  coil.table = Table::coil;
-  const RegisterRow rows[] = {reg(0x0010, "Speed", Type::u16, Access::read_write), coil};
+  const RegisterRow rows[] = {reg(0x0010, "Speed", Type::u16, Access::read_write), coil(0x0010, "Lamp")};
   const RegisterMap map(rows, {});
   EXPECT_EQ(map.at(Table::holding, 0x0010, 0, true).row->name, "Speed");
   EXPECT_EQ(map.at(Table::coil, 0x0010, 0, true).row->name, "Lamp");

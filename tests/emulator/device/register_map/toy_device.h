@@ -17,7 +17,8 @@ namespace understudy::emulator {
 using Words16 = std::vector<std::uint16_t>;
 
 inline void PrintTo(Refusal refusal, std::ostream* out) {
-  *out << (refusal == Refusal::none ? "none" : refusal == Refusal::no_register ? "no_register" : "bad_value");
+  constexpr const char* kNames[] = {"none", "no_register", "bad_value", "busy", "failure"};
+  *out << kNames[static_cast<std::size_t>(refusal)];
 }
 
 inline constexpr std::uint8_t kToyFunctions[] = {0x03, 0x04, 0x06, 0x10};

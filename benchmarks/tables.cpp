@@ -1,0 +1,151 @@
+// The largest reads over a pty: 2,000 coils with function 01 and 125 registers with function 03, of the
+// tests' controller with four tables (--timing instant) beside a libmodbus slave. Both live on one processor,
+// the host on the other; while one is asked the other is stopped.
+#include <signal.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "benchmarks/figures.h"
+#include "benchmarks/host.h"
+#include "benchmarks/responders.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "pty/rtu_crc.h"
+#include "tests/emulator/workbench/workbench.h"
+
+namespace understudy::benchmarks {
+
+namespace {
+
+namespace workbench = emulator::workbench;
+
+constexpr int kStation = 1;
+constexpr int kCoils = 2000;         // from 0x1000
+constexpr int kRegisters = 125;      // from 0x0064
+constexpr std::size_t kBytes = 250;  // of either
+constexpr int kWarmUp = 20;
+constexpr int kExchanges = 300;
+constexpr int kDefaultRounds = 40;
+
+using Frame = std::vector<std::uint8_t>;
+
+struct Read {
+  const char* what;
+  Frame request;
+};
+
+Read read_of(const char* what, Frame request) {
+  pty::append_rtu_crc(request);
+  return {what, request};
+}
+
+/// Serves the controller until it is killed.
+void serve_workbench(const std::string& folder) {
+  const emulator::Model* const models[] = {&workbench::model()};
+  const emulator::world::Bench bench = emulator::world::parse_bench(
+      models,
+      "understudy: 1\nlines:\n  rs485:\n    link: ./port\n    timing: instant\n    stations:\n"
+      "      - { name: it, model: workbench }\n",
+      "bench.yaml", folder);
+  emulator::serve::DaemonOptions options;
+  options.enforce_settings = false;  // the host is at 19200
+  emulator::serve::Daemon daemon(bench, options, [](const std::string&) {});
+  daemon.run();
+}
+
+/// The link once it is there.
+std::string port_in(const std::string& folder) {
+  const std::string link = folder + "/port";
+  for (int tries = 0; tries < 5000; ++tries) {
+    if (std::filesystem::exists(link)) return link;
+    usleep(1000);
+  }
+  throw CannotRun(link + " does not come");
+}
+
+struct Folder {
+  Folder() {
+    if (mkdtemp(path.data()) == nullptr) throw CannotRun("no folder is to be had");
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string path = "/tmp/understudy-tables-XXXXXX";
+};
+
+/// Microseconds of processor time for a request.
+double block(const Process& process, const Host& host, const Read& read) {
+  process.carry_on();
+  std::array<std::uint8_t, 3 + kBytes + 2> reply{};
+  alarm(10);
+  for (int i = 0; i < kWarmUp; ++i) host.exchange(read.request, reply);
+  const Nanoseconds before = process.processor_time();
+  for (int i = 0; i < kExchanges; ++i) host.exchange(read.request, reply);
+  const Nanoseconds used = process.processor_time() - before;
+  alarm(0);
+  process.stop();
+  if (reply[1] != read.request[1] || reply[2] != kBytes || !pty::rtu_crc_ok(reply))
+    throw CannotRun(std::string("a wrong reply came to ") + read.what);
+  return static_cast<double>(used.count()) / 1000 / kExchanges;
+}
+
+/// Lets alarm() end the wait for a reply that never comes.
+void let_alarms_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  sigaction(SIGALRM, &action, nullptr);
+}
+
+void run(int rounds) {
+  const Processors processors = two_processors();
+  const Folder folder;
+  const Responder peer =
+      Responder::libmodbus_tables(kStation, {.first = 0x1000, .count = kCoils},
+                                  {.first = 0x0064, .count = kRegisters}, processors.server);
+  const Process ours = Process::of_function([&] { serve_workbench(folder.path); }, processors.server);
+  const Host our_host(port_in(folder.path));
+  const Host peer_host(peer.port());
+  let_alarms_interrupt();
+  pin_to(processors.client);
+  const Read reads[] = {read_of("2,000 coils", {kStation, 0x01, 0x10, 0x00, kCoils >> 8, kCoils & 0xFF}),
+                        read_of("125 registers", {kStation, 0x03, 0x00, 0x64, 0x00, kRegisters})};
+  std::printf("%d rounds of %d exchanges each; microseconds of processor time a request\n", rounds,
+              kExchanges);
+  for (const Read& read : reads) {
+    std::vector<double> own;
+    std::vector<double> theirs;
+    std::vector<double> ratios;
+    for (int round = 0; round < rounds; ++round) {
+      own.push_back(block(ours, our_host, read));
+      theirs.push_back(block(peer.process(), peer_host, read));
+      ratios.push_back(own.back() / theirs.back());
+    }
+    std::printf("%-14s understudy %6.2f, libmodbus %6.2f\n", read.what, median(own), median(theirs));
+    print_verdict((std::string(read.what) + " against libmodbus").c_str(), median(ratios), 1.00);
+  }
+  ours.carry_on();
+  peer.process().carry_on();
+}
+
+}  // namespace
+
+}  // namespace understudy::benchmarks
+
+/// tables [ROUNDS]
+int main(int count, char** arguments) {
+  using namespace understudy::benchmarks;
+  try {
+    const int rounds = count > 1 ? std::atoi(arguments[1]) : kDefaultRounds;
+    if (rounds < 1) throw CannotRun("ROUNDS: expected a positive number");
+    run(rounds);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tables: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,63 @@
+// What reading and writing share (access.h): what a register holds at this moment, and why it is not to be
+// had.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/device/register_map/register_bank.h"
+
+namespace understudy::emulator {
+
+inline Cell cell_of(const Place& place) { return {.argument = place.row->argument, .index = place.index}; }
+
+inline std::uint32_t with_bits_of_fields(const RegisterBank& bank, const Place& place, std::uint32_t bits) {
+  for (const BitField& field : place.row->fields) {
+    if (field.reader == nullptr) continue;
+    const auto value = static_cast<std::uint32_t>(field.reader(bank, cell_of(place)));
+    bits = (bits & ~field.mask()) | (value << field.bit & field.mask());
+  }
+  return bits;
+}
+
+inline std::uint32_t present_bits(const RegisterBank& bank, const Place& place) {
+  const RegisterRow& row = *place.row;
+  if (row.reader != nullptr) return static_cast<std::uint32_t>(row.reader(bank, cell_of(place)));
+  const std::uint32_t bits = row.is_view ? static_cast<std::uint32_t>(row.factory)
+                                         : bank.image()[static_cast<std::size_t>(place.slot)];
+  return row.fields.empty() ? bits : with_bits_of_fields(bank, place, bits);
+}
+
+inline std::uint16_t word_of(std::uint32_t bits, Place::Part part) {
+  return static_cast<std::uint16_t>(part == Place::Part::high ? bits >> 16 : bits);
+}
+
+/// Reading back what was written misses nothing; reading what the controller should say by itself does.
+inline void mention_if_missed(const RegisterBank& bank, const Place& place) {
+  if (!place.row->unmodelled.empty() && place.row->access == Access::read)
+    bank.mention_unmodelled(*place.row);
+}
+
+inline Objection objection(Refusal refusal, Cause cause, std::size_t address) {
+  return {refusal, cause, static_cast<std::uint16_t>(address)};
+}
+
+/// What the device itself says to a request that is good so far.
+inline Objection admission(const RegisterBank& bank, const RegisterRequest& request, Checked checked) {
+  switch (const Refusal refusal = bank.admits(request, checked)) {
+    case Refusal::none: return {};
+    case Refusal::no_register: return objection(refusal, Cause::no_register, request.first);
+    case Refusal::bad_value: return objection(refusal, Cause::bad_message, request.first);
+    case Refusal::busy: return objection(refusal, Cause::busy, request.first);
+    case Refusal::failure: return objection(refusal, Cause::failure, request.first);
+  }
+  return {};
+}
+
+/// Whether a request that begins or ends with this word cuts its register in half.
+inline bool is_cut(const Place& place, bool is_first, bool is_last, bool low_word_first) {
+  if (place.part == Place::Part::whole) return false;
+  return place.is_second_word(low_word_first) ? is_first : is_last;
+}
+
+}  // namespace understudy::emulator

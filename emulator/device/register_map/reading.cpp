@@ -1,0 +1,114 @@
+// Requests that read consecutive words or bits.
+#include <algorithm>
+
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/present.h"
+
+namespace understudy::emulator {
+
+namespace {
+
+/// Whether a request may find nothing there, by the policy.
+bool may_read_hole(const RegisterBank& bank, Table table, std::size_t address) {
+  switch (bank.map_policy().unmapped) {
+    case MapPolicy::Unmapped::refused: return false;
+    case MapPolicy::Unmapped::reads_zero: return true;
+    case MapPolicy::Unmapped::holes_read_zero:
+      return address < static_cast<std::size_t>(bank.map().end_of(table));
+  }
+  return false;
+}
+
+/// Whether the word at an address can be read; `place` is empty where it reads zero.
+Objection readable(const RegisterBank& bank, Table table, std::size_t address, Place& place) {
+  if (!place) {
+    return may_read_hole(bank, table, address) ? Objection{}
+                                               : objection(Refusal::no_register, Cause::no_register, address);
+  }
+  if (place.row->access != Access::write) return {};
+  if (bank.map_policy().write_only == MapPolicy::WriteOnly::refused) {
+    return objection(Refusal::no_register, Cause::write_only, address);
+  }
+  place = {};
+  return {};
+}
+
+/// How many registers from a place on are neighbours of one row and simply what the image holds.
+std::size_t stored_neighbours(const Place& place) {
+  const RegisterRow& row = *place.row;
+  if (row.is_view || row.reader != nullptr || !row.fields.empty() || place.part != Place::Part::whole)
+    return 0;
+  return static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
+}
+
+/// The lowest bit of each, from bit number `at` on; whole bytes at once.
+void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::uint8_t> packed) {
+  std::size_t i = 0;
+  const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
+  for (; i < bits.size() && at % 8 != 0; ++at) one();
+  for (; i + 8 <= bits.size(); i += 8, at += 8) {
+    std::uint32_t byte = 0;
+    for (std::size_t bit = 0; bit < 8; ++bit) byte |= (bits[i + bit] & 1U) << bit;
+    packed[at / 8] = static_cast<std::uint8_t>(byte);
+  }
+  for (; i < bits.size(); ++at) one();
+}
+
+}  // namespace
+
+Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
+                       std::span<std::uint16_t> words) {
+  const bool low_first = bank.low_word_first();
+  const bool pairs_whole = bank.map_policy().read_halves == MapPolicy::ReadHalves::come_whole;
+  if (first + words.size() > 65536) return objection(Refusal::no_register, Cause::no_register, first);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::size_t address = first + i;
+    Place place = bank.at(table, static_cast<std::uint16_t>(address), low_first);
+    if (const Objection refused = readable(bank, table, address, place)) return refused;
+    if (!place) {
+      words[i] = 0;
+      continue;
+    }
+    if (pairs_whole && is_cut(place, i == 0, i + 1 == words.size(), low_first)) {
+      return objection(Refusal::no_register, Cause::cut_pair, address);
+    }
+    mention_if_missed(bank, place);
+    const std::size_t rest = stored_neighbours(place);
+    if (rest > 1) {  // the rest of its row follows
+      const std::size_t count = std::min(rest, words.size() - i);
+      const auto stored = bank.image().subspan(static_cast<std::size_t>(place.slot), count);
+      std::transform(stored.begin(), stored.end(), words.begin() + static_cast<std::ptrdiff_t>(i),
+                     [](std::uint32_t bits) { return static_cast<std::uint16_t>(bits); });
+      i += count - 1;
+      continue;
+    }
+    words[i] = word_of(present_bits(bank, place), place.part);
+  }
+  return admission(bank, {.table = table, .first = first, .count = words.size()}, Checked::everything);
+}
+
+Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t first, std::size_t count,
+                            std::span<std::uint8_t> packed) {
+  if (first + count > 65536) return objection(Refusal::no_register, Cause::no_register, first);
+  std::fill(packed.begin(), packed.end(), std::uint8_t{0});
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t address = first + i;
+    Place place = bank.at(table, static_cast<std::uint16_t>(address), true);
+    if (const Objection refused = readable(bank, table, address, place)) return refused;
+    if (!place) {
+      ++i;
+      continue;
+    }
+    mention_if_missed(bank, place);
+    if (const std::size_t rest = std::min(stored_neighbours(place), count - i); rest > 0) {
+      pack(bank.image().subspan(static_cast<std::size_t>(place.slot), rest), i, packed);
+      i += rest;
+      continue;
+    }
+    packed[i / 8] |= static_cast<std::uint8_t>((present_bits(bank, place) & 1U) << i % 8);
+    ++i;
+  }
+  return admission(bank, {.table = table, .first = first, .count = count}, Checked::everything);
+}
+
+}  // namespace understudy::emulator

@@ -1,0 +1,46 @@
+// Why a request for registers was not carried out: coarse, as a protocol answers it, and in detail, as a
+// device may keep it.
+#pragma once
+
+#include <cstdint>
+
+namespace understudy::emulator {
+
+/// Each protocol translates it (Modbus: an exception code).
+enum class Refusal : std::uint8_t {
+  none,
+  no_register,  // nothing at that address, a register cut in half where that is not allowed,
+                // or a write to what can only be read
+  bad_value,    // outside the register's range, or a message that the device does not take
+  busy,         // the device cannot take it now
+  failure,      // the device cannot do it
+};
+
+enum class Cause : std::uint8_t {
+  none,
+  unknown_function,
+  bad_count,    // none, or more than a request may have
+  bad_length,   // the byte count or the length of the frame is not what the count says
+  no_register,  // a hole, or beyond the table
+  read_only,
+  write_only,
+  cut_pair,     // half of a 32-bit register
+  cut_message,  // a window not from its first word on, beyond its end, or together with others
+  out_of_range,
+  bad_bit,      // a single bit that is given neither 0x0000 nor 0xFF00
+  bad_message,  // a window's reader refused it
+  busy,
+  failure,
+};
+
+/// A refusal with its cause, and the address where it was found.
+struct Objection {
+  Refusal refusal = Refusal::none;
+  Cause cause = Cause::none;
+  std::uint16_t address = 0;
+
+  explicit operator bool() const { return refusal != Refusal::none; }
+  bool operator==(const Objection&) const = default;
+};
+
+}  // namespace understudy::emulator

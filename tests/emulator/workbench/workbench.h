@@ -1,0 +1,216 @@
+// A controller that nobody makes, for tests of what no real model has all of (registers.h).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/state/difference.h"
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/terminals.h"
+#include "tests/emulator/workbench/registers.h"
+
+namespace understudy::emulator::workbench {
+
+struct WorkbenchState {
+  std::vector<std::uint32_t> image{};
+  std::array<std::int32_t, kAxisCount> positions{};
+  std::array<std::int32_t, kAxisCount> targets{};
+  std::vector<std::vector<std::uint16_t>> fifo{};
+  std::uint32_t done = 0;
+  std::uint8_t cause = 0;  // of the last exception
+
+  bool operator==(const WorkbenchState&) const = default;
+};
+
+}  // namespace understudy::emulator::workbench
+
+namespace understudy {
+
+template <>
+struct StateOf<emulator::workbench::WorkbenchState> {
+  using Value = emulator::workbench::WorkbenchState;
+  static constexpr auto fields = std::tuple{
+      field("image", &Value::image), field("positions", &Value::positions), field("targets", &Value::targets),
+      field("fifo", &Value::fifo),   field("done", &Value::done),           field("cause", &Value::cause)};
+};
+
+}  // namespace understudy
+
+namespace understudy::emulator::workbench {
+
+class Workbench final : public Device,
+                        public RegisterBankOf<Workbench>,
+                        public ModbusStation,
+                        public Terminals {
+ public:
+  Workbench(const Model& model, const DeviceSettings& settings)
+      : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
+    for (const RegisterRow& row : model.registers->rows()) {
+      const auto slots = static_cast<std::size_t>(row.is_view ? 0 : row.count);
+      state.image.insert(state.image.end(), slots, static_cast<std::uint32_t>(row.factory));
+    }
+  }
+
+  RegisterBank* register_bank() override { return this; }
+  const RegisterBank* register_bank() const override { return this; }
+  const ModbusStation* modbus() const override { return this; }
+  const Terminals* terminals() const override { return this; }
+
+  std::span<std::uint32_t> image() override { return state.image; }
+  std::span<const std::uint32_t> image() const override { return state.image; }
+  bool low_word_first() const override { return stored(word_order_) == 1; }
+  void register_written(const RegisterRow&, std::size_t) override {}
+  void mention_unmodelled(const RegisterRow& row) const override {
+    Device::mention_unmodelled(row.name, row.unmodelled);
+  }
+  Addressing addressing(std::uint8_t address) const override {
+    if (address == 0) return Addressing::obey_silently;
+    return address == settings().address ? Addressing::obey_and_reply : Addressing::ignore;
+  }
+  bool output(int number) const override {
+    return powered() && state.image[first_output_ + static_cast<std::size_t>(number)] != 0;
+  }
+
+  /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
+  Refusal admits(const RegisterRequest& request, Checked checked) const override {
+    const bool is_of_module =
+        request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
+    if (!is_of_module) return Refusal::none;
+    if (stored(absent_) != 0) return Refusal::failure;
+    // A command is judged first (take_command()).
+    const bool is_full = request.is_write() && request.first != kWindow && state.fifo.size() >= kFifo;
+    return checked == Checked::everything && is_full ? Refusal::busy : Refusal::none;
+  }
+  void exception_answered(const Objection& objection) override {
+    state.cause = static_cast<std::uint8_t>(objection.cause);
+  }
+
+  void run_interpreters(Tick) override {
+    for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+      std::int32_t& position = state.positions[axis];
+      const std::int32_t target = state.targets[axis];
+      position += std::clamp(target - position, -100, 100);
+    }
+    if (stored(run_) == 0 || state.fifo.empty() || is_moving()) return;
+    const std::vector<std::uint16_t> command = state.fifo.front();
+    state.fifo.erase(state.fifo.begin());
+    ++state.done;
+    if (command[0] != kMove) return;
+    state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
+  }
+  Tick next_active_tick(Tick done) const override {
+    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kNever;
+  }
+  bool is_moving() const { return state.positions != state.targets; }
+
+  bool same_state(const Device& other) const override {
+    return state == static_cast<const Workbench&>(other).state;
+  }
+
+  WorkbenchState state;
+
+ protected:
+  void write_own_state(StateWriter& writer) const override { writer.write(state); }
+  std::function<void()> read_own_state(StateReader& reader) override {
+    const auto restored = std::make_shared<WorkbenchState>();
+    reader.read(*restored);
+    demand_state(restored->image.size() == state.image.size(), "the image has another size");
+    demand_state(restored->fifo.size() <= kFifo, "the FIFO holds more than it can");
+    return [this, restored] { state = *restored; };
+  }
+  std::string own_difference(StateReader& a, StateReader& b) const override {
+    return difference_of_saved<WorkbenchState>(a, b);
+  }
+
+ private:
+  std::size_t slot_of(std::string_view name) const {
+    return static_cast<std::size_t>(map().find(name, firmware())->place.slot);
+  }
+  std::uint32_t stored(std::size_t slot) const { return state.image[slot]; }
+
+  const std::size_t word_order_ = slot_of("Word_Order");
+  const std::size_t first_output_ = slot_of("Output_0");
+  const std::size_t run_ = slot_of("Run");
+  const std::size_t absent_ = slot_of("Absent");
+};
+
+inline std::size_t axis_of(Cell cell) { return static_cast<std::size_t>(cell.index); }
+
+inline Value position_of(const Workbench& bench, Cell cell) { return bench.state.positions[axis_of(cell)]; }
+inline void set_position(Workbench& bench, Cell cell, Value value) {
+  bench.state.positions[axis_of(cell)] = static_cast<std::int32_t>(value);
+  bench.state.targets[axis_of(cell)] = static_cast<std::int32_t>(value);
+}
+inline Value is_driving(const Workbench& bench, Cell cell) {
+  return bench.state.positions[axis_of(cell)] != bench.state.targets[axis_of(cell)] ? 1 : 0;
+}
+inline Value is_any_driving(const Workbench& bench, Cell) { return bench.is_moving() ? 1 : 0; }
+inline Value fifo_length(const Workbench& bench, Cell) { return static_cast<Value>(bench.state.fifo.size()); }
+inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause; }
+inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
+inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
+inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
+
+/// A command is good by its code, its words and its axis; then it waits in the FIFO.
+inline Refusal take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+  const bool is_good = (words[0] == kMove && words.size() == 4 && words[1] < kAxisCount) ||
+                       (words[0] == kStop && words.size() == 1);
+  if (!is_good) return Refusal::bad_value;
+  if (bench.state.fifo.size() >= kFifo) return Refusal::busy;
+  bench.state.fifo.emplace_back(words.begin(), words.end());
+  return Refusal::none;
+}
+
+inline constexpr std::uint8_t kFunctions[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
+inline constexpr int kBauds[] = {115200, 9600};
+inline constexpr Firmware kFirmwares[] = {100};
+inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
+                                                       "Mode.PROGRAM"};
+
+inline std::span<const TerminalRow> terminal_rows() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> made;
+    for (int i = 0; i < 16; ++i) made.push_back("IN" + std::to_string(i));
+    return made;
+  }();
+  static const std::vector<TerminalRow> rows = [] {
+    std::vector<TerminalRow> made;
+    for (const std::string& name : names) made.push_back({TerminalRow::Kind::digital_in, name});
+    return made;
+  }();
+  return rows;
+}
+
+inline const Model& model() {
+  static const RegisterMap map(kRows, kPolicy);
+  static const Model made{
+      .name = "workbench",
+      .title = "a controller for tests",
+      .firmwares = kFirmwares,
+      .registers = &map,
+      .choices = {},
+      .terminals = terminal_rows(),
+      .axes = {},
+      .state_registers = kStateRegisters,
+      .gaps = {},
+      .line = {.protocol = kModbusRtu,
+               .bauds = kBauds,
+               .settings = {},
+               .station_numbers = StationNumbers{1, 247}},
+      .rtu = RtuRules{.end_silence = std::chrono::microseconds(500), .functions = kFunctions},
+      .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
+        return std::make_unique<Workbench>(workbench::model(), settings);
+      }};
+  return made;
+}
+
+}  // namespace understudy::emulator::workbench
