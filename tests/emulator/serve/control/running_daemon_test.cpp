@@ -84,9 +84,13 @@ TEST(RunningDaemon, AWireCarriesAnOutputToAnInputOneTickLater) {
 
 TEST(RunningDaemon, AnAdvanceIsNoStallAndCannotBeResumedAway) {
   Running daemon;
-  // So slow that every tick of two hours has to be stepped: some tenths of a second of work.
+  // So slow, and with a condition to look at, that every tick of two hours has to be stepped: some tenths of
+  // a second of work.
   daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":2000000000,)"
              R"("feeder.Aaxis_Speed":1,"feeder.Aaxis_Move_INC":1}})");
+  const std::string never =
+      R"({"do":"inject","fault":{"drop":"feeder","when":"feeder.A.position > 1900000000"}})";
+  ASSERT_EQ(daemon.ask(never)["ok"], true);
   std::thread advance([&] { EXPECT_EQ(daemon.ask(R"({"do":"advance","by":"2h"})")["ok"], true); });
   bool was_refused = false;
   std::int64_t time = 0;

@@ -35,8 +35,8 @@ TEST(YamlDocument, WhatIsNotYamlIsSaidInPlainWords) {
   for (const auto& [text, begin] : std::vector<Bad>{
            {"a: 1\n\tb: 2\n", "2:1" + not_yaml + "a tab indents this line; expected spaces"},
            {"a:\n\t- 1\n", "2:2" + not_yaml + "a tab indents this line; expected spaces"},
-           {"a:\n  b: 1\n c: 2\n", "3:2" + not_yaml + "this line is indented otherwise than those"},
-           {"a:\n  - b: 1\n - c: 2\n", "3:2" + not_yaml + "this line is indented otherwise than those"},
+           {"a:\n  b: 1\n c: 2\n", "3:2" + not_yaml + "this line is indented differently from those"},
+           {"a:\n  - b: 1\n - c: 2\n", "3:2" + not_yaml + "this line is indented differently from those"},
            {"a:\n  b: 1\n   c: 2\n", "3:5" + not_yaml + "this key does not fit the line before it"},
            {"a: 1\nb\nc: 2\n", "3:2" + not_yaml + "this key does not fit the line before it"},
            {"a: b: c\n", "1:5" + not_yaml + "a second ': ' in one line"},
