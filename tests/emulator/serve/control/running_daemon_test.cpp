@@ -89,7 +89,7 @@ TEST(RunningDaemon, AnAdvanceIsNoStallAndCannotBeResumedAway) {
   daemon.ask(R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":2000000000,)"
              R"("feeder.Aaxis_Speed":1,"feeder.Aaxis_Move_INC":1}})");
   const std::string never =
-      R"({"do":"inject","fault":{"drop":"feeder","when":"feeder.A.position > 1900000000"}})";
+      R"({"do":"inject","fault":{"stuck":"feeder.DIN_2","level":1,"when":"feeder.A.position > 1900000000"}})";
   ASSERT_EQ(daemon.ask(never)["ok"], true);
   std::thread advance([&] { EXPECT_EQ(daemon.ask(R"({"do":"advance","by":"2h"})")["ok"], true); });
   bool was_refused = false;
