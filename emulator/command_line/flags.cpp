@@ -53,7 +53,7 @@ struct CommandLine {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-      return "understudy: " + one_line(error.what()) + " (see --help)\n";
+      return "understudy: " + one_line(error.what()) + " (see --help for what is expected)\n";
     });
     add_models();
     add_describe();

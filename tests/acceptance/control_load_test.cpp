@@ -128,7 +128,7 @@ TEST(ControlLoad, ABadSnapshotCostsNoHostAReply) {
   };
   for (const Case& bad : {Case{"nested", std::string(std::size_t{20} << 20, '['), "nested deeper"},
                           Case{"long", "{\"understudy\":\"" + std::string(std::size_t{60} << 20, 'x') + "\"}",
-                               "understudy: is of another format"}}) {
+                               "understudy: is in another format"}}) {
     const std::string file = daemon->folder().write(bad.name, bad.text);
     std::atomic<bool> is_over = false;
     Finished finished;

@@ -96,7 +96,7 @@ TEST(ControlFaults, ThatAreWrongAreRefusedWithOneLine) {
                  "clear: 'one' is not understood; expected the number of a fault, or all");
   expect_refused(daemon, {"clear", "1"}, "clear: number: 1 is not a fault in force; expected one of `list`");
   EXPECT_EQ(daemon.ctl({"list", "all"}).errors,
-            "understudy: The following argument was not expected: all (see --help)\n");
+            "understudy: The following argument was not expected: all (see --help for what is expected)\n");
   EXPECT_EQ(obeyed(daemon, {"list"}), "");
 
   const Finished refused = daemon.ctl({"--json", "inject", "jam", "A"});
