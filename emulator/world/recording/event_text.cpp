@@ -8,9 +8,9 @@
 
 namespace understudy::emulator::world {
 
-namespace {
-
 using What = RecordedEvent::What;
+
+namespace {
 
 /// "Aaxis_Speed=200"
 std::string write_text(const PreparedWrite& write, const RegisterBank& bank) {

@@ -113,7 +113,7 @@ TEST(Simple2State, BytesThatAreNoStateAreRefusedAndChangeNothing) {
   // Inputs first: how many (32 bits), then each (32 bits); then the power (8), the last tick (64), and the
   // image, of which the second slot is HW_Code, of 16 bits.
   constexpr std::size_t kPower = 4 + 4 * kTerminalCount;
-  constexpr std::size_t kImage = kPower + 1 + 8;
+  static constexpr std::size_t kImage = kPower + 1 + 8;
   refused("the bytes end too early", [](Saved& s) { s.clear(); });
   refused("the bytes end too early", [](Saved& s) { s.pop_back(); });
   refused("bytes are left over", [](Saved& s) { s.push_back({}); });
