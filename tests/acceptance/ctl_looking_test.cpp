@@ -86,7 +86,7 @@ Words frames(const RunningUnderstudy& daemon, Words words) {
   EXPECT_EQ(finished.exit_code, 0) << finished.errors;
   Words lines = lines_of(finished.output);
   for (std::string& line : lines) {
-    EXPECT_TRUE(std::regex_search(line, std::regex("^[0-9.]+m?s "))) << line;
+    EXPECT_TRUE(std::regex_search(line, std::regex("^[0-9.]+[mu]?s "))) << line;
     line.erase(0, line.find(' ') + 1);
   }
   return lines;
