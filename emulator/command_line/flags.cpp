@@ -90,13 +90,17 @@ struct CommandLine {
     serving.version = UNDERSTUDY_VERSION;
     command.add_option("BENCH", serving.bench, "A bench file; or else --model");
     command.add_option("--model", serving.model, "One device of this model on one line")->check(kNotEmpty);
-    command.add_option("--station", serving.station, "Its station number (with --model) [1]");
+    command.add_option("--station", serving.station,
+                       "Its station number (with --model) [1, or its memory's]");
     command.add_option("--modules", serving.modules,
                        "How many modules it has, if it is a chain (with --model)");
     command.add_option("--firmware", serving.firmware, "Its firmware version (with --model) [newest]")
         ->check(kNotEmpty);
     command.add_option("--baud", serving.baud, "Its line speed (with --model) [the factory's]");
-    command.add_option("--link", serving.link, "Path of the link to its port (with --model) [a private one]")
+    command
+        .add_option("--link", serving.link,
+                    "Path of the link to its port (with --model); further ports are at PATH.NAME "
+                    "[a private one]")
         ->check(kNotEmpty);
     command.add_option("--links", serving.links, "Folder for links that are relative, or that nobody named")
         ->check(kNotEmpty);

@@ -104,17 +104,28 @@ struct Protocol {
   std::string_view name;  // "Modbus", for messages
 };
 
-/// The station numbers that a bench may give to a device.
+/// The station numbers that a device may have: one, whatever line it is asked on.
 struct StationNumbers {
   int lowest = 1;
   int highest = 247;
+  std::string_view kept_in{};  // the register that holds it; empty: a bench says it, and it stays
 };
 
-/// How the model stands on its line, whatever is spoken there.
+/// A serial port, by which a device stands on a line.
+struct PortRow {
+  enum class Kind : std::uint8_t {
+    rs232,  // from one to one: the device is alone on that line
+    rs485,
+  } kind = Kind::rs485;
+  std::string_view name;       // letters, digits, _ and -, as in a bench
+  std::span<const int> bauds;  // the speeds it can be set to, the factory's first
+  pty::LineSettings settings;  // the rest; `baud` is replaced by the chosen one
+};
+
+/// How the model stands on its lines, whatever is spoken there.
 struct LineRules {
   const Protocol& protocol;
-  std::span<const int> bauds;                       // the speeds it can be set to, the factory's first
-  pty::LineSettings settings;                       // the rest; `baud` is replaced by the chosen one
+  std::span<const PortRow> ports;                   // one at least; a bench that names none means the first
   std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
 };
 
@@ -135,8 +146,8 @@ struct RtuRules {
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                           // 0: the model's default
-  int address = 1;                                 // its station number
-  int baud = 0;                                    // 0: the factory's
+  std::optional<int> address{};                    // its station number; none: 1, or what its memory says
+  std::vector<int> bauds{};                        // of its ports; 0, or none: the factory's
   int modules = 0;                                 // of a chain; 0: the model's default
   std::map<std::string, std::string> choices;      // overrides
   std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
@@ -177,6 +188,10 @@ const Model* find_model(ModelList models, std::string_view name);
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);
 int find_axis(const Model& model, std::string_view name);
+/// The number of a port in its model's table; nothing if there is none of that name.
+std::optional<std::size_t> find_port(const Model& model, std::string_view name);
+/// " (RS485)" where the model has several ports, nothing where it has one: behind the name of a device.
+std::string port_text(const Model& model, std::size_t port);
 /// The rows of its registers; none where it has no registers.
 std::span<const RegisterRow> register_rows(const Model& model);
 /// A register by its name; none where the model has no registers.

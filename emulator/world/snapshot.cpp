@@ -6,6 +6,7 @@
 
 #include "base/state/difference.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/faults/kinds.h"
 #include "emulator/world/state_fields.h"
 
 namespace understudy::emulator::world {
@@ -88,13 +89,23 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
+/// How many places a device of that model has for it.
+std::size_t places_of(const Model& model, const Fault& fault) {
+  switch (fault_kind(fault.kind).place) {
+    case FaultKindRow::Place::axis: return model.axes.size();
+    case FaultKindRow::Place::input: return model.terminals.size();
+    case FaultKindRow::Place::device_or_line: return fault.on_line ? model.line.ports.size() : 1;
+    case FaultKindRow::Place::device: break;
+  }
+  return 1;
+}
+
 /// One that could have been injected.
 void check_fault_value(const World& world, const Fault& fault) {
   demand_state(fault.device < world.device_count(), "a fault belongs to no device");
   const Model& model = world.device(fault.device).model();
-  const bool is_of_input = fault.kind == Fault::Kind::stuck;
-  const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
-  demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
+  demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places_of(model, fault),
+               "a fault has no place");
   demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
   for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
     demand_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of time");

@@ -53,22 +53,23 @@ World::World(const Bench& bench, const WorldOptions& options,
     plants_[machine.device][static_cast<std::size_t>(machine.axis)] = PlantAxis(machine.plant);
   }
   for (const LineSetup& setup : bench.lines) {
-    pty::LineOptions line_options{.settings = devices_[setup.stations.front()]->line_settings(),
+    const StationSetup& first = setup.stations.front();
+    pty::LineOptions line_options{.settings = devices_[first.device]->line_settings(first.port),
                                   .timing = setup.timing,
                                   .enforce_settings = options.enforce_settings,
                                   .baud_tolerance_ppm = setup.baud_tolerance_ppm};
     const StationConditions conditions{.is_instant = setup.timing == pty::Timing::instant,
                                        .strict_framing = options.strict_framing,
                                        .patience = options.patience};
-    const LineSpeech& speech = speech_of(devices_[setup.stations.front()]->model());
+    const LineSpeech& speech = speech_of(devices_[first.device]->model());
     lines_.push_back(
         std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}}));
     WorldLine& line = *lines_.back();
-    for (const std::size_t number : setup.stations) {
+    for (const auto& [number, port] : setup.stations) {
       Device& device = *devices_[number];
       const pty::RtuFraming framing = speech.framing(device.model(), conditions);
       if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
-      line.stations.push_back(speech.make_station(device, conditions));
+      line.stations.push_back(speech.make_station(device, port, conditions));
       line.line.attach(*line.stations.back());
     }
     if (speech.may_be_unasked()) unasked_lines_.push_back(&line);

@@ -66,11 +66,11 @@ void World::arm_faults() {
   if (std::any_of(faults_.begin(), faults_.end(), needs_watch)) {
     fault_watch_ = std::make_unique<FaultWatch>(*this, faults_, seed_);
   }
-  for (const auto& line : lines_) {
-    for (const auto& station : line->stations) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    for (const auto& station : lines_[i]->stations) {
       const auto is_its = [&](const auto& device) { return device.get() == &station->device(); };
       const auto device = std::find_if(devices_.begin(), devices_.end(), is_its) - devices_.begin();
-      station->set_faults(fault_watch_.get(), static_cast<std::size_t>(device));
+      station->set_faults(fault_watch_.get(), static_cast<std::size_t>(device), i);
     }
   }
 }

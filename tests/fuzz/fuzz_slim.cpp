@@ -89,7 +89,7 @@ emulator::world::Bench bench_for(const Options& options) {
   emulator::world::Bench bench;
   emulator::world::DeviceSetup device{.model = &emulator::models::slim::model(), .settings = {}};
   device.settings.name = "device";
-  device.settings.baud = 115200;  // a long listing takes its time
+  device.settings.bauds = {115200};  // a long listing takes its time
   device.settings.modules = options.modules;
   auto& choices = device.settings.choices;
   if (options.echo) choices["echo"] = "on";

@@ -123,7 +123,7 @@ class Listener {
         .model = emulator::find_model(emulator::models::all_models(), "simple2-r3"), .settings = {}};
     device.settings.name = "device";
     device.settings.address = rotary_switch;
-    device.settings.baud = 115200;
+    device.settings.bauds = {115200};
     if (input.alternative_choices) {
       device.settings.choices = {{"station_0_request", "ignored"}, {"switch_0_broadcast", "silent"}};
     }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual names none
 constexpr std::array<int, 5> kBauds{9600, 19200, 38400, 57600, 115200};
+constexpr std::array<PortRow, 1> kPorts{port_of_text(kBauds)};
 
 constexpr SectionRow kSections[] = {
     {"程式/立即", "program, immediate"},
@@ -124,7 +125,7 @@ const Model& model() {
       .axes = names.axes,
       .state_registers = kStateNames,
       .gaps = kGaps,
-      .line = line_of_text(kBauds),
+      .line = line_of_text(kPorts),
       .most_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);

@@ -79,6 +79,14 @@ void Performance::demand_silence(const Place& place, const std::vector<std::uint
   demand(judge_reply(request, reply), {.silence = within}, what);
 }
 
+Performance::Place Performance::spoken_to(std::size_t device, const Via& via) {
+  Place place{.line = via.value_or(lines_[device].front())};
+  if (lines_[device].size() > 1) place.on_line = " on line " + bench_.lines[place.line].name;
+  stage_->with_world(
+      [&](world::World& world) { place.station = world.device(device).station_number().value_or(0); });
+  return place;
+}
+
 std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
                                              std::vector<bool>& low_word_first) {
   std::vector<Words> words;
@@ -95,13 +103,13 @@ std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
 }
 
 std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::vector<Target>& targets,
-                                                                    const Answer& answer) {
+                                                                    const Answer& answer, const Via& via) {
   std::vector<bool> low_word_first;
   const std::vector<Words> words = words_of_all(targets, low_word_first);
   std::vector<std::vector<std::uint16_t>> read(targets.size());
   for (const Request& request : read_requests(words)) {
-    const Place& place = places_[request.words.device];
-    const std::string what = "read " + names_of(targets, request);
+    const Place place = spoken_to(request.words.device, via);
+    const std::string what = "read " + names_of(targets, request) + place.on_line;
     if (answer.silence) {
       demand_silence(place, read_request(place.station, request.words.first, request.words.count),
                      *answer.silence, what);
@@ -133,15 +141,15 @@ void Performance::perform(const WriteStep& step) {
   std::vector<bool> low_word_first;
   const std::vector<Words> words = words_of_all(targets, low_word_first);
   for (const Request& request : write_requests(words, [&](std::size_t i) { return is_bit(targets[i]); })) {
-    const Place& place = places_[request.words.device];
-    const std::string what = "write " + names_of(targets, request);
+    const Place place = spoken_to(request.words.device, step.via);
+    const std::string what = "write " + names_of(targets, request) + place.on_line;
     std::vector<std::uint16_t> brought;
     for (const std::size_t entry : request.entries) {
       std::vector<std::uint16_t> present;
       if (is_bit(targets[entry])) {
         const HostReply reply =
             stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
-        demand(reply, {}, "read " + targets[entry].name + " to write it");
+        demand(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
       const auto part = words_with(targets[entry], values[entry], low_word_first[entry], present);
@@ -164,7 +172,7 @@ void Performance::perform(const ExpectStep& step) {
   }
   std::vector<bool> low_word_first;
   words_of_all(targets, low_word_first);
-  const auto words = read_over_line(targets, step.answer);
+  const auto words = read_over_line(targets, step.answer, step.via);
   if (!step.answer.is_good()) return;
   std::vector<std::string> expected;
   std::vector<std::string> came;

@@ -152,7 +152,7 @@ Tick Performance::poll_for(const WaitStep& step) {
     registers.values.clear();
     std::vector<bool> low_word_first;
     words_of_all(registers.targets(), low_word_first);
-    const auto words = read_over_line(registers.targets(), {});
+    const auto words = read_over_line(registers.targets(), {}, step.via);
     throw_if_broken();
     for (std::size_t i = 0; i < words.size(); ++i) {
       registers.values.push_back(value_in(registers.targets()[i], words[i], low_word_first[i]));

@@ -1,5 +1,6 @@
 #include "emulator/play/reading/trial.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -74,6 +75,26 @@ std::size_t Trial::line(const world::YamlFields& field, const std::string& name)
   field.fail("no line is called " + quoted(name) + suggestion(name, names));
 }
 
+std::size_t Trial::line_of_all(const world::YamlFields& field,
+                               const std::vector<std::size_t>& devices) const {
+  const std::size_t number = line(field, field.text());
+  for (const std::size_t device : devices) {
+    std::string lines;
+    bool is_there = false;
+    for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
+      const auto& stations = bench_.lines[i].stations;
+      if (std::none_of(stations.begin(), stations.end(),
+                       [&](const auto& its) { return its.device == device; }))
+        continue;
+      is_there = is_there || i == number;
+      lines += (lines.empty() ? "" : " or ") + bench_.lines[i].name;
+    }
+    if (!is_there)
+      field.fail(known()[device].name + " is not on line " + quoted(field.text()) + "; expected " + lines);
+  }
+  return number;
+}
+
 Target Trial::target(const world::YamlFields& field, const std::string& written) const {
   Target target;
   target.name = written;
@@ -138,14 +159,16 @@ std::string Trial::changing_condition(const world::YamlFields& field) const {
   return condition.text;
 }
 
-void Trial::demand_registers_only(const world::YamlFields& field) const {
+std::vector<std::size_t> Trial::demand_registers_only(const world::YamlFields& field) const {
+  std::vector<std::size_t> devices;
   for (const world::Expression::Name& name : expression(field).names) {
     try {
-      world::find_register(known(), plain_name(field, name.spelling));
+      devices.push_back(world::find_register(known(), plain_name(field, name.spelling)).device);
     } catch (const world::NameError&) {
       field.fail(quoted(name.spelling) + " cannot be polled; expected registers only");
     }
   }
+  return devices;
 }
 
 std::string Trial::value_to_write(const world::YamlFields& field, const Target& target,

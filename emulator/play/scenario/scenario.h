@@ -37,6 +37,9 @@ struct Answer {
   bool is_good() const { return !exception && !silence; }
 };
 
+/// On which line a step speaks to its devices, `via: LINE` beside it; none: on the first that each is on.
+using Via = std::optional<std::size_t>;
+
 /// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, and exception: 3 beside it where the
 /// device is to refuse, or reply: nothing where no answer may come. Over the line, in this order; ascending
 /// neighbours share a request.
@@ -47,6 +50,7 @@ struct WriteStep {
   };
   std::vector<Entry> entries;
   Answer answer{};
+  Via via{};
 };
 
 /// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception, reply: as for write.
@@ -57,15 +61,17 @@ struct ExpectStep {
   };
   std::vector<Entry> entries;
   Answer answer{};
+  Via via{};
 };
 
-/// wait: { until: EXPRESSION, within: 4s, takes: 3050ms +- 2ms, poll: 20ms }
+/// wait: { until: EXPRESSION, within: 4s, takes: 3050ms +- 2ms, poll: 20ms, via: rs485 }
 struct WaitStep {
   std::string until;
   SimTime within{0};
   std::optional<world::Tolerance> takes;
   /// The names in `until` are read over the line this often; without it every tick is looked at.
   std::optional<SimTime> poll;
+  Via via{};  // where they are read
 };
 
 struct AdvanceStep {

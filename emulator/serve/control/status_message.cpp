@@ -50,7 +50,9 @@ Json line_status(const Daemon& daemon, const Port& port) {
   for (const auto& station : line.stations) {
     Json entry{{"device", station->device().name()}};
     const Device& device = station->device();
-    if (device.model().line.station_numbers) entry["address"] = device.settings().address;
+    const auto& ports = device.model().line.ports;
+    if (ports.size() > 1) entry["port"] = ports[station->port()].name;
+    if (const auto number = device.station_number()) entry["address"] = *number;
     entry["requests"] = station->counters().requests;
     entry["replies"] = station->counters().replies;
     entry["exceptions"] = station->counters().exceptions;

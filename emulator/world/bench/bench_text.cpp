@@ -42,10 +42,14 @@ Json line_text(const Bench& bench, const LineSetup& line) {
     const std::string part = std::to_string(10'000 + line.baud_tolerance_ppm % 10'000).substr(1);
     text["baud_tolerance"] = std::to_string(line.baud_tolerance_ppm / 10'000) + "." + part + "%";
   }
-  for (const std::size_t device : line.stations) {
+  for (const auto& [device, port] : line.stations) {
     const DeviceSettings& settings = bench.devices[device].settings;
+    const LineRules& rules = bench.devices[device].model->line;
     Json station{{"device", settings.name}};
-    if (bench.devices[device].model->line.station_numbers) station["address"] = settings.address;
+    if (rules.ports.size() > 1) station["port"] = rules.ports[port].name;
+    const bool is_in_memory =
+        rules.station_numbers && !rules.station_numbers->kept_in.empty() && !settings.address;
+    if (rules.station_numbers && !is_in_memory) station["address"] = settings.address.value_or(1);
     text["stations"].push_back(std::move(station));
   }
   return text;

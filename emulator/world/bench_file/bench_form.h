@@ -25,7 +25,10 @@ inline constexpr Form kAddressForm = integer_form(0, 255);
 inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, digits, _ and -.", &kText,
                                  true};
 inline constexpr KeyRow kModelKey{"model", "A model, as `understudy models` lists them.", &kText, true};
-inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1).", &kAddressForm};
+inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1, or what its memory says).",
+                                    &kAddressForm};
+inline constexpr KeyRow kPortKey{
+    "port", "By which of the device's ports it stands there (default: its first).", &kText};
 inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version (default: the newest).", &kText};
 inline constexpr Form kModulesForm = integer_form(1, 255);
 inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, if it is a chain.", &kModulesForm};
@@ -42,10 +45,12 @@ inline constexpr KeyRow kNvKey{"nv", "The file of its non-volatile memory, or wh
 
 inline constexpr std::array kDeviceKeys{kModelKey,   kFirmwareKey, kModulesKey, kSetKey,
                                         kChoicesKey, kDipKey,      kProgramKey, kNvKey};
-inline constexpr std::array kStationKeys{kNameKey, kModelKey,   kAddressKey, kFirmwareKey, kModulesKey,
-                                         kSetKey,  kChoicesKey, kDipKey,     kProgramKey,  kNvKey};
+inline constexpr std::array kStationKeys{kNameKey,     kModelKey,   kAddressKey, kPortKey,
+                                         kFirmwareKey, kModulesKey, kSetKey,     kChoicesKey,
+                                         kDipKey,      kProgramKey, kNvKey};
 inline constexpr std::array kPlacedStationKeys{
-    KeyRow{"device", "The name of a device declared under `devices`.", &kText, true}, kAddressKey};
+    KeyRow{"device", "The name of a device declared under `devices`, or on a line before.", &kText, true},
+    kAddressKey, kPortKey};
 
 // --- lines ---------------------------------------------------------------------------------------
 inline constexpr Form kStationForm = keys_form(kStationKeys);

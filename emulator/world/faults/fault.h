@@ -40,8 +40,8 @@ struct Fault {
     noise,             // `before` and `after`
     collision,         // with `before`
   } kind = Kind::stall;
-  std::size_t device = 0;  // of a line: its first device
-  int place = 0;           // an axis, or for `stuck` a terminal
+  std::size_t device = 0;  // of a line: the first of the bench's that stands there
+  int place = 0;  // an axis, for `stuck` a terminal, of a line the port by which that device is there
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
   std::int64_t over_ticks = 0;

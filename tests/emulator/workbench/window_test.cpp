@@ -24,7 +24,7 @@ struct Rig final : pty::Transmitter {
     settings.name = "it";
     device = make_device(model(), settings);
     station = std::make_unique<world::RtuStation>(
-        *device, pty::RtuFraming{.strict = false, .silence = 500us, .patience = 10ms});
+        *device, 0, pty::RtuFraming{.strict = false, .silence = 500us, .patience = 10ms});
   }
   void transmit(std::span<const std::uint8_t> bytes) override {
     said = world::text(bytes.subspan(1, bytes.size() - 3));

@@ -27,6 +27,8 @@ struct WorkbenchState {
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
   std::uint8_t cause = 0;  // of the last exception
+  std::array<std::uint32_t, 2> receive_errors{};
+  std::array<std::uint8_t, 2> last_receive_error{};  // 1 + pty::ReceiveError
 
   bool operator==(const WorkbenchState&) const = default;
 };
@@ -38,9 +40,14 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::WorkbenchState> {
   using Value = emulator::workbench::WorkbenchState;
-  static constexpr auto fields = std::tuple{
-      field("image", &Value::image), field("positions", &Value::positions), field("targets", &Value::targets),
-      field("fifo", &Value::fifo),   field("done", &Value::done),           field("cause", &Value::cause)};
+  static constexpr auto fields = std::tuple{field("image", &Value::image),
+                                            field("positions", &Value::positions),
+                                            field("targets", &Value::targets),
+                                            field("fifo", &Value::fifo),
+                                            field("done", &Value::done),
+                                            field("cause", &Value::cause),
+                                            field("receive_errors", &Value::receive_errors),
+                                            field("last_receive_error", &Value::last_receive_error)};
 };
 
 }  // namespace understudy
@@ -62,6 +69,7 @@ class Workbench final : public Device,
 
   RegisterBank* register_bank() override { return this; }
   const RegisterBank* register_bank() const override { return this; }
+  ModbusStation* modbus() override { return this; }
   const ModbusStation* modbus() const override { return this; }
   const Terminals* terminals() const override { return this; }
 
@@ -73,8 +81,12 @@ class Workbench final : public Device,
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
   Addressing addressing(std::uint8_t address) const override {
-    if (address == 0) return Addressing::obey_silently;
-    return address == settings().address ? Addressing::obey_and_reply : Addressing::ignore;
+    if (address == stored(station_)) return Addressing::obey_and_reply;
+    return address == 0 ? Addressing::obey_silently : Addressing::ignore;
+  }
+  void receive_failed(std::size_t port, pty::ReceiveError error) override {
+    ++state.receive_errors[port];
+    state.last_receive_error[port] = static_cast<std::uint8_t>(1 + static_cast<int>(error));
   }
   bool output(int number) const override {
     return powered() && state.image[first_output_ + static_cast<std::size_t>(number)] != 0;
@@ -141,6 +153,7 @@ class Workbench final : public Device,
   const std::size_t first_output_ = slot_of("Output_0");
   const std::size_t run_ = slot_of("Run");
   const std::size_t absent_ = slot_of("Absent");
+  const std::size_t station_ = slot_of("Station");
 };
 
 inline std::size_t axis_of(Cell cell) { return static_cast<std::size_t>(cell.index); }
@@ -158,6 +171,9 @@ inline Value fifo_length(const Workbench& bench, Cell) { return static_cast<Valu
 inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause; }
 inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
 inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
+inline Value receive_errors(const Workbench& bench, Cell cell) {
+  return bench.state.receive_errors[static_cast<std::size_t>(cell.index)];
+}
 inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
 
 /// A command is good by its code, its words and its axis; then it waits in the FIFO.
@@ -172,6 +188,13 @@ inline Refusal take_command(Workbench& bench, Cell, std::span<const std::uint16_
 
 inline constexpr std::uint8_t kFunctions[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
 inline constexpr int kBauds[] = {115200, 9600};
+inline constexpr int kSlowBauds[] = {19200, 38400};
+inline constexpr PortRow kPorts[] = {
+    {.name = kPortNames[0], .bauds = kBauds, .settings = {}},
+    {.kind = PortRow::Kind::rs232,
+     .name = kPortNames[1],
+     .bauds = kSlowBauds,
+     .settings = {.data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1}}};
 inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
@@ -202,10 +225,7 @@ inline const Model& model() {
       .axes = {},
       .state_registers = kStateRegisters,
       .gaps = {},
-      .line = {.protocol = kModbusRtu,
-               .bauds = kBauds,
-               .settings = {},
-               .station_numbers = StationNumbers{1, 247}},
+      .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 247, "Station"}},
       .rtu = RtuRules{.end_silence = std::chrono::microseconds(500), .functions = kFunctions},
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Workbench>(workbench::model(), settings);

@@ -71,7 +71,7 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(feeder.name, "feeder");
   EXPECT_EQ(feeder.firmware, 140);
   EXPECT_EQ(feeder.address, 3);
-  EXPECT_EQ(feeder.baud, 115'200);
+  EXPECT_EQ(feeder.bauds, std::vector{115'200});
   EXPECT_EQ(feeder.dip, (std::map<std::string, bool>{{"DIP1", true}, {"DIP2", true}}));
   EXPECT_EQ(feeder.choices, (std::map<std::string, std::string>{{"loop_count", "further_passes"}}));
   EXPECT_EQ(feeder.set,
