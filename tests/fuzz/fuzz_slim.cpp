@@ -25,6 +25,7 @@
 #include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "tests/fuzz/fuzzing.h"
+#include "tests/fuzz/same_device.h"
 
 namespace {
 
@@ -278,11 +279,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   stepped.begin_anew();
   play(stepped, input, kMostTicks);
   demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
-  demand(stepped.device().same_state(listener.device()), "ticks left out leave the same state");
+  fuzzing::demand_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
   stepped.begin_anew();
   emulator::world::restore(stepped.world(), emulator::world::save(listener.world()));
-  demand(stepped.device().same_state(listener.device()), "what is saved is taken back");
+  fuzzing::demand_same_state(stepped.device(), listener.device(), "what is saved is taken back");
 
   check_answers_again(listener, options);
   return 0;
