@@ -14,10 +14,9 @@ inline constexpr world::Form kNothingForm = world::words_form(kNothing);
 inline constexpr world::KeyRow kViaKey{
     "via", "The line, where a device is on several; by default the first of them.", &world::kText};
 inline constexpr std::array kAnswerKeys{
-    kViaKey,
     world::KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm},
     world::KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
-    world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}};
+    world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}, kViaKey};
 
 inline constexpr std::array kWaitKeys{
     world::KeyRow{"until", "The condition, looked at in every tick without the line.", &world::kText, true},
