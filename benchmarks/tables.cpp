@@ -53,7 +53,9 @@ void serve_workbench(const std::string& folder) {
       "understudy: 1\nlines:\n  rs485:\n    link: ./port\n    timing: instant\n    stations:\n"
       "      - { name: it, model: workbench }\n",
       "bench.yaml", folder);
-  emulator::serve::Daemon daemon(bench, {}, [](const std::string&) {});
+  emulator::serve::DaemonOptions options;
+  options.enforce_settings = false;  // the host is at 19200
+  emulator::serve::Daemon daemon(bench, options, [](const std::string&) {});
   daemon.run();
 }
 

@@ -33,6 +33,27 @@ Objection readable(const RegisterBank& bank, Table table, std::size_t address, P
   return {};
 }
 
+/// How many registers from a place on are neighbours of one row and simply what the image holds.
+std::size_t stored_neighbours(const Place& place) {
+  const RegisterRow& row = *place.row;
+  if (row.is_view || row.reader != nullptr || !row.fields.empty() || place.part != Place::Part::whole)
+    return 0;
+  return static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
+}
+
+/// The lowest bit of each, from bit number `at` on; whole bytes at once.
+void pack(std::span<const std::uint32_t> bits, std::size_t at, std::span<std::uint8_t> packed) {
+  std::size_t i = 0;
+  const auto one = [&] { packed[at / 8] |= static_cast<std::uint8_t>((bits[i++] & 1U) << at % 8); };
+  for (; i < bits.size() && at % 8 != 0; ++at) one();
+  for (; i + 8 <= bits.size(); i += 8, at += 8) {
+    std::uint32_t byte = 0;
+    for (std::size_t bit = 0; bit < 8; ++bit) byte |= (bits[i + bit] & 1U) << bit;
+    packed[at / 8] = static_cast<std::uint8_t>(byte);
+  }
+  for (; i < bits.size(); ++at) one();
+}
+
 }  // namespace
 
 Objection read_request(const RegisterBank& bank, Table table, std::uint16_t first,
@@ -52,6 +73,15 @@ Objection read_request(const RegisterBank& bank, Table table, std::uint16_t firs
       return objection(Refusal::no_register, Cause::cut_pair, address);
     }
     mention_if_missed(bank, place);
+    const std::size_t rest = stored_neighbours(place);
+    if (rest > 1) {  // the rest of its row follows
+      const std::size_t count = std::min(rest, words.size() - i);
+      const auto stored = bank.image().subspan(static_cast<std::size_t>(place.slot), count);
+      std::transform(stored.begin(), stored.end(), words.begin() + static_cast<std::ptrdiff_t>(i),
+                     [](std::uint32_t bits) { return static_cast<std::uint16_t>(bits); });
+      i += count - 1;
+      continue;
+    }
     words[i] = word_of(present_bits(bank, place), place.part);
   }
   return admission(bank, {.table = table, .first = first, .count = words.size()}, Checked::everything);
@@ -63,24 +93,20 @@ Objection read_bits_request(const RegisterBank& bank, Table table, std::uint16_t
   std::fill(packed.begin(), packed.end(), std::uint8_t{0});
   for (std::size_t i = 0; i < count;) {
     const std::size_t address = first + i;
-    Place place = bank.at(table, static_cast<std::uint16_t>(address));
+    Place place = bank.at(table, static_cast<std::uint16_t>(address), true);
     if (const Objection refused = readable(bank, table, address, place)) return refused;
     if (!place) {
       ++i;
       continue;
     }
     mention_if_missed(bank, place);
-    // The rest of the row follows where its bits are neighbours.
-    const RegisterRow& row = *place.row;
-    const bool is_stored = row.reader == nullptr && !row.is_view;
-    const auto rest = static_cast<std::size_t>(row.stride == 1 ? row.count - place.index : 1);
-    const std::size_t end = std::min(count, i + rest);
-    const std::uint32_t* stored =
-        is_stored ? bank.image().data() + static_cast<std::size_t>(place.slot) : nullptr;
-    for (; i < end; ++i, ++place.index) {
-      const std::uint32_t bit = stored != nullptr ? *stored++ : present_bits(bank, place);
-      packed[i / 8] |= static_cast<std::uint8_t>((bit & 1U) << i % 8);
+    if (const std::size_t rest = std::min(stored_neighbours(place), count - i); rest > 0) {
+      pack(bank.image().subspan(static_cast<std::size_t>(place.slot), rest), i, packed);
+      i += rest;
+      continue;
     }
+    packed[i / 8] |= static_cast<std::uint8_t>((present_bits(bank, place) & 1U) << i % 8);
+    ++i;
   }
   return admission(bank, {.table = table, .first = first, .count = count}, Checked::everything);
 }

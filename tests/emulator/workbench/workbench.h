@@ -67,7 +67,7 @@ class Workbench final : public Device,
 
   std::span<std::uint32_t> image() override { return state.image; }
   std::span<const std::uint32_t> image() const override { return state.image; }
-  bool low_word_first() const override { return stored("Word_Order") == 1; }
+  bool low_word_first() const override { return stored(word_order_) == 1; }
   void register_written(const RegisterRow&, std::size_t) override {}
   void mention_unmodelled(const RegisterRow& row) const override {
     Device::mention_unmodelled(row.name, row.unmodelled);
@@ -77,7 +77,7 @@ class Workbench final : public Device,
     return address == settings().address ? Addressing::obey_and_reply : Addressing::ignore;
   }
   bool output(int number) const override {
-    return powered() && state.image[slot_of("Output_0") + static_cast<std::size_t>(number)] != 0;
+    return powered() && state.image[first_output_ + static_cast<std::size_t>(number)] != 0;
   }
 
   /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
@@ -85,7 +85,7 @@ class Workbench final : public Device,
     const bool is_of_module =
         request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
     if (!is_of_module) return Refusal::none;
-    if (stored("Absent") != 0) return Refusal::failure;
+    if (stored(absent_) != 0) return Refusal::failure;
     // A command is judged first (take_command()).
     const bool is_full = request.is_write() && request.first != kWindow && state.fifo.size() >= kFifo;
     return checked == Checked::everything && is_full ? Refusal::busy : Refusal::none;
@@ -100,7 +100,7 @@ class Workbench final : public Device,
       const std::int32_t target = state.targets[axis];
       position += std::clamp(target - position, -100, 100);
     }
-    if (stored("Run") == 0 || state.fifo.empty() || is_moving()) return;
+    if (stored(run_) == 0 || state.fifo.empty() || is_moving()) return;
     const std::vector<std::uint16_t> command = state.fifo.front();
     state.fifo.erase(state.fifo.begin());
     ++state.done;
@@ -108,7 +108,7 @@ class Workbench final : public Device,
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
   Tick next_active_tick(Tick done) const override {
-    return is_moving() || (stored("Run") != 0 && !state.fifo.empty()) ? done + 1 : kNever;
+    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kNever;
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -133,9 +133,14 @@ class Workbench final : public Device,
 
  private:
   std::size_t slot_of(std::string_view name) const {
-    return static_cast<std::size_t>(find(name)->place.slot);
+    return static_cast<std::size_t>(map().find(name, firmware())->place.slot);
   }
-  std::uint32_t stored(std::string_view name) const { return state.image[slot_of(name)]; }
+  std::uint32_t stored(std::size_t slot) const { return state.image[slot]; }
+
+  const std::size_t word_order_ = slot_of("Word_Order");
+  const std::size_t first_output_ = slot_of("Output_0");
+  const std::size_t run_ = slot_of("Run");
+  const std::size_t absent_ = slot_of("Absent");
 };
 
 inline std::size_t axis_of(Cell cell) { return static_cast<std::size_t>(cell.index); }
