@@ -1,6 +1,10 @@
 #include "emulator/device/model.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <functional>
+#include <optional>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
@@ -116,27 +120,48 @@ void demand_choices(const Model& model, const DeviceSettings& settings) {
   }
 }
 
+/// The shortest text that reads back as this number.
+std::string shortest_text(double number) {
+  std::array<char, 32> text{};
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} ? std::string(text.data(), end) : std::string();
+}
+
+/// `told`: the value as it was given; none: the register holds no such number.
+void set_register(Device& device, const std::string& name, const std::string& told,
+                  const std::function<std::optional<Value>(const NamedPlace&)>& value_for) {
+  RegisterBank* const bank = device.register_bank();
+  const auto place = find_register(device.model(), name, device.firmware());
+  if (bank == nullptr || !place)
+    throw SettingEntryError("set", name, why_no_register(device.model(), name, device.firmware()));
+  const auto value = value_for(*place);
+  switch (value ? write_value(*bank, *place, *value) : Refusal::bad_value) {
+    case Refusal::none: break;
+    case Refusal::no_register:
+      throw SettingEntryError("set", name, "cannot be written; it is read-only",
+                              name + " cannot be written; it is read-only");
+    case Refusal::bad_value: {
+      const std::string expected = "; expected " + range_text(*place->place.row);
+      throw SettingEntryError("set", name, told + " is out of range" + expected,
+                              told + " is out of range for " + name + expected);
+    }
+    case Refusal::busy:
+    case Refusal::failure: throw SettingEntryError("set", name, "the device does not take it now");
+  }
+}
+
 void set_registers(Device& device, const DeviceSettings& settings) {
   for (const auto& [name, value] : settings.set) {
-    RegisterBank* const bank = device.register_bank();
-    const auto place = find_register(device.model(), name, settings.firmware);
-    if (bank == nullptr || !place)
-      throw SettingEntryError("set", name, why_no_register(device.model(), name, settings.firmware));
-    switch (write_value(*bank, *place, value)) {
-      case Refusal::none: break;
-      case Refusal::no_register:
-        throw SettingEntryError("set", name, "cannot be written; it is read-only",
-                                name + " cannot be written; it is read-only");
-      case Refusal::bad_value: {
-        const std::string expected = "; expected " + range_text(*place->place.row);
-        throw SettingEntryError("set", name, std::to_string(value) + " is out of range" + expected,
-                                std::to_string(value) + " is out of range for " + name + expected);
-      }
-      case Refusal::busy:
-      case Refusal::failure: throw SettingEntryError("set", name, "the device does not take it now");
-    }
+    set_register(device, name, std::to_string(value), [&, &given = value](const NamedPlace& place) {
+      return place.is_real() ? value_of_number(place, static_cast<double>(given)) : std::optional(given);
+    });
   }
   for (const auto& [name, value] : settings.assignments) {
+    if (device.register_bank() != nullptr) {
+      set_register(device, name, shortest_text(value),
+                   [&, &given = value](const NamedPlace& place) { return value_of_number(place, given); });
+      continue;
+    }
     if (device.named_values() == nullptr) {
       const std::string complaint = why_no_value(device, name);
       throw SettingEntryError("set", name, complaint, complaint);

@@ -56,6 +56,11 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
   }
 }
 
+bool is_real_register(const Model& model, std::string_view name) {
+  const auto place = find_register(model, name, model.firmwares.back());
+  return place && place->is_real();
+}
+
 /// The registers of a memory, given in the bench: they have no file, so what changes lasts as long as the
 /// run.
 NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
@@ -64,8 +69,7 @@ NvImage read_memory(const YamlFields& field, const Model& model, Complaints& com
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
       if (model.registers == nullptr) return read_value_of_memory(name, number, image);
-      const auto place = find_register(model, name, model.firmwares.back());
-      if (place && place->is_real()) {
+      if (is_real_register(model, name)) {
         image.reals.emplace_back(name, demand_real(number));
       } else {
         image.registers.emplace_back(name, number.integer(kRegisterValueForm));
@@ -101,7 +105,7 @@ void read_set(const YamlFields& field, const Model* model, DeviceSettings& setti
     complaints.attempt([&, &name = register_name, &number = value] {
       if (model == nullptr) {
         demand_real(number);
-      } else if (model->registers == nullptr) {
+      } else if (model->registers == nullptr || is_real_register(*model, name)) {
         settings.assignments.emplace_back(name, demand_real(number));
       } else {
         settings.set.emplace_back(name, number.integer(kRegisterValueForm));

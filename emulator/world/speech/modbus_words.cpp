@@ -37,8 +37,8 @@ const Device* device_at(const LineStations& stations, std::uint8_t address) {
 /// Consecutive words by the names of their registers, with what they hold where that is known.
 class WordsText {
  public:
-  WordsText(const Device* device, int first, int count, std::span<const std::uint8_t> values)
-      : device_(device), first_(first), count_(count), values_(values) {}
+  WordsText(const Device* device, Table table, int first, int count, std::span<const std::uint8_t> values)
+      : device_(device), table_(table), first_(first), count_(count), values_(values) {}
 
   std::string text() const {
     std::string text;
@@ -59,7 +59,7 @@ class WordsText {
     const int word = i++;
     const RegisterBank* const bank = device_ == nullptr ? nullptr : device_->register_bank();
     const Place place =
-        bank == nullptr ? Place{} : bank->at(Table::holding, static_cast<std::uint16_t>(first_ + word));
+        bank == nullptr ? Place{} : bank->at(table_, static_cast<std::uint16_t>(first_ + word));
     if (!place) {
       return number_of(first_ + word) + (has_values() ? " = " + std::to_string(value_at(word)) : "");
     }
@@ -84,12 +84,20 @@ class WordsText {
   }
 
   const Device* device_;
+  Table table_;
   int first_;
   int count_;
   std::span<const std::uint8_t> values_;
 };
 
 bool is_read(std::uint8_t function) { return function == 0x03 || function == 0x04; }
+
+/// The table of words that a function reaches: a model without input registers has the holding registers
+/// there.
+Table table_of(const Device* device, std::uint8_t function) {
+  const RegisterBank* const bank = device == nullptr ? nullptr : device->register_bank();
+  return function == 0x04 && bank != nullptr && bank->map().has(Table::input) ? Table::input : Table::holding;
+}
 
 }  // namespace
 
@@ -132,7 +140,7 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
   const std::size_t size = request.size();
   if (is_read(request[1]) && size == 8) {
     return whom + "read " + number_of(first) + " " +
-           WordsText(device, first, frame_word(request, 4), {}).text();
+           WordsText(device, table_of(device, request[1]), first, frame_word(request, 4), {}).text();
   }
   const bool is_single = request[1] == 0x06 && size == 8;
   const bool is_several =
@@ -140,7 +148,7 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
   if (!is_single && !is_several) return whom + hex_text(request);
   const auto values = is_single ? request.subspan(4, 2) : request.subspan(7, request[6]);
   return whom + "write " + number_of(first) + " " +
-         WordsText(device, first, static_cast<int>(values.size() / 2), values).text();
+         WordsText(device, Table::holding, first, static_cast<int>(values.size() / 2), values).text();
 }
 
 std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
@@ -150,7 +158,8 @@ std::string modbus_reply_text(const LineStations& stations, std::span<const std:
   const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
   if (is_read(reply[1]) && is_asked && reply[2] == 2 * frame_word(request, 4) &&
       reply.size() == 5U + reply[2]) {
-    return WordsText(device_at(stations, reply[0]), frame_word(request, 2), frame_word(request, 4),
+    const Device* const device = device_at(stations, reply[0]);
+    return WordsText(device, table_of(device, reply[1]), frame_word(request, 2), frame_word(request, 4),
                      reply.subspan(3, reply[2]))
         .text();
   }
