@@ -123,8 +123,7 @@ void apply(World& world, const RandomDialogue::Act& act) {
     world.switch_power(0, act.power != 0);
   } else {
     const std::string sent = act.line + "\r";
-    world.line(0).line.receive(std::span(reinterpret_cast<const std::uint8_t*>(sent.data()), sent.size()),
-                               world.now());
+    world.receive(0, std::span(reinterpret_cast<const std::uint8_t*>(sent.data()), sent.size()));
   }
 }
 
