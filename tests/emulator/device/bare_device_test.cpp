@@ -28,6 +28,7 @@ class BareDevice final : public Device {
   std::function<void()> read_own_state(StateReader&) override {
     return [] {};
   }
+  std::string own_difference(StateReader&, StateReader&) const override { return ""; }
 };
 
 template <const Model& (*model_of)()>

@@ -53,7 +53,7 @@ inline void write_program(OneSimple2& feeder, const std::vector<ProgramLine>& li
 }
 
 /// Writes it and starts it at tick 10, so that its lines run at 12, 14 and so on.
-inline void start_program(OneSimple2& feeder, const std::vector<ProgramLine>& lines) {
+inline void start_with_program(OneSimple2& feeder, const std::vector<ProgramLine>& lines) {
   write_program(feeder, lines);
   feeder.run_to(10);
   feeder.set("PROG_MAIN_RunTime_START", 0);

@@ -41,7 +41,7 @@ TEST(ChoicesRegisters, CommandValuesAreShownOrNot) {
     feeder.set("Aaxis_ParmsDirectmRPM", 2);
     EXPECT_EQ(feeder.get("Aaxis_Mode"), 1) << option;
     EXPECT_EQ(feeder.get("Aaxis_DirectmRPM"), shown ? 5000 : 77) << option;
-    start_program(feeder, {{0x88, 3, 0, 0}, {0x82, 40, 0, 0}, {0xFF, 0, 0, 0}});  // 3 RPM, then PWM 40
+    start_with_program(feeder, {{0x88, 3, 0, 0}, {0x82, 40, 0, 0}, {0xFF, 0, 0, 0}});  // 3 RPM, then PWM 40
     feeder.run(10);
     EXPECT_EQ(feeder.get("Aaxis_Mode"), 2) << option;
     EXPECT_EQ(feeder.get("Aaxis_DirectmRPM"), shown ? 3000 : 77) << option;
@@ -124,7 +124,7 @@ TEST(ChoicesOutputs, AWriteUnderAFunctionIsRememberedOrIgnored) {
     feeder.set("DOUT1_Aaxis_ACLR", 0);
     EXPECT_EQ(feeder.get("DOUT_ALL"), remembered ? 0x7E : 0x7C) << option;
     feeder.set("DOUT3_Baxis_ACLR", 1);
-    start_program(feeder, {{0x05, 3, 0, 0}, {0x05, 4, 0, 0}, {0xFF, 0, 0, 0}});  // Out 3 OFF, Out 4 OFF
+    start_with_program(feeder, {{0x05, 3, 0, 0}, {0x05, 4, 0, 0}, {0xFF, 0, 0, 0}});  // Out 3 OFF, Out 4 OFF
     feeder.run(10);
     feeder.set("DOUT3_Baxis_ACLR", 0);
     EXPECT_EQ(feeder.get("DOUT_ALL"), remembered ? 0x66 : 0x6C) << option;

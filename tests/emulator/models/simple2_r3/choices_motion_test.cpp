@@ -150,7 +150,7 @@ TEST(ChoicesMotion, TickOrderIsProgramFirstOrMotionFirst) {
     feeder.set("ALL_SVON", 1);
     feeder.set_one_pulse_a_tick('A', 0);
     feeder.set("PROG_MEM0", 100);
-    start_program(feeder, {{0x20, 0, 0, 0}, {0xFF, 0, 0, 0}});
+    start_with_program(feeder, {{0x20, 0, 0, 0}, {0xFF, 0, 0, 0}});
     feeder.run_to(12);
     EXPECT_TRUE(feeder.moving('A')) << option;
     feeder.run_to(12 + 60);  // 60 ms after its beginning in tick 12, or in the next

@@ -38,7 +38,7 @@ TEST(ChoicesProgram, LogicBeyond1IsOnOrAsItsLowestBitSays) {
         std::vector<ProgramLine> program = lines;
         program[1][program[1][0] == kOutAll ? 1 : 2] = logic;
         program.push_back(kTheEnd);
-        start_program(feeder, program);
+        start_with_program(feeder, program);
         feeder.run(20);
         EXPECT_EQ(feeder.get("DOUT_ALL"), logic == 2 ? expected.by_2 : expected.by_3)
             << option << ", " << name << ", " << logic;
@@ -51,7 +51,7 @@ TEST(ChoicesProgram, AWaitForLogicBeyond1IsForOnOrForItsLowestBit) {
   for (const auto& [option, waits_for_on] :
        each_option<bool>("logic_operand", {{"not_zero_is_on", true}, {"lowest_bit", false}})) {
     OneSimple2 feeder(with("logic_operand", option));
-    start_program(feeder, {{kWaitIo, 4, 2, 0}, kTheEnd});
+    start_with_program(feeder, {{kWaitIo, 4, 2, 0}, kTheEnd});
     feeder.run(20);
     EXPECT_EQ(runs(feeder), waits_for_on) << option << ": DIN 4 is OFF";
     feeder.input(4, true);
@@ -73,7 +73,7 @@ TEST(ChoicesProgram, AReadOnlyWriteIsIgnoredOrEndsTheProgram) {
     const auto goes_on_behind = [&choice = option](const ProgramLine& line) {
       OneSimple2 feeder(with("read_only_parameter", choice));
       feeder.set("PROG_VAR0", 7);
-      start_program(feeder, {line, {kOut, 6, 1, 0}, {kJump, 1, 0, 1}});
+      start_with_program(feeder, {line, {kOut, 6, 1, 0}, {kJump, 1, 0, 1}});
       feeder.run(20);
       EXPECT_EQ(feeder.get("Analog_A"), 0);
       EXPECT_EQ(feeder.bit("DOUT_6"), runs(feeder));

@@ -18,7 +18,7 @@ TEST(ChoicesFlags, AreFoundAtEveryWriteOrAtStart) {
   for (const auto& [option, at_once] :
        each_option<bool>("flags_found", {{"at_every_write", true}, {"at_start", false}})) {
     OneSimple2 feeder(with("flags_found", option));
-    start_program(feeder, {{0, 0, 0, 1}, {kJump, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 0}, kTheEnd});
+    start_with_program(feeder, {{0, 0, 0, 1}, {kJump, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 0}, kTheEnd});
     feeder.run(50);
     EXPECT_TRUE(runs(feeder)) << option << ": round and round";
     feeder.set("MAIN_LINE3_JMP", 1);  // the last line with the flag, from now on
@@ -43,7 +43,7 @@ TEST(ChoicesFlags, BehindTheFirstEndCountOrDoNot) {
        each_option<bool>("flags_after_end", {{"counts", true}, {"does_not_count", false}})) {
     OneSimple2 feeder(with("flags_after_end", option));
     // Without the flag the jump is to line 0, for ever.
-    start_program(feeder, {{kJump, 1, 0, 0}, {kOut, 1, 1, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
+    start_with_program(feeder, {{kJump, 1, 0, 0}, {kOut, 1, 1, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
     feeder.run(50);
     EXPECT_EQ(feeder.output(0), counts) << option;
     EXPECT_EQ(runs(feeder), !counts) << option;
@@ -95,8 +95,8 @@ TEST(ChoicesProgramRun, TimersCountIn1Or10Or100Milliseconds) {
   // count comes with every multiple of the unit: 311 / 10 - 11 / 10 = 30, 311 / 100 - 0 = 3.
   for (const auto& [option, count] : each_option("timer_unit", {{"1ms", 300}, {"10ms", 30}, {"100ms", 3}})) {
     OneSimple2 feeder(with("timer_unit", option));
-    start_program(feeder,
-                  {{kTimerStart, 2, 0, 0}, {kDelay, 298 & 0xFF, 298 >> 8, 0}, {0x54, 2, 0, 0}, kTheEnd});
+    start_with_program(feeder,
+                       {{kTimerStart, 2, 0, 0}, {kDelay, 298 & 0xFF, 298 >> 8, 0}, {0x54, 2, 0, 0}, kTheEnd});
     feeder.run_to(311);
     EXPECT_EQ(feeder.get("Timer2_Value"), count) << option;
     feeder.run_to(1000);
@@ -118,7 +118,7 @@ TEST(ChoicesProgramRun, TimersAtPowerUpAreStoppedOrRun) {
     feeder.set("Factory_Reset", 1);
     feeder.run(7);
     EXPECT_EQ(feeder.get("Timer1_Value"), runs_by_itself ? 7 : 0) << option;
-    start_program(feeder, {{0x54, 1, 0, 0}, kTheEnd});  // Timer_Stop
+    start_with_program(feeder, {{0x54, 1, 0, 0}, kTheEnd});  // Timer_Stop
     feeder.run(20);
     const Value stopped = feeder.get("Timer1_Value");
     feeder.run(20);
@@ -152,7 +152,7 @@ TEST(ChoicesProgramRun, StartWhileRunningRestartsOrJumpsOrIsIgnored) {
            "start_while_running", {{"restarts", {4, 1}}, {"jumps", {3, 1}}, {"ignored", {3, 3}}})) {
     for (const auto& [line, counted] : {std::pair{0, expected.start_0}, std::pair{3, expected.start_3}}) {
       OneSimple2 feeder(with("start_while_running", option));
-      start_program(feeder, {{0, 0, 0, 1}, {kCountUp, 1, 0, 0}, {kLoop, 1, 3, 0}, kTheEnd});
+      start_with_program(feeder, {{0, 0, 0, 1}, {kCountUp, 1, 0, 0}, {kLoop, 1, 3, 0}, kTheEnd});
       feeder.run_to(17);
       feeder.set("PROG_MAIN_RunTime_START", line);
       feeder.run(100);
@@ -175,7 +175,7 @@ TEST(ChoicesProgramRun, ItsEndLetsMotionGoOnOrStopsIt) {
       feeder.set("ALL_SVON", 1);
       feeder.set_one_pulse_a_tick('A', 0);
       feeder.set("PROG_MEM0", 100);
-      start_program(
+      start_with_program(
           feeder,
           {{kMoveA, 0, 0, 0}, {kDelay, static_cast<std::uint16_t>(by_host ? 200 : 60), 0, 0}, kTheEnd});
       feeder.run_to(74);
@@ -191,7 +191,7 @@ TEST(ChoicesProgramRun, ItsEndLetsTimersRunOnOrStopsThem) {
   // From 11 to the last tick before slot 14, or on.
   for (const auto& [option, count] : each_option("timers_at_end", {{"run_on", 100}, {"stop", 2}})) {
     OneSimple2 feeder(with("timers_at_end", option));
-    start_program(feeder, {{kTimerStart, 1, 0, 0}, kTheEnd});
+    start_with_program(feeder, {{kTimerStart, 1, 0, 0}, kTheEnd});
     feeder.run_to(111);
     EXPECT_EQ(feeder.get("Timer1_Value"), count) << option;
   }
@@ -200,7 +200,7 @@ TEST(ChoicesProgramRun, ItsEndLetsTimersRunOnOrStopsThem) {
 TEST(ChoicesProgramRun, NowLineAfterTheEndIsTheLastLineOrZero) {
   for (const auto& [option, line] : each_option("line_after_end", {{"last_line", 2}, {"zero", 0}})) {
     OneSimple2 feeder(with("line_after_end", option));
-    start_program(feeder, {{0, 0, 0, 0}, {0, 0, 0, 0}, kTheEnd});
+    start_with_program(feeder, {{0, 0, 0, 0}, {0, 0, 0, 0}, kTheEnd});
     feeder.run_to(14);
     EXPECT_EQ(feeder.get("PROG_MAIN_NowLine"), 1) << option;
     feeder.run_to(16);
@@ -213,7 +213,7 @@ TEST(ChoicesProgramRun, ErasingARunningProgramStopsItOrRunsOverNothing) {
   for (const auto& [option, goes_on] :
        each_option<bool>("erase_while_running", {{"stops_it", false}, {"goes_on", true}})) {
     OneSimple2 feeder(with("erase_while_running", option));
-    start_program(feeder, {{kJump, 1, 0, 1}});
+    start_with_program(feeder, {{kJump, 1, 0, 1}});
     feeder.run_to(20);
     feeder.set("PROG_MAIN_Erase_ALL", 1);
     EXPECT_EQ(runs(feeder), goes_on) << option;

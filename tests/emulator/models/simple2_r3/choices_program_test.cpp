@@ -28,14 +28,14 @@ TEST(ChoicesProgram, Timer1NeverOrAlwaysJumpsUpTo141) {
       OneSimple2 feeder(given);
       feeder.set("Timer1_Value", 50);
       feeder.set("PROG_MEM0", reached);
-      start_program(feeder, {{kJumpTimer1, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
+      start_with_program(feeder, {{kJumpTimer1, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
       feeder.run(20);
       EXPECT_EQ(feeder.bit("DOUT_0"), jumps) << option << ", " << reached;
     }
     OneSimple2 newer(with("timer1_defect", option));  // works
     newer.set("Timer1_Value", 50);
     newer.set("PROG_MEM0", 100);
-    start_program(newer, {{kJumpTimer1, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
+    start_with_program(newer, {{kJumpTimer1, 1, 0, 0}, kTheEnd, {kOut, 0, 1, 1}, kTheEnd});
     newer.run(20);
     EXPECT_FALSE(newer.bit("DOUT_0")) << option;
   }
@@ -50,14 +50,14 @@ TEST(ChoicesProgram, AnUndefinedOperandIsHarmlessOrEndsTheProgram) {
        each_option<bool>("undefined_operand", {{"harmless", true}, {"ends", false}})) {
     for (const ProgramLine& wrong : wrong_lines) {
       OneSimple2 feeder(with("undefined_operand", option));
-      start_program(feeder, {wrong, {kOut, 6, 1, 0}, {kJump, 2, 0, 2}});
+      start_with_program(feeder, {wrong, {kOut, 6, 1, 0}, {kJump, 2, 0, 2}});
       feeder.run(20);
       EXPECT_EQ(feeder.get("DOUT_ALL"), harmless ? 0x40 : 0) << option << ", " << wrong[0];
       EXPECT_EQ(runs(feeder), harmless) << option << ", " << wrong[0];
     }
     OneSimple2 right(with("undefined_operand", option));  // the last of each, and a flag that no line has
-    start_program(right,
-                  {{kWaitIo, 10, 0, 0}, {kCountUp, 2, 0, 0}, {0xC0, 65, 15, 0}, {kOut, 6, 1, 0}, kTheEnd});
+    start_with_program(
+        right, {{kWaitIo, 10, 0, 0}, {kCountUp, 2, 0, 0}, {0xC0, 65, 15, 0}, {kOut, 6, 1, 0}, kTheEnd});
     right.run(20);
     EXPECT_EQ(right.get("DOUT_ALL"), 0x40) << option;
   }
@@ -69,13 +69,14 @@ TEST(ChoicesProgram, AnUndefinedParameterReadsZeroOrEndsTheProgram) {
     for (const std::uint16_t number : {159, 166, 183, 255}) {
       OneSimple2 feeder(with("undefined_parameter", option));
       feeder.set("PROG_VAR0", 5);
-      start_program(feeder, {{kCopy, number, kVar0, 0}, {kCopy, kVar0, number, 0}, {kOut, 6, 1, 0}, kTheEnd});
+      start_with_program(feeder,
+                         {{kCopy, number, kVar0, 0}, {kCopy, kVar0, number, 0}, {kOut, 6, 1, 0}, kTheEnd});
       feeder.run(20);
       EXPECT_EQ(feeder.get("PROG_VAR0"), reads_zero ? 0 : 5) << option << ", " << number;
       EXPECT_EQ(feeder.bit("DOUT_6"), reads_zero) << option << ", " << number;
     }
     OneSimple2 right(with("undefined_parameter", option));
-    start_program(right, {{kCopy, 158, 182, 0}, {kOut, 159, 1, 0}, {kOut, 6, 1, 0}, kTheEnd});
+    start_with_program(right, {{kCopy, 158, 182, 0}, {kOut, 159, 1, 0}, {kOut, 6, 1, 0}, kTheEnd});
     right.run(20);
     EXPECT_TRUE(right.bit("DOUT_6")) << option << ": a DOUT is not a parameter";
   }
@@ -93,12 +94,12 @@ TEST(ChoicesProgram, AValueOutOfRangeIsClampedOrCutTo16BitsFirst) {
     feeder.set("PROG_MEM0", 70'000);
     feeder.set("PROG_MEM1", -1);
     feeder.set("PROG_MEM2", 65'546);
-    start_program(feeder, {{kCopy, 0, kParmsSpeed1, 0},
-                           {kCopy, 1, kParmsSpeed1 + 1, 0},
-                           {kMoveSpeedA, 0, 0, 0},
-                           {kMoveAccDecA, 0, 1, 0},
-                           {kPwmA, 2, 0, 0},
-                           kTheEnd});
+    start_with_program(feeder, {{kCopy, 0, kParmsSpeed1, 0},
+                                {kCopy, 1, kParmsSpeed1 + 1, 0},
+                                {kMoveSpeedA, 0, 0, 0},
+                                {kMoveAccDecA, 0, 1, 0},
+                                {kPwmA, 2, 0, 0},
+                                kTheEnd});
     feeder.run(20);
     EXPECT_EQ(feeder.get("Parms_Speed1"), expected.from_70000) << option;
     EXPECT_EQ(feeder.get("Parms_Speed2"), expected.from_minus_1) << option;
@@ -114,7 +115,7 @@ TEST(ChoicesProgram, ADelayOutOfRangeIsClampedOrCutTo16Bits) {
        each_option<Tick>("value_out_of_range", {{"clamped", 12 + 65'536}, {"low_16_bits", 12 + 10}})) {
     OneSimple2 feeder(with("value_out_of_range", option));
     feeder.set("PROG_MEM2", 65'546);
-    start_program(feeder, {{0x07, 2, 0, 0}, kTheEnd});  // Delay_mSec_VAR
+    start_with_program(feeder, {{0x07, 2, 0, 0}, kTheEnd});  // Delay_mSec_VAR
     feeder.run_to(end - 1);
     EXPECT_TRUE(runs(feeder)) << option;
     feeder.run_to(end);
@@ -130,7 +131,8 @@ TEST(ChoicesProgram, ItsSpeedIsTheAxissOrItsOwn) {
     feeder.set("PROG_MEM0", 40);
     feeder.set("PROG_MEM1", 2);
     feeder.set("PROG_MEM2", 1000);
-    start_program(feeder, {{kMoveSpeedA, 0, 0, 0}, {kMoveAccDecA, 1, 1, 0}, {kMoveAWait, 2, 0, 0}, kTheEnd});
+    start_with_program(feeder,
+                       {{kMoveSpeedA, 0, 0, 0}, {kMoveAccDecA, 1, 1, 0}, {kMoveAWait, 2, 0, 0}, kTheEnd});
     feeder.run_to(116);
     const Value before = feeder.coordinate('A');
     feeder.run(100);
@@ -155,7 +157,7 @@ TEST(ChoicesProgram, ItsMoveLeavesPulseOrShowsThere) {
     feeder.set_move('B', 7, 20, 1, 1);
     feeder.set("PROG_MEM0", 100);
     feeder.set("PROG_MEM1", -50);
-    start_program(feeder, {{kMoveA, 0, 0, 0}, {0x31, 1, 0, 0}, kTheEnd});  // Move_INC_A, Move_ABS_B
+    start_with_program(feeder, {{kMoveA, 0, 0, 0}, {0x31, 1, 0, 0}, kTheEnd});  // Move_INC_A, Move_ABS_B
     feeder.run(10);
     EXPECT_EQ(feeder.get("Aaxis_Pulse"), shown ? 100 : 7) << option;
     EXPECT_EQ(feeder.get("Baxis_Pulse"), shown ? -50 : 7) << option;
@@ -171,8 +173,8 @@ TEST(ChoicesProgram, TheLineBehindAWaitRunsASlotLaterOrInTheSame) {
   for (const auto& [option, expected] : each_option<Expected>(
            "wait_slot", {{"slot_of_its_own", {24, 126}}, {"in_the_same_slot", {22, 124}}})) {
     OneSimple2 feeder(with("wait_slot", option));
-    start_program(feeder,
-                  {{kWaitIo, 4, 1, 0}, {kOut, 0, 1, 0}, {kWaitIo, 4, 1, 0}, {kOut, 1, 1, 0}, kTheEnd});
+    start_with_program(feeder,
+                       {{kWaitIo, 4, 1, 0}, {kOut, 0, 1, 0}, {kWaitIo, 4, 1, 0}, {kOut, 1, 1, 0}, kTheEnd});
     feeder.run_to(20);
     feeder.input(4, true);
     feeder.run_to(expected.behind_input - 1);
@@ -188,7 +190,7 @@ TEST(ChoicesProgram, TheLineBehindAWaitRunsASlotLaterOrInTheSame) {
     mover.set("ALL_SVON", 1);
     mover.set_one_pulse_a_tick('A', 0);
     mover.set("PROG_MEM0", 100);
-    start_program(mover, {{kMoveAWait, 0, 0, 0}, {kOut, 0, 1, 0}, kTheEnd});
+    start_with_program(mover, {{kMoveAWait, 0, 0, 0}, {kOut, 0, 1, 0}, kTheEnd});
     mover.run_to(expected.behind_move - 1);
     EXPECT_FALSE(mover.output(0)) << option;
     mover.run_to(expected.behind_move);
@@ -203,7 +205,7 @@ Value calculated(const Given& given, const ProgramLine& line, Value mem0, Value 
   OneSimple2 feeder(given);
   feeder.set("PROG_MEM0", mem0);
   feeder.set("PROG_MEM1", mem1);
-  start_program(feeder, {line, kTheEnd});
+  start_with_program(feeder, {line, kTheEnd});
   feeder.run(10);
   return feeder.get("CalcREG");
 }
@@ -224,7 +226,7 @@ TEST(ChoicesProgram, ArithmeticWrapsOrSaturates) {
     EXPECT_EQ(calculated(given, {kAdd, 0, 1, 0}, kMost, -10), kMost - 10) << option;
     OneSimple2 feeder(given);
     feeder.set("PROG_MEM0", kMost);
-    start_program(feeder, {{kInc, 0, 0, 0}, kTheEnd});
+    start_with_program(feeder, {{kInc, 0, 0, 0}, kTheEnd});
     feeder.run(10);
     EXPECT_EQ(feeder.get("PROG_MEM0"), expected.increased) << option;
   }
@@ -261,7 +263,7 @@ TEST(ChoicesProgram, CountersWrapOrSaturate) {
       OneSimple2 feeder(with("counter_overflow", choice));
       feeder.set("Counter2_Value", before);
       feeder.set("PROG_MEM0", mem0);
-      start_program(feeder, {line, kTheEnd});
+      start_with_program(feeder, {line, kTheEnd});
       feeder.run(10);
       return feeder.get("Counter2_Value");
     };

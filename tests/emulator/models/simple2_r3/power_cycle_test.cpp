@@ -79,7 +79,7 @@ struct Situation {
   Value busy_value = 1;
 };
 
-void start_program(Switched& feeder, const world::Words& cells) {
+void start_with_cells(Switched& feeder, const world::Words& cells) {
   feeder.write(0x4000, cells);
   feeder.set("PROG_MAIN_RunTime_START", 0);
   feeder.run(30);
@@ -157,29 +157,29 @@ const std::vector<Situation> kSituations = {
      "DOUT_1"},
     {"a program in a delay",
      [](Switched& f) {
-       start_program(f, {0x02, 0xFF, 0xFF, 0});
+       start_with_cells(f, {0x02, 0xFF, 0xFF, 0});
      },
      "PROG_MAIN_RunTime_Status"},
     {"a program that waits for an input",
      [](Switched& f) {
-       start_program(f, {0x01, 3, 1, 0});
+       start_with_cells(f, {0x01, 3, 1, 0});
      },
      "PROG_MAIN_RunTime_Status"},
     {"a program in a loop",
      [](Switched& f) {
-       start_program(f, {0, 0, 0, 1, 0x51, 1, 0, 0, 0x04, 1, 0, 0, 0xFF, 0, 0, 0});
+       start_with_cells(f, {0, 0, 0, 1, 0x51, 1, 0, 0, 0x04, 1, 0, 0, 0xFF, 0, 0, 0});
      },
      "PROG_MAIN_RunTime_Status"},
     {"a program that waits for its move",
      [](Switched& f) {
        f.set("PROG_MEM0", 5000);
        f.set_one_pulse_a_tick('A', 0);
-       start_program(f, {0x25, 0, 0, 0});
+       start_with_cells(f, {0x25, 0, 0, 0});
      },
      "Aaxis_Move_INC"},
     {"timers, counters and variables",
      [](Switched& f) {
-       start_program(f, {0x55, 1, 0, 0, 0x55, 2, 0, 0, 0x51, 2, 0, 0, 0x6B, 33, 0, 0, 0xFF, 0, 0, 0});
+       start_with_cells(f, {0x55, 1, 0, 0, 0x55, 2, 0, 0, 0x51, 2, 0, 0, 0x6B, 33, 0, 0, 0xFF, 0, 0, 0});
      },
      "Counter2_Value"},
     {"presets of coordinates and encoders",
