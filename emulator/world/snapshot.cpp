@@ -19,7 +19,7 @@ using OfWorld = StateOf<World>;
 /// The world's own fields, as values.
 using WorldValues = CopiedFields<World>;
 
-enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone };
+enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone, kTurns };
 static_assert(std::get<kSentPulses>(OfWorld::fields).name == "sent_pulses");
 static_assert(std::get<kInputs>(OfWorld::fields).name == "inputs");
 static_assert(std::get<kSupplies>(OfWorld::fields).name == "supplies");
@@ -28,6 +28,7 @@ static_assert(std::get<kNextFault>(OfWorld::fields).name == "next_fault");
 static_assert(std::get<kDisturbed>(OfWorld::fields).name == "disturbed");
 static_assert(std::get<kNow>(OfWorld::fields).name == "now");
 static_assert(std::get<kDone>(OfWorld::fields).name == "done");
+static_assert(std::get<kTurns>(OfWorld::fields).name == "input_turns");
 
 // --- saving ----------------------------------------------------------------------------------------
 
@@ -74,6 +75,7 @@ void check_inputs(const World& world, const WorldValues& values) {
     const auto terminals = world.device(d).model().terminals;
     demand_state(inputs[d].size() == terminals.size(), "its terminals are different");
     for (std::size_t i = 0; i < terminals.size(); ++i) {
+      if (terminals[i].kind == TerminalRow::Kind::counted_in) continue;
       demand_within(inputs[d][i].external, terminals[i].lowest, terminals[i].highest);
     }
   }
@@ -88,11 +90,25 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
+void check_turns(const World& world, const WorldValues& values) {
+  for (const auto& turn : std::get<kTurns>(values)) {
+    demand_state(turn.device < world.device_count(), "a turn belongs to no device");
+    const auto terminals = world.device(turn.device).model().terminals;
+    const auto place = static_cast<std::size_t>(turn.terminal);
+    const bool is_counted = turn.terminal >= 0 && place < terminals.size() &&
+                            terminals[place].kind == TerminalRow::Kind::counted_in;
+    demand_state(is_counted, "a turn is of no counted input");
+    demand_reach(turn.counts);
+    demand_within(turn.ticks, 1, tick_at(kForever));
+    demand_within(turn.ticks_left, 1, turn.ticks);
+  }
+}
+
 /// One that could have been injected.
 void check_fault_value(const World& world, const Fault& fault) {
   demand_state(fault.device < world.device_count(), "a fault belongs to no device");
   const Model& model = world.device(fault.device).model();
-  const bool is_of_input = fault.kind == Fault::Kind::stuck;
+  const bool is_of_input = fault.kind == Fault::Kind::stuck || fault.of_input;
   const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
   demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
   demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
@@ -123,6 +139,7 @@ WorldValues read_values(const World& world, StateReader& reader) {
   demand_state(std::get<kSupplies>(values).size() == world.device_count(), "its devices are different");
   check_pulses(world, values);
   check_faults(world, values);
+  check_turns(world, values);
   const SimTime now = std::get<kNow>(values);
   demand_state(now >= SimTime{0} && now <= kHorizon, "its time is beyond the end of time");
   demand_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
@@ -261,6 +278,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       OfWorld::line(world, i).restore(lines[i]);
       OfWorld::line(world, i).due_changed();
     }
+    OfWorld::tell(world);
   };
 }
 

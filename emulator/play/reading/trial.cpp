@@ -20,6 +20,7 @@
 #include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/check_fault.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
@@ -208,6 +209,21 @@ world::Fault Trial::fault(const world::YamlFields& field, std::string_view other
   world::demand_possible(field, world_, fault, complaints);
   complaints.throw_if_any();
   return *fault;
+}
+
+world::Fault Trial::turn(const world::YamlFields& field, const world::YamlFields* in,
+                         const std::string& place) const {
+  world::FaultText text{.kind = "turn", .place = place, .fields = {{"counts", field.text()}}};
+  if (in != nullptr) text.fields.emplace_back("in", in->text());
+  try {
+    const world::Fault fault = world::find_fault(known(), text);
+    world::check_fault(world_, fault);
+    return fault;
+  } catch (const world::FaultFieldError& error) {
+    (error.field == "in" ? *in : field).fail(error.complaint);
+  } catch (const world::NameError& error) {
+    field.fail(error.what());
+  }
 }
 
 void Trial::demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const {

@@ -93,6 +93,11 @@ struct InputStep {
   std::vector<world::InputSetup> inputs;
 };
 
+/// turn: { mill.MPG: 400, in: 2s }: hand wheels, and what else is counted
+struct TurnStep {
+  std::vector<world::Fault> turns;
+};
+
 /// inject: { stall: feeder.A, name: NAME }
 struct InjectStep {
   world::Fault fault;
@@ -175,8 +180,8 @@ struct Step {
   int line = 0;
   std::string text;  // what it does, on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep, InputStep,
-               InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep, MemoryStep, SnapshotStep,
-               RestoreStep, ForkStep, ResetPeaksStep, SayStep>
+               TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep, MemoryStep,
+               SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
       what;
 };
 

@@ -21,6 +21,11 @@ Number number_of(double value) {
   return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 }
 
+std::int64_t output_value(const Device& device, const ProbeNames::Probe& probe) {
+  if (probe.unit == Unit::millivolts) return device.terminals()->analog_level(probe.place);
+  return device.terminals()->output(probe.place) ? 1 : 0;
+}
+
 }  // namespace
 
 std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
@@ -66,7 +71,9 @@ Number Probes::value(std::int32_t handle) const {
       return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
                               : Number(0);
     case What::input: return device.input(probe.place);
-    case What::output: return device.terminals()->output(probe.place) ? 1 : 0;
+    case What::output: return output_value(device, probe);
+    case What::output_pulses: return device.terminals()->output_pulses(probe.place);
+    case What::terminal_group: return value_of(device, *probe.group);
     case What::power: return device.powered() ? 1 : 0;
     case What::pulse_format: return static_cast<std::int64_t>(device.axes()->pulse_format_number());
     case What::pulses: return view_.sent_pulses(probe.device, probe.place);
@@ -87,6 +94,9 @@ Number Probes::value(std::int32_t handle) const {
     case What::home: return plant.at_home() ? 1 : 0;
     case What::upper_limit: return plant.at_upper_limit() ? 1 : 0;
     case What::lower_limit: return plant.at_lower_limit() ? 1 : 0;
+    case What::near_home: return plant.at_near_home() ? 1 : 0;
+    case What::mark: return plant.at_mark() ? 1 : 0;
+    case What::index: return plant.at_index() ? 1 : 0;
     case What::ready: return plant.ready() ? 1 : 0;
     case What::alarm: return plant.in_alarm() ? 1 : 0;
     default: return 0;

@@ -12,13 +12,16 @@ namespace {
 
 using SignalKind = TraceSignal::Kind;
 
-void add_axis(const std::string& axis, bool has_duty, std::vector<TraceSignal>& signals) {
+void add_axis(const std::string& axis, bool has_duty, const PlantSetup& machine,
+              std::vector<TraceSignal>& signals) {
   for (const auto& [word, kind] :
        {std::pair{"pulses", SignalKind::whole}, std::pair{"speed", SignalKind::real},
         std::pair{"position", SignalKind::whole}, std::pair{"home", SignalKind::bit},
         std::pair{"lower_limit", SignalKind::bit}, std::pair{"upper_limit", SignalKind::bit}}) {
     signals.push_back({.name = axis + "." + word, .kind = kind});
   }
+  if (machine.near_home) signals.push_back({.name = axis + ".near_home", .kind = SignalKind::bit});
+  if (machine.mark) signals.push_back({.name = axis + ".mark", .kind = SignalKind::bit});
   if (has_duty) signals.push_back({.name = axis + ".pwm", .kind = SignalKind::whole});
 }
 
@@ -31,15 +34,14 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
       if (!world.device(d).axes()->has_axis(static_cast<int>(a))) continue;
       add_axis(device.name + "." + std::string(device.model->axes[a].name),
-               world.device(d).axes()->duty_percent(static_cast<int>(a)).has_value(), signals);
+               world.device(d).axes()->duty_percent(static_cast<int>(a)).has_value(),
+               world.machine(d, static_cast<int>(a)), signals);
     }
-    for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
-      const TerminalRow& row = device.model->terminals[t];
-      if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      if (!world.device(d).terminals()->has_terminal(static_cast<int>(t))) continue;
-      const bool is_bit = !is_analog(row.kind);
-      signals.push_back({.name = device.name + "." + std::string(row.name),
-                         .kind = is_bit ? SignalKind::bit : SignalKind::whole});
+    for (const TerminalSight& sight : terminal_sights(world.device(d))) {
+      if (sight.kind == TerminalRow::Kind::dip_switch) continue;
+      const bool is_bit = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
+      signals.push_back(
+          {.name = device.name + "." + sight.name, .kind = is_bit ? SignalKind::bit : SignalKind::whole});
     }
     const SignalKind kind = device.model->registers == nullptr ? SignalKind::real : SignalKind::whole;
     for (const std::string_view name : device.model->state_registers) {

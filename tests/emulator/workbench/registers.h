@@ -56,6 +56,8 @@ inline constexpr RegisterRow kRows[] = {
     reg(0x0040, "Done", Type::u32, Access::read).shows<commands_done>(),
     reg(0x0064, "D{}", Type::u16, Access::read_write).times(125, 1, 0),
     reg(0x0200, "Step{}", Type::u16, Access::read_write).times(3, 0x10, 8101).numbered_by(100),
+    reg(0x0300, "Volts", Type::u16, Access::read_write).range(0, 5000),
+    reg(0x0310, "DO_Word_{}", Type::u16, Access::read_write).times(8, 1, 0),
     window<take_command>(kWindow, "Command{}", kWindowWords, 1),
 
     input(0, "STATE", Type::u16).shows_bits(kStateBits),

@@ -12,10 +12,12 @@
 #include "base/state/difference.h"
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "emulator/device/axes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
+#include "tests/emulator/workbench/machine.h"
 #include "tests/emulator/workbench/registers.h"
 
 namespace understudy::emulator::workbench {
@@ -27,6 +29,7 @@ struct WorkbenchState {
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
   std::uint8_t cause = 0;  // of the last exception
+  MotorsState motors{};
 
   bool operator==(const WorkbenchState&) const = default;
 };
@@ -38,9 +41,11 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::WorkbenchState> {
   using Value = emulator::workbench::WorkbenchState;
-  static constexpr auto fields = std::tuple{
-      field("image", &Value::image), field("positions", &Value::positions), field("targets", &Value::targets),
-      field("fifo", &Value::fifo),   field("done", &Value::done),           field("cause", &Value::cause)};
+  static constexpr auto fields =
+      std::tuple{field("image", &Value::image),     field("positions", &Value::positions),
+                 field("targets", &Value::targets), field("fifo", &Value::fifo),
+                 field("done", &Value::done),       field("cause", &Value::cause),
+                 field("motors", &Value::motors)};
 };
 
 }  // namespace understudy
@@ -50,7 +55,8 @@ namespace understudy::emulator::workbench {
 class Workbench final : public Device,
                         public RegisterBankOf<Workbench>,
                         public ModbusStation,
-                        public Terminals {
+                        public Terminals,
+                        public Axes {
  public:
   Workbench(const Model& model, const DeviceSettings& settings)
       : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
@@ -64,6 +70,8 @@ class Workbench final : public Device,
   const RegisterBank* register_bank() const override { return this; }
   const ModbusStation* modbus() const override { return this; }
   const Terminals* terminals() const override { return this; }
+  Axes* axes() override { return this; }
+  const Axes* axes() const override { return this; }
 
   std::span<std::uint32_t> image() override { return state.image; }
   std::span<const std::uint32_t> image() const override { return state.image; }
@@ -77,7 +85,54 @@ class Workbench final : public Device,
     return address == settings().address ? Addressing::obey_and_reply : Addressing::ignore;
   }
   bool output(int number) const override {
-    return powered() && state.image[first_output_ + static_cast<std::size_t>(number)] != 0;
+    if (number >= kFirstGroupedOutput) return output_word(number, 1) != 0;
+    if (number < kFirstOutput || number >= kVolts) return false;
+    return powered() && state.image[first_output_ + static_cast<std::size_t>(number - kFirstOutput)] != 0;
+  }
+  std::uint32_t output_word(int first, int count) const override {
+    if (first < kFirstGroupedOutput) return Terminals::output_word(first, count);
+    // A run of them lies in three words at most.
+    const int at = first - kFirstGroupedOutput;
+    std::uint64_t words = 0;
+    for (int i = 0; i < 3 && powered(); ++i) {
+      const int word = at / kBitsOfGroup + i;
+      if (word < kOutputWords) {
+        const std::size_t slot = first_word_ + static_cast<std::size_t>(word);
+        words |= std::uint64_t{state.image[slot]} << (i * kBitsOfGroup);
+      }
+    }
+    return static_cast<std::uint32_t>(words >> (at % kBitsOfGroup) & ((std::uint64_t{1} << count) - 1));
+  }
+  std::int32_t analog_level(int) const override {
+    return powered() ? static_cast<std::int32_t>(stored(volts_)) : 0;
+  }
+  std::int64_t output_pulses(int) const override { return state.motors.compared; }
+
+  // --- its motors (machine.h), whose state is kept with the rest ---------------------------------------
+  Motors& motors() { return motors_; }
+  const Motors& motors() const { return motors_; }
+  std::int64_t pulses_this_tick(int axis) const override {
+    return powered() ? state.motors.motors[static_cast<std::size_t>(axis)].sent_pulses : 0;
+  }
+  double speed_pps(int) const override { return 0; }
+  void set_encoder(int, std::int64_t) override {}
+  bool meets_edges() const override { return true; }
+  std::int64_t place_pulses(int axis) const override {
+    return motors_.place_pulses(static_cast<std::size_t>(axis));
+  }
+  void set_edges(int axis, const MachineEdges& edges) override {
+    motors_.set_edges(*this, static_cast<std::size_t>(axis), edges);
+  }
+  void sample_inputs(Tick) override {
+    if (take_inputs_changed()) motors_.look_at_inputs(*this);
+  }
+  void step_motion(Tick tick) override { motors_.step(tick); }
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override {
+    if (module_moves() || inputs_changed()) return done + 1;
+    return motors_.next_event_tick(done, most, ahead);
+  }
+  void cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) override {
+    motors_.cross_to(tick, pulses);
   }
 
   /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
@@ -107,8 +162,9 @@ class Workbench final : public Device,
     if (command[0] != kMove) return;
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
+  bool module_moves() const { return is_moving() || (stored(run_) != 0 && !state.fifo.empty()); }
   Tick next_active_tick(Tick done) const override {
-    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kNever;
+    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : kNever;
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -141,6 +197,9 @@ class Workbench final : public Device,
   const std::size_t first_output_ = slot_of("Output_0");
   const std::size_t run_ = slot_of("Run");
   const std::size_t absent_ = slot_of("Absent");
+  const std::size_t volts_ = slot_of("Volts");
+  const std::size_t first_word_ = slot_of("DO_Word_0");
+  Motors motors_{state.motors};
 };
 
 inline std::size_t axis_of(Cell cell) { return static_cast<std::size_t>(cell.index); }
@@ -176,20 +235,6 @@ inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
 
-inline std::span<const TerminalRow> terminal_rows() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> made;
-    for (int i = 0; i < 16; ++i) made.push_back("IN" + std::to_string(i));
-    return made;
-  }();
-  static const std::vector<TerminalRow> rows = [] {
-    std::vector<TerminalRow> made;
-    for (const std::string& name : names) made.push_back({TerminalRow::Kind::digital_in, name});
-    return made;
-  }();
-  return rows;
-}
-
 inline const Model& model() {
   static const RegisterMap map(kRows, kPolicy);
   static const Model made{
@@ -198,8 +243,9 @@ inline const Model& model() {
       .firmwares = kFirmwares,
       .registers = &map,
       .choices = {},
-      .terminals = terminal_rows(),
-      .axes = {},
+      .terminals = terminal_tables().rows,
+      .terminal_groups = terminal_tables().groups,
+      .axes = motor_rows(),
       .state_registers = kStateRegisters,
       .gaps = {},
       .line = {.protocol = kModbusRtu,
