@@ -111,6 +111,8 @@ class Line {
   const LineOptions& options() const { return options_; }
   const LineCounters& counters() const { return counters_; }
   bool is_host_open() const { return is_host_open_; }
+  /// What the host that has it open was last said to have set, if anything was.
+  const std::optional<HostSettings>& settings_of_host() const { return host_settings_; }
 
   // --- its state -----------------------------------------------------------------------------
   // Characters sent back to back, timed from the first one, so that rounding does not add up.

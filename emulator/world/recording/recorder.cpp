@@ -11,6 +11,8 @@ class Recorder::LineEar final : public pty::LineObserver {
  public:
   LineEar(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
     recorder_.world_.add_observer(number_, *this);
+    // What a host set before the recording began is not in a snapshot of a world that is new.
+    if (const auto& set = recorder_.world_.line(number_).line.settings_of_host()) on_host_settings(set);
   }
   ~LineEar() override { recorder_.world_.remove_observer(number_, *this); }
   LineEar(const LineEar&) = delete;
