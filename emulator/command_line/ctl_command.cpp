@@ -126,6 +126,14 @@ Json message_for(const ControlArguments& arguments) {
     message["values"] = assignments(arguments);
   } else if (verb == "input") {
     message["values"] = levels(arguments);
+  } else if (verb == "turn") {
+    ControlArguments turns = arguments;
+    std::erase_if(turns.operands, [&](const std::string& operand) {
+      if (!operand.starts_with("in=")) return false;
+      message["in"] = operand.substr(3);
+      return true;
+    });
+    message["values"] = assignments(turns);
   } else if (verb == "power") {
     if (arguments.operands.empty() || arguments.operands.size() > 2) {
       throw UsageError("ctl power: expected a device, and on, off or cycle");

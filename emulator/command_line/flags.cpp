@@ -307,6 +307,8 @@ struct CommandLine {
     add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
     add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
         "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
+    add("turn", "Turn hand wheels and what else is counted", "NAME=COUNTS",
+        "Such as mill.MPG=400, and in=2s for the time that it takes");
     add("power", "Switch a device off or on, or off and on again", "WHAT", "DEVICE, and on, off or cycle");
     add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
     add("inject", "Break something", "FAULT",

@@ -29,6 +29,20 @@ int find_terminal(const Model& model, std::string_view name) {
   return -1;
 }
 
+const TerminalGroup* find_group(const Model& model, std::string_view name) {
+  for (const TerminalGroup& group : model.terminal_groups) {
+    if (group.name == name) return &group;
+  }
+  return nullptr;
+}
+
+const TerminalGroup* find_group_of(const Model& model, int first_terminal) {
+  for (const TerminalGroup& group : model.terminal_groups) {
+    if (group.first == first_terminal) return &group;
+  }
+  return nullptr;
+}
+
 int find_axis(const Model& model, std::string_view name) {
   for (std::size_t i = 0; i < model.axes.size(); ++i) {
     if (model.axes[i].name == name) return static_cast<int>(i);
@@ -214,6 +228,20 @@ void demand_facets(const Device& device) {
                         (model.axes.empty() || device.axes() != nullptr) &&
                         model.rtu.has_value() == (device.modbus() != nullptr) && !model.line.ports.empty();
   if (!is_whole) throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
+  for (const TerminalGroup& group : model.terminal_groups) {
+    const auto rows = model.terminals.subspan(static_cast<std::size_t>(group.first));
+    bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMost &&
+                    static_cast<std::size_t>(group.count) <= rows.size();
+    for (std::size_t i = 0; is_alike && i < static_cast<std::size_t>(group.count); ++i) {
+      const TerminalRow::Kind kind = rows[i].kind;
+      is_alike = kind == rows[0].kind &&
+                 (kind == TerminalRow::Kind::digital_in || kind == TerminalRow::Kind::digital_out);
+    }
+    if (!is_alike) {
+      throw std::logic_error(std::string(model.name) + ": " + std::string(group.name) +
+                             " is not a group of digital inputs or outputs");
+    }
+  }
 }
 
 }  // namespace

@@ -74,16 +74,39 @@ struct TerminalRow {
     analog_in,      // millivolts
     analog_number,  // an analog input that the maker counts in no unit
     dip_switch,     // on the housing: 1 is ON
+    counted_in,     // a hand wheel, pulses, phases of an encoder: all counts so far, modulo 2^32
+    analog_out,     // millivolts
+    pulse_out,      // digital; its pulses may be shorter than a tick, and are counted
   } kind;
   std::string_view name;
   std::int32_t lowest = 0;  // levels that it can be given
   std::int32_t highest = 1;
 };
 
-constexpr bool is_input(TerminalRow::Kind kind) { return kind != TerminalRow::Kind::digital_out; }
-constexpr bool is_analog(TerminalRow::Kind kind) {
-  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number;
+constexpr bool is_input(TerminalRow::Kind kind) {
+  return kind != TerminalRow::Kind::digital_out && kind != TerminalRow::Kind::analog_out &&
+         kind != TerminalRow::Kind::pulse_out;
 }
+constexpr bool is_analog(TerminalRow::Kind kind) {
+  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number ||
+         kind == TerminalRow::Kind::analog_out;
+}
+/// 0 or 1, and nothing between.
+constexpr bool has_two_levels(TerminalRow::Kind kind) {
+  return !is_analog(kind) && kind != TerminalRow::Kind::counted_in;
+}
+constexpr bool is_in_millivolts(TerminalRow::Kind kind) {
+  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_out;
+}
+
+/// Neighbours in the table that come in hundreds: digital inputs, or digital outputs. Onlookers show them as
+/// one word, the first in bit 0; by their own names they are there as well.
+struct TerminalGroup {
+  static constexpr int kMost = 32;
+  std::string_view name;
+  int first = 0;
+  int count = 1;
+};
 
 /// A motor axis, and the inputs to which the switches of its machine are wired.
 struct AxisRow {
@@ -96,6 +119,9 @@ struct AxisRow {
   int servo_output = -1;
   int alarm_clear_output = -1;
   int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
+  int near_home_input = -1;
+  int mark_input = -1;
+  int index_input = -1;  // of the encoder
 };
 
 /// What is spoken on a line: an object for each protocol, beside the facet that speaks it (modbus/, text/).
@@ -170,6 +196,7 @@ struct Model {
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
   std::span<const TerminalRow> terminals;
+  std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that show best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
@@ -187,6 +214,9 @@ const Model* find_model(ModelList models, std::string_view name);
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);
+/// A group by its name, or the one that a terminal begins; null if there is none.
+const TerminalGroup* find_group(const Model& model, std::string_view name);
+const TerminalGroup* find_group_of(const Model& model, int first_terminal);
 int find_axis(const Model& model, std::string_view name);
 /// The number of a port in its model's table; nothing if there is none of that name.
 std::optional<std::size_t> find_port(const Model& model, std::string_view name);

@@ -83,6 +83,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     wire_contacts(d);
     step_plant(d);
   }
+  begin_edges();
   const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
   if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
   // What they say at power-up: nobody could have looked on yet, so it begins with the first tick.
@@ -174,7 +175,7 @@ std::optional<SimTime> World::next_due() const {
 }
 
 Tick World::next_active_tick() const {
-  if (disturbed_) return done_ + 1;
+  if (disturbed_ || !input_turns_.empty()) return done_ + 1;
   Tick next = kNever;
   for (std::size_t d = 0; d < devices_.size() && next > done_ + 1; ++d) {
     if (devices_[d]->powered()) next = std::min(next, devices_[d]->next_active_tick(done_));
@@ -212,6 +213,7 @@ void World::look_for_speech(SimTime now) {
 void World::run_tick() {
   disturbed_ = false;
   ++done_;
+  if (!input_turns_.empty()) turn_inputs();
   // Devices meet by their wires alone, which are latched when all are done. So one after another runs all its
   // phases, while its state is in the processor's cache.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
@@ -273,7 +275,10 @@ void World::step_plant(std::size_t number) {
       driven_axes.set_encoder(static_cast<int>(a), plant.encoder_counts());
     }
   }
-  if (all_quiet) return;  // no contact has changed
+  if (all_quiet) {  // no contact has changed
+    if (meets_edges(number)) look_at_places(number);
+    return;
+  }
   for (const ContactWire& wire : contacts_[number]) {
     bool& is_on = inputs_[number][static_cast<std::size_t>(wire.input)].plant;
     const bool level = plants_[number][wire.axis].contact(wire.contact);
@@ -281,6 +286,7 @@ void World::step_plant(std::size_t number) {
     is_on = level;
     apply_input(number, wire.input);
   }
+  if (meets_edges(number)) tell_edges(number);
 }
 
 bool World::level_of(const WireSetup& wire) const {
@@ -297,7 +303,10 @@ void World::latch_wires() {
     Input& input = inputs_[wire.to_device][static_cast<std::size_t>(wire.to_terminal)];
     input.wired = input.wired || level_of(wire);
   }
-  for (const WireSetup& wire : wires_) apply_input(wire.to_device, wire.to_terminal);
+  for (const WireSetup& wire : wires_) {
+    apply_input(wire.to_device, wire.to_terminal);
+    if (meets_edges(wire.to_device)) tell_edges(wire.to_device);
+  }
 }
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
@@ -305,6 +314,7 @@ void World::set_external_input(std::size_t device, int terminal, std::int32_t le
   if (listener_ != nullptr) listener_->on_input(device, terminal, level);
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
+  tell_edges(device);
 }
 
 std::int32_t World::external_input(std::size_t device, int terminal) const {
@@ -364,6 +374,7 @@ void World::settle_power(std::size_t device) {
   if (devices_[device]->powered() == on) return;
   devices_[device]->switch_power(on);
   disturbed_ = true;
+  tell_edges_anew(device);
   for (const auto& line : lines_) {
     for (const auto& station : line->stations) {
       if (&station->device() != devices_[device].get()) continue;

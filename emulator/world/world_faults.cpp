@@ -27,6 +27,11 @@ std::size_t World::inject(const Fault& fault) {
 }
 
 void World::move_by_hand(const Fault& fault) {
+  if (fault.of_input) {
+    const Tick ticks = std::max<Tick>(fault.over_ticks, 1);
+    input_turns_.push_back({fault.device, fault.place, fault.amount, ticks, ticks});
+    return;
+  }
   PlantAxis& plant = plants_[fault.device][static_cast<std::size_t>(fault.place)];
   if (fault.kind == Fault::Kind::turn) return plant.turn(fault.amount, fault.over_ticks);
   plant.faults().slipped_pulses += fault.amount;
@@ -135,6 +140,7 @@ void World::apply_faults(std::size_t device) {
       devices_[device]->axes()->set_encoder(static_cast<int>(a), plant.encoder_counts());
   }
   for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
+  tell_edges(device);
 }
 
 }  // namespace understudy::emulator::world

@@ -121,6 +121,7 @@ class Performance {
 
   // performance_outside.cpp: what is done to the bench
   void perform(const InputStep& step);
+  void perform(const TurnStep& step);
   void perform(const InjectStep& step);
   void perform(const ClearStep& step);
   void perform(const PowerStep& step);

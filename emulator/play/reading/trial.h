@@ -43,6 +43,9 @@ class Trial {
                       const std::string& name) const;
   /// A fault that this world can have: what it waits for exists. `other_key` is for others.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
+  /// The fault `turn` at a place that `field` names, in a time that `in` says (null: none).
+  world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,
+                    const std::string& place) const;
   void demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;
 
  private:

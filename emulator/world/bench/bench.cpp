@@ -55,6 +55,9 @@ int input_of(const AxisRow& axis, const PlantAxis& machine, Contact contact) {
     case Contact::upper_limit: return chosen(setup.upper_limit_input, axis.upper_limit_input);
     case Contact::alarm: return axis.alarm_input;
     case Contact::ready: return axis.ready_input;
+    case Contact::near_home: return chosen(setup.near_home->input, axis.near_home_input);
+    case Contact::mark: return chosen(setup.mark->input, axis.mark_input);
+    case Contact::index: return chosen(setup.index->input, axis.index_input);
   }
   return -1;
 }

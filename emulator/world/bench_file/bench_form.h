@@ -93,6 +93,12 @@ inline constexpr std::array kLimitKeys{
            &kText},
     KeyRow{"upper_input", "The input that the upper one is wired to; by default the controller's own.",
            &kText}};
+inline constexpr std::array kIndexKeys{
+    KeyRow{"at", "The first position of one (0).", &kPositionForm},
+    KeyRow{"width", "How many positions it is on for (1).", &kWidthForm},
+    KeyRow{"period", "How far one is from the next; by default a revolution of the motor.", &kWidthForm},
+    KeyRow{"input", "The input that it is wired to; by default the controller's own.", &kText}};
+inline constexpr Form kIndexForm = keys_form(kIndexKeys);
 inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
 inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
 inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
@@ -101,7 +107,8 @@ inline constexpr std::array kEncoderKeys{
     KeyRow{"per_revolution", "Its counts for a revolution.", &kPerRevolutionForm, true},
     KeyRow{"motor_pulses_per_revolution", "The motor's pulses for one.", &kPerRevolutionForm},
     KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
-    KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm}};
+    KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm},
+    KeyRow{"index", "Its index pulse, once a revolution.", &kIndexForm}};
 inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
 inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
 inline constexpr std::array kDriveKeys{
@@ -116,6 +123,8 @@ inline constexpr std::array kMachineKeys{
     KeyRow{"position", "Where the machine stands at first (0).", &kPositionForm},
     KeyRow{"travel", "The hard stops; pulses beyond are lost.", &kTravelForm},
     KeyRow{"home", "The home switch.", &kHomeForm},
+    KeyRow{"near_home", "The switch that tells that home is near.", &kHomeForm},
+    KeyRow{"mark", "A mark, or a sensor for one.", &kHomeForm},
     KeyRow{"limits", "The limit switches.", &kLimitsForm},
     KeyRow{"encoder", "The encoder.", &kEncoderForm},
     KeyRow{"drive", "The servo drive.", &kDriveForm}};

@@ -53,10 +53,28 @@ void set_device_or_line(const KnownDevices& devices, const std::string& place, F
   fault.device = find_device(devices, place);
 }
 
+/// Nothing where no counted input has that name.
+std::optional<InputName> find_counted(const KnownDevices& devices, const std::string& name) {
+  try {
+    const InputName input = find_input(devices, name);
+    if (input.row(devices).kind == TerminalRow::Kind::counted_in) return input;
+  } catch (const NameError&) {
+  }
+  return std::nullopt;
+}
+
 void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::string& place, Fault& fault) {
   switch (row.place) {
     case At::device: fault.device = find_device(devices, place); return;
     case At::device_or_line: set_device_or_line(devices, place, fault); return;
+    case At::wheel:
+      if (const auto input = find_counted(devices, place)) {
+        fault.device = input->device;
+        fault.place = input->terminal;
+        fault.of_input = true;
+        return;
+      }
+      [[fallthrough]];
     case At::axis: {
       const AxisName axis = find_axis(devices, place);
       fault.device = axis.device;
@@ -209,8 +227,11 @@ FaultText fault_text(const KnownDevices& devices, const Fault& fault) {
   FaultText text{.kind = std::string(row.name),
                  .place = fault.on_line ? device.lines[place] : device.name,
                  .fields = {}};
-  if (row.place == At::axis) text.place += "." + std::string(device.model->axes[place].name);
-  if (row.place == At::input) text.place += "." + std::string(device.model->terminals[place].name);
+  const bool is_of_input = row.place == At::input || fault.of_input;
+  if (!is_of_input && (row.place == At::axis || row.place == At::wheel)) {
+    text.place += "." + std::string(device.model->axes[place].name);
+  }
+  if (is_of_input) text.place += "." + std::string(device.model->terminals[place].name);
   for (const FaultFieldRow& field : row.fields) {
     const std::string value = text_of(field, fault);
     if (!value.empty()) text.fields.emplace_back(field.name, value);

@@ -123,7 +123,7 @@ TEST(PortsOnLines, TellReceiveErrorsByPort) {
         EXPECT_EQ(two.mill().state.last_receive_error[line], 1 + static_cast<int>(error))
             << timing << is_strict;
       }
-      EXPECT_EQ(two.ask(kHmi, "01 04 00 11 00 02"), "01 04 04 00 03 00 02") << "a host reads both";
+      EXPECT_EQ(two.ask(kHmi, "01 04 00 12 00 02"), "01 04 04 00 03 00 02") << "a host reads both";
     }
   }
 }

@@ -26,11 +26,18 @@ Value is_driving(const Workbench& bench, Cell cell);
 Value is_any_driving(const Workbench& bench, Cell cell);
 Value fifo_length(const Workbench& bench, Cell cell);
 Value last_cause(const Workbench& bench, Cell cell);
+Value last_reason(const Workbench& bench, Cell cell);
 Value commands_done(const Workbench& bench, Cell cell);
 Value temperature(const Workbench& bench, Cell cell);
 Value input_level(const Workbench& bench, Cell cell);
 Value receive_errors(const Workbench& bench, Cell cell);
-Refusal take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+DeviceAnswer take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+
+// Why it refuses, in numbers of its own.
+inline constexpr int kUnknownCommand = 2;
+inline constexpr int kWrongWords = 3;
+inline constexpr int kFifoFull = 0xC1;
+inline constexpr int kModuleAbsent = 0xC2;
 
 inline constexpr BitField kModeBits[] = {bits(0, "AUTO"), bits(1, "HOLD"), bits(4, "PROGRAM", 4)};
 inline constexpr BitField kStateBits[] = {bits(0, "DRIVING").reads<is_any_driving>(),
@@ -59,13 +66,16 @@ inline constexpr RegisterRow kRows[] = {
     reg(0x0040, "Done", Type::u32, Access::read).shows<commands_done>(),
     reg(0x0064, "D{}", Type::u16, Access::read_write).times(125, 1, 0),
     reg(0x0200, "Step{}", Type::u16, Access::read_write).times(3, 0x10, 8101).numbered_by(100),
+    reg(0x0300, "Volts", Type::u16, Access::read_write).range(0, 5000),
+    reg(0x0310, "DO_Word_{}", Type::u16, Access::read_write).times(8, 1, 0),
     window<take_command>(kWindow, "Command{}", kWindowWords, 1),
 
     input(0, "STATE", Type::u16).shows_bits(kStateBits),
     input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of>(),
     input(8, "Temperature", Type::f32).shows<temperature>(),
     input(16, "Cause", Type::u16).shows<last_cause>(),
-    input(17, "Receive_Errors_{}", Type::u16).each(kPortNames, 1).shows<receive_errors>(),
+    input(17, "Reason", Type::u16).shows<last_reason>(),
+    input(18, "Receive_Errors_{}", Type::u16).each(kPortNames, 1).shows<receive_errors>(),
     input(20, "Module_ID", Type::u16).always(0x44),
 
     coil(0, "Output_{}").times(kOutputs, 1, 0),

@@ -12,10 +12,12 @@
 #include "base/state/difference.h"
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "emulator/device/axes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
+#include "tests/emulator/workbench/machine.h"
 #include "tests/emulator/workbench/registers.h"
 
 namespace understudy::emulator::workbench {
@@ -26,7 +28,9 @@ struct WorkbenchState {
   std::array<std::int32_t, kAxisCount> targets{};
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
-  std::uint8_t cause = 0;  // of the last exception
+  std::uint8_t cause = 0;    // of the last exception
+  std::uint16_t reason = 0;  // the same in its own numbers
+  MotorsState motors{};
   std::array<std::uint32_t, 2> receive_errors{};
   std::array<std::uint8_t, 2> last_receive_error{};  // 1 + pty::ReceiveError
 
@@ -46,6 +50,8 @@ struct StateOf<emulator::workbench::WorkbenchState> {
                                             field("fifo", &Value::fifo),
                                             field("done", &Value::done),
                                             field("cause", &Value::cause),
+                                            field("reason", &Value::reason),
+                                            field("motors", &Value::motors),
                                             field("receive_errors", &Value::receive_errors),
                                             field("last_receive_error", &Value::last_receive_error)};
 };
@@ -57,7 +63,8 @@ namespace understudy::emulator::workbench {
 class Workbench final : public Device,
                         public RegisterBankOf<Workbench>,
                         public ModbusStation,
-                        public Terminals {
+                        public Terminals,
+                        public Axes {
  public:
   Workbench(const Model& model, const DeviceSettings& settings)
       : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
@@ -72,6 +79,8 @@ class Workbench final : public Device,
   ModbusStation* modbus() override { return this; }
   const ModbusStation* modbus() const override { return this; }
   const Terminals* terminals() const override { return this; }
+  Axes* axes() override { return this; }
+  const Axes* axes() const override { return this; }
 
   std::span<std::uint32_t> image() override { return state.image; }
   std::span<const std::uint32_t> image() const override { return state.image; }
@@ -89,21 +98,71 @@ class Workbench final : public Device,
     state.last_receive_error[port] = static_cast<std::uint8_t>(1 + static_cast<int>(error));
   }
   bool output(int number) const override {
-    return powered() && state.image[first_output_ + static_cast<std::size_t>(number)] != 0;
+    if (number >= kFirstGroupedOutput) return output_word(number, 1) != 0;
+    if (number < kFirstOutput || number >= kVolts) return false;
+    return powered() && state.image[first_output_ + static_cast<std::size_t>(number - kFirstOutput)] != 0;
+  }
+  std::uint32_t output_word(int first, int count) const override {
+    if (first < kFirstGroupedOutput) return Terminals::output_word(first, count);
+    // A run of them lies in three words at most.
+    const int at = first - kFirstGroupedOutput;
+    std::uint64_t words = 0;
+    for (int i = 0; i < 3 && powered(); ++i) {
+      const int word = at / kBitsOfGroup + i;
+      if (word < kOutputWords) {
+        const std::size_t slot = first_word_ + static_cast<std::size_t>(word);
+        words |= std::uint64_t{state.image[slot]} << (i * kBitsOfGroup);
+      }
+    }
+    return static_cast<std::uint32_t>(words >> (at % kBitsOfGroup) & ((std::uint64_t{1} << count) - 1));
+  }
+  std::int32_t analog_level(int) const override {
+    return powered() ? static_cast<std::int32_t>(stored(volts_)) : 0;
+  }
+  std::int64_t output_pulses(int) const override { return state.motors.compared; }
+
+  // --- its motors (machine.h), whose state is kept with the rest ---------------------------------------
+  Motors& motors() { return motors_; }
+  const Motors& motors() const { return motors_; }
+  std::int64_t pulses_this_tick(int axis) const override {
+    return powered() ? state.motors.motors[static_cast<std::size_t>(axis)].sent_pulses : 0;
+  }
+  double speed_pps(int) const override { return 0; }
+  void set_encoder(int, std::int64_t) override {}
+  bool meets_edges() const override { return true; }
+  std::int64_t place_pulses(int axis) const override {
+    return motors_.place_pulses(static_cast<std::size_t>(axis));
+  }
+  void set_edges(int axis, const MachineEdges& edges) override {
+    motors_.set_edges(*this, static_cast<std::size_t>(axis), edges);
+  }
+  void sample_inputs(Tick) override {
+    if (take_inputs_changed()) motors_.look_at_inputs(*this);
+  }
+  void step_motion(Tick tick) override { motors_.step(tick); }
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override {
+    if (module_moves() || inputs_changed()) return done + 1;
+    return motors_.next_event_tick(done, most, ahead);
+  }
+  void cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) override {
+    motors_.cross_to(tick, pulses);
   }
 
   /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
-  Refusal admits(const RegisterRequest& request, Checked checked) const override {
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override {
     const bool is_of_module =
         request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
     if (!is_of_module) return Refusal::none;
-    if (stored(absent_) != 0) return Refusal::failure;
+    if (stored(absent_) != 0) return {Refusal::failure, kModuleAbsent};
     // A command is judged first (take_command()).
     const bool is_full = request.is_write() && request.first != kWindow && state.fifo.size() >= kFifo;
-    return checked == Checked::everything && is_full ? Refusal::busy : Refusal::none;
+    if (checked == Checked::everything && is_full) return {Refusal::busy, kFifoFull};
+    return Refusal::none;
   }
-  void exception_answered(const Objection& objection) override {
-    state.cause = static_cast<std::uint8_t>(objection.cause);
+  void exception_answered(const RefusedRequest& request) override {
+    state.cause = static_cast<std::uint8_t>(request.objection.cause);
+    state.reason = request.objection.reason;
+    last_refused = request;
   }
 
   void run_interpreters(Tick) override {
@@ -119,8 +178,9 @@ class Workbench final : public Device,
     if (command[0] != kMove) return;
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
+  bool module_moves() const { return is_moving() || (stored(run_) != 0 && !state.fifo.empty()); }
   Tick next_active_tick(Tick done) const override {
-    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kNever;
+    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : kNever;
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -129,6 +189,7 @@ class Workbench final : public Device,
   }
 
   WorkbenchState state;
+  RefusedRequest last_refused;  // for tests, no part of its state
 
  protected:
   void write_own_state(StateWriter& writer) const override { writer.write(state); }
@@ -154,6 +215,9 @@ class Workbench final : public Device,
   const std::size_t run_ = slot_of("Run");
   const std::size_t absent_ = slot_of("Absent");
   const std::size_t station_ = slot_of("Station");
+  const std::size_t volts_ = slot_of("Volts");
+  const std::size_t first_word_ = slot_of("DO_Word_0");
+  Motors motors_{state.motors};
 };
 
 inline std::size_t axis_of(Cell cell) { return static_cast<std::size_t>(cell.index); }
@@ -169,6 +233,7 @@ inline Value is_driving(const Workbench& bench, Cell cell) {
 inline Value is_any_driving(const Workbench& bench, Cell) { return bench.is_moving() ? 1 : 0; }
 inline Value fifo_length(const Workbench& bench, Cell) { return static_cast<Value>(bench.state.fifo.size()); }
 inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause; }
+inline Value last_reason(const Workbench& bench, Cell) { return bench.state.reason; }
 inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
 inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
 inline Value receive_errors(const Workbench& bench, Cell cell) {
@@ -177,11 +242,11 @@ inline Value receive_errors(const Workbench& bench, Cell cell) {
 inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
 
 /// A command is good by its code, its words and its axis; then it waits in the FIFO.
-inline Refusal take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
-  const bool is_good = (words[0] == kMove && words.size() == 4 && words[1] < kAxisCount) ||
-                       (words[0] == kStop && words.size() == 1);
-  if (!is_good) return Refusal::bad_value;
-  if (bench.state.fifo.size() >= kFifo) return Refusal::busy;
+inline DeviceAnswer take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+  if (words[0] != kMove && words[0] != kStop) return {Refusal::bad_value, kUnknownCommand};
+  const bool is_good = words[0] == kMove ? words.size() == 4 && words[1] < kAxisCount : words.size() == 1;
+  if (!is_good) return {Refusal::bad_value, kWrongWords};
+  if (bench.state.fifo.size() >= kFifo) return {Refusal::busy, kFifoFull};
   bench.state.fifo.emplace_back(words.begin(), words.end());
   return Refusal::none;
 }
@@ -199,20 +264,6 @@ inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
 
-inline std::span<const TerminalRow> terminal_rows() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> made;
-    for (int i = 0; i < 16; ++i) made.push_back("IN" + std::to_string(i));
-    return made;
-  }();
-  static const std::vector<TerminalRow> rows = [] {
-    std::vector<TerminalRow> made;
-    for (const std::string& name : names) made.push_back({TerminalRow::Kind::digital_in, name});
-    return made;
-  }();
-  return rows;
-}
-
 inline const Model& model() {
   static const RegisterMap map(kRows, kPolicy);
   static const Model made{
@@ -221,8 +272,9 @@ inline const Model& model() {
       .firmwares = kFirmwares,
       .registers = &map,
       .choices = {},
-      .terminals = terminal_rows(),
-      .axes = {},
+      .terminals = terminal_tables().rows,
+      .terminal_groups = terminal_tables().groups,
+      .axes = motor_rows(),
       .state_registers = kStateRegisters,
       .gaps = {},
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 247, "Station"}},
