@@ -63,7 +63,7 @@ WorldState::Part edge_part(const World& world) {
   StateWriter writer(256);
   writer.write(OfWorld::ticks(world));
   for (std::size_t i = 0; i < world.line_count(); ++i) writer.write(world.line(i).line.save().edge);
-  return {"edge", writer.take()};
+  return {std::string(kEdgePart), writer.take()};
 }
 
 // --- reading, which changes nothing ----------------------------------------------------------------
@@ -245,7 +245,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       reader.demand_end();
     });
   }
-  auto ticks = parts.read("edge", [&](std::span<const std::byte> bytes) {
+  auto ticks = parts.read(std::string(kEdgePart), [&](std::span<const std::byte> bytes) {
     StateReader reader(bytes);
     auto of_world = OfWorld::ticks(world);
     reader.read(of_world);
@@ -348,7 +348,7 @@ std::string difference(const World& world, const WorldState& a, const WorldState
       return found;
     });
   }
-  look_with_readers("edge", [&](StateReader& reader_a, StateReader& reader_b) {
+  look_with_readers(std::string(kEdgePart), [&](StateReader& reader_a, StateReader& reader_b) {
     std::string found = difference_of_saved<std::remove_cvref_t<decltype(OfWorld::ticks(world))>>(
         reader_a, reader_b, "world.ticks");
     for (std::size_t i = 0; i < world.line_count(); ++i) {
@@ -365,7 +365,7 @@ std::string difference(const World& world, const WorldState& a, const WorldState
 std::uint64_t hash(const World& world) {
   std::uint64_t sum = hash_of({});
   for (const WorldState::Part& part : save(world).parts) {
-    if (part.name != "edge") sum = hash_of(part.bytes, sum);
+    if (part.name != kEdgePart) sum = hash_of(part.bytes, sum);
   }
   return sum;
 }

@@ -35,7 +35,10 @@ class PolledRegisters final : public world::NameResolver, public world::ValueSou
     targets_.push_back({.device = found.device, .name = std::string(name), .place = found.place});
     return {static_cast<std::int32_t>(targets_.size() - 1), world::Unit::none};
   }
-  world::Number value(std::int32_t handle) const override { return values[static_cast<std::size_t>(handle)]; }
+  world::Number value(std::int32_t handle) const override {
+    const auto i = static_cast<std::size_t>(handle);
+    return number_of(targets_[i], values[i]).value_or(0);
+  }
 
   const std::vector<Target>& targets() const { return targets_; }
   std::vector<Value> values;

@@ -92,17 +92,20 @@ Target Trial::target(const world::YamlFields& field, const std::string& written)
       target.is_value = true;
       return target;
     }
-    if (rest.empty() || rest.front() < '0' || rest.front() > '9') {
+    const auto table = table_called(rest.substr(0, rest.find('.')));
+    const std::string number = table ? rest.substr(rest.find('.') + 1) : rest;
+    if (number.empty() || number.front() < '0' || number.front() > '9') {
       const world::RegisterName found = world::find_register(known(), name);
       target.device = found.device;
       target.place = found.place;
       return target;
     }
     if (rest == name) world::find_device(known(), known().size() == 1 ? "" : name.substr(0, dot));
-    const auto address = parse_integer(rest);
+    const auto address = parse_integer(number);
     if (!address || *address > UINT16_MAX) {
-      field.fail(quoted(rest) + " is not a register number; expected 0 to 0xFFFF");
+      field.fail(quoted(number) + " is not a register number; expected 0 to 0xFFFF");
     }
+    target.table = table.value_or(Table::holding);
     target.address = static_cast<std::uint16_t>(*address);
     return target;
   } catch (const world::NameError& error) {
@@ -153,6 +156,10 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
                                   bool is_refused) const {
   const world::Expression value = expression(field);
   const RegisterRow* const row = target.place ? target.place->place.row : nullptr;
+  if (!can_be_sent(target)) {
+    field.fail(target.name + " cannot be written; no function writes to the table '" +
+               std::string(to_string(table_of(target))) + "'");
+  }
   if (row != nullptr && row->access == Access::read && !is_refused) {
     field.fail(target.name +
                " cannot be written; it is read-only (expected `exception:` where that is meant)");
@@ -162,19 +169,27 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   const auto out_of = [&](const std::string& range) {
     field.fail(world::number_text(number) + " is out of range for " + target.name + "; expected " + range);
   };
-  if (!number.is_whole()) field.fail(world::number_text(number) + " is not a whole number; expected one");
+  const auto fitting = value_for(target, number);
+  const bool is_real = target.place && target.place->is_real();
+  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a single can hold");
+  if (!fitting) field.fail(world::number_text(number) + " is not a whole number; expected one");
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
                          target.place->place.part == Place::Part::whole && !is_refused;
-  if (is_judged && (number.whole() < row->min || number.whole() > row->max)) out_of(range_text(*row));
+  if (is_real) {
+    const float real = real_of(*fitting);
+    if (is_judged && (real < real_of(row->min) || real > real_of(row->max))) out_of(range_text(*row));
+    return value.text;
+  }
+  if (is_judged && (*fitting < row->min || *fitting > row->max)) out_of(range_text(*row));
   const Limits limits = limits_of(target);
-  if (number.whole() < limits.low || number.whole() > limits.high) out_of(to_text(limits));
+  if (*fitting < limits.low || *fitting > limits.high) out_of(to_text(limits));
   return value.text;
 }
 
 world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Target& target) const {
   try {
     world::Tolerance value = world::parse_tolerance(field.text());
-    if (target.is_value) return value;
+    if (target.is_value || (target.place && target.place->is_real())) return value;
     const Limits limits = limits_of(target);
     if ((value.low && *value.low > world::Number(limits.high)) ||
         (value.high && *value.high < world::Number(limits.low))) {

@@ -21,13 +21,14 @@ namespace understudy::emulator::play {
 struct Step;
 using Steps = std::vector<Step>;
 
-/// A register as a host addresses it: by name (then `place` is set), or a 16-bit word by its number.
+/// A register or a bit as a host addresses it: by name (then `place` is set), or by its number in a table.
 struct Target {
   std::size_t device = 0;
   std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
   std::optional<NamedPlace> place{};
-  std::uint16_t address = 0;  // where there is no place; a holding register
-  bool is_value = false;      // of a device without registers: looked at past the line
+  Table table = Table::holding;  // where there is no place, and
+  std::uint16_t address = 0;     // the number in it
+  bool is_value = false;         // of a device without registers: looked at past the line
 };
 
 /// How a device must answer each request of a step: done, an exception, or nothing.

@@ -1,9 +1,5 @@
 #include "emulator/world/probe/probes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
@@ -12,14 +8,6 @@
 namespace understudy::emulator::world {
 
 namespace {
-
-/// Whole where it is; a real number of an expression is always finite.
-Number number_of(double value) {
-  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
-  if (std::isnan(value)) return 0;
-  if (std::abs(value) <= kLargest && std::floor(value) == value) return static_cast<std::int64_t>(value);
-  return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
-}
 
 std::int64_t output_value(const Device& device, const ProbeNames::Probe& probe) {
   if (probe.unit == Unit::millivolts) return device.terminals()->analog_level(probe.place);
@@ -32,6 +20,18 @@ std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
   const Probe& probe = names_.probe(handle);
   if (probe.what != What::reg && probe.what != What::named) return std::nullopt;
   return probe.device;
+}
+
+bool Probes::may_be_a_fraction(std::int32_t handle) const {
+  const Probe& probe = names_.probe(handle);
+  switch (probe.what) {
+    case What::reg: return probe.reg.is_real();
+    case What::named: return !value(handle).is_whole();
+    case What::speed:
+    case What::greatest_speed:
+    case What::greatest_acceleration: return true;
+    default: return false;
+  }
 }
 
 std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const {
@@ -65,11 +65,12 @@ Number Probes::value(std::int32_t handle) const {
     case What::reg: {
       if (!device.powered()) return 0;
       const Value value = read_value(*device.register_bank(), probe.reg);
-      return probe.reg.is_real() ? number_of(emulator::number_of(probe.reg, value)) : Number(value);
+      return probe.reg.is_real() ? finite_number(number_of(probe.reg, value)) : Number(value);
     }
     case What::named:
-      return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
-                              : Number(0);
+      return device.powered()
+                 ? finite_number(device.named_values()->value_named(probe.value_name).value_or(0))
+                 : Number(0);
     case What::input: return device.input(probe.place);
     case What::output: return output_value(device, probe);
     case What::output_pulses: return device.terminals()->output_pulses(probe.place);

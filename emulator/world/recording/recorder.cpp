@@ -1,5 +1,9 @@
 #include "emulator/world/recording/recorder.h"
 
+#include <utility>
+
+#include "emulator/world/snapshot.h"
+#include "emulator/world/snapshot_file.h"
 #include "pty/line_observer.h"
 
 namespace understudy::emulator::world {
@@ -64,13 +68,17 @@ Recorder::Recorder(World& world, const RecordingHeader& header, std::function<vo
 }
 
 Recorder::~Recorder() {
-  finish();
+  end_with({});
   world_.set_listener(nullptr);
 }
 
 void Recorder::finish() {
+  if (!is_finished_) end_with(to_text(save(world_), kBenchOfRecording));
+}
+
+void Recorder::end_with(std::string state) {
   if (is_finished_) return;
-  take({.what = What::end});
+  take({.what = What::end, .text = std::move(state)});
   is_finished_ = true;
 }
 

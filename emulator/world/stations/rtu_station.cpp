@@ -87,7 +87,7 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
 
   ++counters_.replies;
   if (refuses) ++counters_.exceptions;
-  if (reply.objection) device_.register_bank()->exception_answered(reply.objection);
+  if (reply.refused.objection) device_.register_bank()->exception_answered(reply.refused);
   std::array<std::uint8_t, pty::kRtuMaxFrame> buffer;
   buffer[0] = address;
   std::copy_n(reply.pdu.begin(), reply.size, buffer.begin() + 1);

@@ -29,6 +29,10 @@ void add_axis(const std::string& axis, bool has_duty, const PlantSetup& machine,
 
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also) {
   std::vector<TraceSignal> signals;
+  const Probes probes(world);
+  const auto kind_of = [&](const std::string& name) {
+    return probes.may_be_a_fraction(probes.resolve(name).handle) ? SignalKind::real : SignalKind::whole;
+  };
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     const KnownDevice& device = world.known()[d];
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
@@ -43,24 +47,20 @@ std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std
       signals.push_back(
           {.name = device.name + "." + sight.name, .kind = is_bit ? SignalKind::bit : SignalKind::whole});
     }
-    const SignalKind kind = device.model->registers == nullptr ? SignalKind::real : SignalKind::whole;
-    for (const std::string_view name : device.model->state_registers) {
-      signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
+    for (const std::string_view word : device.model->state_registers) {
+      const std::string name = device.name + "." + std::string(word);
+      const bool has_registers = device.model->registers != nullptr;
+      signals.push_back({.name = name, .kind = has_registers ? kind_of(name) : SignalKind::real});
     }
     const Axes* const axes = world.device(d).axes();
     if (axes != nullptr && !axes->pulse_formats().empty())
       signals.push_back({.name = device.name + ".pulse_format", .kind = SignalKind::whole});
     signals.push_back({.name = device.name + ".power", .kind = SignalKind::bit});
   }
-  const Probes probes(world);
   for (const std::string& name : also) {
-    const NamedNumber number = probes.resolve(name);
     const bool is_there = std::any_of(signals.begin(), signals.end(),
                                       [&](const TraceSignal& signal) { return signal.name == name; });
-    if (is_there) continue;
-    signals.push_back(
-        {.name = name,
-         .kind = probes.value(number.handle).is_whole() ? SignalKind::whole : SignalKind::real});
+    if (!is_there) signals.push_back({.name = name, .kind = kind_of(name)});
   }
   return signals;
 }

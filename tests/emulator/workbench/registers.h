@@ -25,10 +25,17 @@ Value is_driving(const Workbench& bench, Cell cell);
 Value is_any_driving(const Workbench& bench, Cell cell);
 Value fifo_length(const Workbench& bench, Cell cell);
 Value last_cause(const Workbench& bench, Cell cell);
+Value last_reason(const Workbench& bench, Cell cell);
 Value commands_done(const Workbench& bench, Cell cell);
 Value temperature(const Workbench& bench, Cell cell);
 Value input_level(const Workbench& bench, Cell cell);
-Refusal take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+DeviceAnswer take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+
+// Why it refuses, in numbers of its own.
+inline constexpr int kUnknownCommand = 2;
+inline constexpr int kWrongWords = 3;
+inline constexpr int kFifoFull = 0xC1;
+inline constexpr int kModuleAbsent = 0xC2;
 
 inline constexpr BitField kModeBits[] = {bits(0, "AUTO"), bits(1, "HOLD"), bits(4, "PROGRAM", 4)};
 inline constexpr BitField kStateBits[] = {bits(0, "DRIVING").reads<is_any_driving>(),
@@ -64,6 +71,7 @@ inline constexpr RegisterRow kRows[] = {
     input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of>(),
     input(8, "Temperature", Type::f32).shows<temperature>(),
     input(16, "Cause", Type::u16).shows<last_cause>(),
+    input(17, "Reason", Type::u16).shows<last_reason>(),
     input(20, "Module_ID", Type::u16).always(0x44),
 
     coil(0, "Output_{}").times(kOutputs, 1, 0),

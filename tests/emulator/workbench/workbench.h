@@ -28,7 +28,8 @@ struct WorkbenchState {
   std::array<std::int32_t, kAxisCount> targets{};
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
-  std::uint8_t cause = 0;  // of the last exception
+  std::uint8_t cause = 0;    // of the last exception
+  std::uint16_t reason = 0;  // the same in its own numbers
   MotorsState motors{};
 
   bool operator==(const WorkbenchState&) const = default;
@@ -45,7 +46,7 @@ struct StateOf<emulator::workbench::WorkbenchState> {
       std::tuple{field("image", &Value::image),     field("positions", &Value::positions),
                  field("targets", &Value::targets), field("fifo", &Value::fifo),
                  field("done", &Value::done),       field("cause", &Value::cause),
-                 field("motors", &Value::motors)};
+                 field("reason", &Value::reason),   field("motors", &Value::motors)};
 };
 
 }  // namespace understudy
@@ -136,17 +137,20 @@ class Workbench final : public Device,
   }
 
   /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
-  Refusal admits(const RegisterRequest& request, Checked checked) const override {
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override {
     const bool is_of_module =
         request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
     if (!is_of_module) return Refusal::none;
-    if (stored(absent_) != 0) return Refusal::failure;
+    if (stored(absent_) != 0) return {Refusal::failure, kModuleAbsent};
     // A command is judged first (take_command()).
     const bool is_full = request.is_write() && request.first != kWindow && state.fifo.size() >= kFifo;
-    return checked == Checked::everything && is_full ? Refusal::busy : Refusal::none;
+    if (checked == Checked::everything && is_full) return {Refusal::busy, kFifoFull};
+    return Refusal::none;
   }
-  void exception_answered(const Objection& objection) override {
-    state.cause = static_cast<std::uint8_t>(objection.cause);
+  void exception_answered(const RefusedRequest& request) override {
+    state.cause = static_cast<std::uint8_t>(request.objection.cause);
+    state.reason = request.objection.reason;
+    last_refused = request;
   }
 
   void run_interpreters(Tick) override {
@@ -173,6 +177,7 @@ class Workbench final : public Device,
   }
 
   WorkbenchState state;
+  RefusedRequest last_refused;  // for tests, no part of its state
 
  protected:
   void write_own_state(StateWriter& writer) const override { writer.write(state); }
@@ -215,16 +220,17 @@ inline Value is_driving(const Workbench& bench, Cell cell) {
 inline Value is_any_driving(const Workbench& bench, Cell) { return bench.is_moving() ? 1 : 0; }
 inline Value fifo_length(const Workbench& bench, Cell) { return static_cast<Value>(bench.state.fifo.size()); }
 inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause; }
+inline Value last_reason(const Workbench& bench, Cell) { return bench.state.reason; }
 inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
 inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
 inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
 
 /// A command is good by its code, its words and its axis; then it waits in the FIFO.
-inline Refusal take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
-  const bool is_good = (words[0] == kMove && words.size() == 4 && words[1] < kAxisCount) ||
-                       (words[0] == kStop && words.size() == 1);
-  if (!is_good) return Refusal::bad_value;
-  if (bench.state.fifo.size() >= kFifo) return Refusal::busy;
+inline DeviceAnswer take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+  if (words[0] != kMove && words[0] != kStop) return {Refusal::bad_value, kUnknownCommand};
+  const bool is_good = words[0] == kMove ? words.size() == 4 && words[1] < kAxisCount : words.size() == 1;
+  if (!is_good) return {Refusal::bad_value, kWrongWords};
+  if (bench.state.fifo.size() >= kFifo) return {Refusal::busy, kFifoFull};
   bench.state.fifo.emplace_back(words.begin(), words.end());
   return Refusal::none;
 }
