@@ -180,6 +180,20 @@ TEST(GroupedTerminals, AreWordsInATraceUnlessAskedFor) {
   }
 }
 
+TEST(GroupedTerminals, AreTracedBesideRealRegisters) {
+  World world(bench(), {}, {});
+  std::string text;
+  {
+    const auto signals = world::trace_signals(world, {});
+    const world::Trace trace(world, signals,
+                             world::vcd_format([&](std::string_view lines) { text += lines; }));
+    world.set_external_input(0, find_terminal(model(), "DI_5_3"), 1);
+    world.advance_to(3ms);
+  }
+  EXPECT_NE(text.find(" DI_5 $end"), std::string::npos);
+  EXPECT_NE(text.find("\nb1000 "), std::string::npos) << text;
+}
+
 struct Served {
   Served() : daemon(bench(), options(), [](const std::string&) {}) {}
   static serve::DaemonOptions options() {
