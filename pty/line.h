@@ -181,7 +181,7 @@ class Line {
   void say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t speaker);
-  void leave_wire(std::uint8_t value);
+  void leave_wire(std::span<const std::uint8_t> bytes);
   void warn_once(bool& has_warned, std::string_view what);
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 

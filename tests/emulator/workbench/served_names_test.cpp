@@ -72,6 +72,38 @@ TEST(ServedNames, ABenchAndTheControlSocketKnowTablesAndReals) {
   EXPECT_EQ(served.get("Mode.PROGRAM"), 15);
 }
 
+TEST(ServedNames, ExpressionsAndStatusKnowThem) {
+  Served served;
+  const std::pair<const char*, Json> cases[] = {
+      {"Gain_X * 2", 5},
+      {"Gain_X == 2.5 and coil.Output_9 == 0", 1},
+      {"input.Position_Z + holding.Position_Z", -18},
+      {"Mode.PROGRAM + Always_On_Y + Input_3", 7},
+      {"Temperature - 0.25", 21.25},
+  };
+  for (const auto& [expression, wanted] : cases) {
+    EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", expression}})["value"], wanted) << expression;
+  }
+  EXPECT_EQ(served.complaint_of_setting("Gain_X", 0.1), "");
+  EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", "Gain_X"}})["value"].dump(), "0.1");
+  EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", "Gain_X == 0.1"}})["value"], 1);
+  const Json registers = served.ask({{"do", "status"}})["status"]["devices"][0]["registers"];
+  EXPECT_EQ(registers["Temperature"], 21.5) << registers;
+  EXPECT_EQ(registers["Mode.PROGRAM"], 6);
+}
+
+TEST(ServedNames, ADeviceThatFailsMeanwhileTakesNoMore) {
+  Served served;
+  const Json reply = served.ask({{"do", "set"}, {"values", {{"Absent", 1}, {"holding.Position_X", 5}}}});
+  EXPECT_EQ(
+      reply.value("error", ""),
+      "holding.Position_X was not written: after what was named before it the device does not take it now");
+  EXPECT_EQ(served.get("Absent"), 1);
+  EXPECT_EQ(served.get("holding.Position_X"), 0);
+  EXPECT_EQ(served.complaint_of_setting("holding.Position_X", 5),
+            "holding.Position_X cannot be written; the device has failed");
+}
+
 TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
   Served served;
   const std::tuple<const char*, Json, const char*> cases[] = {
