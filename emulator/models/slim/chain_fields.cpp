@@ -3,7 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/choices.h"
+#include "emulator/models/slim/fifo.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/outputs.h"
 #include "emulator/models/slim/parameters.h"
 
 namespace understudy {

@@ -1,11 +1,19 @@
 // Settings, inputs and what can be asked.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/outputs.h"
 #include "emulator/models/slim/parameters.h"
+#include "motion/axis.h"
 #include "motion/bad_motion.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::slim {
 

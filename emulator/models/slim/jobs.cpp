@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 
 #include "motion/bad_motion.h"
+#include "motion/path.h"
+#include "motion/path_run.h"
 
 namespace understudy::emulator::models::slim {
 

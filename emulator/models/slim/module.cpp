@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/options.h"
+#include "motion/move.h"
+#include "motion/ramp.h"
 
 namespace understudy::emulator::models::slim {
 
