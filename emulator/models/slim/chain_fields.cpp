@@ -27,8 +27,9 @@ void demand_coordinate(double units) {
   demand_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
 }
 
-void demand_speed(double speed) {
-  demand_state(speed >= kLeastSpeed && speed <= kMostSpeed, "a speed is beyond its range");
+// Or an acceleration, each in its own unit.
+void demand_speed(double value) {
+  demand_state(value >= kLeastSpeed && value <= kMostSpeed, "a speed is beyond its range");
 }
 
 }  // namespace
