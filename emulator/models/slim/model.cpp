@@ -1,12 +1,25 @@
 #include "emulator/models/slim/model.h"
 
 #include <array>
+#include <cstddef>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/device/text/text_device.h"
+#include "emulator/models/slim/choices.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/parameters.h"
+#include "interpreter/slim/availability.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
 
 namespace understudy::emulator::models::slim {
 
