@@ -30,7 +30,7 @@ TEST_F(ScenarioFile, SaysWhatItIsPlayedOn) {
   EXPECT_EQ(scenario.name, "two of them");
   EXPECT_EQ(scenario.file, folder_.path("scenario.yaml"));
   EXPECT_EQ(scenario.bench.devices.size(), 2U);
-  EXPECT_EQ(scenario.bench.machines.size(), 1U);
+  EXPECT_EQ(scenario.bench.machines.size(), 2U);
   EXPECT_EQ(scenario.gap, 1500us);
   EXPECT_EQ(scenario.seed, 18U);
 }

@@ -80,7 +80,7 @@ bench.yaml:9: lines.a.stations[1].model: 'simple2-r4' is not a model; the neares
 bench.yaml:10: lines.a.stations[2]: address 1 is taken on this line; expected another
 bench.yaml:12: plant.x.A.travel: does not hold position 0, where the machine starts; expected it inside
 bench.yaml:12: plant.x.A.home: 'width' is missing; expected it here
-bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, travel, home, limits, encoder, drive (the nearest is 'limits')
+bench.yaml:12: plant.x.A.limit: is not a key here; expected one of position, travel, home, near_home, mark, limits, encoder, drive (the nearest is 'limits')
 bench.yaml:13: plant.x.Q: 'Q' is not an axis of simple2-r3; expected one of A, B
 bench.yaml:15: wires[2]: 'DOUT_99' is not an output of simple2-r3; the nearest is 'DOUT_0'
 bench.yaml:16: seed: '-1' is not possible; expected a whole number from 0 to 9223372036854775807)");

@@ -104,7 +104,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
        "program, "
        "nv"},
       {and_then("plant:\n  x.A: { travels: [0, 1] }\n"),
-       "7: plant.x.A.travels: is not a key here; expected one of position, travel, home, limits, encoder, "
+       "7: plant.x.A.travels: is not a key here; expected one of position, travel, home, near_home, "
+       "mark, limits, encoder, "
        "drive "
        "(the "
        "nearest is "
