@@ -16,6 +16,7 @@
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
+#include "tests/emulator/workbench/memory.h"
 #include "tests/emulator/workbench/registers.h"
 
 namespace understudy::emulator::workbench {
@@ -27,6 +28,7 @@ struct WorkbenchState {
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
   std::uint8_t cause = 0;  // of the last exception
+  Kept kept{};
 
   bool operator==(const WorkbenchState&) const = default;
 };
@@ -40,7 +42,8 @@ struct StateOf<emulator::workbench::WorkbenchState> {
   using Value = emulator::workbench::WorkbenchState;
   static constexpr auto fields = std::tuple{
       field("image", &Value::image), field("positions", &Value::positions), field("targets", &Value::targets),
-      field("fifo", &Value::fifo),   field("done", &Value::done),           field("cause", &Value::cause)};
+      field("fifo", &Value::fifo),   field("done", &Value::done),           field("cause", &Value::cause),
+      field("kept", &Value::kept)};
 };
 
 }  // namespace understudy
@@ -58,6 +61,7 @@ class Workbench final : public Device,
       const auto slots = static_cast<std::size_t>(row.is_view ? 0 : row.count);
       state.image.insert(state.image.end(), slots, static_cast<std::uint32_t>(row.factory));
     }
+    state.kept = factory_kept(*model.registers);
   }
 
   RegisterBank* register_bank() override { return this; }
@@ -65,10 +69,15 @@ class Workbench final : public Device,
   const ModbusStation* modbus() const override { return this; }
   const Terminals* terminals() const override { return this; }
 
+  KeptMemory* memory() override { return &memory_; }
+  const KeptMemory* memory() const override { return &memory_; }
+
   std::span<std::uint32_t> image() override { return state.image; }
   std::span<const std::uint32_t> image() const override { return state.image; }
   bool low_word_first() const override { return stored(word_order_) == 1; }
-  void register_written(const RegisterRow&, std::size_t) override {}
+  void register_written(const RegisterRow& row, std::size_t slot) override {
+    if (keeps(row)) state.kept.eeprom.write(slot, stored(slot), kWriteTime, now());
+  }
   void mention_unmodelled(const RegisterRow& row) const override {
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
@@ -107,8 +116,10 @@ class Workbench final : public Device,
     if (command[0] != kMove) return;
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
+  void update_outputs(Tick tick) override { state.kept.eeprom.step(tick, state.image); }
   Tick next_active_tick(Tick done) const override {
-    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kNever;
+    const Tick kept_at = std::max(done + 1, state.kept.eeprom.next_active_tick());
+    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kept_at;
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -119,11 +130,15 @@ class Workbench final : public Device,
   WorkbenchState state;
 
  protected:
+  void power_up() override { recall(state.kept.eeprom, map(), state.image); }
+  void power_down() override { state.kept.eeprom.lose_power(); }
   void write_own_state(StateWriter& writer) const override { writer.write(state); }
   std::function<void()> read_own_state(StateReader& reader) override {
     const auto restored = std::make_shared<WorkbenchState>();
     reader.read(*restored);
     demand_state(restored->image.size() == state.image.size(), "the image has another size");
+    restored->kept.eeprom.check_restored(state.kept.eeprom);
+    restored->kept.blocks.check_restored(state.kept.blocks);
     demand_state(restored->fifo.size() <= kFifo, "the FIFO holds more than it can");
     return [this, restored] { state = *restored; };
   }
@@ -137,6 +152,7 @@ class Workbench final : public Device,
   }
   std::uint32_t stored(std::size_t slot) const { return state.image[slot]; }
 
+  WorkbenchMemory memory_{"workbench", firmware(), *this, state.kept};
   const std::size_t word_order_ = slot_of("Word_Order");
   const std::size_t first_output_ = slot_of("Output_0");
   const std::size_t run_ = slot_of("Run");
@@ -159,6 +175,10 @@ inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause
 inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
 inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
 inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
+
+inline Refusal take_block(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+  return change_block(bench.state.kept.blocks, words);
+}
 
 /// A command is good by its code, its words and its axis; then it waits in the FIFO.
 inline Refusal take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
