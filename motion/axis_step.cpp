@@ -162,7 +162,7 @@ void Axis::go_by(std::int64_t wanted, Instant at, const Surroundings& here) {
 /// Everything that depends on the place, at the place the axis has come to.
 void Axis::meet(const Surroundings& here, Instant at) {
   compare(Count::command, travel_pulses, at);
-  see(here.at(travel_pulses), at);
+  see(here.at(travel_pulses, signals), at);
   if (settings.soft_limit_plus && travel_pulses > *settings.soft_limit_plus && drive.direction > 0) {
     react(settings.at_soft_limit, Cause::soft_limit_plus, at);
   }

@@ -72,6 +72,8 @@ inline void check_restored(const Comparator& comparator) {
   demand_within(comparator.value, INT64_MIN + 1, INT64_MAX - 1);
 }
 
+inline void check_restored(const Surroundings::Zone& zone) { demand_within(zone.slack, 0, INT64_MAX / 2); }
+
 inline void check_restored(const Surroundings& here) {
   demand_within(here.zone_count, 0, static_cast<std::int64_t>(Surroundings::kMaxZones));
   demand_within(here.index_period, INT64_MIN, INT64_MAX / 2);

@@ -128,9 +128,9 @@ struct StateOf<motion::Comparator> {
 
 template <>
 struct StateOf<motion::Surroundings::Zone> {
-  static constexpr auto fields = std::tuple{field("signal", &motion::Surroundings::Zone::signal),
-                                            field("from", &motion::Surroundings::Zone::from),
-                                            field("to", &motion::Surroundings::Zone::to)};
+  static constexpr auto fields = std::tuple{
+      field("signal", &motion::Surroundings::Zone::signal), field("from", &motion::Surroundings::Zone::from),
+      field("to", &motion::Surroundings::Zone::to), field("slack", &motion::Surroundings::Zone::slack)};
   static void check(const motion::Surroundings::Zone& value) { motion::check_restored(value); }
 };
 

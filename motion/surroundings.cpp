@@ -26,10 +26,17 @@ std::int64_t bounded_difference(std::int64_t a, std::int64_t b) {
 
 }  // namespace
 
-void Surroundings::add(Signal signal, std::int64_t from, std::int64_t to) {
+void Surroundings::add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
   if (zone_count == kMaxZones) throw BadMotion(Refusal::no_room, "surroundings", "at most 12 zones an axis");
-  zones[zone_count++] = {.signal = signal, .from = from, .to = to};
+  zones[zone_count++] = {.signal = signal, .from = from, .to = to, .slack = slack};
   ++version;
+}
+
+void Surroundings::add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack) {
+  const std::int64_t below = bounded_difference(from, slack);
+  const std::int64_t above = bounded_difference(to, -slack);
+  if (below > INT64_MIN) add(signal, INT64_MIN, below - 1, slack);
+  if (above < INT64_MAX) add(signal, above + 1, INT64_MAX, slack);
 }
 
 void Surroundings::set_steady(Signal signal, bool on) {
@@ -37,10 +44,14 @@ void Surroundings::set_steady(Signal signal, bool on) {
   ++version;
 }
 
-Signals Surroundings::at(std::int64_t travel) const {
+Signals Surroundings::at(std::int64_t travel, Signals before) const {
   Signals on = steady;
   for (std::size_t i = 0; i < zone_count; ++i) {
-    if (travel >= zones[i].from && travel <= zones[i].to) on |= bit(zones[i].signal);
+    const Zone& zone = zones[i];
+    const std::int64_t slack = (before & bit(zone.signal)) != 0 ? zone.slack : 0;
+    const bool is_inside = zone.from <= zone.to && travel >= bounded_difference(zone.from, slack) &&
+                           travel <= bounded_difference(zone.to, -slack);
+    if (is_inside) on |= bit(zone.signal);
   }
   if (index_period > 0 && index_phase(*this, travel) < index_width) on |= bit(Signal::index);
   return on;
@@ -54,17 +65,22 @@ std::optional<std::int64_t> Surroundings::steps_until_change(std::int64_t travel
   const auto consider_beyond = [&](std::int64_t last_steps) {
     if (last_steps >= 0 && last_steps < INT64_MAX) consider(last_steps + 1);
   };
+  // The first pulse inside and the first one beyond, seen from either side.
+  const auto consider_ends = [&](std::int64_t from, std::int64_t to) {
+    if (direction > 0) {
+      consider(bounded_difference(from, travel));
+      consider_beyond(bounded_difference(to, travel));
+    } else {
+      consider(bounded_difference(travel, to));
+      consider_beyond(bounded_difference(travel, from));
+    }
+  };
   for (std::size_t i = 0; i < zone_count; ++i) {
     const Zone& zone = zones[i];
     if (zone.to < zone.from) continue;
-    // The first pulse inside and the first one beyond, seen from either side.
-    if (direction > 0) {
-      consider(bounded_difference(zone.from, travel));
-      consider_beyond(bounded_difference(zone.to, travel));
-    } else {
-      consider(bounded_difference(travel, zone.to));
-      consider_beyond(bounded_difference(travel, zone.from));
-    }
+    consider_ends(zone.from, zone.to);
+    if (zone.slack == 0) continue;
+    consider_ends(bounded_difference(zone.from, zone.slack), bounded_difference(zone.to, -zone.slack));
   }
   if (index_period > 0 && index_width > 0 && index_width < index_period) {
     const std::int64_t phase = index_phase(*this, travel);

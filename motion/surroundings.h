@@ -33,7 +33,8 @@ struct Surroundings {
   struct Zone {
     Signal signal = Signal::home;
     std::int64_t from = 0;
-    std::int64_t to = -1;  // below `from`: nowhere
+    std::int64_t to = -1;    // below `from`: nowhere
+    std::int64_t slack = 0;  // >= 0; once on, it stays on so far beyond either end
     bool operator==(const Zone&) const = default;
   };
 
@@ -52,10 +53,14 @@ struct Surroundings {
   bool operator==(const Surroundings&) const = default;
 
   /// Throws BadMotion(no_room) beyond kMaxZones. Raises the version.
-  void add(Signal signal, std::int64_t from, std::int64_t to);
+  void add(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
+  /// Like the above, of a signal that is on everywhere else: it goes off between `from` and `to`, and comes
+  /// on again `slack` beyond them.
+  void add_outside(Signal signal, std::int64_t from, std::int64_t to, std::int64_t slack = 0);
   void set_steady(Signal signal, bool on);
 
-  Signals at(std::int64_t travel) const;
+  /// `before`: those that were on until then, which slack keeps on.
+  Signals at(std::int64_t travel, Signals before = 0) const;
   bool depends_on_place() const { return zone_count > 0 || index_period > 0; }
 
   /// How many pulses (1 ...) in `direction` (+1 or -1) until some signal may change; nothing if none will.

@@ -199,7 +199,7 @@ void Line::handle(const Event& event) {
         leaving_.clear();
         leaving_first_ = 0;
       }
-      leave_wire(value);
+      leave_wire(std::span(&value, 1));
       break;
     }
     case What::notice: notify_others(event.member); break;
@@ -278,7 +278,8 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
   SimTime first_start = clock_;
   SimTime first_end = clock_;
   bool has_collided = false;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
+  if (is_instant() && is_anybody_listening) leave_wire(bytes);
+  for (std::size_t i = 0; i < bytes.size() && !is_instant(); ++i) {
     if (member.speech.end >= latest) {
       counters_.bytes_discarded += bytes.size() - i;
       bytes = bytes.first(i);
@@ -290,12 +291,8 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
       first_start = character.start;
       first_end = character.end;
     }
-    if (!is_anybody_listening) continue;  // it takes the wire's time all the same
-    if (is_instant()) {
-      leave_wire(character.value);
-    } else {
-      put_on_wire(character, has_collided);
-    }
+    // It takes the wire's time whether anybody listens or not.
+    if (is_anybody_listening) put_on_wire(character, has_collided);
   }
   if (is_new && !member.noticed_at) {
     member.noticed_at = first_end;
@@ -361,17 +358,17 @@ void Line::notify_others(std::size_t speaker) {
   }
 }
 
-void Line::leave_wire(std::uint8_t value) {
-  if (output_.size() - output_first_ == kOutputCapacity) {
-    ++counters_.bytes_discarded;
-    return;
-  }
-  if (output_.size() == output_.capacity()) {
+void Line::leave_wire(std::span<const std::uint8_t> bytes) {
+  const std::size_t room = kOutputCapacity - (output_.size() - output_first_);
+  const std::size_t lost = bytes.size() - std::min(bytes.size(), room);
+  counters_.bytes_discarded += lost;
+  bytes = bytes.first(bytes.size() - lost);
+  if (output_.size() + bytes.size() > output_.capacity()) {
     output_.erase(output_.begin(), output_.begin() + static_cast<std::ptrdiff_t>(output_first_));
     output_first_ = 0;
   }
-  output_.push_back(value);
-  ++counters_.bytes_out;
+  output_.insert(output_.end(), bytes.begin(), bytes.end());
+  counters_.bytes_out += bytes.size();
 }
 
 // --- warnings ----------------------------------------------------------------------------------

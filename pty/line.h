@@ -111,6 +111,8 @@ class Line {
   const LineOptions& options() const { return options_; }
   const LineCounters& counters() const { return counters_; }
   bool is_host_open() const { return is_host_open_; }
+  /// What the host that has it open was last said to have set, if anything was.
+  const std::optional<HostSettings>& settings_of_host() const { return host_settings_; }
 
   // --- its state -----------------------------------------------------------------------------
   // Characters sent back to back, timed from the first one, so that rounding does not add up.
@@ -179,7 +181,7 @@ class Line {
   void say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening);
   void put_on_wire(const TimedByte& character, bool& has_collided);
   void notify_others(std::size_t speaker);
-  void leave_wire(std::uint8_t value);
+  void leave_wire(std::span<const std::uint8_t> bytes);
   void warn_once(bool& has_warned, std::string_view what);
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 

@@ -47,6 +47,14 @@ bool is_hung_up(int master) {
   return (entry.revents & POLLHUP) != 0;
 }
 
+/// Whether bytes wait to be read. Those that the kernel has yet to hand over are handed over by this.
+bool is_readable(int descriptor) {
+  pollfd entry{.fd = descriptor, .events = POLLIN, .revents = 0};
+  while (::poll(&entry, 1, 0) < 0 && errno == EINTR) {
+  }
+  return (entry.revents & POLLIN) != 0;
+}
+
 /// Whether a host wants the line for itself alone (TIOCEXCL): then only root can open it once more.
 bool is_claimed(int slave) {
   int claimed = 0;
@@ -227,11 +235,18 @@ void PseudoTerminal::count_arrival() {
   settings_.reset();
 }
 
+/// What a host has not read must not be found by the next host. What it has written stays.
+/// Only where there is something: while the kernel flushes, a poll() of the next host may find the line
+/// readable that holds nothing (n_tty empties its buffer in several steps), and libmodbus takes that for a
+/// lost line.
+void PseudoTerminal::forget_unread() {
+  if (is_readable(slave_.get())) ::tcflush(slave_.get(), TCIFLUSH);
+}
+
 void PseudoTerminal::count_departure() {
   is_present_ = false;
   news_.closed = true;
-  // What it has not read must not be found by the next host. What it has written stays.
-  ::tcflush(slave_.get(), TCIFLUSH);
+  forget_unread();
   // Bytes of this host may still be unread here, and its settings go with them.
   if (const auto last = host_settings_of(master_.get())) settings_ = last;
 }
@@ -263,7 +278,7 @@ bool PseudoTerminal::recover() {
   if (!is_lost()) return true;
   slave_ = open_slave(path_);
   if (slave_) {
-    ::tcflush(slave_.get(), TCIFLUSH);  // count_departure() could not
+    forget_unread();  // count_departure() could not
     return true;
   }
   if (errno != EBUSY) return false;  // no descriptor is available just now

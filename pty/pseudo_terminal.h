@@ -75,6 +75,7 @@ class PseudoTerminal {
   bool count_event(std::uint32_t mask);
   void count_arrival();
   void count_departure();
+  void forget_unread();
   bool is_somebody_there();
 
   std::string path_;

@@ -55,6 +55,18 @@ struct Verdict {
 };
 
 constexpr std::size_t kOnlySilenceTells = kRtuMaxFrame + 1;
+constexpr std::size_t kShortestFrame = 4;  // address, function, checksum
+
+/// Of characters that are over and are not a frame.
+ReceiveError error_in(std::span<const std::uint8_t> noise) {
+  if (noise.size() > kRtuMaxFrame) return ReceiveError::overlong;
+  if (noise.size() < kShortestFrame) return ReceiveError::cut_off;
+  const LengthRule rule = rule_of(noise[1]);
+  const bool lacks_count = rule.byte_count_at != 0 && noise.size() <= rule.byte_count_at;
+  const std::optional<std::size_t> wanted = rtu_request_size(noise);
+  const bool is_cut = lacks_count || (wanted && noise.size() < *wanted && *wanted <= kRtuMaxFrame);
+  return is_cut ? ReceiveError::cut_off : ReceiveError::bad_checksum;
+}
 
 /// Judges a frame that would begin with the first of `bytes` (one at least). A length that only silence
 /// tells is believed of a frame that begins where one should, never in the middle of noise.
@@ -103,6 +115,8 @@ void RtuFramer::start_bit(SimTime at) {
 
 void RtuFramer::push(const TimedByte& byte) {
   if (is_silent(byte.start)) end_of_silence();
+  const bool is_lump_over = oversize_ != 0 && undecided_ == used_ && byte.start >= last_end_ + patience();
+  if (is_lump_over) oversize_ = 0;
   character_under_way_ = false;
   last_end_ = byte.end;
   if (framing_.strict && used_ - undecided_ == kRtuMaxFrame) {
@@ -135,10 +149,7 @@ void RtuFramer::search() {
       look_again_at_ = verdict.size;
       // What precedes a candidate is kept for the case that the whole is one frame of unknown length.
       // It cannot be one any more when it is too long, and that bounds the undecided part.
-      if (used_ - undecided_ > kRtuMaxFrame) {
-        dropped_ += candidate_ - undecided_;
-        undecided_ = candidate_;
-      }
+      if (used_ - undecided_ > kRtuMaxFrame) give_up_as_overlong(candidate_);
       return;
     }
     if (verdict.fit == Fit::good) {
@@ -149,16 +160,22 @@ void RtuFramer::search() {
     }
   }
   look_again_at_ = 0;
-  if (used_ - undecided_ > kRtuMaxFrame) {
-    dropped_ += used_ - undecided_;
-    undecided_ = used_;
-  }
+  if (used_ - undecided_ > kRtuMaxFrame) give_up_as_overlong(used_);
+}
+
+/// What of this lump comes later is part of the same error.
+void RtuFramer::give_up_as_overlong(std::size_t index) {
+  if (index == undecided_) return;
+  if (oversize_ == 0) add_error(ReceiveError::overlong);
+  oversize_ += index - undecided_;
+  dropped_ += index - undecided_;
+  undecided_ = index;
 }
 
 /// Nothing follows what is undecided: take the good frames out of it and drop the rest.
 void RtuFramer::end_of_silence() {
   const auto whole = bytes(undecided_, used_);
-  const bool may_be_whole = oversize_ == 0 && whole.size() <= kRtuMaxFrame;
+  const bool may_be_whole = (oversize_ == 0 || !framing_.strict) && whole.size() <= kRtuMaxFrame;
   // The whole comes first: a shorter frame inside a good one of unknown length is its data.
   if (may_be_whole && rtu_crc_ok(whole)) {
     add_ready(undecided_, whole.size());
@@ -169,14 +186,15 @@ void RtuFramer::end_of_silence() {
       at += verdict.fit == Fit::good ? verdict.size : 1;
     }
   }
-  dropped_ += oversize_;
-  oversize_ = 0;
+  if (framing_.strict) dropped_ += oversize_;
   decide_up_to(used_);
+  oversize_ = 0;
 }
 
 /// Queues a frame of the undecided part, and counts as dropped what lies before it.
 void RtuFramer::add_ready(std::size_t first, std::size_t size) {
-  dropped_ += first - undecided_;
+  drop_up_to(first);
+  oversize_ = 0;
   undecided_ = first + size;
   ready_[(ready_first_ + ready_count_) % kMaxReady] = {static_cast<std::uint16_t>(first),
                                                        static_cast<std::uint16_t>(size)};
@@ -184,10 +202,35 @@ void RtuFramer::add_ready(std::size_t first, std::size_t size) {
 }
 
 void RtuFramer::decide_up_to(std::size_t index) {
-  dropped_ += index - undecided_;
-  undecided_ = candidate_ = index;
+  drop_up_to(index);
+  candidate_ = index;
   look_again_at_ = 0;
   rewind_if_empty();
+}
+
+/// What of the undecided part lies before `index` is no frame.
+void RtuFramer::drop_up_to(std::size_t index) {
+  const auto noise = bytes(undecided_, index);
+  undecided_ = index;
+  dropped_ += noise.size();
+  const bool is_told = oversize_ > 0 && !framing_.strict;
+  if (noise.empty() || is_told) return;
+  add_error(oversize_ > 0 ? ReceiveError::overlong : error_in(noise));
+}
+
+void RtuFramer::add_error(ReceiveError error) {
+  ++errors_[static_cast<std::size_t>(error)];
+  ++error_count_;
+}
+
+std::optional<ReceiveError> RtuFramer::take_error() {
+  for (std::size_t i = 0; i < errors_.size(); ++i) {
+    if (errors_[i] == 0) continue;
+    --errors_[i];
+    --error_count_;
+    return static_cast<ReceiveError>(i);
+  }
+  return std::nullopt;
 }
 
 void RtuFramer::rewind_if_empty() {

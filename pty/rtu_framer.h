@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "pty/receive_error.h"
 #include "pty/station.h"
 
 namespace understudy::pty {
@@ -78,6 +79,12 @@ class RtuFramer {
   /// nothing if there is none. What came before it was taken or dropped.
   std::optional<std::uint64_t> first_open_character() const;
 
+  /// What was wrong with something that it has dropped since the last call, once for what came without a
+  /// silence or a good frame between. Call again while it returns one. To be asked after each of the calls
+  /// above: what nobody has asked for is not part of the state.
+  std::optional<ReceiveError> take_error();
+  bool has_errors() const { return error_count_ != 0; }
+
   /// Noise, wrong checksums, cut frames, and what did not fit; not what reset() forgot.
   std::uint64_t dropped_bytes() const { return dropped_; }
 
@@ -135,6 +142,9 @@ class RtuFramer {
   void end_of_silence();
   void add_ready(std::size_t first, std::size_t size);
   void decide_up_to(std::size_t index);
+  void drop_up_to(std::size_t index);
+  void add_error(ReceiveError error);
+  void give_up_as_overlong(std::size_t index);
   void rewind_if_empty();
   void make_room();
   std::span<const std::uint8_t> bytes(std::size_t first, std::size_t last) const;
@@ -149,10 +159,14 @@ class RtuFramer {
   std::size_t undecided_ = 0;
   std::size_t candidate_ = 0;
   std::size_t look_again_at_ = 0;
-  std::uint64_t oversize_ = 0;  // strict: bytes of this lump beyond the longest frame, not stored
+  // Bytes of this lump that are too many: strict those beyond the longest frame, which are not stored,
+  // tolerant those that were given up before its end.
+  std::uint64_t oversize_ = 0;
   SimTime last_end_{0};
   bool character_under_way_ = false;
   std::uint64_t dropped_ = 0;
+  std::array<std::uint32_t, 3> errors_{};  // not yet taken, by their kind
+  std::uint32_t error_count_ = 0;          // of all kinds
 };
 
 }  // namespace understudy::pty

@@ -11,7 +11,7 @@ namespace understudy::pty {
 
 RtuFramer::State RtuFramer::save() const {
   const auto& [framing, values, marks, ready, ready_first, ready_count, used, undecided, candidate,
-               look_again_at, oversize, last_end, character_under_way, dropped] = *this;
+               look_again_at, oversize, last_end, character_under_way, dropped, errors, error_count] = *this;
   State state{.characters = {},
               .ready = {},
               .undecided = static_cast<std::uint16_t>(undecided),
@@ -75,6 +75,8 @@ void RtuFramer::restore(const State& state) {
   last_end_ = state.last_end;
   character_under_way_ = state.character_under_way;
   dropped_ = state.dropped;
+  errors_ = {};
+  error_count_ = 0;
 }
 
 }  // namespace understudy::pty

@@ -126,6 +126,14 @@ Json message_for(const ControlArguments& arguments) {
     message["values"] = assignments(arguments);
   } else if (verb == "input") {
     message["values"] = levels(arguments);
+  } else if (verb == "turn") {
+    ControlArguments turns = arguments;
+    std::erase_if(turns.operands, [&](const std::string& operand) {
+      if (!operand.starts_with("in=")) return false;
+      message["in"] = operand.substr(3);
+      return true;
+    });
+    message["values"] = assignments(turns);
   } else if (verb == "power") {
     if (arguments.operands.empty() || arguments.operands.size() > 2) {
       throw UsageError("ctl power: expected a device, and on, off or cycle");
@@ -188,15 +196,17 @@ void print_status(const Json& status) {
                 line.at("bytes_unheard").get<unsigned long long>(),
                 line.at("bytes_discarded").get<unsigned long long>());
     for (const Json& station : line.at("stations")) {
+      const std::string port =
+          station.contains("port") ? " (" + station.at("port").get<std::string>() + ")" : "";
       if (!station.contains("address")) {  // it speaks text: alone on its line, and without exceptions
-        std::printf("  %s: %llu requests, %llu replies\n", station.at("device").get<std::string>().c_str(),
-                    station.at("requests").get<unsigned long long>(),
+        std::printf("  %s%s: %llu requests, %llu replies\n", station.at("device").get<std::string>().c_str(),
+                    port.c_str(), station.at("requests").get<unsigned long long>(),
                     station.at("replies").get<unsigned long long>());
         continue;
       }
-      std::printf("  station %d %s: %llu requests, %llu replies, %llu of them exceptions\n",
+      std::printf("  station %d %s%s: %llu requests, %llu replies, %llu of them exceptions\n",
                   station.at("address").get<int>(), station.at("device").get<std::string>().c_str(),
-                  station.at("requests").get<unsigned long long>(),
+                  port.c_str(), station.at("requests").get<unsigned long long>(),
                   station.at("replies").get<unsigned long long>(),
                   station.at("exceptions").get<unsigned long long>());
     }

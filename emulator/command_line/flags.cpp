@@ -90,13 +90,17 @@ struct CommandLine {
     serving.version = UNDERSTUDY_VERSION;
     command.add_option("BENCH", serving.bench, "A bench file; or else --model");
     command.add_option("--model", serving.model, "One device of this model on one line")->check(kNotEmpty);
-    command.add_option("--station", serving.station, "Its station number (with --model) [1]");
+    command.add_option("--station", serving.station,
+                       "Its station number (with --model) [1, or its memory's]");
     command.add_option("--modules", serving.modules,
                        "How many modules it has, if it is a chain (with --model)");
     command.add_option("--firmware", serving.firmware, "Its firmware version (with --model) [newest]")
         ->check(kNotEmpty);
     command.add_option("--baud", serving.baud, "Its line speed (with --model) [the factory's]");
-    command.add_option("--link", serving.link, "Path of the link to its port (with --model) [a private one]")
+    command
+        .add_option("--link", serving.link,
+                    "Path of the link to its port (with --model); further ports are at PATH.NAME "
+                    "[a private one]")
         ->check(kNotEmpty);
     command.add_option("--links", serving.links, "Folder for links that are relative, or that nobody named")
         ->check(kNotEmpty);
@@ -303,6 +307,8 @@ struct CommandLine {
     add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
     add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
         "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
+    add("turn", "Turn hand wheels and what else is counted", "NAME=COUNTS",
+        "Such as mill.MPG=400, and in=2s for the time that it takes");
     add("power", "Switch a device off or on, or off and on again", "WHAT", "DEVICE, and on, off or cycle");
     add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
     add("inject", "Break something", "FAULT",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -84,7 +85,9 @@ void read_value_of(Item& item, const std::string& text) {
   }
   const auto real = parse_real(value);
   if (!real) throw UsageError("poll: " + quoted(text) + " is not understood; expected NAME=NUMBER");
-  item.value = value_of_real(static_cast<float>(*real));
+  const auto single = static_cast<float>(*real);
+  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is more than a single can hold");
+  item.value = value_of_real(single);
 }
 
 Item parse_item(const std::string& text, const PollArguments& arguments) {

@@ -50,12 +50,11 @@ void demand_possible(const world::DeviceSetup& device) {
   }
 }
 
-/// One line with one device, from flags.
-world::Bench bench_of_one(const ServeArguments& arguments) {
-  world::Bench bench;
+/// One device on all its ports, from flags.
+world::Bench bench_of_flags(const ServeArguments& arguments) {
   world::DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
   device.settings.name = "device";
-  device.settings.address = arguments.station.value_or(1);
+  device.settings.address = arguments.station;
   if (arguments.station && !device.model->line.station_numbers) {
     throw UsageError("--station: " + std::string(device.model->name) +
                      " has no station number; expected none");
@@ -64,7 +63,7 @@ world::Bench bench_of_one(const ServeArguments& arguments) {
   if (arguments.modules == 0) throw UsageError("--modules: 0 is too few; expected 1 or more");
   if (arguments.baud == 0)
     throw UsageError("--baud: 0 is not a speed; expected one of the model's, such as 19200 or 115200");
-  device.settings.baud = arguments.baud.value_or(0);
+  device.settings.bauds.assign(device.model->line.ports.size(), arguments.baud.value_or(0));
   if (!arguments.firmware.empty()) {
     device.settings.firmware = parse_firmware(arguments.firmware);
     if (device.settings.firmware == 0) {
@@ -72,15 +71,13 @@ world::Bench bench_of_one(const ServeArguments& arguments) {
                        " is not a version; expected one like 1.52");
     }
   }
-  bench.devices.push_back(device);
   demand_possible(device);
   std::string link = arguments.link;
   if (one_line(link) != link) {
     throw UsageError("--link: " + link + ": has a control character; expected a path without one");
   }
   if (!link.empty()) link = (std::filesystem::path(arguments.links) / link).string();
-  bench.lines.push_back({.name = "line", .link = link, .baud = device.settings.baud, .stations = {0}});
-  return bench;
+  return world::bench_of_one(*device.model, device.settings, link);
 }
 
 world::Bench make_bench(const ServeArguments& arguments, const std::string& command) {
@@ -95,7 +92,7 @@ world::Bench make_bench(const ServeArguments& arguments, const std::string& comm
                      "says them itself");
   }
   world::Bench bench = arguments.bench.empty()
-                           ? bench_of_one(arguments)
+                           ? bench_of_flags(arguments)
                            : world::load_bench(models::all_models(), arguments.bench, arguments.links);
   for (world::LineSetup& line : bench.lines) {
     if (!arguments.links.empty() && line.link.empty())

@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "emulator/device/machine_edges.h"
+
 namespace understudy::emulator {
 
 class Axes {
@@ -27,6 +29,16 @@ class Axes {
   virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
   /// The count of the encoder on the axis, absolute, as the plant sees it.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
+
+  // --- edges between ticks: of a device that asks for them. Others see levels, once a tick ---------------
+  /// Whether it meets the switches of its machines at the pulse where they lie. Always the same.
+  virtual bool meets_edges() const { return false; }
+  /// Where it has counted its axis to be, in the motor's sense. When it jumps, or the machine does, the edges
+  /// are told anew.
+  virtual std::int64_t place_pulses(int /*axis*/) const { return 0; }
+  /// What lies along the axis from now on. Told again when it is switched on and after a restore: what it
+  /// knows already must change nothing. What is kept of it is not state.
+  virtual void set_edges(int /*axis*/, const MachineEdges& /*edges*/) {}
 
  protected:
   ~Axes() = default;

@@ -4,6 +4,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/register_map/access.h"
 #include "emulator/device/user_program.h"
 
 namespace understudy::emulator {
@@ -21,10 +22,20 @@ Tick Device::next_event_tick(Tick done, Tick /*most*/, const MachineAhead& /*ahe
 void Device::cross_to(Tick /*done*/, Tick /*tick*/, const MachineAhead& /*ahead*/,
                       std::span<std::int64_t> /*pulses*/) {}
 
-pty::LineSettings Device::line_settings() const {
-  pty::LineSettings line = model_.line.settings;
-  line.baud = settings_.baud;
+pty::LineSettings Device::line_settings(std::size_t port) const {
+  const PortRow& row = model_.line.ports[port];
+  const int chosen = port < settings_.bauds.size() ? settings_.bauds[port] : 0;
+  pty::LineSettings line = row.settings;
+  line.baud = chosen != 0 ? chosen : row.bauds.front();
   return line;
+}
+
+std::optional<int> Device::station_number() const {
+  const auto& numbers = model_.line.station_numbers;
+  if (!numbers) return std::nullopt;
+  if (numbers->kept_in.empty()) return settings_.address.value_or(1);
+  const RegisterBank& bank = *register_bank();
+  return static_cast<int>(read_value(bank, bank.find(numbers->kept_in).value()));
 }
 
 void Device::sample_inputs(Tick /*tick*/) {}

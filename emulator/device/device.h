@@ -56,6 +56,7 @@ class Device {
   virtual RegisterBank* register_bank() { return nullptr; }
   virtual const RegisterBank* register_bank() const { return nullptr; }
   /// What it is on a line of Modbus (modbus/modbus_station.h).
+  virtual ModbusStation* modbus() { return nullptr; }
   virtual const ModbusStation* modbus() const { return nullptr; }
   /// What it hears and says in lines of text (text/text_speaker.h).
   virtual TextSpeaker* speaker() { return nullptr; }
@@ -75,8 +76,11 @@ class Device {
   virtual Axes* axes() { return nullptr; }
   virtual const Axes* axes() const { return nullptr; }
 
-  /// Of the line that it is on: its model's, at the speed that its settings say.
-  virtual pty::LineSettings line_settings() const;
+  // --- lines -----------------------------------------------------------------------------------
+  /// Of the line at one of its ports: its model's, at the speed that its settings say.
+  virtual pty::LineSettings line_settings(std::size_t port) const;
+  /// As its memory or its settings have it; nothing where its model has none.
+  std::optional<int> station_number() const;
 
   // --- power -----------------------------------------------------------------------------------
   /// A device is made without power. When it is switched on it begins with what its memory has kept.

@@ -29,11 +29,38 @@ int find_terminal(const Model& model, std::string_view name) {
   return -1;
 }
 
+const TerminalGroup* find_group(const Model& model, std::string_view name) {
+  for (const TerminalGroup& group : model.terminal_groups) {
+    if (group.name == name) return &group;
+  }
+  return nullptr;
+}
+
+const TerminalGroup* find_group_of(const Model& model, int first_terminal) {
+  for (const TerminalGroup& group : model.terminal_groups) {
+    if (group.first == first_terminal) return &group;
+  }
+  return nullptr;
+}
+
 int find_axis(const Model& model, std::string_view name) {
   for (std::size_t i = 0; i < model.axes.size(); ++i) {
     if (model.axes[i].name == name) return static_cast<int>(i);
   }
   return -1;
+}
+
+std::optional<std::size_t> find_port(const Model& model, std::string_view name) {
+  const auto ports = model.line.ports;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    if (ports[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+std::string port_text(const Model& model, std::size_t port) {
+  const auto ports = model.line.ports;
+  return ports.size() > 1 ? " (" + std::string(ports[port].name) + ")" : std::string();
 }
 
 std::span<const RegisterRow> register_rows(const Model& model) {
@@ -84,17 +111,21 @@ void check(const Model& model, const DeviceSettings& settings) {
                                      : " has 1 to " + std::to_string(model.most_modules) + " of them"));
   }
   const auto& numbers = model.line.station_numbers;
-  if (numbers && (settings.address < numbers->lowest || settings.address > numbers->highest)) {
-    throw SettingError("address", std::to_string(settings.address) + " is not a station number of " +
+  const auto& number = settings.address;
+  if (numbers && number && (*number < numbers->lowest || *number > numbers->highest)) {
+    throw SettingError("address", std::to_string(*number) + " is not a station number of " +
                                       std::string(model.name) + "; expected " +
                                       std::to_string(numbers->lowest) + " to " +
                                       std::to_string(numbers->highest));
   }
-  const auto bauds = model.line.bauds;
-  if (settings.baud != 0 && std::find(bauds.begin(), bauds.end(), settings.baud) == bauds.end()) {
-    throw SettingError("baud", std::to_string(settings.baud) + " is not a speed of " +
-                                   std::string(model.name) + "; expected one of " +
-                                   list_of(bauds, [](int baud) { return std::to_string(baud); }));
+  for (std::size_t port = 0; port < settings.bauds.size(); ++port) {
+    const PortRow& row = model.line.ports[port];
+    const int chosen = settings.bauds[port];
+    if (chosen == 0 || std::find(row.bauds.begin(), row.bauds.end(), chosen) != row.bauds.end()) continue;
+    throw SettingEntryError("baud", std::string(row.name),
+                            std::to_string(chosen) + " is not a speed of " + std::string(model.name) +
+                                port_text(model, port) + "; expected one of " +
+                                list_of(row.bauds, [](int baud) { return std::to_string(baud); }));
   }
 }
 
@@ -171,6 +202,15 @@ void set_registers(Device& device, const DeviceSettings& settings) {
   }
 }
 
+/// Where it is kept in a register, that is written: what is not given is what the memory says.
+void set_station_number(Device& device) {
+  const auto& numbers = device.model().line.station_numbers;
+  if (!numbers || numbers->kept_in.empty() || !device.settings().address) return;
+  const int number = *device.settings().address;
+  set_register(device, std::string(numbers->kept_in), std::to_string(number),
+               [&](const NamedPlace&) { return std::optional<Value>(number); });
+}
+
 void load_memory(Device& device, const NvImage& image) {
   if (device.memory() == nullptr)
     throw NvError(std::string(device.model().name) + " keeps nothing; expected no memory");
@@ -180,11 +220,28 @@ void load_memory(Device& device, const NvImage& image) {
 /// What its model's tables list can be reached.
 void demand_facets(const Device& device) {
   const Model& model = device.model();
+  const auto& numbers = model.line.station_numbers;
+  if (numbers && !numbers->kept_in.empty() && !find_register(model, numbers->kept_in, device.firmware()))
+    throw std::logic_error(std::string(model.name) + ": lacks the register of its station number");
   const bool is_whole = (model.registers == nullptr || device.register_bank() != nullptr) &&
                         (model.terminals.empty() || device.terminals() != nullptr) &&
                         (model.axes.empty() || device.axes() != nullptr) &&
-                        model.rtu.has_value() == (device.modbus() != nullptr);
+                        model.rtu.has_value() == (device.modbus() != nullptr) && !model.line.ports.empty();
   if (!is_whole) throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
+  for (const TerminalGroup& group : model.terminal_groups) {
+    const auto rows = model.terminals.subspan(static_cast<std::size_t>(group.first));
+    bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMost &&
+                    static_cast<std::size_t>(group.count) <= rows.size();
+    for (std::size_t i = 0; is_alike && i < static_cast<std::size_t>(group.count); ++i) {
+      const TerminalRow::Kind kind = rows[i].kind;
+      is_alike = kind == rows[0].kind &&
+                 (kind == TerminalRow::Kind::digital_in || kind == TerminalRow::Kind::digital_out);
+    }
+    if (!is_alike) {
+      throw std::logic_error(std::string(model.name) + ": " + std::string(group.name) +
+                             " is not a group of digital inputs or outputs");
+    }
+  }
 }
 
 }  // namespace
@@ -194,7 +251,6 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   check(model, given);
   DeviceSettings settings = given;
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
-  if (settings.baud == 0) settings.baud = model.line.bauds.front();
 
   demand_choices(model, settings);
   std::unique_ptr<Device> device = model.make(settings);
@@ -203,11 +259,14 @@ std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& gi
   for (const auto& [name, on] : settings.dip) device->set_input(demand_switch(model, name), on ? 1 : 0);
   if (settings.nv) load_memory(*device, *settings.nv);
   device->switch_power(true);
-  if (const int baud = device->line_settings().baud; given.baud != 0 && baud != given.baud) {
+  for (std::size_t port = 0; port < given.bauds.size(); ++port) {
+    const int baud = device->line_settings(port).baud;
+    if (given.bauds[port] == 0 || baud == given.bauds[port]) continue;
     throw SettingError("dip", "the switches say " + std::to_string(baud) + " baud, the line " +
-                                  std::to_string(given.baud) + "; expected the same");
+                                  std::to_string(given.bauds[port]) + "; expected the same");
   }
   if (!settings.program.empty()) load_program(*device, settings.program);
+  set_station_number(*device);
   set_registers(*device, settings);
   if (KeptMemory* const memory = device->memory()) memory->settle_memory();
   return device;

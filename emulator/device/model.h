@@ -74,16 +74,39 @@ struct TerminalRow {
     analog_in,      // millivolts
     analog_number,  // an analog input that the maker counts in no unit
     dip_switch,     // on the housing: 1 is ON
+    counted_in,     // a hand wheel, pulses, phases of an encoder: all counts so far, modulo 2^32
+    analog_out,     // millivolts
+    pulse_out,      // digital; its pulses may be shorter than a tick, and are counted
   } kind;
   std::string_view name;
   std::int32_t lowest = 0;  // levels that it can be given
   std::int32_t highest = 1;
 };
 
-constexpr bool is_input(TerminalRow::Kind kind) { return kind != TerminalRow::Kind::digital_out; }
-constexpr bool is_analog(TerminalRow::Kind kind) {
-  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number;
+constexpr bool is_input(TerminalRow::Kind kind) {
+  return kind != TerminalRow::Kind::digital_out && kind != TerminalRow::Kind::analog_out &&
+         kind != TerminalRow::Kind::pulse_out;
 }
+constexpr bool is_analog(TerminalRow::Kind kind) {
+  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_number ||
+         kind == TerminalRow::Kind::analog_out;
+}
+/// 0 or 1, and nothing between.
+constexpr bool has_two_levels(TerminalRow::Kind kind) {
+  return !is_analog(kind) && kind != TerminalRow::Kind::counted_in;
+}
+constexpr bool is_in_millivolts(TerminalRow::Kind kind) {
+  return kind == TerminalRow::Kind::analog_in || kind == TerminalRow::Kind::analog_out;
+}
+
+/// Neighbours in the table that come in hundreds: digital inputs, or digital outputs. Onlookers show them as
+/// one word, the first in bit 0; by their own names they are there as well.
+struct TerminalGroup {
+  static constexpr int kMost = 32;
+  std::string_view name;
+  int first = 0;
+  int count = 1;
+};
 
 /// A motor axis, and the inputs to which the switches of its machine are wired.
 struct AxisRow {
@@ -96,6 +119,9 @@ struct AxisRow {
   int servo_output = -1;
   int alarm_clear_output = -1;
   int pulses_per_revolution = 0;  // the factory's, for an encoder on the motor
+  int near_home_input = -1;
+  int mark_input = -1;
+  int index_input = -1;  // of the encoder
 };
 
 /// What is spoken on a line: an object for each protocol, beside the facet that speaks it (modbus/, text/).
@@ -104,17 +130,28 @@ struct Protocol {
   std::string_view name;  // "Modbus", for messages
 };
 
-/// The station numbers that a bench may give to a device.
+/// The station numbers that a device may have: one, whatever line it is asked on.
 struct StationNumbers {
   int lowest = 1;
   int highest = 247;
+  std::string_view kept_in{};  // the register that holds it; empty: a bench says it, and it stays
 };
 
-/// How the model stands on its line, whatever is spoken there.
+/// A serial port, by which a device stands on a line.
+struct PortRow {
+  enum class Kind : std::uint8_t {
+    rs232,  // from one to one: the device is alone on that line
+    rs485,
+  } kind = Kind::rs485;
+  std::string_view name;       // letters, digits, _ and -, as in a bench
+  std::span<const int> bauds;  // the speeds it can be set to, the factory's first
+  pty::LineSettings settings;  // the rest; `baud` is replaced by the chosen one
+};
+
+/// How the model stands on its lines, whatever is spoken there.
 struct LineRules {
   const Protocol& protocol;
-  std::span<const int> bauds;                       // the speeds it can be set to, the factory's first
-  pty::LineSettings settings;                       // the rest; `baud` is replaced by the chosen one
+  std::span<const PortRow> ports;                   // one at least; a bench that names none means the first
   std::optional<StationNumbers> station_numbers{};  // none: it has no number, and is alone on its line
 };
 
@@ -135,8 +172,8 @@ struct RtuRules {
 struct DeviceSettings {
   std::string name;
   Firmware firmware = 0;                           // 0: the model's default
-  int address = 1;                                 // its station number
-  int baud = 0;                                    // 0: the factory's
+  std::optional<int> address{};                    // its station number; none: 1, or what its memory says
+  std::vector<int> bauds{};                        // of its ports; 0, or none: the factory's
   int modules = 0;                                 // of a chain; 0: the model's default
   std::map<std::string, std::string> choices;      // overrides
   std::map<std::string, bool> dip;                 // switches on the housing, by the terminal's name
@@ -159,6 +196,7 @@ struct Model {
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
   std::span<const TerminalRow> terminals;
+  std::span<const TerminalGroup> terminal_groups{};
   std::span<const AxisRow> axes;
   std::span<const std::string_view> state_registers;  // those that show best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
@@ -176,7 +214,14 @@ const Model* find_model(ModelList models, std::string_view name);
 
 /// The number of a terminal or an axis in its model's table; -1 if there is none of that name.
 int find_terminal(const Model& model, std::string_view name);
+/// A group by its name, or the one that a terminal begins; null if there is none.
+const TerminalGroup* find_group(const Model& model, std::string_view name);
+const TerminalGroup* find_group_of(const Model& model, int first_terminal);
 int find_axis(const Model& model, std::string_view name);
+/// The number of a port in its model's table; nothing if there is none of that name.
+std::optional<std::size_t> find_port(const Model& model, std::string_view name);
+/// " (RS485)" where the model has several ports, nothing where it has one: behind the name of a device.
+std::string port_text(const Model& model, std::size_t port);
 /// The rows of its registers; none where it has no registers.
 std::span<const RegisterRow> register_rows(const Model& model);
 /// A register by its name; none where the model has no registers.

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "emulator/device/model.h"
 #include "emulator/models/simple2_r3/model.h"
 #include "emulator/models/slim/model.h"
 

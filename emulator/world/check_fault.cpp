@@ -32,7 +32,8 @@ void check_fault(const Inventory& inventory, const Fault& fault) {
                     std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +
                     " has no encoder; expected one in `plant`");
   }
-  if (fault.kind == Kind::turn && !inventory.machine(fault.device, fault.place).has_wheel) {
+  if (fault.kind == Kind::turn && !fault.of_input &&
+      !inventory.machine(fault.device, fault.place).has_wheel) {
     const KnownDevice& device = inventory.known()[fault.device];
     throw NameError(device.name + "." +
                     std::string(device.model->axes[static_cast<std::size_t>(fault.place)].name) +

@@ -66,10 +66,13 @@ std::int64_t encoder_noise_counts(const Fault& fault, Tick tick) {
 
 FaultWatch::FaultWatch(World& world, Faults& faults, std::uint64_t seed)
     : world_(world), faults_(faults), seed_(seed), lines_(world.device_count()), probes_(world) {
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    lines_[d].resize(world.device(d).model().line.ports.size(), world.line_count());
+  }
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     for (const auto& station : world.line(i).stations) {
       for (std::size_t d = 0; d < world.device_count(); ++d) {
-        if (&station->device() == &world.device(d)) lines_[d] = i;
+        if (&station->device() == &world.device(d)) lines_[d][station->port()] = i;
       }
     }
   }
@@ -142,12 +145,13 @@ bool FaultWatch::has_news() const {
 
 // --- frames --------------------------------------------------------------------------------------
 
-bool FaultWatch::is_at(const Fault& fault, std::size_t device) const {
-  return fault.on_line ? lines_[fault.device] == lines_[device] : fault.device == device;
+bool FaultWatch::is_at(const Fault& fault, const HeardFrame& frame) const {
+  if (!fault.on_line) return fault.device == frame.device;
+  return lines_[fault.device][static_cast<std::size_t>(fault.place)] == frame.line;
 }
 
 bool FaultWatch::is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame) {
-  const LineSpeech& speech = world_.line(lines_[frame.device]).speech;
+  const LineSpeech& speech = world_.line(frame.line).speech;
   return strikes_frame(armed.fault.trigger, armed.course, speech.facts_of(frame), *this, stream(number));
 }
 
@@ -166,14 +170,14 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
 void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
                       std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
-  world_.tell_strike(lines_[frame.device],
+  world_.tell_strike(frame.line,
                      {.time = frame.now, .is_reply = is_reply, .is_said = is_said, .strikes = strikes});
 }
 
 bool FaultWatch::is_early(const HeardFrame& frame) {
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
-    if (armed.fault.kind != Kind::early_reply || !is_at(armed.fault, frame.device)) continue;
+    if (armed.fault.kind != Kind::early_reply || !is_at(armed.fault, frame)) continue;
     if (is_hit(number, armed, frame)) strikes.push_back(strike_of(number, armed.fault, true));
   }
   tell(frame, false, false, strikes);
@@ -184,7 +188,7 @@ std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
   std::vector<pty::WireFault> stages;
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
-    if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame.device)) continue;
+    if (!is_of_requests(armed.fault) || !is_at(armed.fault, frame)) continue;
     // The stations of a line ask about one request; it is told of once.
     const bool is_news = !armed.fault.on_line || frame.last_character > armed.course.judged_character;
     if (!is_request_hit(number, armed, frame)) continue;
@@ -202,7 +206,7 @@ FrameFaults::Treatment FaultWatch::on_serving(const HeardFrame& frame) {
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
     auto& [fault, course] = armed;
-    if (!is_at(fault, frame.device)) continue;
+    if (!is_at(fault, frame)) continue;
     if (fault.kind == Kind::busy || fault.kind == Kind::exception) {
       if (treatment.exception != 0 || !is_hit(number, armed, frame)) continue;
       treatment.exception = fault.kind == Kind::busy ? kDeviceBusy : static_cast<int>(fault.amount);
@@ -227,7 +231,7 @@ std::vector<pty::WireFault> FaultWatch::on_reply(const HeardFrame& frame) {
   std::vector<pty::WireFault> stages;
   std::vector<pty::Strike> strikes;
   for (auto& [number, armed] : faults_) {
-    if (!is_of_replies(armed.fault) || !is_at(armed.fault, frame.device)) continue;
+    if (!is_of_replies(armed.fault) || !is_at(armed.fault, frame)) continue;
     if (!is_hit(number, armed, frame)) continue;
     strikes.push_back(strike_of(number, armed.fault, false));
     stages.push_back(stage_of(armed.fault));

@@ -41,7 +41,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
 
  private:
   bool holds(const std::string& expression) override;
-  bool is_at(const Fault& fault, std::size_t device) const;
+  bool is_at(const Fault& fault, const HeardFrame& frame) const;
   bool is_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
   bool is_request_hit(std::size_t number, ArmedFault& armed, const HeardFrame& frame);
   void tell(const HeardFrame& frame, bool is_reply, bool is_said, std::span<const pty::Strike> strikes);
@@ -50,7 +50,7 @@ class FaultWatch final : public FrameFaults, private ConditionSource {
   World& world_;
   Faults& faults_;
   std::uint64_t seed_;
-  std::vector<std::size_t> lines_;  // of the devices
+  std::vector<std::vector<std::size_t>> lines_;  // of the devices, by their ports
   Probes probes_;
   std::map<std::string, Expression> conditions_;
 };

@@ -45,6 +45,9 @@ OutcomeHash::OutcomeHash(World& world) : world_(world), hash_(hash_of({})) {
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     ears_.push_back(std::make_unique<Ear>(*this, i));
   }
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    outputs_.push_back(outputs_of(world.device(d).model()));
+  }
   world.add_watcher(*this);
 }
 
@@ -56,6 +59,50 @@ void OutcomeHash::add(std::uint64_t number) {
   hash_ = hash_of(bytes, hash_);
 }
 
+std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
+  std::vector<Outputs> all;
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    const TerminalRow::Kind kind = model.terminals[i].kind;
+    const auto number = static_cast<int>(i);
+    if (is_input(kind)) continue;
+    const bool goes_on = !all.empty() && kind == TerminalRow::Kind::digital_out && all.back().kind == kind &&
+                         all.back().first + all.back().count == number &&
+                         all.back().count < TerminalGroup::kMost;
+    if (goes_on) {
+      ++all.back().count;
+    } else {
+      all.push_back({kind, number, 1});
+    }
+  }
+  return all;
+}
+
+/// All that have two levels in words of 64, the first in the highest place, and then what else they give.
+void OutcomeHash::add_outputs(const Device& device, const std::vector<Outputs>& outputs) {
+  constexpr int kBits = 64;
+  std::uint64_t word = 0;
+  int taken = 0;
+  for (const Outputs& some : outputs) {
+    if (!has_two_levels(some.kind)) continue;
+    const std::uint32_t levels = device.terminals()->output_word(some.first, some.count);
+    for (int i = 0; i < some.count; ++i) {
+      if (taken == kBits) {
+        add(word);
+        word = 0;
+        taken = 0;
+      }
+      word = word << 1 | (levels >> i & 1);
+      ++taken;
+    }
+  }
+  add(word);
+  for (const Outputs& some : outputs) {
+    if (is_analog(some.kind)) add(static_cast<std::uint64_t>(device.terminals()->analog_level(some.first)));
+    if (some.kind == TerminalRow::Kind::pulse_out)
+      add(static_cast<std::uint64_t>(device.terminals()->output_pulses(some.first)));
+  }
+}
+
 void OutcomeHash::on_tick(Tick tick) {
   add(static_cast<std::uint64_t>(tick));
   for (std::size_t d = 0; d < world_.device_count(); ++d) {
@@ -63,13 +110,7 @@ void OutcomeHash::on_tick(Tick tick) {
     for (std::size_t a = 0; a < device.model().axes.size(); ++a) {
       add(static_cast<std::uint64_t>(world_.sent_pulses(d, static_cast<int>(a))));
     }
-    std::uint64_t outputs = 0;
-    const auto terminals = device.model().terminals;
-    for (std::size_t i = 0; i < terminals.size(); ++i) {
-      if (!is_input(terminals[i].kind))
-        outputs = outputs << 1 | (device.terminals()->output(static_cast<int>(i)) ? 1 : 0);
-    }
-    add(outputs);
+    add_outputs(device, outputs_[d]);
   }
 }
 

@@ -1,5 +1,5 @@
 // A hash of all that a world says: every byte on every line with its time, in both directions, the pulses of
-// every axis and every output in every tick. Two runs with one hash did the same.
+// every axis and every output in every tick, whatever its kind. Two runs with one hash did the same.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +25,19 @@ class OutcomeHash final : public TickWatcher {
 
  private:
   class Ear;
+  /// Outputs that are neighbours in a model's table.
+  struct Outputs {
+    TerminalRow::Kind kind = TerminalRow::Kind::digital_out;
+    int first = 0;
+    int count = 1;
+  };
+  static std::vector<Outputs> outputs_of(const Model& model);
   void add(std::uint64_t number);
+  void add_outputs(const Device& device, const std::vector<Outputs>& outputs);
 
   World& world_;
-  std::vector<std::unique_ptr<Ear>> ears_;  // one a line
+  std::vector<std::unique_ptr<Ear>> ears_;     // one a line
+  std::vector<std::vector<Outputs>> outputs_;  // by device
   std::uint64_t hash_;
 };
 

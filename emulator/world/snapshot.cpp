@@ -6,6 +6,7 @@
 
 #include "base/state/difference.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/faults/kinds.h"
 #include "emulator/world/state_fields.h"
 
 namespace understudy::emulator::world {
@@ -19,7 +20,7 @@ using OfWorld = StateOf<World>;
 /// The world's own fields, as values.
 using WorldValues = CopiedFields<World>;
 
-enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone };
+enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone, kTurns };
 static_assert(std::get<kSentPulses>(OfWorld::fields).name == "sent_pulses");
 static_assert(std::get<kInputs>(OfWorld::fields).name == "inputs");
 static_assert(std::get<kSupplies>(OfWorld::fields).name == "supplies");
@@ -28,6 +29,7 @@ static_assert(std::get<kNextFault>(OfWorld::fields).name == "next_fault");
 static_assert(std::get<kDisturbed>(OfWorld::fields).name == "disturbed");
 static_assert(std::get<kNow>(OfWorld::fields).name == "now");
 static_assert(std::get<kDone>(OfWorld::fields).name == "done");
+static_assert(std::get<kTurns>(OfWorld::fields).name == "input_turns");
 
 // --- saving ----------------------------------------------------------------------------------------
 
@@ -62,7 +64,7 @@ WorldState::Part edge_part(const World& world) {
   StateWriter writer(256);
   writer.write(OfWorld::ticks(world));
   for (std::size_t i = 0; i < world.line_count(); ++i) writer.write(world.line(i).line.save().edge);
-  return {"edge", writer.take()};
+  return {std::string(kEdgePart), writer.take()};
 }
 
 // --- reading, which changes nothing ----------------------------------------------------------------
@@ -74,6 +76,7 @@ void check_inputs(const World& world, const WorldValues& values) {
     const auto terminals = world.device(d).model().terminals;
     demand_state(inputs[d].size() == terminals.size(), "its terminals are different");
     for (std::size_t i = 0; i < terminals.size(); ++i) {
+      if (terminals[i].kind == TerminalRow::Kind::counted_in) continue;
       demand_within(inputs[d][i].external, terminals[i].lowest, terminals[i].highest);
     }
   }
@@ -88,13 +91,38 @@ void check_pulses(const World& world, const WorldValues& values) {
   }
 }
 
+/// How many places a device of that model has for it.
+std::size_t places_of(const Model& model, const Fault& fault) {
+  switch (fault_kind(fault.kind).place) {
+    case FaultKindRow::Place::axis: return model.axes.size();
+    case FaultKindRow::Place::wheel: return fault.of_input ? model.terminals.size() : model.axes.size();
+    case FaultKindRow::Place::input: return model.terminals.size();
+    case FaultKindRow::Place::device_or_line: return fault.on_line ? model.line.ports.size() : 1;
+    case FaultKindRow::Place::device: break;
+  }
+  return 1;
+}
+
+void check_turns(const World& world, const WorldValues& values) {
+  for (const auto& turn : std::get<kTurns>(values)) {
+    demand_state(turn.device < world.device_count(), "a turn belongs to no device");
+    const auto terminals = world.device(turn.device).model().terminals;
+    const auto place = static_cast<std::size_t>(turn.terminal);
+    const bool is_counted = turn.terminal >= 0 && place < terminals.size() &&
+                            terminals[place].kind == TerminalRow::Kind::counted_in;
+    demand_state(is_counted, "a turn is of no counted input");
+    demand_reach(turn.counts);
+    demand_within(turn.ticks, 1, tick_at(kForever));
+    demand_within(turn.ticks_left, 1, turn.ticks);
+  }
+}
+
 /// One that could have been injected.
 void check_fault_value(const World& world, const Fault& fault) {
   demand_state(fault.device < world.device_count(), "a fault belongs to no device");
   const Model& model = world.device(fault.device).model();
-  const bool is_of_input = fault.kind == Fault::Kind::stuck;
-  const std::size_t places = is_of_input ? model.terminals.size() : model.axes.size();
-  demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places, "a fault has no place");
+  demand_state(fault.place >= 0 && static_cast<std::size_t>(fault.place) < places_of(model, fault),
+               "a fault has no place");
   demand_state(!is_done_at_once(fault.kind) || waits(fault), "a push lasts");
   for (const Tick ticks : {fault.over_ticks, fault.period_ticks}) {
     demand_state(ticks >= 0 && ticks <= tick_at(kForever), "a fault lasts beyond the end of time");
@@ -123,6 +151,7 @@ WorldValues read_values(const World& world, StateReader& reader) {
   demand_state(std::get<kSupplies>(values).size() == world.device_count(), "its devices are different");
   check_pulses(world, values);
   check_faults(world, values);
+  check_turns(world, values);
   const SimTime now = std::get<kNow>(values);
   demand_state(now >= SimTime{0} && now <= kHorizon, "its time is beyond the end of time");
   demand_state(std::get<kDone>(values) == tick_at(now), "its ticks are not those of its time");
@@ -229,7 +258,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       reader.demand_end();
     });
   }
-  auto ticks = parts.read("edge", [&](StateReader reader) {
+  auto ticks = parts.read(std::string(kEdgePart), [&](StateReader reader) {
     auto of_world = OfWorld::ticks(world);
     reader.read(of_world);
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -261,6 +290,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
       OfWorld::line(world, i).restore(lines[i]);
       OfWorld::line(world, i).due_changed();
     }
+    OfWorld::tell(world);
   };
 }
 
@@ -327,7 +357,7 @@ std::string difference(const World& world, const WorldState& a, const WorldState
       return found;
     });
   }
-  look_with_readers("edge", [&](StateReader& reader_a, StateReader& reader_b) {
+  look_with_readers(std::string(kEdgePart), [&](StateReader& reader_a, StateReader& reader_b) {
     std::string found = difference_of_saved<std::remove_cvref_t<decltype(OfWorld::ticks(world))>>(
         reader_a, reader_b, "world.ticks");
     for (std::size_t i = 0; i < world.line_count(); ++i) {
@@ -344,7 +374,7 @@ std::string difference(const World& world, const WorldState& a, const WorldState
 std::uint64_t hash(const World& world) {
   std::uint64_t sum = hash_of({});
   for (const WorldState::Part& part : save(world).parts) {
-    if (part.name != "edge") sum = hash_of(part.bytes, sum);
+    if (part.name != kEdgePart) sum = hash_of(part.bytes, sum);
   }
   return sum;
 }

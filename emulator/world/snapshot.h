@@ -11,6 +11,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -34,6 +35,10 @@ struct WorldState {
   std::vector<Part> parts;
   bool operator==(const WorldState&) const = default;
 };
+
+/// The part that decides nothing of what the model does: bytes that a host has not taken yet, how ticks were
+/// crossed.
+inline constexpr std::string_view kEdgePart = "edge";
 
 WorldState save(const World& world);
 

@@ -20,6 +20,9 @@ struct SnapshotError : std::runtime_error {
 /// state has its own.
 std::uint64_t bench_hash(const Bench& bench);
 
+/// In place of bench_hash(): of a state within a recording, whose header has the bench.
+inline constexpr std::uint64_t kBenchOfRecording = 0;
+
 std::string to_text(const WorldState& state, std::uint64_t bench);
 /// Throws SnapshotError for text that is torn, changed or not a snapshot, or belongs to another version or
 /// bench.

@@ -35,6 +35,14 @@ struct StateOf<emulator::world::World::Supply> {
 };
 
 template <>
+struct StateOf<emulator::world::World::InputTurn> {
+  using Value = emulator::world::World::InputTurn;
+  static constexpr auto fields = std::tuple{
+      field("device", &Value::device), field("terminal", &Value::terminal), field("counts", &Value::counts),
+      field("ticks", &Value::ticks), field("ticks_left", &Value::ticks_left)};
+};
+
+template <>
 struct StateOf<emulator::world::FaultTrigger> {
   using Value = emulator::world::FaultTrigger;
   static constexpr auto fields = std::tuple{field("function", &Value::function),
@@ -78,6 +86,7 @@ struct StateOf<emulator::world::Fault> {
                                             field("amount", &Value::amount),
                                             field("period_ticks", &Value::period_ticks),
                                             field("over_ticks", &Value::over_ticks),
+                                            field("of_input", &Value::of_input),
                                             field("on_line", &Value::on_line),
                                             field("side", &Value::side),
                                             field("before", &Value::before),
@@ -110,6 +119,8 @@ struct StateOf<emulator::world::PlantAxis::State> {
                                             field("at_home", &Value::at_home),
                                             field("at_lower_limit", &Value::at_lower_limit),
                                             field("at_upper_limit", &Value::at_upper_limit),
+                                            field("at_near_home", &Value::at_near_home),
+                                            field("at_mark", &Value::at_mark),
                                             field("alarm_latched", &Value::alarm_latched),
                                             field("ready", &Value::ready),
                                             field("enabled_at", &Value::enabled_at),
@@ -131,20 +142,26 @@ struct StateOf<emulator::world::World> {
                                             field("next_fault", &Value::next_fault_),
                                             field("disturbed", &Value::disturbed_),
                                             field("now", &Value::now_),
-                                            field("done", &Value::done_)};
-  static constexpr std::size_t members = 23;
+                                            field("done", &Value::done_),
+                                            field("input_turns", &Value::input_turns_)};
+  static constexpr std::size_t members = 25;
   /// What it is made of, who looks at it, and how ticks were run.
-  static constexpr std::size_t apart = 15;
+  static constexpr std::size_t apart = 16;
   static void name_all(Value& all) {  // does not compile if there are others
-    [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, contacts, sent_pulses, inputs,
-                            supplies, wires, watchers, listener, faults, next_fault, fault_watch, seed,
-                            disturbed, now, done, ticks, bulk_ticks, crossing_tries] = all;
+    [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, contacts, told_edges,
+                            input_turns, sent_pulses, inputs, supplies, wires, watchers, listener, faults,
+                            next_fault, fault_watch, seed, disturbed, now, done, ticks, bulk_ticks,
+                            crossing_tries] = all;
   }
 
   static auto& plants(auto& world) { return world.plants_; }
   static pty::Line& line(Value& world, std::size_t number) { return world.lines_[number]->line; }
   static auto& ticks(auto& world) { return world.ticks_; }
   static void rearm(Value& world) { world.arm_faults(); }
+  /// When all of it is restored.
+  static void tell(Value& world) {
+    for (std::size_t d = 0; d < world.devices_.size(); ++d) world.tell_edges_anew(d);
+  }
 };
 
 template <>

@@ -53,22 +53,23 @@ World::World(const Bench& bench, const WorldOptions& options,
     plants_[machine.device][static_cast<std::size_t>(machine.axis)] = PlantAxis(machine.plant);
   }
   for (const LineSetup& setup : bench.lines) {
-    pty::LineOptions line_options{.settings = devices_[setup.stations.front()]->line_settings(),
+    const StationSetup& first = setup.stations.front();
+    pty::LineOptions line_options{.settings = devices_[first.device]->line_settings(first.port),
                                   .timing = setup.timing,
                                   .enforce_settings = options.enforce_settings,
                                   .baud_tolerance_ppm = setup.baud_tolerance_ppm};
     const StationConditions conditions{.is_instant = setup.timing == pty::Timing::instant,
                                        .strict_framing = options.strict_framing,
                                        .patience = options.patience};
-    const LineSpeech& speech = speech_of(devices_[setup.stations.front()]->model());
+    const LineSpeech& speech = speech_of(devices_[first.device]->model());
     lines_.push_back(
         std::make_unique<WorldLine>(WorldLine{pty::Line(setup.name, line_options, log), speech, {}, {}}));
     WorldLine& line = *lines_.back();
-    for (const std::size_t number : setup.stations) {
+    for (const auto& [number, port] : setup.stations) {
       Device& device = *devices_[number];
       const pty::RtuFraming framing = speech.framing(device.model(), conditions);
       if (line.stations.empty() || framing.silence < line.framing.silence) line.framing = framing;
-      line.stations.push_back(speech.make_station(device, conditions));
+      line.stations.push_back(speech.make_station(device, port, conditions));
       line.line.attach(*line.stations.back());
     }
     if (speech.may_be_unasked()) unasked_lines_.push_back(&line);
@@ -82,6 +83,7 @@ World::World(const Bench& bench, const WorldOptions& options,
     wire_contacts(d);
     step_plant(d);
   }
+  begin_edges();
   const auto is_of_machine = [](const WireSetup& wire) { return wire.from_axis >= 0; };
   if (std::any_of(wires_.begin(), wires_.end(), is_of_machine)) latch_wires();
   // What they say at power-up: nobody could have looked on yet, so it begins with the first tick.
@@ -173,7 +175,7 @@ std::optional<SimTime> World::next_due() const {
 }
 
 Tick World::next_active_tick() const {
-  if (disturbed_) return done_ + 1;
+  if (disturbed_ || !input_turns_.empty()) return done_ + 1;
   Tick next = kNever;
   for (std::size_t d = 0; d < devices_.size() && next > done_ + 1; ++d) {
     if (devices_[d]->powered()) next = std::min(next, devices_[d]->next_active_tick(done_));
@@ -211,6 +213,7 @@ void World::look_for_speech(SimTime now) {
 void World::run_tick() {
   disturbed_ = false;
   ++done_;
+  if (!input_turns_.empty()) turn_inputs();
   // Devices meet by their wires alone, which are latched when all are done. So one after another runs all its
   // phases, while its state is in the processor's cache.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
@@ -272,7 +275,10 @@ void World::step_plant(std::size_t number) {
       driven_axes.set_encoder(static_cast<int>(a), plant.encoder_counts());
     }
   }
-  if (all_quiet) return;  // no contact has changed
+  if (all_quiet) {  // no contact has changed
+    if (meets_edges(number)) look_at_places(number);
+    return;
+  }
   for (const ContactWire& wire : contacts_[number]) {
     bool& is_on = inputs_[number][static_cast<std::size_t>(wire.input)].plant;
     const bool level = plants_[number][wire.axis].contact(wire.contact);
@@ -280,6 +286,7 @@ void World::step_plant(std::size_t number) {
     is_on = level;
     apply_input(number, wire.input);
   }
+  if (meets_edges(number)) tell_edges(number);
 }
 
 bool World::level_of(const WireSetup& wire) const {
@@ -296,7 +303,10 @@ void World::latch_wires() {
     Input& input = inputs_[wire.to_device][static_cast<std::size_t>(wire.to_terminal)];
     input.wired = input.wired || level_of(wire);
   }
-  for (const WireSetup& wire : wires_) apply_input(wire.to_device, wire.to_terminal);
+  for (const WireSetup& wire : wires_) {
+    apply_input(wire.to_device, wire.to_terminal);
+    if (meets_edges(wire.to_device)) tell_edges(wire.to_device);
+  }
 }
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
@@ -304,6 +314,7 @@ void World::set_external_input(std::size_t device, int terminal, std::int32_t le
   if (listener_ != nullptr) listener_->on_input(device, terminal, level);
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
+  tell_edges(device);
 }
 
 std::int32_t World::external_input(std::size_t device, int terminal) const {
@@ -363,6 +374,7 @@ void World::settle_power(std::size_t device) {
   if (devices_[device]->powered() == on) return;
   devices_[device]->switch_power(on);
   disturbed_ = true;
+  tell_edges_anew(device);
   for (const auto& line : lines_) {
     for (const auto& station : line->stations) {
       if (&station->device() != devices_[device].get()) continue;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/machine_edges.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/outside.h"
@@ -151,6 +152,23 @@ class World final : public WorldView {
     int input = 0;
   };
 
+  /// What a device that meets edges has been told of an axis, and where the machine was then when the device
+  /// had counted to 0.
+  struct ToldEdges {
+    bool is_told = false;
+    std::int64_t origin = 0;
+    MachineEdges edges{};
+  };
+
+  /// A counted input that is being turned, evenly.
+  struct InputTurn {
+    std::size_t device = 0;
+    int terminal = 0;
+    std::int64_t counts = 0;
+    Tick ticks = 1;
+    Tick ticks_left = 0;
+  };
+
   /// Where nothing could be crossed it is not tried again in each tick. Only what that costs depends on
   /// these.
   struct CrossingTries {
@@ -190,6 +208,16 @@ class World final : public WorldView {
   void prefetch_device(std::size_t number) const;
   void step_plant(std::size_t number);
   void latch_wires();
+  // Edges between ticks: world_edges.cpp.
+  MachineEdges edges_of(std::size_t device, std::size_t axis) const;
+  void begin_edges();
+  bool meets_edges(std::size_t device) const {
+    return device < told_edges_.size() && !told_edges_[device].empty() && devices_[device]->powered();
+  }
+  void tell_edges(std::size_t device);
+  void tell_edges_anew(std::size_t device);
+  void look_at_places(std::size_t device);
+  void turn_inputs();
   void wire_contacts(std::size_t number);
   bool level_of(const WireSetup& wire) const;
   void move_by_hand(const Fault& fault);
@@ -210,6 +238,8 @@ class World final : public WorldView {
   std::vector<WorldLine*> unasked_lines_;           // those of them whose devices may speak unasked
   std::vector<std::vector<PlantAxis>> plants_;      // [device][axis]
   std::vector<std::vector<ContactWire>> contacts_;  // by device; as the bench has them
+  std::vector<std::vector<ToldEdges>> told_edges_;  // by device; none where nobody asks
+  std::vector<InputTurn> input_turns_;
   std::vector<std::vector<std::int64_t>> sent_pulses_;
   std::vector<std::vector<Input>> inputs_;  // [device][terminal]
   std::vector<Supply> supplies_;            // by device

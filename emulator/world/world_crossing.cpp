@@ -38,6 +38,7 @@ class Machines final : public MachineAhead {
 /// The first tick at which something happens but that what moves goes on; not beyond `most` + 1.
 Tick World::next_event_tick(Tick most) const {
   constexpr Tick kFarAhead = 1'000'000'000'000;  // so that closed forms stay within their numbers
+  if (!input_turns_.empty()) return done_ + 1;
   Tick last = std::min({most, next_fault_tick() - 1, done_ + kFarAhead});
   for (std::size_t d = 0; d < devices_.size() && last > done_; ++d) {
     for (const PlantAxis& plant : plants_[d]) last = std::min(last, plant.next_active_tick(done_) - 1);

@@ -27,6 +27,11 @@ std::size_t World::inject(const Fault& fault) {
 }
 
 void World::move_by_hand(const Fault& fault) {
+  if (fault.of_input) {
+    const Tick ticks = std::max<Tick>(fault.over_ticks, 1);
+    input_turns_.push_back({fault.device, fault.place, fault.amount, ticks, ticks});
+    return;
+  }
   PlantAxis& plant = plants_[fault.device][static_cast<std::size_t>(fault.place)];
   if (fault.kind == Fault::Kind::turn) return plant.turn(fault.amount, fault.over_ticks);
   plant.faults().slipped_pulses += fault.amount;
@@ -66,11 +71,11 @@ void World::arm_faults() {
   if (std::any_of(faults_.begin(), faults_.end(), needs_watch)) {
     fault_watch_ = std::make_unique<FaultWatch>(*this, faults_, seed_);
   }
-  for (const auto& line : lines_) {
-    for (const auto& station : line->stations) {
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    for (const auto& station : lines_[i]->stations) {
       const auto is_its = [&](const auto& device) { return device.get() == &station->device(); };
       const auto device = std::find_if(devices_.begin(), devices_.end(), is_its) - devices_.begin();
-      station->set_faults(fault_watch_.get(), static_cast<std::size_t>(device));
+      station->set_faults(fault_watch_.get(), static_cast<std::size_t>(device), i);
     }
   }
 }
@@ -135,6 +140,7 @@ void World::apply_faults(std::size_t device) {
       devices_[device]->axes()->set_encoder(static_cast<int>(a), plant.encoder_counts());
   }
   for (std::size_t i = 0; i < inputs_[device].size(); ++i) apply_input(device, static_cast<int>(i));
+  tell_edges(device);
 }
 
 }  // namespace understudy::emulator::world

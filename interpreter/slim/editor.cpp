@@ -70,7 +70,7 @@ constexpr HandlerRow<Verb, Beginning> kBeginningRows[] = {
        desk.editor = {.mode = Editor::Mode::insert, .line = desk.line};
        return Error::none;
      }},
-    {Verb::program_delete, [](const Desk& desk) { return desk.program.remove(desk.line); }},
+    {Verb::program_delete, [](const Desk& desk) { return desk.program.remove(desk.line, desk.options); }},
 };
 constexpr CompleteTable<Verb, Beginning> kBeginnings(kEditingVerbs, kBeginningRows);
 

@@ -30,7 +30,14 @@ std::string label_of(std::string_view text) {
 
 }  // namespace
 
-Program::Checked Program::check(std::string_view text, int replaced, const ProgramOptions& options) const {
+/// A line that fails as it runs is stored with its error; its label is a place to jump to all the same.
+Program::Checked Program::failing(Checked checked, std::string_view text) {
+  if (checked.error == Error::none) return checked;
+  return {.line = {.text = std::string(text), .parsed = {.label = label_of(text)}, .error = checked.error}};
+}
+
+/// The line that `text` makes, whatever the others are.
+Program::Checked Program::check_alone(std::string_view text, const ProgramOptions& options) {
   ParseResult result = parse_line(text, options.dialect);
   if (result.error != Error::none) return {.error = result.error};
   const std::string_view trimmed = without_blanks(text);
@@ -40,45 +47,73 @@ Program::Checked Program::check(std::string_view text, int replaced, const Progr
   if (command && options.check_command != nullptr) {
     if (const Error error = options.check_command(*command); error != Error::none) return {.error = error};
   }
-  const std::string& label = result.line.label;
-  if (!label.empty() && options.same_label == ProgramOptions::SameLabel::refused) {
-    for (int i = 0; i < size(); ++i) {
-      if (i != replaced && line(i).parsed.label == label) return {.error = Error::address};
-    }
-  }
   return {.line = {.text = std::string(trimmed), .parsed = std::move(result.line)}};
 }
 
-Program::Checked Program::check_as_chosen(std::string_view text, int replaced,
-                                          const ProgramOptions& options) const {
-  Checked checked = check(text, replaced, options);
-  if (checked.error == Error::none || options.check == ProgramOptions::Check::as_entered) return checked;
-  const std::string_view trimmed = without_blanks(text);
-  if (trimmed.empty() || text.size() > options.dialect.longest_line || ends_transfer(trimmed)) return checked;
-  return {
-      .line = {.text = std::string(trimmed), .parsed = {.label = label_of(trimmed)}, .error = checked.error}};
+Program::Checked Program::check(std::string_view text, int replaced, const ProgramOptions& options) const {
+  Checked checked = check_alone(text, options);
+  if (options.check == ProgramOptions::Check::as_run) {
+    const std::string_view trimmed = without_blanks(text);
+    if (trimmed.empty() || text.size() > options.dialect.longest_line || ends_transfer(trimmed))
+      return checked;
+    return failing(std::move(checked), trimmed);
+  }
+  const std::string& label = checked.line.parsed.label;
+  if (checked.error != Error::none || label.empty() ||
+      options.same_label == ProgramOptions::SameLabel::first_counts) {
+    return checked;
+  }
+  for (int i = 0; i < size(); ++i) {
+    if (i != replaced && line(i).parsed.label == label) return {.error = Error::address};
+  }
+  return checked;
+}
+
+/// With Check::as_run: which of the lines with this label fail follows from the lines alone, not from the
+/// order in which they were entered, so that a program that is saved and read again is the same.
+void Program::judge_label(const std::string& label, const ProgramOptions& options) {
+  if (label.empty() || options.check != ProgramOptions::Check::as_run ||
+      options.same_label != ProgramOptions::SameLabel::refused) {
+    return;
+  }
+  bool is_taken = false;
+  for (StoredLine& line : lines_) {
+    if (line.parsed.label != label) continue;
+    Checked checked = check_alone(line.text, options);
+    if (is_taken && checked.error == Error::none) checked = {.error = Error::address};
+    line = failing(std::move(checked), line.text).line;
+    is_taken = true;
+  }
 }
 
 Error Program::insert(int number, std::string_view text, const ProgramOptions& options) {
   if (number < 0 || number > size()) return Error::range;
   if (size() >= options.capacity) return Error::buffer_full;
-  Checked checked = check_as_chosen(text, -1, options);
+  Checked checked = check(text, -1, options);
   if (checked.error != Error::none) return checked.error;
+  const std::string label = checked.line.parsed.label;
   lines_.insert(lines_.begin() + number, std::move(checked.line));
+  judge_label(label, options);
   return Error::none;
 }
 
 Error Program::replace(int number, std::string_view text, const ProgramOptions& options) {
   if (number < 0 || number >= size()) return Error::range;
-  Checked checked = check_as_chosen(text, number, options);
+  Checked checked = check(text, number, options);
   if (checked.error != Error::none) return checked.error;
+  const std::string label = checked.line.parsed.label;
+  const std::string label_before = line(number).parsed.label;
   lines_[static_cast<std::size_t>(number)] = std::move(checked.line);
+  judge_label(label, options);
+  judge_label(label_before, options);
   return Error::none;
 }
 
-Error Program::remove(int number) {
+Error Program::remove(int number, const ProgramOptions& options) {
   if (number < 0 || number >= size()) return Error::range;
+  const std::string label = line(number).parsed.label;
   lines_.erase(lines_.begin() + number);
+  judge_label(label, options);
   return Error::none;
 }
 

@@ -58,10 +58,11 @@ class Program {
   /// Behind the last line: what insert() takes as a number. Refuses (and changes nothing): a line that does
   /// not parse, or is empty; a command that no program may hold (not_allowed); a label that another line has
   /// (address); a number that does not exist (range); more lines than fit (buffer_full). With Check::as_run
-  /// only empty lines, those too long, and what ends a transfer are refused for what they say.
+  /// only empty lines, those too long, and what ends a transfer are refused for what they say; of lines with
+  /// one label the first is good, and the others fail with `address`, whichever was entered first.
   Error insert(int number, std::string_view text, const ProgramOptions& options = {});
   Error replace(int number, std::string_view text, const ProgramOptions& options = {});
-  Error remove(int number);
+  Error remove(int number, const ProgramOptions& options = {});
   void clear() { lines_.clear(); }
 
   /// The line that an address (a label or a number) means. Of two equal labels the first counts.
@@ -85,7 +86,9 @@ class Program {
     StoredLine line = {};
   };
   Checked check(std::string_view text, int replaced, const ProgramOptions& options) const;
-  Checked check_as_chosen(std::string_view text, int replaced, const ProgramOptions& options) const;
+  static Checked check_alone(std::string_view text, const ProgramOptions& options);
+  static Checked failing(Checked checked, std::string_view text);
+  void judge_label(const std::string& label, const ProgramOptions& options);
   std::vector<StoredLine> lines_;
 };
 

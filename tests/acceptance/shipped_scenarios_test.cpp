@@ -168,6 +168,18 @@ TEST(ShippedScenarios, DoTheSameInAnotherBuild) {
   EXPECT_EQ(printed({}, {}, other), printed());
 }
 
+TEST(ShippedScenarios, AreReplayedFromTheirRecordings) {
+  const PrivateFolder folder;
+  ASSERT_EQ(understudy(Words{"run", "--record", folder.path()} + all() + of_choices()).exit_code, 0);
+  int replayed = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    const Finished again = understudy({"replay", entry.path().string()});
+    EXPECT_EQ(again.exit_code, 0) << again.errors;
+    ++replayed;
+  }
+  EXPECT_GE(replayed, static_cast<int>(all().size() + of_choices().size()));
+}
+
 TEST(ShippedScenarios, AHashTellsWhenSomethingIsDifferent) {
   const PrivateFolder folder;
   const auto hash_of = [&](const std::string& speed) {

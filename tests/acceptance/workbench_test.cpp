@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <regex>
+#include <sstream>
 
 #include "emulator/device/register_map/access.h"
 #include "emulator/serve/daemon/daemon_thread.h"
@@ -33,6 +34,7 @@ class ServedWorkbench : public testing::Test {
         "bench.yaml", folder_);
     emulator::serve::DaemonOptions options;
     options.watch_signals = false;
+    options.capture_path = folder_ + "/capture.pcapng";
     daemon_ = std::make_unique<emulator::serve::DaemonThread>(bench, options, [](const std::string&) {});
     daemon_->start();
   }
@@ -41,6 +43,11 @@ class ServedWorkbench : public testing::Test {
     std::filesystem::remove_all(folder_);
   }
   std::string port() const { return folder_ + "/port"; }
+  /// What was captured until now; nothing more is served.
+  std::string capture() {
+    daemon_.reset();
+    return folder_ + "/capture.pcapng";
+  }
 
  private:
   std::string folder_;
@@ -108,6 +115,60 @@ TEST_F(ServedWorkbench, AnswersLibmodbusInEveryFunction) {
   EXPECT_EQ(errno, EMBXSFAIL);
   EXPECT_EQ(modbus_read_input_registers(it, 16, 1, words.data()), 1);
   EXPECT_EQ(words[0], static_cast<int>(emulator::Cause::failure));
+}
+
+TEST_F(ServedWorkbench, IsCapturedAsTsharkReadsIt) {
+  if (run({"tshark", "--version"}).exit_code != 0) GTEST_SKIP() << "tshark is not installed";
+  {
+    const Master master(port());
+    ASSERT_TRUE(master.is_connected);
+    modbus_t* const it = master.context;
+    std::array<std::uint8_t, 16> bits{1, 0, 1, 1};
+    std::array<std::uint16_t, 4> words{7, 8, 9, 10};
+    EXPECT_EQ(modbus_write_bit(it, 5, 1), 1);
+    EXPECT_EQ(modbus_write_bits(it, 8, 4, bits.data()), 4);
+    EXPECT_EQ(modbus_read_bits(it, 5, 8, bits.data()), 8);
+    EXPECT_EQ(modbus_read_input_bits(it, 16, 2, bits.data()), 2);
+    EXPECT_EQ(modbus_write_register(it, 2, 3999), 1);
+    EXPECT_EQ(modbus_write_registers(it, 100, 4, words.data()), 4);
+    EXPECT_EQ(modbus_read_registers(it, 100, 4, words.data()), 4);
+    EXPECT_EQ(modbus_read_input_registers(it, 20, 1, words.data()), 1);
+    EXPECT_EQ(modbus_write_bit(it, 100, 1), -1);
+  }
+  const Finished finished =
+      run({"tshark",        "-r", capture(),       "-o", "mbrtu.tcp.port:19200", "-T", "fields",         "-E",
+           "separator=|",   "-e", "_ws.col.Info",  "-e", "modbus.reference_num", "-e", "modbus.bit_cnt", "-e",
+           "modbus.bitnum", "-e", "modbus.bitval", "-e", "_ws.malformed"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.errors;
+  std::vector<std::string> lines;
+  std::istringstream output(finished.output);
+  for (std::string line; std::getline(output, line);) lines.push_back(line);
+  // A query and a response each; of bits that are read, their numbers and what they are.
+  const char* const wanted[] = {
+      "   Query: Unit:   1, Func:   5: Write Single Coil|5|",
+      "Response: Unit:   1, Func:   5: Write Single Coil|5|",
+      "   Query: Unit:   1, Func:  15: Write Multiple Coils|8|4|",
+      "Response: Unit:   1, Func:  15: Write Multiple Coils|8|4|",
+      "   Query: Unit:   1, Func:   1: Read Coils|5|8|",
+      "Response: Unit:   1, Func:   1: Read Coils|||5,6,7,8,9,10,11,12|1,0,0,1,0,1,1,0|",
+      "   Query: Unit:   1, Func:   2: Read Discrete Inputs|16|2|",
+      "Response: Unit:   1, Func:   2: Read Discrete Inputs|||16,17|0,1|",
+      "   Query: Unit:   1, Func:   6: Write Single Register|2|",
+      "Response: Unit:   1, Func:   6: Write Single Register|2|",
+      "   Query: Unit:   1, Func:  16: Write Multiple Registers|100|",
+      "Response: Unit:   1, Func:  16: Write Multiple Registers|100|",
+      "   Query: Unit:   1, Func:   3: Read Holding Registers|100|",
+      "Response: Unit:   1, Func:   3: Read Holding Registers|",
+      "   Query: Unit:   1, Func:   4: Read Input Registers|20|",
+      "Response: Unit:   1, Func:   4: Read Input Registers|",
+      "   Query: Unit:   1, Func:   5: Write Single Coil|100|",
+      "Response: Unit:   1, Func:   5: Write Single Coil. Exception returned |",
+  };
+  ASSERT_EQ(lines.size(), std::size(wanted)) << finished.output;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    EXPECT_TRUE(lines[i].starts_with(wanted[i])) << lines[i] << "\nexpected " << wanted[i];
+    EXPECT_TRUE(lines[i].ends_with("|")) << lines[i] << " is malformed";
+  }
 }
 
 TEST_F(ServedWorkbench, AnswersMbpollInEachOfItsTypes) {

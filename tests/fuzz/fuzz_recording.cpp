@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/version.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -25,7 +26,7 @@ constexpr SimTime kUntil = 500ms;
 const std::string& our_header() {
   static const std::string line = [] {
     emulator::world::RecordingHeader header;
-    header.version = "0.1.0";
+    header.version = std::string(program_version());
     header.bench = emulator::world::to_text(emulator::world::parse_bench(
         emulator::models::all_models(),
         "understudy: 1\n"

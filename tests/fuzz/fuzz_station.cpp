@@ -19,6 +19,7 @@
 #include "emulator/world/world.h"
 #include "pty/rtu_crc.h"
 #include "tests/fuzz/fuzzing.h"
+#include "tests/fuzz/same_device.h"
 
 namespace {
 
@@ -123,7 +124,7 @@ class Listener {
         .model = emulator::find_model(emulator::models::all_models(), "simple2-r3"), .settings = {}};
     device.settings.name = "device";
     device.settings.address = rotary_switch;
-    device.settings.baud = 115200;
+    device.settings.bauds = {115200};
     if (input.alternative_choices) {
       device.settings.choices = {{"station_0_request", "ignored"}, {"switch_0_broadcast", "silent"}};
     }
@@ -220,7 +221,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   play(stepped, input);
   demand(stepped.said() == listener.said(), "ticks left out are not to be seen on the line");
   demand(stepped.now() == listener.now(), "nor do they take another time");
-  demand(stepped.device().same_state(listener.device()), "ticks left out leave the same state");
+  fuzzing::demand_same_state(stepped.device(), listener.device(), "ticks left out leave the same state");
 
   Listener& other = crowd.other;
   play(other, input);
@@ -229,7 +230,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Listener& untouched = crowd.untouched;
     untouched.begin_anew();
     untouched.advance(other.now());
-    demand(other.device().same_state(untouched.device()), "frames for others change nothing");
+    fuzzing::demand_same_state(other.device(), untouched.device(), "frames for others change nothing");
     demand(other.said().empty(), "frames for others are not answered");
   }
   return 0;

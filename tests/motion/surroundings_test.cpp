@@ -208,5 +208,41 @@ TEST(Surroundings, OfOneSignalEachAreToldToThePulse) {
   }
 }
 
+TEST(Surroundings, SlackKeepsASignalOnUntilItIsFarEnough) {
+  for (const bool outside : {false, true}) {
+    Surroundings here;
+    if (outside) {
+      here.add_outside(Signal::home, 10, 19, 3);
+    } else {
+      here.add(Signal::home, 10, 19, 3);
+    }
+    // A switch that comes on from 10 to 19, and lets go 3 outside; the signal is the switch or its opposite.
+    bool is_on = false;
+    Signals seen = here.at(0);
+    const auto go = [&](std::int64_t to, std::int64_t from) {
+      for (std::int64_t at = from; at != to; at += to > from ? 1 : -1) {
+        const int way = to > from ? +1 : -1;
+        const std::int64_t next = at + way;
+        is_on = is_on ? next >= 7 && next <= 22 : next >= 10 && next <= 19;
+        const Signals now = here.at(next, seen);
+        EXPECT_EQ(now == bit(Signal::home), is_on != outside) << next << " going " << way;
+        if (now != seen) {
+          EXPECT_EQ(here.steps_until_change(at, way), 1) << at << " going " << way;
+        }
+        seen = now;
+      }
+    };
+    go(12, 0);
+    go(8, 12);
+    go(21, 8);
+    go(30, 21);
+    go(20, 30);
+    go(15, 20);
+    go(-5, 15);
+    EXPECT_EQ(here.at(INT64_MIN) == bit(Signal::home), outside);
+    EXPECT_EQ(here.at(INT64_MAX) == bit(Signal::home), outside);
+  }
+}
+
 }  // namespace surroundings_test
 }  // namespace understudy::motion

@@ -1,10 +1,13 @@
 // What a device offers that is spoken to in Modbus, beside its registers: which addresses it listens to, and
-// whether it refuses. A facet: Device::modbus() is null where a device speaks something else.
+// whether it refuses, and that it counts what was wrong. A facet: Device::modbus() is null where a device
+// speaks something else.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/device/model.h"
+#include "pty/receive_error.h"
 
 namespace understudy::emulator {
 
@@ -19,6 +22,8 @@ class ModbusStation {
   virtual Addressing addressing(std::uint8_t address) const = 0;
   /// Whether a request that it refuses gets an exception, or no answer.
   virtual bool answers_refusals() const { return true; }
+  /// What came in by that port was not a frame; it gets no answer. Only while the device has power.
+  virtual void receive_failed(std::size_t /*port*/, pty::ReceiveError /*error*/) {}
 
  protected:
   ~ModbusStation() = default;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/text/parse_real.h"
 #include "emulator/device/register_map/present.h"
 
 namespace understudy::emulator {
@@ -107,7 +108,7 @@ Objection gather_addresses(const RegisterBank& bank, const RegisterRequest& requ
     const std::size_t address = request.first + i;
     const Place place = bank.at(request.table, static_cast<std::uint16_t>(address), low_first);
     if (!place) {
-      if (policy.unmapped != MapPolicy::Unmapped::reads_zero) {
+      if (!swallows_writes_to_nothing(bank)) {
         return objection(Refusal::no_register, Cause::no_register, address);
       }
       continue;
@@ -170,15 +171,11 @@ Objection write_message(RegisterBank& bank, const Place& window, const RegisterR
     return objection(Refusal::bad_value, Cause::bad_message, request.first);
   }
   if (const Objection refused = admission(bank, request, Checked::everything)) return refused;
-  const Refusal answer = row.message(bank, cell_of(window), request.words);
-  switch (answer) {
-    case Refusal::none: bank.registers_written(); return {};
-    case Refusal::busy: return objection(answer, Cause::busy, request.first);
-    case Refusal::failure: return objection(answer, Cause::failure, request.first);
-    case Refusal::no_register:
-    case Refusal::bad_value: break;
-  }
-  return objection(answer, Cause::bad_message, request.first);
+  const DeviceAnswer answer = row.message(bank, cell_of(window), request.words);
+  if (answer.refusal == Refusal::none) bank.registers_written();
+  Objection refused = objection_of(answer, request);
+  if (refused.cause == Cause::no_register) refused.cause = Cause::bad_message;
+  return refused;
 }
 
 void store(RegisterBank& bank, Change& change) {
@@ -214,24 +211,33 @@ void carry_out(RegisterBank& bank, Changes& changes) {
   bank.registers_written();
 }
 
-Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value value, PreparedWrite& out) {
+/// What a value makes of the whole register, or of the half, that a name stands for; none if it does not fit
+/// there.
+std::optional<Value> merged(const RegisterBank& bank, const NamedPlace& named, Value value) {
   const Place& place = named.place;
-  const RegisterRow& row = *place.row;
-  const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
   const bool half = place.part != Place::Part::whole;
   if (named.bit >= 0) {
     const Value most = (Value{1} << named.width) - 1;
-    if (value < 0 || value > most) return Refusal::bad_value;
+    if (value < 0 || value > most) return std::nullopt;
     const Value whole = read_value(bank, place);
     value = (whole & ~(most << named.bit)) | value << named.bit;
-    if (!half)
-      value = value_of(static_cast<std::uint32_t>(value), row.type);  // the sign bit is a bit as well
+    // The sign bit is a bit as well.
+    if (!half) value = value_of(static_cast<std::uint32_t>(value), place.row->type);
   }
   // What does not fit the register's words cannot even be sent.
-  const auto [lowest, highest] = half ? limits_of(Type::u16) : limits_of(row.type);
-  if (value < lowest || value > highest) return Refusal::bad_value;
+  const auto [lowest, highest] = half ? limits_of(Type::u16) : limits_of(place.row->type);
+  if (value < lowest || value > highest) return std::nullopt;
+  return value;
+}
 
-  const auto bits = static_cast<std::uint32_t>(value);
+Refusal words_for(const RegisterBank& bank, const NamedPlace& named, Value wanted, PreparedWrite& out) {
+  const Place& place = named.place;
+  const RegisterRow& row = *place.row;
+  const bool whole_32 = is_32_bit(row.type) && place.part == Place::Part::whole;
+  const auto value = merged(bank, named, wanted);
+  if (!value) return Refusal::bad_value;
+
+  const auto bits = static_cast<std::uint32_t>(*value);
   const auto low = static_cast<std::uint16_t>(bits);
   const auto high = static_cast<std::uint16_t>(bits >> 16);
   const bool low_first = bank.low_word_first();
@@ -272,7 +278,10 @@ Value read_value(const RegisterBank& bank, const NamedPlace& place) {
 }
 
 double number_of(const NamedPlace& place, Value value) {
-  return place.is_real() ? static_cast<double>(real_of(value)) : static_cast<double>(value);
+  if (!place.is_real()) return static_cast<double>(value);
+  // 0.1 where a single is the nearest one to it: what a person has written is what comes back.
+  const double real = static_cast<double>(real_of(value));
+  return parse_real(value_text(value, Type::f32)).value_or(real);
 }
 
 std::optional<Value> value_of_number(const NamedPlace& place, double number) {
@@ -303,28 +312,27 @@ Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
   return write_words(bank, write.table, write.first, std::span(write.words).first(write.count));
 }
 
-Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
+Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value wanted) {
+  // What its words would come to when they are looked up again: programs write like this all the time.
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
-  if (named.bit < 0 && place.part == Place::Part::whole) {
-    // What its words would come to when they are looked up again: programs write like this all the time.
-    if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;
-    const auto [lowest, highest] = limits_of(row.type);
-    if (value < lowest || value > highest) return Refusal::bad_value;
-    if (!bank.has_row(row)) {
-      return bank.map_policy().unmapped == MapPolicy::Unmapped::refused ? Refusal::no_register
-                                                                        : Refusal::none;
-    }
-    std::array<Change, 1> one = {
-        Change{.place = place, .bits = static_cast<std::uint32_t>(value), .low = true, .high = true}};
-    if (const Objection refused = judge(one[0], bank.map_policy())) return refused.refusal;
-    Changes changes{.all = one, .count = 1};
-    carry_out(bank, changes);
-    return Refusal::none;
-  }
-  PreparedWrite write;
-  const Refusal refusal = prepare_value(bank, named, value, write);
-  return refusal == Refusal::none ? write_prepared(bank, write) : refusal;
+  if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;
+  const auto value = merged(bank, named, wanted);
+  if (!value) return Refusal::bad_value;
+  if (!bank.has_row(row)) return swallows_writes_to_nothing(bank) ? Refusal::none : Refusal::no_register;
+  const bool is_half = place.part != Place::Part::whole;
+  const MapPolicy& policy = bank.map_policy();
+  if (is_half && policy.halves == MapPolicy::Halves::come_whole) return Refusal::no_register;
+  auto bits = static_cast<std::uint32_t>(*value);
+  if (is_half) bits = with_word(present_bits(bank, place), place.part, static_cast<std::uint16_t>(bits));
+  std::array<Change, 1> one = {Change{.place = place,
+                                      .bits = bits,
+                                      .low = place.part != Place::Part::high,
+                                      .high = place.part != Place::Part::low}};
+  if (const Objection refused = judge(one[0], policy)) return refused.refusal;
+  Changes changes{.all = one, .count = 1};
+  carry_out(bank, changes);
+  return Refusal::none;
 }
 
 }  // namespace understudy::emulator

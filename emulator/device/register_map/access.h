@@ -48,12 +48,13 @@ struct PreparedWrite {
   std::size_t count = 0;
 };
 
-/// Judges a write as if from the wire, and makes the words for it; they will not be refused, whatever is
-/// written before them (except for a register that changes the order of words). A bit is written by way of
-/// its register, as it is at this moment.
+/// Judges a write as if from the wire, and makes the words for it. Whatever is written before them, they stay
+/// good (except after a register that changes the order of words); what may have changed by then is whether
+/// the device takes them: it may be busy, or fail (RegisterBank::admits). A bit is written by way of its
+/// register, as it is at this moment.
 Refusal prepare_value(const RegisterBank& bank, const NamedPlace& place, Value value, PreparedWrite& write);
 Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write);
-/// Both at once.
+/// The same as the device's own act: nobody asks whether it takes it.
 Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value);
 
 }  // namespace understudy::emulator

@@ -9,7 +9,9 @@
 
 namespace understudy::emulator {
 
-inline Cell cell_of(const Place& place) { return {.argument = place.row->argument, .index = place.index}; }
+inline Cell cell_of(const Place& place) {
+  return {.argument = place.row->argument, .index = place.index, .axis = place.row->first_axis + place.index};
+}
 
 inline std::uint32_t with_bits_of_fields(const RegisterBank& bank, const Place& place, std::uint32_t bits) {
   for (const BitField& field : place.row->fields) {
@@ -42,16 +44,29 @@ inline Objection objection(Refusal refusal, Cause cause, std::size_t address) {
   return {refusal, cause, static_cast<std::uint16_t>(address)};
 }
 
-/// What the device itself says to a request that is good so far.
-inline Objection admission(const RegisterBank& bank, const RegisterRequest& request, Checked checked) {
-  switch (const Refusal refusal = bank.admits(request, checked)) {
+/// What the device itself says to a request, with its own number for the reason.
+inline Objection objection_of(const DeviceAnswer& answer, const RegisterRequest& request) {
+  const auto because = [&](Cause cause) {
+    return Objection{answer.refusal, cause, request.first, answer.reason};
+  };
+  switch (answer.refusal) {
     case Refusal::none: return {};
-    case Refusal::no_register: return objection(refusal, Cause::no_register, request.first);
-    case Refusal::bad_value: return objection(refusal, Cause::bad_message, request.first);
-    case Refusal::busy: return objection(refusal, Cause::busy, request.first);
-    case Refusal::failure: return objection(refusal, Cause::failure, request.first);
+    case Refusal::no_register: return because(Cause::no_register);
+    case Refusal::bad_value: return because(Cause::bad_message);
+    case Refusal::busy: return because(Cause::busy);
+    case Refusal::failure: return because(Cause::failure);
   }
   return {};
+}
+
+/// Whether it takes a request that is good so far.
+inline Objection admission(const RegisterBank& bank, const RegisterRequest& request, Checked checked) {
+  return objection_of(bank.admits(request, checked), request);
+}
+
+/// Whether a write to where nothing is goes nowhere, rather than being refused.
+inline bool swallows_writes_to_nothing(const RegisterBank& bank) {
+  return bank.map_policy().unmapped == MapPolicy::Unmapped::reads_zero;
 }
 
 /// Whether a request that begins or ends with this word cuts its register in half.

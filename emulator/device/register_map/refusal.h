@@ -2,6 +2,7 @@
 // device may keep it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace understudy::emulator {
@@ -33,14 +34,33 @@ enum class Cause : std::uint8_t {
   failure,
 };
 
+/// What the device itself says to a request, with the number that it has for the reason, where it has one.
+struct DeviceAnswer {
+  constexpr DeviceAnswer(Refusal given, int number = 0)  // NOLINT(google-explicit-constructor): `return busy`
+      : refusal(given), reason(static_cast<std::uint16_t>(number)) {}
+
+  Refusal refusal = Refusal::none;
+  std::uint16_t reason = 0;  // the device's own; 0: it has none
+};
+
 /// A refusal with its cause, and the address where it was found.
 struct Objection {
   Refusal refusal = Refusal::none;
   Cause cause = Cause::none;
   std::uint16_t address = 0;
+  std::uint16_t reason = 0;  // as the device numbers it (DeviceAnswer), where it was the device that refused
 
   explicit operator bool() const { return refusal != Refusal::none; }
   bool operator==(const Objection&) const = default;
+};
+
+/// A request that was answered with an exception, as the device hears of it.
+struct RefusedRequest {
+  std::uint8_t function = 0;
+  std::uint16_t first = 0;  // address and count as they were asked for; 0 where the request has none, or is
+  std::size_t count = 0;    // too short to say so
+  int exception = 0;        // what was answered
+  Objection objection{};    // why
 };
 
 }  // namespace understudy::emulator

@@ -52,11 +52,11 @@ class RegisterBank {
 
   /// Whether the device takes a request that is good so far: it may be busy, or fail. Asked before anything
   /// is stored, of requests from outside; what it writes itself it is not asked.
-  virtual Refusal admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
+  virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }
   /// Its station has answered a request with an exception.
-  virtual void exception_answered(const Objection& /*objection*/) {}
+  virtual void exception_answered(const RefusedRequest& /*request*/) {}
 
   /// Called for each register of the image that a request has written, after its effect.
   virtual void register_written(const RegisterRow& row, std::size_t slot) = 0;

@@ -8,6 +8,7 @@
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/register_map/row_sense.h"
 
 namespace understudy::emulator {
 
@@ -36,34 +37,12 @@ constexpr std::array<std::pair<std::string_view, Table>, 4> kTables{{{"holding",
                                                                      {"input", Table::input},
                                                                      {"discrete", Table::discrete}}};
 
-/// What a row cannot be, whatever the other rows are.
-void demand_sense(const RegisterRow& row) {
-  const auto demand = [&](bool holds, const char* what) {
-    if (!holds) throw std::logic_error("register map: " + std::string(row.name) + " " + what);
-  };
-  const bool is_bit = row.type == Type::bit;
-  demand(is_bit == is_table_of_bits(row.table), "is not as wide as its table");
-  demand(!row.is_view || !row.persistent, "is a view, which keeps nothing");
-  const bool is_read_only_table = row.table == Table::input || row.table == Table::discrete;
-  demand(!is_read_only_table || row.access == Access::read, "is in a table that hosts cannot write");
-  demand(row.labels.empty() || row.labels.size() == static_cast<std::size_t>(row.count),
-         "has another number of labels");
-  demand(row.message == nullptr || (row.stride == 1 && row.type == Type::u16 && row.least_words >= 1 &&
-                                    row.least_words <= row.count),
-         "is not a window of words");
-  std::uint32_t taken = 0;
-  for (const BitField& field : row.fields) {
-    demand(field.bit >= 0 && field.width >= 1 && field.bit + field.width <= width_of(row.type),
-           "has a field that it has no bits for");
-    demand((taken & field.mask()) == 0, "has two fields in one bit");
-    taken |= field.mask();
-  }
-}
-
 }  // namespace
 
 RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
     : rows_(rows.begin(), rows.end()), policy_(policy) {
+  if (rows_.size() >= UINT16_MAX)
+    throw std::logic_error("register map: too many rows; expected 65,534 at most");
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const RegisterRow& row = rows_[i];
     demand_sense(row);
@@ -105,6 +84,8 @@ void RegisterMap::name_places(const RegisterRow& row, int first_slot) {
     Place place{.row = &row, .index = index, .slot = row.is_view ? Place::kNoSlot : first_slot + index};
     for (const std::string_view pattern : {row.name, row.alias}) {
       if (pattern.empty()) continue;
+      const bool is_of_the_first = row.count > 1 && pattern.find("{}") == std::string_view::npos;
+      if (is_of_the_first && index > 0) continue;
       const std::string name = name_of(row, index, pattern);
       place.part = Place::Part::whole;
       add_name(name, place);

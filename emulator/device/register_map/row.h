@@ -69,6 +69,7 @@ constexpr TypeLimits limits_of(Type type) {
 struct Cell {
   int argument = 0;       // what the row was declared with, an axis for example
   int index = 0;          // 0 .. count-1
+  int axis = 0;           // of a row for several axes: which one, counted as the device counts them
   bool high_half = true;  // a write: the high word came with it (always so for 16-bit registers)
 };
 
@@ -77,7 +78,7 @@ using Reader = Value (*)(const RegisterBank& bank, Cell cell);
 /// What a write does beyond storing. Runs after the whole request is stored, in ascending order.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
 /// Takes the words that one request has written to a window, or refuses them and has changed nothing.
-using Message = Refusal (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
+using Message = DeviceAnswer (*)(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words);
 
 /// A model's functions take its own device, of which the bank that they are called for is a part
 /// (register_bank.h). `D` may be incomplete where the rows stand.
@@ -97,7 +98,13 @@ struct Handler<function> {
 };
 template <typename D, Refusal (*function)(D&, Cell, std::span<const std::uint16_t>)>
 struct Handler<function> {
-  static Refusal call(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words) {
+  static DeviceAnswer call(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words) {
+    return function(static_cast<RegisterBankOf<D>&>(bank).device(), cell, words);
+  }
+};
+template <typename D, DeviceAnswer (*function)(D&, Cell, std::span<const std::uint16_t>)>
+struct Handler<function> {
+  static DeviceAnswer call(RegisterBank& bank, Cell cell, std::span<const std::uint16_t> words) {
     return function(static_cast<RegisterBankOf<D>&>(bank).device(), cell, words);
   }
 };
@@ -128,7 +135,8 @@ constexpr BitField bits(int lowest, std::string_view name, int width = 1) {
 struct RegisterRow {
   std::uint16_t address = 0;
   std::string_view name;   // as the manual prints it, without _L/_RegL; "{}" stands for the number
-  std::string_view alias;  // a second spelling of the manual; empty if there is none
+  std::string_view alias;  // a second spelling of the manual, or a name that only the first register of
+                           // several has besides; empty if there is none
   Type type = Type::u16;
   Access access = Access::read_write;
   Table table = Table::holding;
@@ -147,6 +155,7 @@ struct RegisterRow {
   int first_number = 0;
   int number_step = 1;
   std::span<const std::string_view> labels{};  // or these, one each: the axes' names, for example
+  int first_axis = 0;                          // the axis of the first of them
   std::string_view low_half = "_L";            // what the manual appends to the halves of a 32-bit register
   std::string_view high_half = "_H";
 
@@ -206,9 +215,11 @@ struct RegisterRow {
     number_step = step;
     return *this;
   }
-  /// One for each axis, `apart` addresses apart; "{}" in the name stands for the axis.
-  constexpr RegisterRow& each(std::span<const std::string_view> axes, int apart) {
+  /// One for each axis, `apart` addresses apart; "{}" in the name stands for the axis. `first`: the number of
+  /// the first of these axes, where the row is not for all of the device's.
+  constexpr RegisterRow& each(std::span<const std::string_view> axes, int apart, int first = 0) {
     labels = axes;
+    first_axis = first;
     return times(static_cast<int>(axes.size()), apart, 0);
   }
   /// Like range(), of a real.

@@ -19,11 +19,17 @@ class TextDevice : public Device, public TextSpeaker {
 
 inline constexpr int kTextBauds[] = {9600};
 
-/// The line of such a model: it has no station number.
-constexpr LineRules line_of_text(std::span<const int> bauds = kTextBauds) {
-  return {.protocol = kTextLines,
+constexpr PortRow port_of_text(std::span<const int> bauds = kTextBauds) {
+  return {.kind = PortRow::Kind::rs232,
+          .name = "RS232",
           .bauds = bauds,
           .settings = {.data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1}};
+}
+inline constexpr PortRow kTextPort[] = {port_of_text()};
+
+/// The line of such a model: it has one port, and no station number.
+constexpr LineRules line_of_text(std::span<const PortRow, 1> port = kTextPort) {
+  return {.protocol = kTextLines, .ports = port};
 }
 
 }  // namespace understudy::emulator

@@ -46,12 +46,12 @@ Simple2R3::Simple2R3(const DeviceSettings& given)
   counts_physical_sense_ = firmware() <= 140;
   boot_ticks_ = chose(option("boot_time", "100ms")) ? 100 : chose(option("boot_time", "1s")) ? 1000 : 0;
   state_.eeprom = factory_memory();
-  set_input(kFirstSwitch, settings().baud == simple2_r3::model().line.bauds.back() ? 1 : 0);  // DIP1
+  set_input(kFirstSwitch, Device::line_settings(0).baud == line_bauds().back() ? 1 : 0);  // DIP1
 }
 
 Addressing Simple2R3::addressing(std::uint8_t address) const {
   if (now() + 1 < state_.first_tick) return Addressing::ignore;  // not up yet
-  const int rotary_switch = settings().address;
+  const int rotary_switch = *station_number();
   if (rotary_switch == 0) {
     return address == 0 && chose(option("switch_0_broadcast", "silent")) ? Addressing::obey_silently
                                                                          : Addressing::obey_and_reply;
@@ -76,9 +76,11 @@ MapPolicy Simple2R3::chosen_map_policy() const {
   return policy;
 }
 
-pty::LineSettings Simple2R3::line_settings() const {
-  pty::LineSettings line = Device::line_settings();
-  line.baud = Device::model().line.bauds[dip_switch(0) ? 1 : 0];
+std::span<const int> Simple2R3::line_bauds() const { return Device::model().line.ports.front().bauds; }
+
+pty::LineSettings Simple2R3::line_settings(std::size_t port) const {
+  pty::LineSettings line = Device::line_settings(port);
+  line.baud = line_bauds()[dip_switch(0) ? 1 : 0];
   return line;
 }
 

@@ -129,6 +129,7 @@ class Simple2R3 final : public Device,
 
   RegisterBank* register_bank() override { return this; }
   const RegisterBank* register_bank() const override { return this; }
+  ModbusStation* modbus() override { return this; }
   const ModbusStation* modbus() const override { return this; }
   KeptMemory* memory() override { return this; }
   const KeptMemory* memory() const override { return this; }
@@ -158,7 +159,7 @@ class Simple2R3 final : public Device,
   std::string program_text() const override;
 
   Addressing addressing(std::uint8_t address) const override;
-  pty::LineSettings line_settings() const override;
+  pty::LineSettings line_settings(std::size_t port) const override;
 
   void sample_inputs(Tick tick) override;
   void run_interpreters(Tick tick) override;
@@ -251,6 +252,7 @@ class Simple2R3 final : public Device,
   void read_memory(const NvImage& image) override;
 
  private:
+  std::span<const int> line_bauds() const;
   /// DIP1 is number 0.
   bool dip_switch(int number) const;
   std::uint8_t switch_levels() const;

@@ -25,6 +25,11 @@ constexpr std::array<std::string_view, 2> kGaps{
 };
 
 constexpr std::array<int, 2> kBauds{19200, 115200};  // DIP1 off, on
+constexpr std::array<PortRow, 1> kPorts{
+    PortRow{.kind = PortRow::Kind::rs485,
+            .name = "RS485",
+            .bauds = kBauds,
+            .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1}}};
 constexpr std::array<std::uint8_t, 4> kFunctions{0x03, 0x04, 0x06, 0x10};
 
 using Kind = TerminalRow::Kind;
@@ -130,8 +135,7 @@ const Model& model() {
       .state_registers = kStateRegisters,
       .gaps = kGaps,
       .line = {.protocol = kModbusRtu,
-               .bauds = kBauds,
-               .settings = {.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1},
+               .ports = kPorts,
                .station_numbers = StationNumbers{0, 15}},             // rotary switch 0: every station number
       .rtu = RtuRules{.end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
                       .functions = kFunctions},

@@ -9,9 +9,9 @@
 //
 // What is running stays at the head until it is done. Jogs and thrust are not queued.
 //
-// Coordinates, distances and path speeds are in user units, angles in degrees, modules 0 .. 7, outputs 1 .. 4
-// as the commands have them. All commands come between ticks and answer with Error::none, or refuse and
-// change nothing.
+// Coordinates, distances and path speeds are in user units, VM and VJ in RPM or RPS as FU says, angles in
+// degrees, modules 0 .. 7, outputs 1 .. 4 as the commands have them. All commands come between ticks and
+// answer with Error::none, or refuse and change nothing.
 #pragma once
 
 #include <array>
@@ -129,9 +129,9 @@ class Chain {
   Error set_scale(int module, std::int64_t multiplier, std::int64_t divider);
   Error set_pulses_per_revolution(int module, std::int32_t pulses);
   Error set_speed_unit(int module, SpeedUnit unit);
-  Error set_working_speed(int module, double speed);  // ends AVM
-  Error set_jog_speed(int module, double speed);
-  Error set_acceleration(int module, double acceleration);
+  Error set_working_speed(int module, double rpm_or_rps);  // ends AVM
+  Error set_jog_speed(int module, double rpm_or_rps);
+  Error set_acceleration(int module, double rpm_or_rps_per_s);
   Error set_path_speed(int module, double units_s);          // PR3 of one, and of the path that it is on
   Error set_line_speed(int module, double units_s);          // PR4, by choice the same for lines of two axes
   Error set_tvm(double units_s);                             // of all linked ones, and at once

@@ -1,9 +1,18 @@
 // Commands of one module.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
-#include "motion/bad_motion.h"
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/pauses.h"
+#include "motion/axis.h"
+#include "motion/move.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -1,9 +1,17 @@
 // Commands of several modules together.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
 #include "motion/bad_motion.h"
+#include "motion/path.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -3,7 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/choices.h"
+#include "emulator/models/slim/fifo.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/outputs.h"
 #include "emulator/models/slim/parameters.h"
 
 namespace understudy {
@@ -16,8 +27,9 @@ void demand_coordinate(double units) {
   demand_state(std::abs(units) <= 1e16, "a coordinate is beyond reach");
 }
 
-void demand_speed(double speed) {
-  demand_state(speed >= kLeastSpeed && speed <= kMostSpeed, "a speed is beyond its range");
+// Or an acceleration, each in its own unit.
+void demand_speed(double value) {
+  demand_state(value >= kLeastSpeed && value <= kMostSpeed, "a speed is beyond its range");
 }
 
 }  // namespace

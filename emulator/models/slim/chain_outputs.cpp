@@ -1,7 +1,16 @@
 // Outputs of a module, in their turn and at once.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/outputs.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::slim {
 

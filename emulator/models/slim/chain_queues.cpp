@@ -1,9 +1,21 @@
 // The FIFOs: what starts, when.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/homing_tables.h"
+#include "motion/move.h"
+#include "motion/path.h"
+#include "motion/path_run.h"
+#include "motion/ramp.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -1,17 +1,26 @@
 // Settings, inputs and what can be asked.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/outputs.h"
 #include "emulator/models/slim/parameters.h"
+#include "motion/axis.h"
 #include "motion/bad_motion.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::slim {
 
 namespace {
 
-bool plannable(double speed) { return speed >= kLeastSpeed && speed <= kMostSpeed; }
+// Of a speed or an acceleration, in its own unit.
+bool plannable(double value) { return value >= kLeastSpeed && value <= kMostSpeed; }
 
 }  // namespace
 
@@ -43,30 +52,30 @@ Error Chain::set_speed_unit(int module, SpeedUnit unit) {
   return Error::none;
 }
 
-Error Chain::set_working_speed(int module, double speed) {
-  if (!plannable(speed)) return Error::range;
+Error Chain::set_working_speed(int module, double rpm_or_rps) {
+  if (!plannable(rpm_or_rps)) return Error::range;
   Module& mine = modules_[at(module)];
-  mine.settings.working_speed = speed;
+  mine.settings.working_speed = rpm_or_rps;
   mine.analog_speed = false;
   if (mine.starved || options_.chose(option("new_speed", "at_once"))) refresh_speed(module);
   serve(now_ + 1);  // a move may have waited for AVM's voltage
   return Error::none;
 }
 
-Error Chain::set_jog_speed(int module, double speed) {
-  if (speed != 0 && !plannable(std::abs(speed))) return Error::range;
+Error Chain::set_jog_speed(int module, double rpm_or_rps) {
+  if (rpm_or_rps != 0 && !plannable(std::abs(rpm_or_rps))) return Error::range;
   Module& mine = modules_[at(module)];
-  const bool same_sense = speed * mine.settings.jog_speed > 0;
-  mine.settings.jog_speed = speed;
+  const bool same_sense = rpm_or_rps * mine.settings.jog_speed > 0;
+  mine.settings.jog_speed = rpm_or_rps;
   const bool at_once = options_.chose(option("new_speed", "at_once"));
   // A jog that is to turn round, or to stand, is another one.
   if (mine.activity == Activity::jog && at_once && same_sense) refresh_speed(module);
   return Error::none;
 }
 
-Error Chain::set_acceleration(int module, double acceleration) {
-  if (!plannable(acceleration)) return Error::range;
-  modules_[at(module)].settings.acceleration = acceleration;
+Error Chain::set_acceleration(int module, double rpm_or_rps_per_s) {
+  if (!plannable(rpm_or_rps_per_s)) return Error::range;
+  modules_[at(module)].settings.acceleration = rpm_or_rps_per_s;
   return Error::none;
 }
 

@@ -1,7 +1,18 @@
 // The tick, and when there need not be one.
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "base/simulated_time.h"
+#include "emulator/device/machine_ahead.h"
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/outputs.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -1,7 +1,18 @@
 // Pausing, going on, discarding, stopping; and what AVM does to speeds.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/simulated_time.h"
 #include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/pauses.h"
+#include "motion/axis.h"
+#include "motion/move.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -1,9 +1,25 @@
 // What SLIM's commands do to the chain, for typed ones and a program's alike.
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 
 #include "base/complete_table.h"
 #include "emulator/models/slim/actions.h"
+#include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/meetings.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
+#include "interpreter/slim/editor.h"
+#include "interpreter/slim/events.h"
+#include "interpreter/slim/flow.h"
+#include "interpreter/slim/machine.h"
 #include "interpreter/slim/verbs.h"
 
 namespace understudy::emulator::models::slim {

@@ -1,8 +1,25 @@
 // SLIM's dialogue: what becomes of a line, and what is answered.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "emulator/device/text/text_speaker.h"
+#include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/options.h"
+#include "interpreter/slim/availability.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
+#include "interpreter/slim/editor.h"
+#include "interpreter/slim/events.h"
+#include "interpreter/slim/flow.h"
+#include "interpreter/slim/parse.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 
 #include "motion/bad_motion.h"
+#include "motion/path.h"
+#include "motion/path_run.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -21,8 +25,8 @@ int Job::modules() const {
 namespace {
 
 /// So many turns as its growth takes from one radius to the other, to the left.
-double sweep_to_radius(const Job& spiral, double begin_radius) {
-  const double turns = (spiral.sweep_deg - begin_radius) / spiral.growth_units_turn;
+double sweep_to_radius(const Job& spiral, double begin_radius_units) {
+  const double turns = (spiral.sweep_deg - begin_radius_units) / spiral.growth_units_turn;
   motion::demand_not_negative(spiral.sweep_deg, "spiral", "its last radius");
   motion::demand_not_negative(turns, "spiral", "its sweep");
   return turns * 2 * std::numbers::pi;

@@ -1,10 +1,20 @@
 #include "emulator/models/slim/memory.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/parameters.h"
+#include "interpreter/slim/command_row.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -1,12 +1,25 @@
 #include "emulator/models/slim/model.h"
 
 #include <array>
+#include <cstddef>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/device/text/text_device.h"
+#include "emulator/models/slim/choices.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/parameters.h"
+#include "interpreter/slim/availability.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -14,6 +27,7 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};  // the manual names none
 constexpr std::array<int, 5> kBauds{9600, 19200, 38400, 57600, 115200};
+constexpr std::array<PortRow, 1> kPorts{port_of_text(kBauds)};
 
 constexpr SectionRow kSections[] = {
     {"程式/立即", "program, immediate"},
@@ -124,7 +138,7 @@ const Model& model() {
       .axes = names.axes,
       .state_registers = kStateNames,
       .gaps = kGaps,
-      .line = line_of_text(kBauds),
+      .line = line_of_text(kPorts),
       .most_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);

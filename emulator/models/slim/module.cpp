@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/options.h"
+#include "motion/move.h"
+#include "motion/ramp.h"
 
 namespace understudy::emulator::models::slim {
 
@@ -13,8 +19,8 @@ constexpr double kFarthest_pulses = 4'503'599'627'370'496.0;  // 2^52
 /// No module is that fast; faster, and a century of jogging could not be counted.
 constexpr double kFastest_pps = 1e9;
 
-double pulses_a_second(const ModuleSettings& settings, double speed) {
-  const double rps = settings.speed_unit == SpeedUnit::rps ? speed : speed / 60;
+double pulses_a_second(const ModuleSettings& settings, double rpm_or_rps) {
+  const double rps = settings.speed_unit == SpeedUnit::rps ? rpm_or_rps : rpm_or_rps / 60;
   return std::min(rps * settings.pulses_per_revolution, kFastest_pps);
 }
 
@@ -25,12 +31,12 @@ double path_slope(const ModuleSettings& settings) {
                     kFastest_pps);
 }
 
-motion::SpeedLaw trapezoid(const ModuleSettings& settings, double speed, const ChainOptions& options) {
+motion::SpeedLaw trapezoid(const ModuleSettings& settings, double rpm_or_rps, const ChainOptions& options) {
   const double slope = options.chose(option("single_axis_profile", "trapezoid_with_tva"))
                            ? path_slope(settings)
                            : pulses_a_second(settings, settings.acceleration);
   const auto ramp = motion::RampLaw::by_slope(slope);
-  return {.top_speed_u_s = pulses_a_second(settings, speed), .up = ramp, .down = ramp};
+  return {.top_speed_u_s = pulses_a_second(settings, rpm_or_rps), .up = ramp, .down = ramp};
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/simulated_time.h"
+
 namespace understudy::emulator::models::slim {
 
 namespace {

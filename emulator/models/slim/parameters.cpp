@@ -1,7 +1,12 @@
 #include "emulator/models/slim/parameters.h"
 
 #include <cmath>
+#include <optional>
+#include <string_view>
 
+#include "emulator/models/slim/errors.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
 #include "interpreter/slim/parse.h"
 #include "interpreter/slim/verbs.h"
 

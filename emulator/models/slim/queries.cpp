@@ -1,12 +1,33 @@
 // What SLIM's queries answer.
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/complete_table.h"
+#include "base/simulated_time.h"
+#include "emulator/device/choices.h"
+#include "emulator/device/device.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/models/slim/actions.h"
+#include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/parameters.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/commands.h"
+#include "interpreter/slim/editor.h"
+#include "interpreter/slim/events.h"
+#include "interpreter/slim/parse.h"
 #include "interpreter/slim/text_of.h"
 
 namespace understudy::emulator::models::slim {

@@ -1,12 +1,21 @@
 // SLIM's state as bytes, and back.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "base/state/difference.h"
-#include "emulator/models/slim/chain_fields.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/memory.h"
+#include "emulator/models/slim/parameters.h"
 #include "emulator/models/slim/state_fields.h"
-#include "interpreter/slim/state_fields.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/flow.h"
 
 namespace understudy {
 

@@ -1,8 +1,22 @@
 // SLIM's variables, parameters and what is kept of them.
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
+#include "emulator/device/device.h"
+#include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/memory.h"
+#include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/parameters.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -14,6 +14,7 @@
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/lint/finding.h"
+#include "emulator/world/stations/server.h"
 #include "emulator/world/world.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
@@ -35,12 +36,31 @@ SimTime one_and_a_half_characters(const pty::LineSettings& settings) {
 
 int number_at(std::span<const std::uint8_t> bytes, std::size_t at) { return bytes[at] << 8 | bytes[at + 1]; }
 
-/// The words that a request writes, in bytes; none if it is not a write.
-std::span<const std::uint8_t> written(std::span<const std::uint8_t> frame) {
-  if (frame.size() == 8 && frame[1] == 0x06) return frame.subspan(4, 2);
-  const bool is_several = frame.size() > 9 && frame[1] == 0x10 && frame.size() == 9U + frame[6] &&
-                          frame[6] == 2 * number_at(frame, 4);
-  return is_several ? frame.subspan(7, frame[6]) : std::span<const std::uint8_t>();
+/// The words or bits that a request writes; none if it is not a write, or is not whole.
+LineManners::Written written(std::span<const std::uint8_t> frame) {
+  LineManners::Written made;
+  if (frame.size() < 8) return made;
+  const auto* const row =
+      std::find_if(std::begin(world::kModbusFunctions), std::end(world::kModbusFunctions),
+                   [&](const world::FunctionRow& function) { return function.code == frame[1]; });
+  if (row == std::end(world::kModbusFunctions) || row->kind == world::FunctionRow::Kind::read) return made;
+  made.table = row->table;
+  made.first = number_at(frame, 2);
+  const bool is_bits = is_table_of_bits(row->table);
+  if (row->kind == world::FunctionRow::Kind::write_one) {
+    constexpr int kOn = 0xFF00;
+    const int value = number_at(frame, 4);
+    if (frame.size() == 8) made.values = {static_cast<std::uint16_t>(is_bits ? value == kOn : value)};
+    return made;
+  }
+  const auto count = static_cast<std::size_t>(number_at(frame, 4));
+  const std::size_t bytes = is_bits ? (count + 7) / 8 : 2 * count;
+  if (frame[6] != bytes || frame.size() != 9 + bytes) return made;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int value = is_bits ? frame[7 + i / 8] >> i % 8 & 1 : number_at(frame, 7 + 2 * i);
+    made.values.push_back(static_cast<std::uint16_t>(value));
+  }
+  return made;
 }
 
 }  // namespace
@@ -135,7 +155,7 @@ void LineManners::judge_times(std::span<const Character> frame) {
 void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at) {
   const std::uint8_t station = frame[0];
   asked_ = Asked{.station = station, .function = frame[1], .at = at, .worn = {}};
-  const auto values = written(frame);
+  const Written write = written(frame);
   bool is_there = false;
   bool will_be_answered = false;
   for (const auto& present : world_.line(number_).stations) {
@@ -145,7 +165,7 @@ void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at)
     if (addressing == Addressing::ignore) continue;
     is_there = true;
     will_be_answered = will_be_answered || addressing == Addressing::obey_and_reply;
-    if (!values.empty() && device.powered()) judge_write(device, number_at(frame, 2), values, at);
+    if (!write.values.empty() && device.powered()) judge_write(device, write, at);
   }
   if (!is_there) find(Manner::absent, std::to_string(station)).add(at);
   if (will_be_answered) return;
@@ -153,16 +173,15 @@ void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at)
   asked_.reset();
 }
 
-void LineManners::judge_write(const Device& device, int first, std::span<const std::uint8_t> values,
-                              SimTime at) {
+void LineManners::judge_write(const Device& device, const Written& write, SimTime at) {
   const RegisterBank& bank = *device.register_bank();
   const RegisterRow* last_row = nullptr;
   int last_index = 0;
-  for (std::size_t i = 0; 2 * i < values.size(); ++i) {
-    const auto address = static_cast<std::uint16_t>(first + static_cast<int>(i));
-    const Place place = bank.at(Table::holding, address);
+  for (std::size_t i = 0; i < write.values.size(); ++i) {
+    const auto address = static_cast<std::uint16_t>(write.first + static_cast<int>(i));
+    const Place place = bank.at(write.table, address);
     if (!place) continue;
-    const std::string name = device.name() + "." + RegisterMap::name_of(*place.row, place.index);
+    const std::string name = device.name() + "." + bank.map().unique_name(*place.row, place.index);
     // A register of two words counts once.
     const bool is_second_word = place.row == last_row && place.index == last_index;
     last_row = place.row;
@@ -171,11 +190,11 @@ void LineManners::judge_write(const Device& device, int first, std::span<const s
       if (!is_second_word) find(Manner::read_only, name).add(at);
       continue;
     }
-    if (!bank.keeps(*place.row)) continue;
+    if (!bank.keeps(*place.row) || place.slot == Place::kNoSlot) continue;
     const std::uint32_t bits = bank.image()[static_cast<std::size_t>(place.slot)];
     const auto present = static_cast<std::uint16_t>(place.part == Place::Part::high ? bits >> 16 : bits);
     const bool is_listed = !asked_->worn.empty() && asked_->worn.back() == name;
-    if (present != number_at(values, 2 * i) && !is_listed) asked_->worn.push_back(name);
+    if (present != write.values[i] && !is_listed) asked_->worn.push_back(name);
   }
 }
 

@@ -27,6 +27,13 @@ class LineManners final : public pty::LineObserver {
   SimTime silence() const { return silence_; }
   SimTime longest_gap() const { return longest_gap_; }
 
+  /// What a request writes: words, or bits.
+  struct Written {
+    Table table = Table::holding;
+    int first = 0;
+    std::vector<std::uint16_t> values{};
+  };
+
   void on_start_bit(SimTime at) override {
     framer_.start_bit(at);
     under_way_ = at;
@@ -55,7 +62,7 @@ class LineManners final : public pty::LineObserver {
   Finding& find(Manner manner, std::string subject = {}) { return findings_[{manner, std::move(subject)}]; }
   void judge_times(std::span<const Character> frame);
   void judge_request(std::span<const std::uint8_t> frame, SimTime at);
-  void judge_write(const Device& device, int first, std::span<const std::uint8_t> values, SimTime at);
+  void judge_write(const Device& device, const Written& write, SimTime at);
   void carried_out(const Asked& asked);
 
   world::World& world_;

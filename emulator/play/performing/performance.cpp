@@ -94,11 +94,9 @@ Performance::Eyes::Eyes(world::World& of, bool with_hash)
       hash(with_hash ? std::make_unique<world::OutcomeHash>(of) : nullptr) {}
 
 Performance::Performance(const Scenario& scenario, std::unique_ptr<Stage> stage, bool with_hash)
-    : stage_(std::move(stage)), places_(scenario.bench.devices.size()) {
-  for (std::size_t i = 0; i < scenario.bench.lines.size(); ++i) {
-    for (const std::size_t device : scenario.bench.lines[i].stations) {
-      places_[device] = {i, scenario.bench.devices[device].settings.address};
-    }
+    : stage_(std::move(stage)), bench_(scenario.bench), lines_(scenario.bench.devices.size()) {
+  for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
+    for (const world::StationSetup& station : bench_.lines[i].stations) lines_[station.device].push_back(i);
   }
   keeps_peaks_ = names_peaks(scenario.steps);
   stage_->with_world([&](world::World& world) {

@@ -83,6 +83,7 @@ class Performance {
   struct Place {
     std::size_t line = 0;
     int station = 0;
+    std::string on_line{};  // " on line rs485", for messages, where the device is on several
   };
 
   // performance_line.cpp: over the line
@@ -92,7 +93,9 @@ class Performance {
   void perform(const TextStep& step);  // performance_text.cpp
   /// Reads the words of each target, one after the other.
   std::vector<std::vector<std::uint16_t>> read_over_line(const std::vector<Target>& targets,
-                                                         const Answer& answer);
+                                                         const Answer& answer, const Via& via);
+  /// Where a device is spoken to, by the station number that it has at this moment.
+  Place spoken_to(std::size_t device, const Via& via);
   void demand(const HostReply& reply, const Answer& answer, const std::string& what);
   void demand_silence(const Place& place, const std::vector<std::uint8_t>& request, SimTime within,
                       const std::string& what);
@@ -118,6 +121,7 @@ class Performance {
 
   // performance_outside.cpp: what is done to the bench
   void perform(const InputStep& step);
+  void perform(const TurnStep& step);
   void perform(const InjectStep& step);
   void perform(const ClearStep& step);
   void perform(const PowerStep& step);
@@ -133,7 +137,8 @@ class Performance {
   Failure explain_failure(const StepError& error);
 
   std::unique_ptr<Stage> stage_;
-  std::vector<Place> places_;  // by device
+  const world::Bench& bench_;
+  std::vector<std::vector<std::size_t>> lines_;  // on which each device is
   std::unique_ptr<Eyes> eyes_;
   bool keeps_peaks_ = false;
   const Step* step_ = nullptr;                               // the one that is played

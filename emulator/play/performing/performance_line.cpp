@@ -1,5 +1,4 @@
 // Steps over the line: write, expect, send.
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,14 +19,11 @@ namespace understudy::emulator::play {
 
 namespace {
 
-Value demand_whole(const std::string& name, world::Number number) {
-  if (number.is_whole()) return number.whole();
-  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
-  const double real = number.real();
-  if (std::abs(real) > kLargest || std::floor(real) != real) {
-    throw StepError(name + ": " + world::number_text(number) + " is not a whole number; expected one");
-  }
-  return static_cast<Value>(real);
+Value demand_fitting(const Target& target, world::Number number) {
+  if (const auto value = value_for(target, number)) return *value;
+  const bool is_real = target.place && target.place->is_real();
+  throw StepError(target.name + ": " + world::number_text(number) +
+                  (is_real ? " is more than a single can hold" : " is not a whole number; expected one"));
 }
 
 std::string to_text(const HostReply& reply) {
@@ -79,14 +75,19 @@ void Performance::demand_silence(const Place& place, const std::vector<std::uint
   demand(judge_reply(request, reply), {.silence = within}, what);
 }
 
+Performance::Place Performance::spoken_to(std::size_t device, const Via& via) {
+  Place place{.line = via.value_or(lines_[device].front())};
+  if (lines_[device].size() > 1) place.on_line = " on line " + bench_.lines[place.line].name;
+  stage_->with_world(
+      [&](world::World& world) { place.station = world.device(device).station_number().value_or(0); });
+  return place;
+}
+
 std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
                                              std::vector<bool>& low_word_first) {
   std::vector<Words> words;
   stage_->with_world([&](world::World& world) {
     for (const Target& target : targets) {
-      if (target.place && target.place->place.row->table != Table::holding) {
-        throw StepError(target.name + ": is not a holding register; expected one");
-      }
       low_word_first.push_back(world.device(target.device).register_bank()->low_word_first());
       words.push_back(words_of(target, low_word_first.back()));
     }
@@ -95,20 +96,21 @@ std::vector<Words> Performance::words_of_all(const std::vector<Target>& targets,
 }
 
 std::vector<std::vector<std::uint16_t>> Performance::read_over_line(const std::vector<Target>& targets,
-                                                                    const Answer& answer) {
+                                                                    const Answer& answer, const Via& via) {
   std::vector<bool> low_word_first;
   const std::vector<Words> words = words_of_all(targets, low_word_first);
   std::vector<std::vector<std::uint16_t>> read(targets.size());
   for (const Request& request : read_requests(words)) {
-    const Place& place = places_[request.words.device];
-    const std::string what = "read " + names_of(targets, request);
+    const Place place = spoken_to(request.words.device, via);
+    const std::string what = "read " + names_of(targets, request) + place.on_line;
     if (answer.silence) {
-      demand_silence(place, read_request(place.station, request.words.first, request.words.count),
-                     *answer.silence, what);
+      demand_silence(
+          place, read_request(place.station, request.words.table, request.words.first, request.words.count),
+          *answer.silence, what);
       continue;
     }
-    const HostReply reply =
-        stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
+    const HostReply reply = stage_->read(place.line, place.station, request.words.table, request.words.first,
+                                         request.words.count);
     demand(reply, answer, what);
     if (answer.exception) continue;
     for (const std::size_t entry : request.entries) {
@@ -127,32 +129,32 @@ void Performance::perform(const WriteStep& step) {
     for (const WriteStep::Entry& entry : step.entries) {
       const world::Number value =
           world::evaluate(world::parse_expression(entry.value, eyes_->probes), eyes_->probes);
-      values.push_back(demand_whole(entry.target.name, value));
+      values.push_back(demand_fitting(entry.target, value));
     }
   });
   std::vector<bool> low_word_first;
   const std::vector<Words> words = words_of_all(targets, low_word_first);
   for (const Request& request : write_requests(words, [&](std::size_t i) { return is_bit(targets[i]); })) {
-    const Place& place = places_[request.words.device];
-    const std::string what = "write " + names_of(targets, request);
+    const Place place = spoken_to(request.words.device, step.via);
+    const std::string what = "write " + names_of(targets, request) + place.on_line;
     std::vector<std::uint16_t> brought;
     for (const std::size_t entry : request.entries) {
       std::vector<std::uint16_t> present;
       if (is_bit(targets[entry])) {
-        const HostReply reply =
-            stage_->read_registers(place.line, place.station, request.words.first, request.words.count);
-        demand(reply, {}, "read " + targets[entry].name + " to write it");
+        const HostReply reply = stage_->read(place.line, place.station, request.words.table,
+                                             request.words.first, request.words.count);
+        demand(reply, {}, "read " + targets[entry].name + place.on_line + " to write it");
         present = reply.words;
       }
       const auto part = words_with(targets[entry], values[entry], low_word_first[entry], present);
       brought.insert(brought.end(), part.begin(), part.end());
     }
     if (step.answer.silence) {
-      demand_silence(place, write_request(place.station, request.words.first, brought), *step.answer.silence,
-                     what);
+      demand_silence(place, write_request(place.station, request.words.table, request.words.first, brought),
+                     *step.answer.silence, what);
     } else {
-      demand(stage_->write_registers(place.line, place.station, request.words.first, brought), step.answer,
-             what);
+      demand(stage_->write(place.line, place.station, request.words.table, request.words.first, brought),
+             step.answer, what);
     }
   }
 }
@@ -164,28 +166,33 @@ void Performance::perform(const ExpectStep& step) {
   }
   std::vector<bool> low_word_first;
   words_of_all(targets, low_word_first);
-  const auto words = read_over_line(targets, step.answer);
+  const auto words = read_over_line(targets, step.answer, step.via);
   if (!step.answer.is_good()) return;
   std::vector<std::string> expected;
   std::vector<std::string> came;
   std::vector<std::string> details;
   std::size_t next = 0;  // of those that were read
   for (const auto& [target, wanted] : step.entries) {
-    world::Number value;
+    std::string told;
+    bool holds = false;
+    const auto look = [&, &wanted = wanted](world::Number value) {
+      told = world::number_text(value);
+      holds = wanted.holds(value);
+    };
     if (target.is_value) {
       stage_->with_world([&, &name = target.name](world::World&) {
-        value = world::evaluate(world::parse_expression(name, eyes_->probes), eyes_->probes);
+        look(world::evaluate(world::parse_expression(name, eyes_->probes), eyes_->probes));
       });
     } else {
-      const Value came_back = value_in(target, words[next], low_word_first[next]);
-      value = target.place && target.place->is_real() ? world::Number(number_of(*target.place, came_back))
-                                                      : world::Number(came_back);
+      told = "not a number";
+      if (const auto number = number_of(target, value_in(target, words[next], low_word_first[next])))
+        look(*number);
       ++next;
     }
-    if (wanted.holds(value)) continue;
+    if (holds) continue;
     expected.push_back(target.name + " = " + wanted.text);
-    came.push_back(target.name + " = " + world::number_text(value));
-    details.push_back(target.name + " is " + world::number_text(value) + "; expected " + wanted.text);
+    came.push_back(target.name + " = " + told);
+    details.push_back(target.name + " is " + told + "; expected " + wanted.text);
   }
   if (details.empty()) return;
   throw StepError(details.front(), joined(expected), joined(came), {details.begin() + 1, details.end()});

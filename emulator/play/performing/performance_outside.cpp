@@ -119,6 +119,12 @@ void Performance::perform(const InputStep& step) {
   });
 }
 
+void Performance::perform(const TurnStep& step) {
+  stage_->with_world([&](world::World& world) {
+    for (const world::Fault& turn : step.turns) world.inject(turn);
+  });
+}
+
 void Performance::perform(const InjectStep& step) {
   stage_->with_world([&](world::World& world) { faults_.emplace_back(step.name, world.inject(step.fault)); });
 }

@@ -35,7 +35,10 @@ class PolledRegisters final : public world::NameResolver, public world::ValueSou
     targets_.push_back({.device = found.device, .name = std::string(name), .place = found.place});
     return {static_cast<std::int32_t>(targets_.size() - 1), world::Unit::none};
   }
-  world::Number value(std::int32_t handle) const override { return values[static_cast<std::size_t>(handle)]; }
+  world::Number value(std::int32_t handle) const override {
+    const auto i = static_cast<std::size_t>(handle);
+    return number_of(targets_[i], values[i]).value_or(0);
+  }
 
   const std::vector<Target>& targets() const { return targets_; }
   std::vector<Value> values;
@@ -152,7 +155,7 @@ Tick Performance::poll_for(const WaitStep& step) {
     registers.values.clear();
     std::vector<bool> low_word_first;
     words_of_all(registers.targets(), low_word_first);
-    const auto words = read_over_line(registers.targets(), {});
+    const auto words = read_over_line(registers.targets(), {}, step.via);
     throw_if_broken();
     for (std::size_t i = 0; i < words.size(); ++i) {
       registers.values.push_back(value_in(registers.targets()[i], words[i], low_word_first[i]));

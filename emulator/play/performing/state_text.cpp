@@ -47,27 +47,23 @@ std::string registers_text(const Device& device) {
 }
 
 /// The device reads its inputs at each tick: until then the register of an input has the level before.
-bool is_read_later(const Device& device, const TerminalRow& row, std::int32_t level) {
-  if (row.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
+bool is_read_later(const Device& device, const TerminalSight& sight, std::int64_t level) {
+  if (sight.kind != TerminalRow::Kind::digital_in || !device.powered()) return false;
   const RegisterBank* const bank = device.register_bank();
-  const auto place = bank != nullptr ? bank->find(row.name) : std::nullopt;
+  const auto place = bank != nullptr ? bank->find(sight.name) : std::nullopt;
   return place && read_value(*bank, *place) != level;
 }
 
 std::string terminals_text(const Device& device) {
   std::string text;
-  const auto terminals = device.model().terminals;
-  for (std::size_t i = 0; i < terminals.size(); ++i) {
-    const bool is_output = !is_input(terminals[i].kind);
-    const auto number = static_cast<int>(i);
-    const std::int32_t level =
-        is_output ? (device.terminals()->output(number) ? 1 : 0) : device.input(number);
-    if (level == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::string(terminals[i].name);
-    const world::Unit unit =
-        terminals[i].kind == TerminalRow::Kind::analog_in ? world::Unit::millivolts : world::Unit::none;
-    text += is_analog(terminals[i].kind) ? " " + world::number_text(world::Number(level), unit) : " on";
-    if (is_read_later(device, terminals[i], level)) text += " (to be read at the next tick)";
+  for (const TerminalSight& sight : terminal_sights(device)) {
+    const std::int64_t value = value_of(device, sight);
+    if (value == 0) continue;
+    text += (text.empty() ? "" : ", ") + sight.name;
+    const bool is_level = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
+    const world::Unit unit = is_in_millivolts(sight.kind) ? world::Unit::millivolts : world::Unit::none;
+    text += is_level ? " on" : " " + world::number_text(world::Number(value), unit);
+    if (is_level && is_read_later(device, sight, value)) text += " (to be read at the next tick)";
   }
   return text;
 }

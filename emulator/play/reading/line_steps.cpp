@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,10 +46,27 @@ Answer read_answer(const world::YamlFields& step) {
   return answer;
 }
 
-/// "write feeder.A=1, feeder.B=2", and "(exception 3)" or "(no reply)" behind it.
+/// Of a step about these entries.
+template <typename Entries>
+Via read_via(const StepsReader& reader, const world::YamlFields& step, const Entries& entries) {
+  const auto field = step.find(kViaKey.key);
+  if (!field) return std::nullopt;
+  std::vector<std::size_t> devices;
+  for (const auto& entry : entries) {
+    if (entry.target.is_value)
+      field->fail(entry.target.name + " is not a register, and is read without the line; expected no `via`");
+    devices.push_back(entry.target.device);
+  }
+  return reader.trial().line_of_all(*field, devices);
+}
+
+/// "write feeder.A=1, feeder.B=2", and "via rs485", "(exception 3)" or "(no reply)" behind it.
 struct Sentence {
   std::string text;
   bool is_first = true;
+  void add_via(const world::YamlFields& step) {
+    if (const auto via = step.find(kViaKey.key)) text += " via " + via->text();
+  }
   void add(const std::string& part) {
     text += (is_first ? " " : ", ") + part;
     is_first = false;
@@ -118,6 +136,8 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
     sentence.add(name + "=" + world::on_one_line(what));
     write.entries.push_back({.target = std::move(target), .value = std::move(what)});
   }
+  write.via = read_via(reader, step, write.entries);
+  sentence.add_via(step);
   const std::string text = sentence.finished(write.answer);
   reader.add(step, text, std::move(write));
 }
@@ -136,6 +156,8 @@ void read_expect(StepsReader& reader, const world::YamlFields& step, const world
     sentence.add(name + ": " + wanted.text);
     expect.entries.push_back({.target = std::move(target), .value = std::move(wanted)});
   }
+  expect.via = read_via(reader, step, expect.entries);
+  sentence.add_via(step);
   const std::string text = sentence.finished(expect.answer);
   reader.add(step, text, std::move(expect));
 }

@@ -49,6 +49,21 @@ void read_inputs(StepsReader& reader, const world::YamlFields& step, const world
   reader.add(step, text, std::move(inputs));
 }
 
+void read_turn(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  TurnStep turn;
+  std::string text = "turn";
+  const auto entries = demand_entries(value, "mill.MPG: 400, in: 2s");
+  const auto in = value.find("in");
+  for (const auto& [name, field] : entries) {
+    if (name == "in") continue;
+    text += (turn.turns.empty() ? " " : ", ") + name + " by " + field.text();
+    turn.turns.push_back(reader.trial().turn(field, in ? &*in : nullptr, name));
+  }
+  if (turn.turns.empty()) value.fail("turns nothing; expected something such as `{ mill.MPG: 400, in: 2s }`");
+  if (in) text += " in " + in->text();
+  reader.add(step, text, std::move(turn));
+}
+
 void read_inject(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
   InjectStep inject;
   inject.fault = reader.trial().fault(value, "name");

@@ -11,16 +11,19 @@ namespace understudy::emulator::play {
 inline constexpr world::Form kExceptionForm = world::integer_form(1, 255);
 inline constexpr std::array<std::string_view, 1> kNothing{"nothing"};
 inline constexpr world::Form kNothingForm = world::words_form(kNothing);
+inline constexpr world::KeyRow kViaKey{
+    "via", "The line, where a device is on several; by default the first of them.", &world::kText};
 inline constexpr std::array kAnswerKeys{
     world::KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm},
     world::KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
-    world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}};
+    world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}, kViaKey};
 
 inline constexpr std::array kWaitKeys{
     world::KeyRow{"until", "The condition, looked at in every tick without the line.", &world::kText, true},
     world::KeyRow{"within", "It fails if this is not long enough.", &world::kDuration, true},
     world::KeyRow{"takes", "How long it takes from the last write: 3050ms +- 2ms, 1s..2s.", &world::kText},
-    world::KeyRow{"poll", "Reads the registers over the line this often instead.", &world::kDuration}};
+    world::KeyRow{"poll", "Reads the registers over the line this often instead.", &world::kDuration},
+    kViaKey};
 inline constexpr world::Form kWaitForm = world::keys_form(kWaitKeys);
 
 inline constexpr std::array<const world::Form*, 2> kAssertWays{&world::kText, &world::kTextList};

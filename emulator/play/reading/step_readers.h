@@ -34,6 +34,7 @@ void read_say(StepsReader& reader, const world::YamlFields& step, const world::Y
 
 // outside_steps.cpp
 void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
+void read_turn(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_inject(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_clear(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_power(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);

@@ -40,6 +40,9 @@ std::span<const StepRow> step_rows() {
       // From outside.
       StepRow{{"input", "Sets inputs, analog inputs and switches on the housing.", &world::kTextByName},
               read_inputs},
+      StepRow{
+          {"turn", "Turns hand wheels and what else is counted, so far, `in` a time.", &world::kTextByName},
+          read_turn},
       StepRow{{"inject", "Breaks something.", &kInjectForm}, read_inject, {}, StepRow::Names::gives},
       StepRow{{"clear", "Mends it: the fault's name, or `all`.", &world::kText},
               read_clear,

@@ -1,5 +1,6 @@
 #include "emulator/play/reading/trial.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,6 +21,7 @@
 #include "emulator/world/bench_file/complaints.h"
 #include "emulator/world/bench_file/disturbance_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/check_fault.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
@@ -74,6 +76,26 @@ std::size_t Trial::line(const world::YamlFields& field, const std::string& name)
   field.fail("no line is called " + quoted(name) + suggestion(name, names));
 }
 
+std::size_t Trial::line_of_all(const world::YamlFields& field,
+                               const std::vector<std::size_t>& devices) const {
+  const std::size_t number = line(field, field.text());
+  for (const std::size_t device : devices) {
+    std::string lines;
+    bool is_there = false;
+    for (std::size_t i = 0; i < bench_.lines.size(); ++i) {
+      const auto& stations = bench_.lines[i].stations;
+      if (std::none_of(stations.begin(), stations.end(),
+                       [&](const auto& its) { return its.device == device; }))
+        continue;
+      is_there = is_there || i == number;
+      lines += (lines.empty() ? "" : " or ") + bench_.lines[i].name;
+    }
+    if (!is_there)
+      field.fail(known()[device].name + " is not on line " + quoted(field.text()) + "; expected " + lines);
+  }
+  return number;
+}
+
 Target Trial::target(const world::YamlFields& field, const std::string& written) const {
   Target target;
   target.name = written;
@@ -91,17 +113,20 @@ Target Trial::target(const world::YamlFields& field, const std::string& written)
       target.is_value = true;
       return target;
     }
-    if (rest.empty() || rest.front() < '0' || rest.front() > '9') {
+    const auto table = table_called(rest.substr(0, rest.find('.')));
+    const std::string number = table ? rest.substr(rest.find('.') + 1) : rest;
+    if (number.empty() || number.front() < '0' || number.front() > '9') {
       const world::RegisterName found = world::find_register(known(), name);
       target.device = found.device;
       target.place = found.place;
       return target;
     }
     if (rest == name) world::find_device(known(), known().size() == 1 ? "" : name.substr(0, dot));
-    const auto address = parse_integer(rest);
+    const auto address = parse_integer(number);
     if (!address || *address > UINT16_MAX) {
-      field.fail(quoted(rest) + " is not a register number; expected 0 to 0xFFFF");
+      field.fail(quoted(number) + " is not a register number; expected 0 to 0xFFFF");
     }
+    target.table = table.value_or(Table::holding);
     target.address = static_cast<std::uint16_t>(*address);
     return target;
   } catch (const world::NameError& error) {
@@ -138,20 +163,26 @@ std::string Trial::changing_condition(const world::YamlFields& field) const {
   return condition.text;
 }
 
-void Trial::demand_registers_only(const world::YamlFields& field) const {
+std::vector<std::size_t> Trial::demand_registers_only(const world::YamlFields& field) const {
+  std::vector<std::size_t> devices;
   for (const world::Expression::Name& name : expression(field).names) {
     try {
-      world::find_register(known(), plain_name(field, name.spelling));
+      devices.push_back(world::find_register(known(), plain_name(field, name.spelling)).device);
     } catch (const world::NameError&) {
       field.fail(quoted(name.spelling) + " cannot be polled; expected registers only");
     }
   }
+  return devices;
 }
 
 std::string Trial::value_to_write(const world::YamlFields& field, const Target& target,
                                   bool is_refused) const {
   const world::Expression value = expression(field);
   const RegisterRow* const row = target.place ? target.place->place.row : nullptr;
+  if (!can_be_sent(target)) {
+    field.fail(target.name + " cannot be written; no function writes to the table '" +
+               std::string(to_string(table_of(target))) + "'");
+  }
   if (row != nullptr && row->access == Access::read && !is_refused) {
     field.fail(target.name +
                " cannot be written; it is read-only (expected `exception:` where that is meant)");
@@ -161,19 +192,27 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   const auto out_of = [&](const std::string& range) {
     field.fail(world::number_text(number) + " is out of range for " + target.name + "; expected " + range);
   };
-  if (!number.is_whole()) field.fail(world::number_text(number) + " is not a whole number; expected one");
+  const auto fitting = value_for(target, number);
+  const bool is_real = target.place && target.place->is_real();
+  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a single can hold");
+  if (!fitting) field.fail(world::number_text(number) + " is not a whole number; expected one");
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
                          target.place->place.part == Place::Part::whole && !is_refused;
-  if (is_judged && (number.whole() < row->min || number.whole() > row->max)) out_of(range_text(*row));
+  if (is_real) {
+    const float real = real_of(*fitting);
+    if (is_judged && (real < real_of(row->min) || real > real_of(row->max))) out_of(range_text(*row));
+    return value.text;
+  }
+  if (is_judged && (*fitting < row->min || *fitting > row->max)) out_of(range_text(*row));
   const Limits limits = limits_of(target);
-  if (number.whole() < limits.low || number.whole() > limits.high) out_of(to_text(limits));
+  if (*fitting < limits.low || *fitting > limits.high) out_of(to_text(limits));
   return value.text;
 }
 
 world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Target& target) const {
   try {
     world::Tolerance value = world::parse_tolerance(field.text());
-    if (target.is_value) return value;
+    if (target.is_value || (target.place && target.place->is_real())) return value;
     const Limits limits = limits_of(target);
     if ((value.low && *value.low > world::Number(limits.high)) ||
         (value.high && *value.high < world::Number(limits.low))) {
@@ -208,6 +247,21 @@ world::Fault Trial::fault(const world::YamlFields& field, std::string_view other
   world::demand_possible(field, world_, fault, complaints);
   complaints.throw_if_any();
   return *fault;
+}
+
+world::Fault Trial::turn(const world::YamlFields& field, const world::YamlFields* in,
+                         const std::string& place) const {
+  world::FaultText text{.kind = "turn", .place = place, .fields = {{"counts", field.text()}}};
+  if (in != nullptr) text.fields.emplace_back("in", in->text());
+  try {
+    const world::Fault fault = world::find_fault(known(), text);
+    world::check_fault(world_, fault);
+    return fault;
+  } catch (const world::FaultFieldError& error) {
+    (error.field == "in" ? *in : field).fail(error.complaint);
+  } catch (const world::NameError& error) {
+    field.fail(error.what());
+  }
 }
 
 void Trial::demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const {

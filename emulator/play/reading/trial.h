@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench_file/yaml_fields.h"
@@ -29,8 +30,10 @@ class Trial {
   std::string condition(const world::YamlFields& field) const;
   /// One that can change: it names something.
   std::string changing_condition(const world::YamlFields& field) const;
-  /// One that a host could evaluate by reading registers.
-  void demand_registers_only(const world::YamlFields& field) const;
+  /// One that a host could evaluate by reading registers; the devices that have them.
+  std::vector<std::size_t> demand_registers_only(const world::YamlFields& field) const;
+  /// The line that a field names, on which all of these devices are.
+  std::size_t line_of_all(const world::YamlFields& field, const std::vector<std::size_t>& devices) const;
   /// A value to be written to a register. It may be out of the register's range if the write is to be refused
   /// (`is_refused`).
   std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
@@ -40,6 +43,9 @@ class Trial {
                       const std::string& name) const;
   /// A fault that this world can have: what it waits for exists. `other_key` is for others.
   world::Fault fault(const world::YamlFields& field, std::string_view other_key) const;
+  /// The fault `turn` at a place that `field` names, in a time that `in` says (null: none).
+  world::Fault turn(const world::YamlFields& field, const world::YamlFields* in,
+                    const std::string& place) const;
   void demand_memory(const world::YamlFields& field, std::size_t device, const NvImage& image) const;
 
  private:

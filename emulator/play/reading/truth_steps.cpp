@@ -1,5 +1,6 @@
 // Steps that look, without the line: wait, advance, assert, always, never, end, reset, say.
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -74,8 +75,14 @@ void read_wait(StepsReader& reader, const world::YamlFields& step, const world::
       value.at("poll").fail(format_duration(*wait.poll) +
                             " is less than any request takes; expected 1ms or more");
     }
-    reader.trial().demand_registers_only(value.at("until"));
+    const std::vector<std::size_t> devices = reader.trial().demand_registers_only(value.at("until"));
     text += ", polled every " + format_duration(*wait.poll);
+    if (const auto via = value.find(kViaKey.key)) {
+      wait.via = reader.trial().line_of_all(*via, devices);
+      text += " via " + via->text();
+    }
+  } else if (const auto via = value.find(kViaKey.key)) {
+    via->fail("belongs to `poll`: without it nothing is read over a line; expected `poll` beside it");
   }
   reader.add(step, text, std::move(wait));
 }

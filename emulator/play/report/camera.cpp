@@ -37,15 +37,15 @@ Camera::Camera(world::World& world) : world_(world), probes_(world) {
       for (const char* word : {".home", ".lower_limit", ".upper_limit", ".alarm"}) {
         add_sight(axis + word, Kind::bit);
       }
+      const world::PlantSetup& machine = world.machine(d, static_cast<int>(a));
+      if (machine.near_home) add_sight(axis + ".near_home", Kind::bit);
+      if (machine.mark) add_sight(axis + ".mark", Kind::bit);
     }
-    for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
-      const TerminalRow& row = device.model->terminals[t];
-      if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      if (!world.device(d).terminals()->has_terminal(static_cast<int>(t))) continue;
-      const Kind kind = row.kind == TerminalRow::Kind::analog_in       ? Kind::voltage
-                        : row.kind == TerminalRow::Kind::analog_number ? Kind::level
-                                                                       : Kind::bit;
-      add_sight(device.name + "." + std::string(row.name), kind);
+    for (const TerminalSight& sight : terminal_sights(world.device(d))) {
+      if (sight.kind == TerminalRow::Kind::dip_switch) continue;
+      const bool is_bit = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
+      const Kind kind = is_in_millivolts(sight.kind) ? Kind::voltage : is_bit ? Kind::bit : Kind::level;
+      add_sight(device.name + "." + sight.name, kind);
     }
     add_sight(device.name + ".power", Kind::bit);
   }

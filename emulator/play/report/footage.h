@@ -17,8 +17,8 @@ struct SeenSignal {
     pulses,    // that an axis has sent
     speed,     // by plan, in pulses a second
     duty,      // of an axis that drives by PWM, in percent
-    voltage,   // of an analog input, in volts
-    level,     // of an analog input without a unit
+    voltage,   // of an analog input or output, in volts
+    level,     // of an analog input without a unit, a group of terminals, a count
     bit,       // an input, an output, a switch, power
   } kind = Kind::bit;
   struct Point {

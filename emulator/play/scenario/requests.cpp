@@ -1,6 +1,7 @@
 #include "emulator/play/scenario/requests.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -8,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/stations/server.h"
 
 namespace understudy::emulator::play {
 
@@ -28,10 +31,26 @@ std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first)
   return low_word_first ? first | second << 16 : second | first << 16;
 }
 
+using Kind = world::FunctionRow::Kind;
+
+/// How many a request may read or write at once (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+int most_of(Table table, Kind kind) {
+  const world::FunctionRow* const function = world::function_for(table, kind);
+  return function != nullptr ? function->most : 1;
+}
+
+bool is_of_one_table(const Words& a, const Words& b) { return a.device == b.device && a.table == b.table; }
+
 }  // namespace
 
+Table table_of(const Target& target) { return target.place ? target.place->place.row->table : target.table; }
+
+bool can_be_sent(const Target& target) {
+  return world::function_for(table_of(target), Kind::write_one) != nullptr;
+}
+
 Limits limits_of(const Target& target) {
-  if (!target.place) return {0, UINT16_MAX};
+  if (!target.place) return {0, is_table_of_bits(target.table) ? 1 : UINT16_MAX};
   if (target.place->bit >= 0) return {0, (Value{1} << target.place->width) - 1};
   if (target.place->place.part != Place::Part::whole) return {0, UINT16_MAX};
   const TypeLimits limits = emulator::limits_of(target.place->place.row->type);
@@ -39,12 +58,13 @@ Limits limits_of(const Target& target) {
 }
 
 Words words_of(const Target& target, bool low_word_first) {
-  if (!target.place) return {target.device, target.address, 1};
+  const Table table = table_of(target);
+  if (!target.place) return {target.device, table, target.address, 1};
   const Place& place = target.place->place;
-  if (is_whole_32(target)) return {target.device, place.address(), 2};
+  if (is_whole_32(target)) return {target.device, table, place.address(), 2};
   const bool is_second =
       place.part != Place::Part::whole && (place.part == Place::Part::high) == low_word_first;
-  return {target.device, static_cast<std::uint16_t>(place.address() + (is_second ? 1 : 0)), 1};
+  return {target.device, table, static_cast<std::uint16_t>(place.address() + (is_second ? 1 : 0)), 1};
 }
 
 std::vector<Request> read_requests(std::span<const Words> entries) {
@@ -54,8 +74,8 @@ std::vector<Request> read_requests(std::span<const Words> entries) {
     if (!requests.empty()) {
       Words& last = requests.back().words;
       const int end = std::max(last.end(), next.end());
-      if (next.device == last.device && next.first >= last.first && next.first <= last.end() &&
-          end - last.first <= kMostWordsToRead) {
+      if (is_of_one_table(next, last) && next.first >= last.first && next.first <= last.end() &&
+          end - last.first <= most_of(next.table, Kind::read)) {
         last.count = end - last.first;
         requests.back().entries.push_back(i);
         continue;
@@ -75,8 +95,8 @@ std::vector<Request> write_requests(std::span<const Words> entries,
     const bool is_alone = stands_alone(i);
     if (is_open && !is_alone) {
       Words& last = requests.back().words;
-      if (next.device == last.device && next.first == last.end() &&
-          last.count + next.count <= kMostWordsToWrite) {
+      if (is_of_one_table(next, last) && next.first == last.end() &&
+          last.count + next.count <= most_of(next.table, Kind::write_several)) {
         last.count += next.count;
         requests.back().entries.push_back(i);
         continue;
@@ -86,6 +106,22 @@ std::vector<Request> write_requests(std::span<const Words> entries,
     is_open = !is_alone;
   }
   return requests;
+}
+
+std::optional<world::Number> number_of(const Target& target, Value value) {
+  if (!target.place || !target.place->is_real()) return value;
+  const double number = emulator::number_of(*target.place, value);
+  if (std::isnan(number)) return std::nullopt;
+  return world::finite_number(number);
+}
+
+std::optional<Value> value_for(const Target& target, world::Number number) {
+  if (target.place && target.place->is_real()) return value_of_number(*target.place, number.real());
+  if (number.is_whole()) return number.whole();
+  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  const double real = number.real();
+  if (std::abs(real) > kLargest || std::floor(real) != real) return std::nullopt;
+  return static_cast<Value>(real);
 }
 
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first) {

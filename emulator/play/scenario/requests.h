@@ -4,20 +4,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/world/expression/number.h"
 
 namespace understudy::emulator::play {
 
-inline constexpr int kMostWordsToRead = 125;   // of one request
-inline constexpr int kMostWordsToWrite = 123;  // (MODBUS Application Protocol V1.1b3, 6.3 and 6.12)
-
-/// Consecutive words of one device.
+/// Consecutive words of one device; in tables of bits, bits.
 struct Words {
   std::size_t device = 0;
+  Table table = Table::holding;
   std::uint16_t first = 0;
   int count = 0;
 
@@ -26,6 +26,11 @@ struct Words {
 
 /// Whether one bit of a register is meant: the other bits are read before it is written.
 inline bool is_bit(const Target& target) { return target.place && target.place->bit >= 0; }
+
+/// The table that a target is in.
+Table table_of(const Target& target);
+/// Whether there is a function that writes to it.
+bool can_be_sent(const Target& target);
 
 /// Where a target lies. `low_word_first`: as its device has it at this moment. A bit lies where its register
 /// does.
@@ -50,6 +55,11 @@ struct Limits {
   Value high = 0;
 };
 Limits limits_of(const Target& target);
+
+/// A register's value as a number, a real one's too; none where the bits of a real are not a number.
+std::optional<world::Number> number_of(const Target& target, Value value);
+/// The value that a number is there; none: a fraction for a whole number, or more than a single can hold.
+std::optional<Value> value_for(const Target& target, world::Number number);
 
 /// What the words of a target say.
 Value value_in(const Target& target, std::span<const std::uint16_t> words, bool low_word_first);

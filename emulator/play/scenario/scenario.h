@@ -21,13 +21,14 @@ namespace understudy::emulator::play {
 struct Step;
 using Steps = std::vector<Step>;
 
-/// A register as a host addresses it: by name (then `place` is set), or a 16-bit word by its number.
+/// A register or a bit as a host addresses it: by name (then `place` is set), or by its number in a table.
 struct Target {
   std::size_t device = 0;
   std::string name;  // as written: "feeder.Cord_A", "feeder.0x1014"
   std::optional<NamedPlace> place{};
-  std::uint16_t address = 0;  // where there is no place; a holding register
-  bool is_value = false;      // of a device without registers: looked at past the line
+  Table table = Table::holding;  // where there is no place, and
+  std::uint16_t address = 0;     // the number in it
+  bool is_value = false;         // of a device without registers: looked at past the line
 };
 
 /// How a device must answer each request of a step: done, an exception, or nothing.
@@ -36,6 +37,9 @@ struct Answer {
   std::optional<SimTime> silence{};  // for how long nothing may come
   bool is_good() const { return !exception && !silence; }
 };
+
+/// On which line a step speaks to its devices, `via: LINE` beside it; none: on the first that each is on.
+using Via = std::optional<std::size_t>;
 
 /// write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Move_INC: 1 }, and exception: 3 beside it where the
 /// device is to refuse, or reply: nothing where no answer may come. Over the line, in this order; ascending
@@ -47,6 +51,7 @@ struct WriteStep {
   };
   std::vector<Entry> entries;
   Answer answer{};
+  Via via{};
 };
 
 /// expect: { feeder.Cord_A: 32000, feeder.STATUS.4: 0 }, read over the line; exception, reply: as for write.
@@ -57,15 +62,17 @@ struct ExpectStep {
   };
   std::vector<Entry> entries;
   Answer answer{};
+  Via via{};
 };
 
-/// wait: { until: EXPRESSION, within: 4s, takes: 3050ms +- 2ms, poll: 20ms }
+/// wait: { until: EXPRESSION, within: 4s, takes: 3050ms +- 2ms, poll: 20ms, via: rs485 }
 struct WaitStep {
   std::string until;
   SimTime within{0};
   std::optional<world::Tolerance> takes;
   /// The names in `until` are read over the line this often; without it every tick is looked at.
   std::optional<SimTime> poll;
+  Via via{};  // where they are read
 };
 
 struct AdvanceStep {
@@ -91,6 +98,11 @@ struct EndSpanStep {
 /// input: { feeder.DIN_10: on, feeder.AIN_A: 2.5V }
 struct InputStep {
   std::vector<world::InputSetup> inputs;
+};
+
+/// turn: { mill.MPG: 400, in: 2s }: hand wheels, and what else is counted
+struct TurnStep {
+  std::vector<world::Fault> turns;
 };
 
 /// inject: { stall: feeder.A, name: NAME }
@@ -175,8 +187,8 @@ struct Step {
   int line = 0;
   std::string text;  // what it does, on one line: "write feeder.Aaxis_SVON=1"
   std::variant<WriteStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep, InputStep,
-               InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep, MemoryStep, SnapshotStep,
-               RestoreStep, ForkStep, ResetPeaksStep, SayStep>
+               TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep, MemoryStep,
+               SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
       what;
 };
 

@@ -143,13 +143,13 @@ bool FreeStage::run_until(const std::function<bool(world::World&)>& is_there, Si
   return look.is_over;
 }
 
-HostReply FreeStage::read_registers(std::size_t line, int station, std::uint16_t first, int count) {
-  return ask(*hosts_[line], read_request(station, first, count));
+HostReply FreeStage::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
+  return ask(*hosts_[line], read_request(station, table, first, count));
 }
 
-HostReply FreeStage::write_registers(std::size_t line, int station, std::uint16_t first,
-                                     std::span<const std::uint16_t> words) {
-  return ask(*hosts_[line], write_request(station, first, words));
+HostReply FreeStage::write(std::size_t line, int station, Table table, std::uint16_t first,
+                           std::span<const std::uint16_t> words) {
+  return ask(*hosts_[line], write_request(station, table, first, words));
 }
 
 HostReply FreeStage::ask(Host& host, const std::vector<std::uint8_t>& request) {

@@ -109,17 +109,35 @@ HostReply LibmodbusHost::judge(int result) {
   return reply;
 }
 
-HostReply LibmodbusHost::read_registers(int station, std::uint16_t first, int count) {
+int LibmodbusHost::read_bits(Table table, std::uint16_t first, std::vector<std::uint16_t>& words) {
+  const auto read = table == Table::coil ? modbus_read_bits : modbus_read_input_bits;
+  std::vector<std::uint8_t> bits(words.size());
+  const int result = read(context_.get(), first, static_cast<int>(bits.size()), bits.data());
+  words.assign(bits.begin(), bits.end());
+  return result;
+}
+
+int LibmodbusHost::write_bits(std::uint16_t first, std::span<const std::uint16_t> words) {
+  if (words.size() == 1) return modbus_write_bit(context_.get(), first, words[0]);
+  std::vector<std::uint8_t> bits;
+  for (const std::uint16_t word : words) bits.push_back(word != 0 ? 1 : 0);
+  return modbus_write_bits(context_.get(), first, static_cast<int>(bits.size()), bits.data());
+}
+
+HostReply LibmodbusHost::read(int station, Table table, std::uint16_t first, int count) {
   begin_request(station);
   std::vector<std::uint16_t> words(static_cast<std::size_t>(count));
-  HostReply reply = judge(modbus_read_registers(context_.get(), first, count, words.data()));
+  const auto read_words = table == Table::input ? modbus_read_input_registers : modbus_read_registers;
+  HostReply reply = judge(is_table_of_bits(table) ? read_bits(table, first, words)
+                                                  : read_words(context_.get(), first, count, words.data()));
   if (reply.kind == HostReply::Kind::good) reply.words = std::move(words);
   return reply;
 }
 
-HostReply LibmodbusHost::write_registers(int station, std::uint16_t first,
-                                         std::span<const std::uint16_t> words) {
+HostReply LibmodbusHost::write(int station, Table table, std::uint16_t first,
+                               std::span<const std::uint16_t> words) {
   begin_request(station);
+  if (table == Table::coil) return judge(write_bits(first, words));
   return judge(words.size() == 1 ? modbus_write_register(context_.get(), first, words[0])
                                  : modbus_write_registers(context_.get(), first,
                                                           static_cast<int>(words.size()), words.data()));
@@ -132,7 +150,7 @@ std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::Wa
   const timespec patience{.tv_sec = rest.count() / 1'000'000'000, .tv_nsec = rest.count() % 1'000'000'000};
   if (ppoll(&port, 1, &patience, nullptr) <= 0) return 0;
   std::array<std::uint8_t, 512> part;
-  const ssize_t size = read(port.fd, part.data(), part.size());
+  const ssize_t size = ::read(port.fd, part.data(), part.size());
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
   if (size <= 0) throw pty::PortError(port_ + ": has hung up; expected a port that stays");
   bytes.insert(bytes.end(), part.begin(), part.begin() + size);
@@ -142,7 +160,7 @@ std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::Wa
 void LibmodbusHost::write_all(std::span<const std::uint8_t> bytes) {
   const int port = modbus_get_socket(context_.get());
   while (!bytes.empty()) {
-    const ssize_t size = write(port, bytes.data(), bytes.size());
+    const ssize_t size = ::write(port, bytes.data(), bytes.size());
     if (size > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(size));
       continue;

@@ -25,8 +25,8 @@ class LibmodbusHost {
   LibmodbusHost(const LibmodbusHost&) = delete;
   LibmodbusHost& operator=(const LibmodbusHost&) = delete;
 
-  HostReply read_registers(int station, std::uint16_t first, int count);
-  HostReply write_registers(int station, std::uint16_t first, std::span<const std::uint16_t> words);
+  HostReply read(int station, Table table, std::uint16_t first, int count);
+  HostReply write(int station, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
   /// Raw bytes, without libmodbus; see Stage::exchange(). `sending`: how long they are on the line.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);
@@ -45,6 +45,8 @@ class LibmodbusHost {
   void begin_request(int station);
   HostReply judge(int result);
   void keep_silence() const;
+  int read_bits(Table table, std::uint16_t first, std::vector<std::uint16_t>& words);
+  int write_bits(std::uint16_t first, std::span<const std::uint16_t> words);
   std::size_t read_some(std::vector<std::uint8_t>& bytes, serve::WallTime until) const;
 
   std::string port_;

@@ -5,18 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "emulator/play/stages/stage.h"
+#include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::play {
 
 namespace {
 
-constexpr std::uint8_t kReadHolding = 0x03;
-constexpr std::uint8_t kWriteOne = 0x06;
-constexpr std::uint8_t kWriteSeveral = 0x10;
 constexpr std::uint8_t kException = 0x80;
 constexpr std::size_t kExceptionSize = 5;
 
@@ -29,33 +28,71 @@ std::size_t word_at(std::span<const std::uint8_t> frame, std::size_t at) {
   return static_cast<std::size_t>(frame[at] << 8 | frame[at + 1]);
 }
 
+using world::FunctionRow;
+constexpr std::uint16_t kOn = 0xFF00;
+
+const FunctionRow& demand_function(Table table, FunctionRow::Kind kind) {
+  if (const FunctionRow* const row = world::function_for(table, kind)) return *row;
+  throw std::logic_error("no function writes to inputs; expected coils or holding registers");
+}
+
+/// The function of a request that reads; null for one that writes.
+const FunctionRow* reading_function(std::uint8_t code) {
+  for (const FunctionRow& row : world::kModbusFunctions) {
+    if (row.code == code && row.kind == FunctionRow::Kind::read) return &row;
+  }
+  return nullptr;
+}
+
+std::size_t bytes_for(Table table, std::size_t count) {
+  return is_table_of_bits(table) ? (count + 7) / 8 : 2 * count;
+}
+
+void put_data(std::vector<std::uint8_t>& frame, Table table, std::span<const std::uint16_t> words) {
+  if (!is_table_of_bits(table)) {
+    for (const std::uint16_t word : words) put_word(frame, word);
+    return;
+  }
+  const std::size_t begin = frame.size();
+  frame.resize(begin + bytes_for(table, words.size()));
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] != 0) frame[begin + i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
+  }
+}
+
 }  // namespace
 
-std::vector<std::uint8_t> read_request(int station, std::uint16_t first, int count) {
-  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station), kReadHolding};
+std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t first, int count) {
+  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station),
+                                  demand_function(table, FunctionRow::Kind::read).code};
   put_word(frame, first);
   put_word(frame, static_cast<std::size_t>(count));
   pty::append_rtu_crc(frame);
   return frame;
 }
 
-std::vector<std::uint8_t> write_request(int station, std::uint16_t first,
+std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t first,
                                         std::span<const std::uint16_t> words) {
   const bool is_single = words.size() == 1;
-  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station), is_single ? kWriteOne : kWriteSeveral};
+  const auto kind = is_single ? FunctionRow::Kind::write_one : FunctionRow::Kind::write_several;
+  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station), demand_function(table, kind).code};
   put_word(frame, first);
-  if (!is_single) {
+  if (is_single) {
+    put_word(frame, !is_table_of_bits(table) ? words[0] : words[0] != 0 ? kOn : 0);
+  } else {
     put_word(frame, words.size());
-    frame.push_back(static_cast<std::uint8_t>(2 * words.size()));
+    frame.push_back(static_cast<std::uint8_t>(bytes_for(table, words.size())));
+    put_data(frame, table, words);
   }
-  for (const std::uint16_t word : words) put_word(frame, word);
   pty::append_rtu_crc(frame);
   return frame;
 }
 
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) {
   if (reply.size() >= 2 && (reply[1] & kException) != 0) return kExceptionSize;
-  if (request[1] == kReadHolding) return 5 + 2 * word_at(request, 4);
+  if (const FunctionRow* const row = reading_function(request[1])) {
+    return 5 + bytes_for(row->table, word_at(request, 4));
+  }
   return 8;  // the beginning of the request, and a checksum
 }
 
@@ -70,11 +107,14 @@ HostReply judge_reply(std::span<const std::uint8_t> request, std::span<const std
   if ((reply[1] & kException) != 0) {
     made.kind = HostReply::Kind::exception;
     made.exception = reply[2];
-  } else if (request[1] == kReadHolding) {
-    if (reply[2] != 2 * word_at(request, 4)) return made;
+  } else if (const FunctionRow* const row = reading_function(request[1])) {
+    const std::size_t count = word_at(request, 4);
+    if (reply[2] != bytes_for(row->table, count)) return made;
     made.kind = HostReply::Kind::good;
-    for (std::size_t i = 0; i < word_at(request, 4); ++i) {
-      made.words.push_back(static_cast<std::uint16_t>(word_at(reply, 3 + 2 * i)));
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t value =
+          is_table_of_bits(row->table) ? reply[3 + i / 8] >> i % 8 & 1U : word_at(reply, 3 + 2 * i);
+      made.words.push_back(static_cast<std::uint16_t>(value));
     }
   } else if (std::equal(request.begin(), request.begin() + 6, reply.begin())) {
     made.kind = HostReply::Kind::good;

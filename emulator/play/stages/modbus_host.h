@@ -9,9 +9,9 @@
 
 namespace understudy::emulator::play {
 
-std::vector<std::uint8_t> read_request(int station, std::uint16_t first, int count);
-/// Function 06 for one word, 16 for more.
-std::vector<std::uint8_t> write_request(int station, std::uint16_t first,
+std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t first, int count);
+/// Functions 05 and 06 for one coil or holding register, 0F and 10 for more. A word for each bit.
+std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t first,
                                         std::span<const std::uint16_t> words);
 
 /// How many bytes a host that has sent `request`, and has received `reply` so far, waits for.

@@ -222,13 +222,13 @@ LibmodbusHost& RealStage::host(std::size_t line) {
   return *hosts_[line];
 }
 
-HostReply RealStage::read_registers(std::size_t line, int station, std::uint16_t first, int count) {
-  return host(line).read_registers(station, first, count);
+HostReply RealStage::read(std::size_t line, int station, Table table, std::uint16_t first, int count) {
+  return host(line).read(station, table, first, count);
 }
 
-HostReply RealStage::write_registers(std::size_t line, int station, std::uint16_t first,
-                                     std::span<const std::uint16_t> words) {
-  return host(line).write_registers(station, first, words);
+HostReply RealStage::write(std::size_t line, int station, Table table, std::uint16_t first,
+                           std::span<const std::uint16_t> words) {
+  return host(line).write(station, table, first, words);
 }
 
 std::vector<std::uint8_t> RealStage::exchange(std::size_t line, std::span<const std::uint8_t> bytes,

@@ -24,7 +24,7 @@ struct HostReply {
     garbled,    // bytes that are not an answer to it
   } kind = Kind::silence;
   int exception = 0;
-  std::vector<std::uint16_t> words;  // what was read
+  std::vector<std::uint16_t> words;  // what was read; a bit each where it was bits
   std::vector<std::uint8_t>
       bytes;  // as they came, checksum and all (free time), or what the host made of them
 };
@@ -35,9 +35,10 @@ class Stage {
 
   // --- the host: as a master on a line, one request at a time, t3.5 and `gap` after whatever was on it
   // before Each call lasts, in simulated time, until the reply has come or time runs out.
-  virtual HostReply read_registers(std::size_t line, int station, std::uint16_t first, int count) = 0;
-  virtual HostReply write_registers(std::size_t line, int station, std::uint16_t first,
-                                    std::span<const std::uint16_t> words) = 0;
+  virtual HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) = 0;
+  /// To coils or holding registers.
+  virtual HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
+                          std::span<const std::uint16_t> words) = 0;
   /// Sends raw bytes; returns what comes back until there are `wanted` bytes, or `within` has passed.
   virtual std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                              std::size_t wanted, SimTime within) = 0;

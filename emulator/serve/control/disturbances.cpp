@@ -12,6 +12,7 @@
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/check_fault.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/trigger.h"
 #include "emulator/world/names/level.h"
@@ -93,6 +94,25 @@ Json input_message(Daemon& daemon, const Json& message) {
   for (const world::InputSetup& input : wanted) {
     daemon.world().set_external_input(input.device, input.terminal, input.level);
   }
+  return Json{{"ok", true}};
+}
+
+Json turn_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "values", "in"});
+  const Json& values = demand(message, "values");
+  if (!values.is_object() || values.empty()) {
+    throw MessageError("values: expected an object of names and counts");
+  }
+  daemon.catch_up();
+  std::vector<world::Fault> turns;
+  for (const auto& [name, value] : values.items()) {
+    world::FaultText text{
+        .kind = "turn", .place = name, .fields = {{"counts", std::to_string(demand_integer(value, name))}}};
+    if (message.contains("in")) text.fields.emplace_back("in", demand_text(message, "in"));
+    turns.push_back(world::find_fault(daemon.world().known(), text));
+    world::check_fault(daemon.world(), turns.back());
+  }
+  for (const world::Fault& turn : turns) daemon.world().inject(turn);
   return Json{{"ok", true}};
 }
 

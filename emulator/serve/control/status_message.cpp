@@ -50,7 +50,9 @@ Json line_status(const Daemon& daemon, const Port& port) {
   for (const auto& station : line.stations) {
     Json entry{{"device", station->device().name()}};
     const Device& device = station->device();
-    if (device.model().line.station_numbers) entry["address"] = device.settings().address;
+    const auto& ports = device.model().line.ports;
+    if (ports.size() > 1) entry["port"] = ports[station->port()].name;
+    if (const auto number = device.station_number()) entry["address"] = *number;
     entry["requests"] = station->counters().requests;
     entry["replies"] = station->counters().replies;
     entry["exceptions"] = station->counters().exceptions;
@@ -85,16 +87,16 @@ Json device_status(const world::World& world, std::size_t number) {
   if (device.powered()) status["registers"] = telling_registers(device);
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
-  for (std::size_t i = 0; i < device.model().terminals.size(); ++i) {
-    const TerminalRow& terminal = device.model().terminals[i];
-    const auto place = static_cast<int>(i);
-    if (!device.terminals()->has_terminal(place)) continue;
-    const std::string name(terminal.name);
-    if (is_input(terminal.kind)) {
-      status["inputs"][name] = device.input(place);
-    } else {
-      status["outputs"][name] = device.terminals()->output(place) ? 1 : 0;
-    }
+  // What is no level is apart, where there is any.
+  for (const TerminalSight& sight : terminal_sights(device)) {
+    const bool is_count =
+        sight.what == TerminalSight::What::pulses || sight.kind == TerminalRow::Kind::counted_in;
+    const bool is_word = sight.what == TerminalSight::What::word;
+    const char* const key = is_word                ? "groups"
+                            : is_count             ? "counts"
+                            : is_input(sight.kind) ? "inputs"
+                                                   : "outputs";
+    status[key][sight.name] = value_of(device, sight);
   }
   status["axes"] = Json::object();
   status["machines"] = Json::object();

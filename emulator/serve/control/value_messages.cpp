@@ -214,7 +214,12 @@ Json set_message(Daemon& daemon, const Json& message) {
                                           value_for(place, wanted[i]), writes[i]);
     demand_accepted(refusal, name, wanted[i].number.dump(), *place.place.place.row);
   }
-  for (std::size_t i = 0; i < writes.size(); ++i) world.write(places[i].device, writes[i]);
+  for (std::size_t i = 0; i < writes.size(); ++i) {
+    if (world.write(places[i].device, writes[i]) == Refusal::none) continue;
+    throw MessageError(wanted[i].name + " was not written: " +
+                       (i == 0 ? "the device" : "after what was named before it the device") +
+                       " does not take it now");
+  }
   for (const auto& [place, value] : values) world.assign(place.device, place.name, value);
   return Json{{"ok", true}};
 }

@@ -26,6 +26,8 @@ Json set_message(Daemon& daemon, const Json& message);
 
 /// {"do":"input","values":{"feeder.DIN_10":1,"feeder.AIN_A":"2.5V"}}
 Json input_message(Daemon& daemon, const Json& message);
+/// {"do":"turn","values":{"mill.MPG":400},"in":"2s"}; without a time at once
+Json turn_message(Daemon& daemon, const Json& message);
 /// {"do":"power","device":"feeder","to":"off"}, "on" or "cycle"
 Json power_message(Daemon& daemon, const Json& message);
 /// {"do":"program","device":"feeder","text":"..."}; without a text the reply brings the one there is

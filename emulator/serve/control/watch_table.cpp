@@ -109,6 +109,18 @@ void add_device(const Json& device, std::size_t columns, std::vector<std::string
   }
   add_levels("inputs", device.at("inputs"), columns, lines);
   add_levels("outputs", device.at("outputs"), columns, lines);
+  if (device.contains("groups")) {
+    Words words("groups", columns);
+    for (const auto& [name, word] : device.at("groups").items()) {
+      if (word != 0) words.add(name + formatted(" 0x%X", word.get<unsigned>()));
+    }
+    words.finish(lines);
+  }
+  if (device.contains("counts")) {
+    Words words("counts", columns);
+    for (const auto& [name, count] : device.at("counts").items()) words.add(name + " " + count.dump());
+    words.finish(lines);
+  }
 }
 
 }  // namespace

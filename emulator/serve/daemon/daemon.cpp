@@ -96,6 +96,7 @@ Daemon::~Daemon() {
   ports_.clear();
   memories_.reset();
   trace_.reset();
+  if (recording_) recording_->finish();
   recording_.reset();
   capture_.reset();
   if (signals_ >= 0) close(signals_);

@@ -1,6 +1,7 @@
 #include "emulator/world/bench/bench.h"
 
 #include <cmath>
+#include <utility>
 
 #include "base/text/parse_real.h"
 
@@ -13,10 +14,25 @@ KnownDevices known_devices_of(const Bench& bench) {
     known.push_back(
         {device.settings.name, device.model, firmware != 0 ? firmware : device.model->firmwares.back()});
   }
+  for (KnownDevice& device : known) device.lines.resize(device.model->line.ports.size());
   for (const LineSetup& line : bench.lines) {
-    for (const std::size_t device : line.stations) known[device].line = line.name;
+    for (const StationSetup& station : line.stations) known[station.device].lines[station.port] = line.name;
   }
   return known;
+}
+
+Bench bench_of_one(const Model& model, DeviceSettings settings, const std::string& link) {
+  Bench bench;
+  const auto ports = model.line.ports;
+  settings.bauds.resize(ports.size());
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    const std::string name(ports.size() == 1 ? "line" : ports[i].name);
+    const std::string behind = i == 0 || link.empty() ? "" : "." + std::string(ports[i].name);
+    bench.lines.push_back(
+        {.name = name, .link = link + behind, .baud = settings.bauds[i], .stations = {StationSetup(0, i)}});
+  }
+  bench.devices.push_back({.model = &model, .settings = std::move(settings)});
+  return bench;
 }
 
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text) {
@@ -39,6 +55,9 @@ int input_of(const AxisRow& axis, const PlantAxis& machine, Contact contact) {
     case Contact::upper_limit: return chosen(setup.upper_limit_input, axis.upper_limit_input);
     case Contact::alarm: return axis.alarm_input;
     case Contact::ready: return axis.ready_input;
+    case Contact::near_home: return chosen(setup.near_home->input, axis.near_home_input);
+    case Contact::mark: return chosen(setup.mark->input, axis.mark_input);
+    case Contact::index: return chosen(setup.index->input, axis.index_input);
   }
   return -1;
 }

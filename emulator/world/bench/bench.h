@@ -17,13 +17,22 @@
 
 namespace understudy::emulator::world {
 
+/// A device on a line, by one of its ports.
+struct StationSetup {
+  StationSetup(std::size_t device_number, std::size_t port_number = 0)  // NOLINT(*-explicit-*): most have one
+      : device(device_number), port(port_number) {}
+  std::size_t device;
+  std::size_t port;
+  bool operator==(const StationSetup&) const = default;
+};
+
 struct LineSetup {
   std::string name;
   std::string link;  // path of the link to its pty; empty: none
   int baud = 0;      // 0: the first station's factory speed
   pty::Timing timing = pty::Timing::wire;
   std::int64_t baud_tolerance_ppm = pty::kUsualBaudTolerancePpm;  // of a host's speed
-  std::vector<std::size_t> stations;                              // devices, in the order written
+  std::vector<StationSetup> stations;                             // in the order written
 };
 
 struct DeviceSetup {
@@ -69,6 +78,11 @@ struct Bench {
 
 /// The devices by name, with the lines that they stand on.
 KnownDevices known_devices_of(const Bench& bench);
+
+/// A bench of one device, with a line for each of its ports. `link` is that of the first; the others' have
+/// the port's name behind it. A device of one port is on the line "line", those of several are on lines that
+/// are called as the ports.
+Bench bench_of_one(const Model& model, DeviceSettings settings, const std::string& link);
 
 /// "2%", "0.5%", 0% to 10% in millionths; nothing if it is not such a share.
 std::optional<std::int64_t> parse_baud_tolerance(std::string_view text);

@@ -46,10 +46,14 @@ Json line_text(const Bench& bench, const LineSetup& line) {
     const std::string part = std::to_string(10'000 + line.baud_tolerance_ppm % 10'000).substr(1);
     text["baud_tolerance"] = std::to_string(line.baud_tolerance_ppm / 10'000) + "." + part + "%";
   }
-  for (const std::size_t device : line.stations) {
+  for (const auto& [device, port] : line.stations) {
     const DeviceSettings& settings = bench.devices[device].settings;
+    const LineRules& rules = bench.devices[device].model->line;
     Json station{{"device", settings.name}};
-    if (bench.devices[device].model->line.station_numbers) station["address"] = settings.address;
+    if (rules.ports.size() > 1) station["port"] = rules.ports[port].name;
+    const bool is_in_memory =
+        rules.station_numbers && !rules.station_numbers->kept_in.empty() && !settings.address;
+    if (rules.station_numbers && !is_in_memory) station["address"] = settings.address.value_or(1);
     text["stations"].push_back(std::move(station));
   }
   return text;
@@ -67,6 +71,16 @@ Json machine_text(const PlantSetup& plant, const Model& model) {
   }
   if (plant.home_opens) text["home"]["contact"] = "opens";
   if (plant.home_input >= 0) text["home"]["input"] = input(plant.home_input);
+  const auto add_switch = [&](const char* key, const std::optional<SwitchSetup>& its) {
+    if (!its) return;
+    text[key] = Json{{"at", its->on.first},
+                     {"width", its->on.last - its->on.first + 1},
+                     {"hysteresis", its->hysteresis_pulses}};
+    if (its->opens) text[key]["contact"] = "opens";
+    if (its->input >= 0) text[key]["input"] = input(its->input);
+  };
+  add_switch("near_home", plant.near_home);
+  add_switch("mark", plant.mark);
   if (plant.lower_limit) text["limits"]["lower"] = *plant.lower_limit;
   if (plant.upper_limit) text["limits"]["upper"] = *plant.upper_limit;
   if (plant.limit_hysteresis_pulses != 0) text["limits"]["hysteresis"] = plant.limit_hysteresis_pulses;
@@ -78,6 +92,11 @@ Json machine_text(const PlantSetup& plant, const Model& model) {
                            {"motor_pulses_per_revolution", plant.pulses_per_revolution},
                            {"reversed", plant.encoder_reversed}};
     if (plant.has_wheel) text["encoder"]["on"] = "wheel";
+    if (plant.index) {
+      Json& index = text["encoder"]["index"];
+      index = Json{{"at", plant.index->at}, {"width", plant.index->width}, {"period", plant.index->period}};
+      if (plant.index->input >= 0) index["input"] = input(plant.index->input);
+    }
   }
   if (plant.drive) {
     text["drive"] = Json{{"ready_after", std::to_string(plant.drive->ready_after) + "ms"},

@@ -1,9 +1,9 @@
 #include "emulator/world/bench_file/bench_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
@@ -15,6 +15,7 @@
 #include "emulator/world/bench_file/disturbance_fields.h"
 #include "emulator/world/bench_file/line_fields.h"
 #include "emulator/world/bench_file/machine_fields.h"
+#include "emulator/world/bench_file/station_fields.h"
 #include "emulator/world/bench_file/wire_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/names/names.h"
@@ -56,7 +57,9 @@ class BenchReader {
     read_part("seed", [&](const YamlFields& seed) {
       bench_.seed = static_cast<std::uint64_t>(seed.integer(kSeedForm));
     });
+    give_usual_addresses();
     check_devices();
+    check_addresses(numbered_, bench_, all_);
     read_disturbances(root);
   }
 
@@ -79,8 +82,10 @@ class BenchReader {
     if (device.model == nullptr) throw Untold();
     bench_.devices.push_back(std::move(device));
     names_.find_device_again(name);
-    device_fields_.push_back(fields);
-    on_a_line_.push_back(false);
+    const std::size_t ports = bench_.devices.back().model->line.ports.size();
+    places_.push_back({.device = fields});
+    places_.back().stations.resize(ports);
+    bench_.devices.back().settings.bauds.resize(ports);
     return bench_.devices.size() - 1;
   }
 
@@ -116,16 +121,16 @@ class BenchReader {
     all_.attempt([&] {
       if (const auto timing = fields.find("timing")) line.timing = read_timing(*timing);
     });
-    std::set<std::int64_t> addresses;
+    std::vector<NumberedStation>& numbered = numbered_.emplace_back();
     const auto stations = fields.at("stations").elements();
     if (stations.empty()) fields.at("stations").fail("is empty; expected at least one station");
     for (const YamlFields& station : stations) {
-      all_.attempt([&] { read_station(station, line, addresses); });
+      all_.attempt([&] { read_station(station, line, numbered); });
     }
     bench_.lines.push_back(std::move(line));
   }
 
-  void read_station(const YamlFields& station, LineSetup& line, std::set<std::int64_t>& addresses) {
+  void read_station(const YamlFields& station, LineSetup& line, std::vector<NumberedStation>& numbered) {
     if (!station.is_map()) station.fail("expected a map, as in `key: value`");
     std::size_t device = 0;
     if (station.has("device")) {
@@ -136,40 +141,46 @@ class BenchReader {
       const bool is_known =
           all_.attempt([&] { device = add_device(station.at("name"), station.at("name").text(), station); });
       if (!is_known) {
-        if (station.has("address"))
-          take_address(station, kAddressForm.lowest, kAddressForm.highest, addresses);
+        const auto address = station.find("address");
+        if (address)
+          numbered.push_back({station, std::nullopt, static_cast<int>(address->integer(kAddressForm))});
         throw Untold();
       }
     }
-    if (on_a_line_[device]) station.fail("the device is on a line already; expected it on one line");
-    on_a_line_[device] = true;
     DeviceSetup& setup = bench_.devices[device];
-    setup.settings.baud = line.baud;
-    const auto is_alone = [&](std::size_t other) {
-      return !bench_.devices[other].model->line.station_numbers.has_value();
-    };
-    if (!line.stations.empty() && (is_alone(device) || is_alone(line.stations.front()))) {
-      const DeviceSetup& speaker = bench_.devices[is_alone(device) ? device : line.stations.front()];
-      station.fail(understudy::quoted(speaker.settings.name) + " speaks " +
-                   std::string(speaker.model->line.protocol.name) +
-                   " and must be alone on its line; expected no other station on it");
-    }
-    if (const auto& numbers = setup.model->line.station_numbers) {
-      setup.settings.address = take_address(station, numbers->lowest, numbers->highest, addresses);
-    } else if (station.has("address")) {
-      station.at("address").fail(std::string(setup.model->name) + " has no station number; expected none");
-    }
-    device_fields_[device] = station.has("device") ? device_fields_[device] : station;
-    line.stations.push_back(device);
+    const std::size_t port = take_port(station, device, line);
+    setup.settings.bauds[port] = line.baud;
+    demand_room(station, {device, port}, line, bench_);
+    numbered.push_back({station, device, read_address(station, setup)});
+    line.stations.emplace_back(device, port);
   }
 
-  static int take_address(const YamlFields& station, std::int64_t lowest, std::int64_t highest,
-                          std::set<std::int64_t>& addresses) {
-    const std::int64_t address = station.has("address") ? station.at("address").integer(lowest, highest) : 1;
-    if (!addresses.insert(address).second) {
-      station.fail("address " + std::to_string(address) + " is taken on this line; expected another");
+  /// The port that a station names: it may be on no other line, nor another one of the device on this line.
+  std::size_t take_port(const YamlFields& station, std::size_t device, const LineSetup& line) {
+    const Model& model = names_.model_of(device);
+    const std::size_t port = read_port(station, model);
+    const auto name_of = [&](std::size_t number) { return std::string(model.line.ports[number].name); };
+    auto& stations = places_[device].stations;
+    if (stations[port] && stations.size() == 1)
+      station.fail("the device is on a line already; expected it on one line");
+    if (stations[port])
+      station.fail("the device's port " + name_of(port) +
+                   " is on a line already; expected another `port`, or the device on one line");
+    stations[port] = station;
+    for (const auto& [other, other_port] : line.stations) {
+      if (other != device) continue;
+      station.fail("the device is on this line already, by its port " + name_of(other_port) +
+                   "; expected another line");
     }
-    return static_cast<int>(address);
+    return port;
+  }
+
+  /// Where a bench says nothing, and nothing else will.
+  void give_usual_addresses() {
+    for (DeviceSetup& device : bench_.devices) {
+      const auto& numbers = device.model->line.station_numbers;
+      if (numbers && numbers->kept_in.empty() && !device.settings.address) device.settings.address = 1;
+    }
   }
 
   // --- plant and wires -------------------------------------------------------------------------
@@ -228,10 +239,13 @@ class BenchReader {
     const bool has_all_lines = all_.count() == 0;  // a station that could not be read may have had the device
     for (std::size_t i = 0; i < bench_.devices.size(); ++i) {
       all_.attempt([&] {
-        if (!on_a_line_[i] && has_all_lines)
-          device_fields_[i].fail("the device is on no line; expected a station that names it");
+        const auto& stations = places_[i].stations;
+        const bool is_on_a_line = std::any_of(stations.begin(), stations.end(),
+                                              [](const auto& station) { return station.has_value(); });
+        if (!is_on_a_line && has_all_lines)
+          places_[i].device.fail("the device is on no line; expected a station that names it");
       });
-      judge_device(device_fields_[i], bench_.devices[i], all_);
+      judge_device(places_[i], bench_.devices[i], all_);
     }
   }
 
@@ -271,8 +285,8 @@ class BenchReader {
   Complaints all_;
   Bench bench_;
   BenchNames names_{bench_};
-  std::vector<YamlFields> device_fields_;  // where each device was described
-  std::vector<bool> on_a_line_;
+  std::vector<DevicePlaces> places_;                    // of each device
+  std::vector<std::vector<NumberedStation>> numbered_;  // of each line
 };
 
 Bench read_whole(const std::string& text, const std::string& name, BenchReader reader) {

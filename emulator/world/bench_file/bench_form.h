@@ -25,7 +25,10 @@ inline constexpr Form kAddressForm = integer_form(0, 255);
 inline constexpr KeyRow kNameKey{"name", "What the device is called: letters, digits, _ and -.", &kText,
                                  true};
 inline constexpr KeyRow kModelKey{"model", "A model, as `understudy models` lists them.", &kText, true};
-inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1).", &kAddressForm};
+inline constexpr KeyRow kAddressKey{"address", "The station number (default: 1, or what its memory says).",
+                                    &kAddressForm};
+inline constexpr KeyRow kPortKey{
+    "port", "By which of the device's ports it stands there (default: its first).", &kText};
 inline constexpr KeyRow kFirmwareKey{"firmware", "Its firmware version (default: the newest).", &kText};
 inline constexpr Form kModulesForm = integer_form(1, 255);
 inline constexpr KeyRow kModulesKey{"modules", "How many modules it has, if it is a chain.", &kModulesForm};
@@ -42,10 +45,12 @@ inline constexpr KeyRow kNvKey{"nv", "The file of its non-volatile memory, or wh
 
 inline constexpr std::array kDeviceKeys{kModelKey,   kFirmwareKey, kModulesKey, kSetKey,
                                         kChoicesKey, kDipKey,      kProgramKey, kNvKey};
-inline constexpr std::array kStationKeys{kNameKey, kModelKey,   kAddressKey, kFirmwareKey, kModulesKey,
-                                         kSetKey,  kChoicesKey, kDipKey,     kProgramKey,  kNvKey};
+inline constexpr std::array kStationKeys{kNameKey,     kModelKey,   kAddressKey, kPortKey,
+                                         kFirmwareKey, kModulesKey, kSetKey,     kChoicesKey,
+                                         kDipKey,      kProgramKey, kNvKey};
 inline constexpr std::array kPlacedStationKeys{
-    KeyRow{"device", "The name of a device declared under `devices`.", &kText, true}, kAddressKey};
+    KeyRow{"device", "The name of a device declared under `devices`, or on a line before.", &kText, true},
+    kAddressKey, kPortKey};
 
 // --- lines ---------------------------------------------------------------------------------------
 inline constexpr Form kStationForm = keys_form(kStationKeys);
@@ -88,6 +93,12 @@ inline constexpr std::array kLimitKeys{
            &kText},
     KeyRow{"upper_input", "The input that the upper one is wired to; by default the controller's own.",
            &kText}};
+inline constexpr std::array kIndexKeys{
+    KeyRow{"at", "The first position of one (0).", &kPositionForm},
+    KeyRow{"width", "How many positions it is on for (1).", &kWidthForm},
+    KeyRow{"period", "How far one is from the next; by default a revolution of the motor.", &kWidthForm},
+    KeyRow{"input", "The input that it is wired to; by default the controller's own.", &kText}};
+inline constexpr Form kIndexForm = keys_form(kIndexKeys);
 inline constexpr std::array<std::string_view, 2> kTrueOrFalse{"true", "false"};
 inline constexpr Form kTrueOrFalseForm = words_form(kTrueOrFalse);
 inline constexpr std::array<std::string_view, 2> kEncoderPlaces{"wheel", "machine"};
@@ -96,7 +107,8 @@ inline constexpr std::array kEncoderKeys{
     KeyRow{"per_revolution", "Its counts for a revolution.", &kPerRevolutionForm, true},
     KeyRow{"motor_pulses_per_revolution", "The motor's pulses for one.", &kPerRevolutionForm},
     KeyRow{"reversed", "Whether it counts the other way.", &kTrueOrFalseForm},
-    KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm}};
+    KeyRow{"on", "What turns it: the machine (default), or a hand wheel.", &kEncoderPlaceForm},
+    KeyRow{"index", "Its index pulse, once a revolution.", &kIndexForm}};
 inline constexpr std::array<std::string_view, 2> kOnOrOff{"on", "off"};
 inline constexpr Form kOnOrOffForm = words_form(kOnOrOff);
 inline constexpr std::array kDriveKeys{
@@ -111,6 +123,8 @@ inline constexpr std::array kMachineKeys{
     KeyRow{"position", "Where the machine stands at first (0).", &kPositionForm},
     KeyRow{"travel", "The hard stops; pulses beyond are lost.", &kTravelForm},
     KeyRow{"home", "The home switch.", &kHomeForm},
+    KeyRow{"near_home", "The switch that tells that home is near.", &kHomeForm},
+    KeyRow{"mark", "A mark, or a sensor for one.", &kHomeForm},
     KeyRow{"limits", "The limit switches.", &kLimitsForm},
     KeyRow{"encoder", "The encoder.", &kEncoderForm},
     KeyRow{"drive", "The servo drive.", &kDriveForm}};

@@ -129,18 +129,25 @@ bool take_away(const SettingError& error, DeviceSettings& settings, const Model&
     const auto is_it = [&](const auto& pair) { return pair.first == of_entry->entry; };
     if (setting == "choices") return std::erase_if(settings.choices, is_it) > 0;
     if (setting == "dip") return std::erase_if(settings.dip, is_it) > 0;
+    if (setting == "baud") return std::exchange(settings.bauds[*find_port(model, of_entry->entry)], 0) != 0;
     return std::erase_if(settings.set, is_it) + std::erase_if(settings.assignments, is_it) > 0;
   }
   if (setting == "firmware") return std::exchange(settings.firmware, 0) != 0;
   if (setting == "modules") {  // those that there may be, for what is said of them
     return std::exchange(settings.modules, model.most_modules) != model.most_modules;
   }
-  if (setting == "address") return std::exchange(settings.address, model.line.station_numbers->lowest) != 0;
-  return std::exchange(settings.baud, 0) != 0;  // or switches that say another one
+  if (setting == "address") return std::exchange(settings.address, std::nullopt).has_value();
+  return !std::exchange(settings.bauds, {}).empty();  // switches that say another one
 }
 
-/// Where the setting is, or the device.
-[[noreturn]] void complain(const YamlFields& device, const SettingError& error) {
+/// Where the setting is, or the device; of a line's speed where it stands on that line.
+[[noreturn]] void complain(const DevicePlaces& places, const SettingError& error, const Model& model) {
+  const YamlFields& device = places.device;
+  if (error.setting == "baud") {
+    const auto& entry = dynamic_cast<const SettingEntryError&>(error).entry;
+    const auto& station = places.stations[*find_port(model, entry)];
+    (station ? *station : device).fail(error.what());
+  }
   const auto field = device.find(error.setting);
   if (!field) device.fail(error.what());
   if (const auto* const of_entry = dynamic_cast<const SettingEntryError*>(&error)) {
@@ -210,7 +217,8 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
   return device;
 }
 
-void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& complaints) {
+void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& complaints) {
+  const YamlFields& fields = places.device;
   DeviceSettings& settings = device.settings;
   bool is_asked = true;
   while (is_asked) {
@@ -220,7 +228,7 @@ void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& com
         make_device(*device.model, settings);
       } catch (const SettingError& error) {
         is_asked = take_away(error, settings, *device.model);
-        complain(fields, error);
+        complain(places, error, *device.model);
       } catch (const NvError& error) {
         is_asked = std::exchange(settings.nv, std::nullopt).has_value();
         if (const auto nv = fields.find("nv")) nv->fail(error.what());

@@ -21,8 +21,14 @@ DeviceSetup read_device(const YamlFields& fields, const std::string& name,
                         const std::optional<std::string>& folder, ModelList models, Bench& bench,
                         Complaints& complaints);
 
+/// Where a device is described, and where its stations are, by its ports.
+struct DevicePlaces {
+  YamlFields device;
+  std::vector<std::optional<YamlFields>> stations{};
+};
+
 /// Reports everything that the model refuses in a device, and removes it: what is left suits the model.
-void judge_device(const YamlFields& fields, DeviceSetup& device, Complaints& complaints);
+void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& complaints);
 
 /// A path in `folder`; refused if there is no folder.
 std::string path_in(const std::optional<std::string>& folder, const YamlFields& field);

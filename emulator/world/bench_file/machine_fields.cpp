@@ -66,7 +66,38 @@ DriveSetup read_drive(const YamlFields& drive, Complaints& complaints) {
   return setup;
 }
 
-void read_encoder(const YamlFields& encoder, PlantSetup& setup, Complaints& complaints) {
+/// A digital input of the machine's own controller. (A wire goes to another's.)
+int read_own_input(const YamlFields& field, const Model& model) {
+  const std::string name = field.text();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
+    if (model.terminals[i].kind != TerminalRow::Kind::digital_in) continue;
+    if (model.terminals[i].name == name) return static_cast<int>(i);
+    names.emplace_back(model.terminals[i].name);
+  }
+  field.fail(quoted(name) + " is not an input of " + std::string(model.name) + suggestion(name, names));
+}
+
+/// Where the period is not given it is a revolution of the motor.
+IndexSetup read_index(const YamlFields& index, const Model& model, int pulses_per_revolution,
+                      Complaints& complaints) {
+  const Keys keys(index, kIndexKeys, complaints);
+  IndexSetup setup{.period = pulses_per_revolution};
+  keys.read("at", [&](const YamlFields& field) { setup.at = field.integer(kPositionForm); });
+  keys.read("width", [&](const YamlFields& field) { setup.width = field.integer(kWidthForm); });
+  keys.read("period", [&](const YamlFields& field) { setup.period = field.integer(kWidthForm); });
+  keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
+  complaints.attempt([&] {
+    if (setup.period <= 0) index.fail("has no period; expected `period`, or `motor_pulses_per_revolution`");
+    if (setup.width < setup.period) return;
+    (index.has("width") ? index.at("width") : index)
+        .fail("is on for " + std::to_string(setup.width) + " of " + std::to_string(setup.period) +
+              " positions; expected fewer than its period");
+  });
+  return setup;
+}
+
+void read_encoder(const YamlFields& encoder, const Model& model, PlantSetup& setup, Complaints& complaints) {
   const Keys keys(encoder, kEncoderKeys, complaints);
   const auto per_revolution = [](const YamlFields& field) {
     return static_cast<int>(field.integer(kPerRevolutionForm));
@@ -78,6 +109,10 @@ void read_encoder(const YamlFields& encoder, PlantSetup& setup, Complaints& comp
   keys.read("on", [&](const YamlFields& field) { setup.has_wheel = read_word(field, "wheel", "machine"); });
   keys.read("reversed",
             [&](const YamlFields& field) { setup.encoder_reversed = read_word(field, "true", "false"); });
+  keys.read("index", [&](const YamlFields& field) {
+    if (setup.has_wheel) field.fail("is on a hand wheel; expected an encoder on the machine");
+    setup.index = read_index(field, model, setup.pulses_per_revolution, complaints);
+  });
 }
 
 void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, Complaints& complaints) {
@@ -91,30 +126,27 @@ void read_travel(const YamlFields& travel, bool knows_start, PlantSetup& setup, 
   setup.travel = span;
 }
 
-/// A digital input of the machine's own controller. (A wire goes to another's.)
-int read_own_input(const YamlFields& field, const Model& model) {
-  const std::string name = field.text();
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < model.terminals.size(); ++i) {
-    if (model.terminals[i].kind != TerminalRow::Kind::digital_in) continue;
-    if (model.terminals[i].name == name) return static_cast<int>(i);
-    names.emplace_back(model.terminals[i].name);
-  }
-  field.fail(quoted(name) + " is not an input of " + std::string(model.name) + suggestion(name, names));
-}
-
-void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Complaints& complaints) {
-  const Keys keys(home, kHomeKeys, complaints);
+SwitchSetup read_switch(const YamlFields& fields, const Model& model, Complaints& complaints) {
+  const Keys keys(fields, kHomeKeys, complaints);
+  SwitchSetup setup;
   std::int64_t at = 0;
   std::int64_t width = 1;
   keys.demand("at", [&](const YamlFields& field) { at = field.integer(kPositionForm); });
   keys.demand("width", [&](const YamlFields& field) { width = field.integer(kWidthForm); });
-  setup.home = PulseSpan{at, at + width - 1};
+  setup.on = {at, at + width - 1};
   keys.read("hysteresis",
-            [&](const YamlFields& field) { setup.home_hysteresis_pulses = field.integer(kHysteresisForm); });
-  keys.read("contact",
-            [&](const YamlFields& field) { setup.home_opens = read_word(field, "opens", "closes"); });
-  keys.read("input", [&](const YamlFields& field) { setup.home_input = read_own_input(field, model); });
+            [&](const YamlFields& field) { setup.hysteresis_pulses = field.integer(kHysteresisForm); });
+  keys.read("contact", [&](const YamlFields& field) { setup.opens = read_word(field, "opens", "closes"); });
+  keys.read("input", [&](const YamlFields& field) { setup.input = read_own_input(field, model); });
+  return setup;
+}
+
+void read_home(const YamlFields& home, const Model& model, PlantSetup& setup, Complaints& complaints) {
+  const SwitchSetup its = read_switch(home, model, complaints);
+  setup.home = its.on;
+  setup.home_hysteresis_pulses = its.hysteresis_pulses;
+  setup.home_opens = its.opens;
+  setup.home_input = its.input;
 }
 
 void read_limits(const YamlFields& limits, const Model& model, PlantSetup& setup, Complaints& complaints) {
@@ -151,8 +183,11 @@ PlantSetup read_machine(const YamlFields& fields, const Model& model, int axis, 
       "position", [&](const YamlFields& field) { setup.position_pulses = field.integer(kPositionForm); });
   keys.read("travel", [&](const YamlFields& field) { read_travel(field, knows_start, setup, complaints); });
   keys.read("home", [&](const YamlFields& field) { read_home(field, model, setup, complaints); });
+  keys.read("near_home",
+            [&](const YamlFields& field) { setup.near_home = read_switch(field, model, complaints); });
+  keys.read("mark", [&](const YamlFields& field) { setup.mark = read_switch(field, model, complaints); });
   keys.read("limits", [&](const YamlFields& field) { read_limits(field, model, setup, complaints); });
-  keys.read("encoder", [&](const YamlFields& field) { read_encoder(field, setup, complaints); });
+  keys.read("encoder", [&](const YamlFields& field) { read_encoder(field, model, setup, complaints); });
   keys.read("drive", [&](const YamlFields& field) { setup.drive = read_drive(field, complaints); });
   return setup;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "base/simulated_time.h"
 
@@ -119,6 +120,13 @@ std::weak_ordering operator<=>(Number a, Number b) {
   return a.real() < b.real()   ? std::weak_ordering::less
          : a.real() > b.real() ? std::weak_ordering::greater
                                : std::weak_ordering::equivalent;
+}
+
+Number finite_number(double value) {
+  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
+  if (std::isnan(value)) return 0;
+  if (std::abs(value) <= kLargest && std::floor(value) == value) return static_cast<std::int64_t>(value);
+  return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 }
 
 std::string kind_of(Unit unit) {

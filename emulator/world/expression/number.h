@@ -40,6 +40,10 @@ class Number {
 std::weak_ordering operator<=>(Number a, Number b);
 inline bool operator==(Number a, Number b) { return (a <=> b) == std::weak_ordering::equivalent; }
 
+/// A number that a device holds: whole where it is, and as near as a number gets where it is infinite, or
+/// none (then 0).
+Number finite_number(double value);
+
 /// What a number counts. A number of one unit is not compared with, or added to, one of another.
 enum class Unit : std::uint8_t { none, nanoseconds, millivolts };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
@@ -28,28 +30,51 @@ const FaultKindRow& row_of(const std::string& name) {
   throw NameError(quoted(name) + " is not a fault" + suggestion(name, names));
 }
 
-/// The first device of a line; devices.size() if there is no such line.
-std::size_t find_line(const KnownDevices& devices, const std::string& name) {
-  const auto stands_there = [&](const KnownDevice& device) { return !name.empty() && device.line == name; };
-  return static_cast<std::size_t>(std::find_if(devices.begin(), devices.end(), stands_there) -
-                                  devices.begin());
+/// The first device that stands on a line, and by which of its ports; nothing if there is no such line.
+std::optional<std::pair<std::size_t, std::size_t>> find_line(const KnownDevices& devices,
+                                                             const std::string& name) {
+  for (std::size_t d = 0; d < devices.size() && !name.empty(); ++d) {
+    const auto& lines = devices[d].lines;
+    const auto found = std::find(lines.begin(), lines.end(), name);
+    if (found != lines.end()) return std::pair(d, static_cast<std::size_t>(found - lines.begin()));
+  }
+  return std::nullopt;
 }
 
 void set_device_or_line(const KnownDevices& devices, const std::string& place, Fault& fault) {
   const auto has_name = [&](const KnownDevice& device) { return device.name == place; };
-  const std::size_t line = find_line(devices, place);
-  if (std::none_of(devices.begin(), devices.end(), has_name) && line < devices.size()) {
-    fault.device = line;
+  const auto line = find_line(devices, place);
+  if (line && std::none_of(devices.begin(), devices.end(), has_name)) {
+    fault.device = line->first;
+    fault.place = static_cast<int>(line->second);
     fault.on_line = true;
     return;
   }
   fault.device = find_device(devices, place);
 }
 
+/// Nothing where no counted input has that name.
+std::optional<InputName> find_counted(const KnownDevices& devices, const std::string& name) {
+  try {
+    const InputName input = find_input(devices, name);
+    if (input.row(devices).kind == TerminalRow::Kind::counted_in) return input;
+  } catch (const NameError&) {
+  }
+  return std::nullopt;
+}
+
 void set_place(const KnownDevices& devices, const FaultKindRow& row, const std::string& place, Fault& fault) {
   switch (row.place) {
     case At::device: fault.device = find_device(devices, place); return;
     case At::device_or_line: set_device_or_line(devices, place, fault); return;
+    case At::wheel:
+      if (const auto input = find_counted(devices, place)) {
+        fault.device = input->device;
+        fault.place = input->terminal;
+        fault.of_input = true;
+        return;
+      }
+      [[fallthrough]];
     case At::axis: {
       const AxisName axis = find_axis(devices, place);
       fault.device = axis.device;
@@ -199,10 +224,14 @@ FaultText fault_text(const KnownDevices& devices, const Fault& fault) {
   const FaultKindRow& row = fault_kind(fault.kind);
   const KnownDevice& device = devices[fault.device];
   const auto place = static_cast<std::size_t>(fault.place);
-  FaultText text{
-      .kind = std::string(row.name), .place = fault.on_line ? device.line : device.name, .fields = {}};
-  if (row.place == At::axis) text.place += "." + std::string(device.model->axes[place].name);
-  if (row.place == At::input) text.place += "." + std::string(device.model->terminals[place].name);
+  FaultText text{.kind = std::string(row.name),
+                 .place = fault.on_line ? device.lines[place] : device.name,
+                 .fields = {}};
+  const bool is_of_input = row.place == At::input || fault.of_input;
+  if (!is_of_input && (row.place == At::axis || row.place == At::wheel)) {
+    text.place += "." + std::string(device.model->axes[place].name);
+  }
+  if (is_of_input) text.place += "." + std::string(device.model->terminals[place].name);
   for (const FaultFieldRow& field : row.fields) {
     const std::string value = text_of(field, fault);
     if (!value.empty()) text.fields.emplace_back(field.name, value);

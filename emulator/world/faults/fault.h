@@ -23,7 +23,7 @@ struct Fault {
     alarm,          // the drive is in alarm; a real drive stays so until the controller clears it afterwards
     stuck,          // an input stays at the level `amount`, whatever drives it
     encoder_noise,  // the encoder counts `amount` too many, then too few, half a `period_ticks` each
-    turn,           // the wheel of an encoder of its own is turned by `amount` counts, over `over_ticks`
+    turn,           // a hand wheel, or what else is counted, is turned by `amount`, over `over_ticks`
     // of a device
     power_cut,  // it has no power
     slow,       // it carries out each request `amount` ns late
@@ -40,12 +40,15 @@ struct Fault {
     noise,             // `before` and `after`
     collision,         // with `before`
   } kind = Kind::stall;
-  std::size_t device = 0;  // of a line: its first device
-  int place = 0;           // an axis, or for `stuck` a terminal
+  std::size_t device = 0;  // of a line: the first of the bench's that stands there
+  // An axis, a terminal for `stuck` and a `turn` that is of_input, of a line the port by which that device is
+  // there.
+  int place = 0;
   std::int64_t amount = 0;
   std::int64_t period_ticks = 0;
   std::int64_t over_ticks = 0;
-  bool on_line = false;  // all of its line is meant
+  bool on_line = false;   // all of its line is meant
+  bool of_input = false;  // of `turn`: the place is a counted input
   enum class Side : std::uint8_t { reply, request, both } side = Side::reply;
   std::vector<std::uint8_t> before{};
   std::vector<std::uint8_t> after{};

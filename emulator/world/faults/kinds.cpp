@@ -51,7 +51,7 @@ constexpr std::array<FaultKindRow, 19> kKinds{{
     {"alarm", Kind::alarm, Where::axis, {}, "begins"},
     {"stuck", Kind::stuck, Where::input, kStuck, "begins"},
     {"encoder_noise", Kind::encoder_noise, Where::axis, kEncoderNoise, "begins"},
-    {"turn", Kind::turn, Where::axis, kTurn, "turned"},
+    {"turn", Kind::turn, Where::wheel, kTurn, "turned"},
     {"power_cut", Kind::power_cut, Where::device, {}, "begins"},
     {"slow", Kind::slow, Where::device, kSlow, "carried out later"},
     {"busy", Kind::busy, Where::device_or_line, {}, "refused"},

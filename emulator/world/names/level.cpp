@@ -32,7 +32,7 @@ std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind
     if (text.ends_with("V")) return parse_volts(text.substr(0, text.size() - 1));
     return parse_integer(text);
   }
-  if (kind == TerminalRow::Kind::analog_number) return parse_integer(text);
+  if (!has_two_levels(kind)) return parse_integer(text);
   if (text == "on" || text == "true") return 1;
   if (text == "off" || text == "false") return 0;
   return parse_integer(text);
@@ -41,7 +41,8 @@ std::optional<std::int64_t> parse_level(std::string_view text, TerminalRow::Kind
 std::string_view level_example(TerminalRow::Kind kind) {
   switch (kind) {
     case TerminalRow::Kind::analog_in: return "a voltage such as 2.5V";
-    case TerminalRow::Kind::analog_number: return "a number";
+    case TerminalRow::Kind::analog_number:
+    case TerminalRow::Kind::counted_in: return "a number";
     default: return "on or off";
   }
 }

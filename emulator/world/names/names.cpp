@@ -108,11 +108,14 @@ InputName find_input(const KnownDevices& devices, std::string_view name) {
 }
 
 void demand_level(const TerminalRow& row, std::string_view name, std::int64_t level) {
+  if (row.kind == TerminalRow::Kind::counted_in) {
+    throw NameError(std::string(name) + " is counted; expected it to be turned, as by `turn`");
+  }
   if (level >= row.lowest && level <= row.highest) return;
   throw NameError(std::string(name) + ": " + std::to_string(level) + " is not a level; expected " +
                   (row.highest == 1 ? "0 or 1"
                                     : std::to_string(row.lowest) + " to " + std::to_string(row.highest) +
-                                          (row.kind == TerminalRow::Kind::analog_in ? " millivolts" : "")));
+                                          (is_in_millivolts(row.kind) ? " millivolts" : "")));
 }
 
 AxisName find_axis(const KnownDevices& devices, std::string_view name) {

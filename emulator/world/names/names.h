@@ -24,7 +24,7 @@ struct KnownDevice {
   std::string name;
   const Model* model = nullptr;
   Firmware firmware = 0;
-  std::string line{};  // that it stands on
+  std::vector<std::string> lines{};  // that it stands on, by its ports; empty: a port is on none
 };
 using KnownDevices = std::vector<KnownDevice>;
 

@@ -12,6 +12,21 @@ namespace {
 /// Farther than the pulses of a century reach: where a machine without stops ends.
 constexpr std::int64_t kFarthest_pulses = 1'000'000'000'000'000;
 
+PulseSpan wider(PulseSpan span, std::int64_t pulses) { return {span.first - pulses, span.last + pulses}; }
+
+bool holds(PulseSpan span, std::int64_t at) { return at >= span.first && at <= span.last; }
+
+/// Where a switch is on as it stands now.
+PulseSpan span_of(const SwitchSetup& its, bool is_on) {
+  return wider(its.on, is_on ? its.hysteresis_pulses : 0);
+}
+
+/// How far it has come since the index began last.
+std::int64_t index_phase(const IndexSetup& index, std::int64_t at) {
+  const std::int64_t phase = (at - index.at) % index.period;
+  return phase < 0 ? phase + index.period : phase;
+}
+
 /// How much of its turn the wheel has made: even over all of its ticks, however few the counts are.
 std::int64_t turned(const PlantAxis::State& state) {
   __extension__ using Wide = __int128;
@@ -47,9 +62,8 @@ void PlantAxis::find_quiet_places() {
 
 PulseSpan PlantAxis::places_alike() const {
   constexpr PulseSpan kNone{1, 0};
-  const bool steps_all = state_.faults == MachineFaults{} && state_.loses_one_in == 0 && !in_alarm();
-  if (setup_.has_wheel || state_.ticks_to_turn != 0 || !steps_all) return kNone;
-  if (setup_.drive && !state_.ready) return kNone;
+  const bool is_broken = state_.faults != MachineFaults{} || state_.loses_one_in != 0;
+  if (setup_.has_wheel || state_.ticks_to_turn != 0 || is_broken || !steps_all()) return kNone;
   const std::int64_t at = state_.position_pulses;
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   std::int64_t from = stops.first;
@@ -66,6 +80,14 @@ PulseSpan PlantAxis::places_alike() const {
     }
   };
   if (setup_.home) stay(state_.at_home, home_span());
+  if (setup_.near_home) stay(state_.at_near_home, span_of(*setup_.near_home, state_.at_near_home));
+  if (setup_.mark) stay(state_.at_mark, span_of(*setup_.mark, state_.at_mark));
+  if (setup_.index) {
+    const std::int64_t begin = at - index_phase(*setup_.index, at);
+    const std::int64_t end = begin + setup_.index->width - 1;
+    stay(at <= end, at <= end ? PulseSpan{begin, end} : PulseSpan{begin + setup_.index->period, to});
+    if (at > end) from = std::max(from, end + 1);
+  }
   if (setup_.lower_limit) stay(state_.at_lower_limit, {-kFarthest_pulses, lower_limit_end()});
   if (setup_.upper_limit) stay(state_.at_upper_limit, {upper_limit_end(), kFarthest_pulses});
   return {from, to};
@@ -129,8 +151,55 @@ bool PlantAxis::has_contact(Contact which) const {
     case Contact::upper_limit: return setup_.upper_limit.has_value();
     case Contact::alarm:
     case Contact::ready: return setup_.drive.has_value();
+    case Contact::near_home: return setup_.near_home.has_value();
+    case Contact::mark: return setup_.mark.has_value();
+    case Contact::index: return setup_.index.has_value();
   }
   return false;
+}
+
+bool PlantAxis::at_index() const {
+  return setup_.index && index_phase(*setup_.index, state_.position_pulses) < setup_.index->width;
+}
+
+std::optional<SwitchSetup> PlantAxis::way_of(Contact which) const {
+  if (!has_contact(which)) return std::nullopt;
+  SwitchSetup way;
+  bool is_on = false;
+  switch (which) {
+    case Contact::home:
+      way = home_switch();
+      is_on = state_.at_home;
+      break;
+    case Contact::near_home:
+      way = *setup_.near_home;
+      is_on = state_.at_near_home;
+      break;
+    case Contact::mark:
+      way = *setup_.mark;
+      is_on = state_.at_mark;
+      break;
+    case Contact::lower_limit:
+      way = {{-kFarthest_pulses, *setup_.lower_limit}, setup_.limit_hysteresis_pulses, setup_.limits_open};
+      is_on = state_.at_lower_limit;
+      break;
+    case Contact::upper_limit:
+      way = {{*setup_.upper_limit, kFarthest_pulses}, setup_.limit_hysteresis_pulses, setup_.limits_open};
+      is_on = state_.at_upper_limit;
+      break;
+    default: return std::nullopt;
+  }
+  // One that has not let go yet does so at its farther end.
+  if (is_on && !holds(way.on, state_.position_pulses)) {
+    way.on = wider(way.on, way.hysteresis_pulses);
+    way.hysteresis_pulses = 0;
+  }
+  // The machine does not go beyond its stops: what is on there is not left.
+  const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
+  if (way.on.last < stops.first || way.on.first > stops.last) return std::nullopt;
+  if (way.on.first <= stops.first) way.on.first = -kFarthest_pulses;
+  if (way.on.last >= stops.last) way.on.last = kFarthest_pulses;
+  return way;
 }
 
 bool PlantAxis::contact(Contact which) const {
@@ -140,6 +209,9 @@ bool PlantAxis::contact(Contact which) const {
     case Contact::home: return at_home() != setup_.home_opens;
     case Contact::lower_limit: return at_lower_limit() != setup_.limits_open;
     case Contact::upper_limit: return at_upper_limit() != setup_.limits_open;
+    case Contact::near_home: return at_near_home() != setup_.near_home->opens;
+    case Contact::mark: return at_mark() != setup_.mark->opens;
+    case Contact::index: return at_index();
     default: return ready();
   }
 }
@@ -153,24 +225,33 @@ std::int64_t PlantAxis::shift(std::int64_t steps) {
   const PulseSpan stops = setup_.travel.value_or(PulseSpan{-kFarthest_pulses, kFarthest_pulses});
   const std::int64_t before = state_.position_pulses;
   state_.position_pulses = std::clamp(before + steps, stops.first, stops.last);
-  move_switches();
+  move_switches(before);
   return state_.position_pulses - before;
 }
 
-void PlantAxis::move_switches() {
+void PlantAxis::move_switches(std::int64_t from) {
   const std::int64_t at = state_.position_pulses;
-  if (setup_.home) {
-    const PulseSpan on = home_span();
-    state_.at_home = at >= on.first && at <= on.last;
+  // The way that counts: all of it, or its end.
+  const PulseSpan way =
+      looks_between_ ? PulseSpan{std::min(from, at), std::max(from, at)} : PulseSpan{at, at};
+  const auto move = [&](const SwitchSetup& its, bool& is_on) {
+    is_on = is_on || (way.first <= its.on.last && way.last >= its.on.first);
+    is_on = holds(span_of(its, is_on), at);
+  };
+  if (setup_.home) move(home_switch(), state_.at_home);
+  if (setup_.near_home) move(*setup_.near_home, state_.at_near_home);
+  if (setup_.mark) move(*setup_.mark, state_.at_mark);
+  if (setup_.lower_limit) {
+    state_.at_lower_limit = state_.at_lower_limit || way.first <= *setup_.lower_limit;
+    state_.at_lower_limit = at <= lower_limit_end();
   }
-  if (setup_.lower_limit) state_.at_lower_limit = at <= lower_limit_end();
-  if (setup_.upper_limit) state_.at_upper_limit = at >= upper_limit_end();
+  if (setup_.upper_limit) {
+    state_.at_upper_limit = state_.at_upper_limit || way.last >= *setup_.upper_limit;
+    state_.at_upper_limit = at >= upper_limit_end();
+  }
 }
 
-PulseSpan PlantAxis::home_span() const {
-  const std::int64_t wider = state_.at_home ? setup_.home_hysteresis_pulses : 0;
-  return {setup_.home->first - wider, setup_.home->last + wider};
-}
+PulseSpan PlantAxis::home_span() const { return span_of(home_switch(), state_.at_home); }
 
 std::int64_t PlantAxis::lower_limit_end() const {
   return *setup_.lower_limit + (state_.at_lower_limit ? setup_.limit_hysteresis_pulses : 0);

@@ -29,9 +29,34 @@ struct DriveSetup {
 };
 
 /// The contacts around an axis, by the names that a bench calls them.
-enum class Contact : std::uint8_t { home, lower_limit, upper_limit, alarm, ready };
-inline constexpr std::array<std::string_view, 5> kContactNames{"home", "lower_limit", "upper_limit", "alarm",
-                                                               "ready"};
+enum class Contact : std::uint8_t {
+  home,
+  lower_limit,
+  upper_limit,
+  alarm,
+  ready,
+  near_home,
+  mark,
+  index,  // the encoder's
+};
+inline constexpr std::array<std::string_view, 8> kContactNames{
+    "home", "lower_limit", "upper_limit", "alarm", "ready", "near_home", "mark", "index"};
+
+/// A switch that the machine passes.
+struct SwitchSetup {
+  PulseSpan on;
+  std::int64_t hysteresis_pulses = 0;  // it lets go only this far outside
+  bool opens = false;                  // where it is on, and is closed elsewhere
+  int input = -1;                      // to which it is wired; -1: the model's own
+};
+
+/// The encoder's index: on for `width` pulses of the motor from every `at + k * period`.
+struct IndexSetup {
+  std::int64_t at = 0;
+  std::int64_t width = 1;
+  std::int64_t period = 0;
+  int input = -1;
+};
 
 struct PlantSetup {
   /// Where the machine stands at first.
@@ -40,6 +65,8 @@ struct PlantSetup {
   std::optional<PulseSpan> travel;
   /// Where the home switch is on.
   std::optional<PulseSpan> home;
+  std::optional<SwitchSetup> near_home;
+  std::optional<SwitchSetup> mark;
   /// The limit switches: on at the position and beyond.
   std::optional<std::int64_t> lower_limit;
   std::optional<std::int64_t> upper_limit;
@@ -56,6 +83,7 @@ struct PlantSetup {
   int encoder_counts_per_revolution = 0;  // 0: no encoder
   int pulses_per_revolution = 1;
   bool encoder_reversed = false;
+  std::optional<IndexSetup> index;
   /// The encoder is on a separate wheel, which turn() turns and no motor does.
   bool has_wheel = false;
   std::optional<DriveSetup> drive;
@@ -86,7 +114,7 @@ class alignas(64) PlantAxis {
                  .reversed = setup.encoder_reversed},
         setup_(setup) {
     state_.position_pulses = setup_.position_pulses;
-    move_switches();
+    move_switches(setup_.position_pulses);
   }
 
   /// Moves this many steps, as far as the stops let it; the rest is lost.
@@ -106,6 +134,17 @@ class alignas(64) PlantAxis {
   PulseSpan places_alike() const;
   /// So many pulses at once, within that: what as many quiet ticks do.
   void cross(std::int64_t pulses) { state_.position_pulses += pulses; }
+  /// From now on a switch that it has passed within a tick has been on. (Else only the places at the ends of
+  /// ticks count, as for a controller that looks at levels.)
+  void look_between_ticks() { looks_between_ = true; }
+  /// Whether each pulse is a step.
+  bool steps_all() const {
+    return !state_.faults.stalled && state_.faults.loses_one_in == 0 && !in_alarm() &&
+           (!setup_.drive || state_.ready);
+  }
+  /// Where a switch is on, for as long as nothing about the machine changes; nothing where it never is or
+  /// does not move with the machine. The index is not one: it is on again and again.
+  std::optional<SwitchSetup> way_of(Contact which) const;
   /// Turns the encoder's wheel, evenly over this many ticks from the next one on; what is left of an earlier
   /// turn is added.
   void turn(std::int64_t counts, Tick ticks);
@@ -122,6 +161,9 @@ class alignas(64) PlantAxis {
   bool at_home() const { return state_.at_home; }
   bool at_lower_limit() const { return state_.at_lower_limit; }
   bool at_upper_limit() const { return state_.at_upper_limit; }
+  bool at_near_home() const { return state_.at_near_home; }
+  bool at_mark() const { return state_.at_mark; }
+  bool at_index() const;
   bool has_drive() const { return setup_.drive.has_value(); }
   bool in_alarm() const { return state_.alarm_latched || state_.faults.alarm; }
   bool ready() const { return state_.ready; }
@@ -155,6 +197,8 @@ class alignas(64) PlantAxis {
     bool at_home = false;
     bool at_lower_limit = false;
     bool at_upper_limit = false;
+    bool at_near_home = false;
+    bool at_mark = false;
     bool alarm_latched = false;
     bool ready = false;
     Tick enabled_at = kNever;
@@ -202,11 +246,15 @@ class alignas(64) PlantAxis {
   void step_drive(Tick tick, DriveInputs inputs);
   std::int64_t pulses_that_step(std::int64_t pulses);
   void turn_wheel();
-  void move_switches();
+  /// As they stand after a way from there.
+  void move_switches(std::int64_t from);
   // Where the switches are on, as they stand now: one that is on lets go later than it came on.
   PulseSpan home_span() const;
   std::int64_t lower_limit_end() const;
   std::int64_t upper_limit_end() const;
+  SwitchSetup home_switch() const {
+    return {*setup_.home, setup_.home_hysteresis_pulses, setup_.home_opens, setup_.home_input};
+  }
 
   // What a quiet tick needs is on the first cache line, `position_pulses` included. The quiet places are no
   // state: they follow from it.
@@ -215,6 +263,7 @@ class alignas(64) PlantAxis {
   Encoder encoder_;
   State state_;
   PlantSetup setup_;
+  bool looks_between_ = false;  // of its controller
 };
 
 }  // namespace understudy::emulator::world

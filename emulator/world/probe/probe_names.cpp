@@ -27,6 +27,7 @@ constexpr std::array<std::string_view, 4> kOfDevice{"power", "requests", "replie
 bool has_name(const KnownDevice& device, std::string_view name) {
   return std::find(kOfDevice.begin(), kOfDevice.end(), name) != kOfDevice.end() ||
          find_register(*device.model, name, device.firmware) || find_terminal(*device.model, name) >= 0 ||
+         find_group(*device.model, name) != nullptr ||
          (name.find('.') != std::string_view::npos && find_axis(*device.model, at_dot(name).first) >= 0);
 }
 
@@ -43,7 +44,7 @@ NamedNumber ProbeNames::resolve(std::string_view name) const {
 }
 
 bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
-  static constexpr std::array<std::pair<std::string_view, What>, 13> kOfAxis{{
+  static constexpr std::array<std::pair<std::string_view, What>, 16> kOfAxis{{
       {"pulses", What::pulses},
       {"speed", What::speed},
       {"pwm", What::pwm},
@@ -55,6 +56,9 @@ bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
       {"home", What::home},
       {"upper_limit", What::upper_limit},
       {"lower_limit", What::lower_limit},
+      {"near_home", What::near_home},
+      {"mark", What::mark},
+      {"index", What::index},
       {"ready", What::ready},
       {"alarm", What::alarm},
   }};
@@ -63,7 +67,11 @@ bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
   const int axis = find_axis(model, axis_name);
   if (axis < 0 || rest.find('.') == std::string_view::npos) return false;
   std::vector<std::string> known;
+  const PlantSetup& machine = inventory_.machine(probe.device, axis);
   for (const auto& [word, what] : kOfAxis) {
+    const bool is_lacking = (what == What::near_home && !machine.near_home) ||
+                            (what == What::mark && !machine.mark) || (what == What::index && !machine.index);
+    if (is_lacking) continue;
     if (what == What::pwm && !inventory_.device(probe.device).axes()->duty_percent(axis)) continue;
     known.emplace_back(word);
     if (word != what_name) continue;
@@ -79,6 +87,29 @@ bool ProbeNames::find_of_axis(std::string_view rest, Probe& probe) const {
   }
   throw NameError("axis " + std::string(axis_name) + " has no " + quoted(what_name) +
                   suggestion(what_name, known));
+}
+
+bool ProbeNames::find_of_terminal(const Model& model, std::string_view rest, Probe& probe) const {
+  using Kind = TerminalRow::Kind;
+  if (const int terminal = find_terminal(model, rest); terminal >= 0) {
+    const Kind kind = model.terminals[static_cast<std::size_t>(terminal)].kind;
+    probe.what = is_input(kind) ? What::input : What::output;
+    probe.place = terminal;
+    if (is_in_millivolts(kind)) probe.unit = Unit::millivolts;
+    return true;
+  }
+  if (const TerminalGroup* const group = find_group(model, rest)) {
+    probe.what = What::terminal_group;
+    probe.group = group;
+    return true;
+  }
+  const auto [name, word] = at_dot(rest);
+  const int terminal = word == "pulses" ? find_terminal(model, name) : -1;
+  if (terminal < 0 || model.terminals[static_cast<std::size_t>(terminal)].kind != Kind::pulse_out)
+    return false;
+  probe.what = What::output_pulses;
+  probe.place = terminal;
+  return true;
 }
 
 ProbeNames::Probe ProbeNames::find(std::string_view name) const {
@@ -130,13 +161,7 @@ ProbeNames::Probe ProbeNames::find(std::string_view name) const {
     probe.reg = *place;
     return probe;
   }
-  if (const int terminal = find_terminal(*device.model, rest); terminal >= 0) {
-    const TerminalRow::Kind kind = device.model->terminals[static_cast<std::size_t>(terminal)].kind;
-    probe.what = is_input(kind) ? What::input : What::output;
-    probe.place = terminal;
-    if (kind == TerminalRow::Kind::analog_in) probe.unit = Unit::millivolts;
-    return probe;
-  }
+  if (find_of_terminal(*device.model, rest, probe)) return probe;
   const Device& there = inventory_.device(probe.device);
   const NamedValues* const values = there.named_values();
   const bool has_value = values != nullptr && values->value_named(rest).has_value();

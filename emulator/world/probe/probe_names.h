@@ -6,7 +6,9 @@
 //   feeder.Cord_A, .STATUS.4   registers and their bits, as they read at this moment; .0x1000 by address
 //   robot.T2PE                 values of devices without registers (NamedValues)
 //   feeder.DIN_3, .AIN_A       terminals: inputs (analog ones are voltages), outputs, switches; a register
-//                              of the same name comes first
+//                              of the same name comes first; of a counted input its count, modulo 2^32
+//   mill.CMP.pulses            how many pulses an output has given whose pulses are counted
+//   mill.DI_8                  a group of terminals as one word
 //   feeder.A.pulses            pulses that axis A has sent since the world began, in the motor's sense
 //   feeder.A.speed             what it runs at by plan, in pulses a second, real
 //   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
@@ -14,7 +16,8 @@
 //                              scenarios, since their begin or the last `reset: peaks`
 //   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
 //   feeder.A.encoder           its encoder's count
-//   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive
+//   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive; and
+//                              .near_home, .mark, .index where it has them
 //   feeder.power               1 while it has power
 //   feeder.pulse_format        which of its forms the pulses have, by number; where the model has several
 //   feeder.requests, .replies, .exceptions    of its stations
@@ -39,6 +42,8 @@ class ProbeNames final : public NameResolver {
     named,
     input,
     output,
+    output_pulses,
+    terminal_group,
     pulses,
     speed,
     pwm,
@@ -50,6 +55,9 @@ class ProbeNames final : public NameResolver {
     home,
     upper_limit,
     lower_limit,
+    near_home,
+    mark,
+    index,
     ready,
     alarm,
     power,
@@ -66,6 +74,7 @@ class ProbeNames final : public NameResolver {
     std::size_t device = 0;  // or the line
     int place = 0;           // axis or terminal
     NamedPlace reg{};
+    const TerminalGroup* group = nullptr;
     std::string value_name{};
     Unit unit = Unit::none;
     std::string name;
@@ -83,6 +92,7 @@ class ProbeNames final : public NameResolver {
  private:
   Probe find(std::string_view name) const;
   bool find_of_axis(std::string_view rest, Probe& probe) const;
+  bool find_of_terminal(const Model& model, std::string_view rest, Probe& probe) const;
 
   const Inventory& inventory_;
   mutable std::vector<Probe> probes_;  // by handle

@@ -1,9 +1,5 @@
 #include "emulator/world/probe/probes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
@@ -13,12 +9,9 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Whole where it is; a real number of an expression is always finite.
-Number number_of(double value) {
-  constexpr double kLargest = 9e15;  // all whole numbers up to there are doubles
-  if (std::isnan(value)) return 0;
-  if (std::abs(value) <= kLargest && std::floor(value) == value) return static_cast<std::int64_t>(value);
-  return std::clamp(value, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+std::int64_t output_value(const Device& device, const ProbeNames::Probe& probe) {
+  if (probe.unit == Unit::millivolts) return device.terminals()->analog_level(probe.place);
+  return device.terminals()->output(probe.place) ? 1 : 0;
 }
 
 }  // namespace
@@ -27,6 +20,18 @@ std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
   const Probe& probe = names_.probe(handle);
   if (probe.what != What::reg && probe.what != What::named) return std::nullopt;
   return probe.device;
+}
+
+bool Probes::may_be_a_fraction(std::int32_t handle) const {
+  const Probe& probe = names_.probe(handle);
+  switch (probe.what) {
+    case What::reg: return probe.reg.is_real();
+    case What::named: return !value(handle).is_whole();
+    case What::speed:
+    case What::greatest_speed:
+    case What::greatest_acceleration: return true;
+    default: return false;
+  }
 }
 
 std::uint64_t Probes::count_of_stations(std::size_t device, std::uint64_t StationCounters::*counter) const {
@@ -60,13 +65,16 @@ Number Probes::value(std::int32_t handle) const {
     case What::reg: {
       if (!device.powered()) return 0;
       const Value value = read_value(*device.register_bank(), probe.reg);
-      return probe.reg.is_real() ? number_of(emulator::number_of(probe.reg, value)) : Number(value);
+      return probe.reg.is_real() ? finite_number(number_of(probe.reg, value)) : Number(value);
     }
     case What::named:
-      return device.powered() ? number_of(device.named_values()->value_named(probe.value_name).value_or(0))
-                              : Number(0);
+      return device.powered()
+                 ? finite_number(device.named_values()->value_named(probe.value_name).value_or(0))
+                 : Number(0);
     case What::input: return device.input(probe.place);
-    case What::output: return device.terminals()->output(probe.place) ? 1 : 0;
+    case What::output: return output_value(device, probe);
+    case What::output_pulses: return device.terminals()->output_pulses(probe.place);
+    case What::terminal_group: return value_of(device, *probe.group);
     case What::power: return device.powered() ? 1 : 0;
     case What::pulse_format: return static_cast<std::int64_t>(device.axes()->pulse_format_number());
     case What::pulses: return view_.sent_pulses(probe.device, probe.place);
@@ -87,6 +95,9 @@ Number Probes::value(std::int32_t handle) const {
     case What::home: return plant.at_home() ? 1 : 0;
     case What::upper_limit: return plant.at_upper_limit() ? 1 : 0;
     case What::lower_limit: return plant.at_lower_limit() ? 1 : 0;
+    case What::near_home: return plant.at_near_home() ? 1 : 0;
+    case What::mark: return plant.at_mark() ? 1 : 0;
+    case What::index: return plant.at_index() ? 1 : 0;
     case What::ready: return plant.ready() ? 1 : 0;
     case What::alarm: return plant.in_alarm() ? 1 : 0;
     default: return 0;

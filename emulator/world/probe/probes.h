@@ -24,6 +24,8 @@ class Probes final : public NameResolver, public ValueSource {
   Number value(std::int32_t handle) const override;
   /// The device whose register or value it is: without power it has none.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
+  /// Whether it is not always a whole number; of a device without registers, whether it is none now.
+  bool may_be_a_fraction(std::int32_t handle) const;
 
  private:
   using What = ProbeNames::What;

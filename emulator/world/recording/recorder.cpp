@@ -1,5 +1,9 @@
 #include "emulator/world/recording/recorder.h"
 
+#include <utility>
+
+#include "emulator/world/snapshot.h"
+#include "emulator/world/snapshot_file.h"
 #include "pty/line_observer.h"
 
 namespace understudy::emulator::world {
@@ -11,6 +15,8 @@ class Recorder::LineEar final : public pty::LineObserver {
  public:
   LineEar(Recorder& recorder, std::size_t number) : recorder_(recorder), number_(number) {
     recorder_.world_.add_observer(number_, *this);
+    // What a host set before the recording began is not in a snapshot of a world that is new.
+    if (const auto& set = recorder_.world_.line(number_).line.settings_of_host()) on_host_settings(set);
   }
   ~LineEar() override { recorder_.world_.remove_observer(number_, *this); }
   LineEar(const LineEar&) = delete;
@@ -62,13 +68,17 @@ Recorder::Recorder(World& world, const RecordingHeader& header, std::function<vo
 }
 
 Recorder::~Recorder() {
-  finish();
+  end_with({});
   world_.set_listener(nullptr);
 }
 
 void Recorder::finish() {
+  if (!is_finished_) end_with(to_text(save(world_), kBenchOfRecording));
+}
+
+void Recorder::end_with(std::string state) {
   if (is_finished_) return;
-  take({.what = What::end});
+  take({.what = What::end, .text = std::move(state)});
   is_finished_ = true;
 }
 

@@ -15,15 +15,18 @@ class Recorder final : private OutsideListener {
   /// Begins now: `take` gets the header's line, then a line for each event, each with its line end. The world
   /// must outlive it.
   Recorder(World& world, const RecordingHeader& header, std::function<void(std::string_view line)> take);
+  /// Ends it, without a state.
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Writes that the recording ends at this moment, once.
+  /// Writes that the recording ends at this moment, once; and in which state, which a replay must reach as
+  /// well. Not from within World::advance_to().
   void finish();
 
  private:
   class LineEar;
+  void end_with(std::string state);
   void take(RecordedEvent event);
 
   void on_input(std::size_t device, int terminal, std::int32_t level) override;

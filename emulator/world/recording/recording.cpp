@@ -265,10 +265,12 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       line.json("value", Json(event.real));
       break;
     case What::program: line.json("text", Json(event.text)); break;
+    case What::end:
+      if (!event.text.empty()) line.json("state", Json(event.text));
+      break;
     case What::opened:
     case What::closed:
-    case What::nothing_more:
-    case What::end: break;
+    case What::nothing_more: break;
   }
   return std::move(line).finished();
 }
@@ -320,10 +322,12 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
       event.real = line["value"].get<double>();
       break;
     case What::program: event.text = text_at(line, "text"); break;
+    case What::end:
+      if (line.contains("state")) event.text = text_at(line, "state");
+      break;
     case What::opened:
     case What::closed:
-    case What::nothing_more:
-    case What::end: break;
+    case What::nothing_more: break;
   }
   return event;
 }

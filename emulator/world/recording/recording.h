@@ -42,7 +42,7 @@ struct RecordedEvent {
     write,    // `write`, past the line
     assign,   // the value `real` by the name `text`, to one without registers
     program,  // the device was given the program `text`
-    end,      // the recording ends here
+    end,      // the recording ends here; `text`: the state then (snapshot_file.h), or nothing
   } what = What::end;
   SimTime at{0};
   std::size_t where = 0;

@@ -46,9 +46,14 @@ void RecordingSpool::put_aside() {
   file_ = std::make_unique<GrowingFile>(path, "the recording", log_);
 }
 
+void RecordingSpool::finish() {
+  if (recorder_) recorder_->finish();
+}
+
 void RecordingSpool::look() {
   if (!recorder_ || bytes_ < cap_bytes_) return;
-  recorder_.reset();  // it says that it ends here
+  recorder_->finish();
+  recorder_.reset();
   try {
     put_aside();
     header_.snapshot =

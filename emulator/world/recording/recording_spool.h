@@ -25,6 +25,10 @@ class RecordingSpool {
   RecordingSpool(const RecordingSpool&) = delete;
   RecordingSpool& operator=(const RecordingSpool&) = delete;
 
+  /// Writes that it ends, and in which state. Call it between two looks at the world; nothing is recorded
+  /// after it.
+  void finish();
+
   /// Starts again if it is time to. Call it between two looks at the world, not from within
   /// World::advance_to().
   void look();

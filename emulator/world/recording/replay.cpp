@@ -3,7 +3,9 @@
 #include <deque>
 #include <memory>
 
+#include "base/version.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
 #include "pty/line_observer.h"
 
@@ -98,6 +100,19 @@ std::string compare(const World& world, Speeches& speeches, const RecordedEvent&
   return {};
 }
 
+/// Empty if the world is in the state in which the recording ended, as far as that matters to the model: what
+/// a host has not taken yet lies at the edge. A state of another version cannot be compared.
+std::string compare_state(const World& world, const RecordingHeader& header, const std::string& text) {
+  if (text.empty() || header.version != program_version()) return {};
+  WorldState recorded = parse_snapshot(text, kBenchOfRecording);
+  const WorldState replayed = save(world);
+  for (WorldState::Part& part : recorded.parts) {
+    if (part.name == kEdgePart) part = replayed.parts.back();
+  }
+  const std::string found = difference(world, recorded, replayed);
+  return found.empty() ? found : "ends in another state: " + found + " (recorded against replayed)";
+}
+
 }  // namespace
 
 Replayed replay(ModelList models, std::istream& recording, const std::string& name,
@@ -159,6 +174,9 @@ Replayed replay(ModelList models, std::istream& recording, const std::string& na
     result.has_end = event.what == What::end;
     if (watcher && result.difference.empty()) watcher->happened(event, line_number);
     try {
+      if (result.has_end && result.difference.empty()) {
+        result.difference = compare_state(world, replayed.header, event.text);
+      }
       if (result.difference.empty()) apply(world, event);
     } catch (const std::runtime_error& error) {
       throw fail(error.what());

@@ -32,7 +32,8 @@ class LineSpeech {
   virtual std::string_view messages() const = 0;
 
   // --- stations ----------------------------------------------------------------------------------
-  virtual std::unique_ptr<LineStation> make_station(Device& device,
+  /// Of the device at one of its ports.
+  virtual std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
                                                     const StationConditions& conditions) const = 0;
   /// How a station of that model frames what it hears, where it does.
   virtual pty::RtuFraming framing(const Model& /*model*/, const StationConditions& /*conditions*/) const {

@@ -16,11 +16,11 @@ class ModbusSpeech final : public LineSpeech {
   const Protocol& protocol() const override { return kModbusRtu; }
   std::string_view messages() const override { return "Modbus frames"; }
 
-  std::unique_ptr<LineStation> make_station(Device& device,
+  std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
                                             const StationConditions& conditions) const override {
     if (device.modbus() == nullptr || device.register_bank() == nullptr)
       throw std::logic_error(device.name() + ": speaks Modbus, but is not a ModbusStation with registers");
-    return std::make_unique<RtuStation>(device, framing(device.model(), conditions));
+    return std::make_unique<RtuStation>(device, port, framing(device.model(), conditions));
   }
   pty::RtuFraming framing(const Model& model, const StationConditions& conditions) const override {
     // Without wire time there is no silence to wait for, unless silence alone ends a frame.

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"
 
 namespace understudy::emulator::world {
@@ -34,9 +36,10 @@ const Device* device_at(const LineStations& stations, std::uint8_t address) {
   return nullptr;
 }
 
-/// Consecutive words by the names of their registers, with what they hold where that is known.
+/// Consecutive words, or bits, by the names of their registers, with what they hold where that is known.
 class WordsText {
  public:
+  /// `values`: as a frame has them; bits are packed.
   WordsText(const Device* device, Table table, int first, int count, std::span<const std::uint8_t> values)
       : device_(device), table_(table), first_(first), count_(count), values_(values) {}
 
@@ -44,7 +47,9 @@ class WordsText {
     std::string text;
     std::size_t named = 0;
     for (int i = 0; i < count_; ++named) {
-      if (named == kMostRegisters) return text + ", and " + std::to_string(count_ - i) + " words more";
+      if (named == kMostRegisters)
+        return text + ", and " + std::to_string(count_ - i) +
+               (is_table_of_bits(table_) ? " bits more" : " words more");
       text += (named == 0 ? "" : ", ") + next(i, named == 0);
     }
     return text;
@@ -52,7 +57,10 @@ class WordsText {
 
  private:
   bool has_values() const { return !values_.empty(); }
-  int value_at(int i) const { return frame_word(values_, 2 * static_cast<std::size_t>(i)); }
+  int value_at(int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    return is_table_of_bits(table_) ? values_[at / 8] >> at % 8 & 1 : frame_word(values_, 2 * at);
+  }
 
   /// Of the register at word `i`, which is moved behind it. The first one says whose it is.
   std::string next(int& i, bool is_first) const {
@@ -90,13 +98,60 @@ class WordsText {
   std::span<const std::uint8_t> values_;
 };
 
-bool is_read(std::uint8_t function) { return function == 0x03 || function == 0x04; }
+using Kind = FunctionRow::Kind;
 
-/// The table of words that a function reaches: a model without input registers has the holding registers
-/// there.
-Table table_of(const Device* device, std::uint8_t function) {
+/// Null for one that is not told in words.
+const FunctionRow* function_of(std::span<const std::uint8_t> frame) {
+  for (const FunctionRow& row : kModbusFunctions) {
+    if (row.code == frame[1]) return &row;
+  }
+  return nullptr;
+}
+
+/// The table that a function reaches: a model without input registers has the holding registers there.
+Table table_of(const Device* device, const FunctionRow& function) {
   const RegisterBank* const bank = device == nullptr ? nullptr : device->register_bank();
-  return function == 0x04 && bank != nullptr && bank->map().has(Table::input) ? Table::input : Table::holding;
+  const bool has_it = bank != nullptr && bank->map().has(function.table);
+  return function.table == Table::input && !has_it ? Table::holding : function.table;
+}
+
+std::size_t bytes_for(Table table, int count) {
+  return static_cast<std::size_t>(is_table_of_bits(table) ? (count + 7) / 8 : 2 * count);
+}
+
+/// "coil 0x0010 ", "input registers 0x0010 ": where a request begins. Of holding registers their number says
+/// it.
+std::string place_text(Table table, int first, int count) {
+  std::string what;
+  switch (table) {
+    case Table::holding: return number_of(first) + " ";
+    case Table::input: what = "input register"; break;
+    case Table::coil: what = "coil"; break;
+    case Table::discrete: what = "discrete input"; break;
+  }
+  return what + (count == 1 ? " " : "s ") + number_of(first) + " ";
+}
+
+/// What a request writes, packed as the words of a frame are; none if it is not whole, or says nonsense.
+struct WrittenValues {
+  int count = 0;
+  std::vector<std::uint8_t> bytes{};
+};
+std::optional<WrittenValues> written(const FunctionRow& function, std::span<const std::uint8_t> request) {
+  const bool is_bits = is_table_of_bits(function.table);
+  if (function.kind == Kind::write_one) {
+    if (request.size() != 8) return std::nullopt;
+    constexpr int kOn = 0xFF00;
+    const int value = frame_word(request, 4);
+    if (!is_bits) return WrittenValues{1, {request[4], request[5]}};
+    if (value != kOn && value != 0) return std::nullopt;
+    return WrittenValues{1, {static_cast<std::uint8_t>(value == kOn ? 1 : 0)}};
+  }
+  const int count = frame_word(request, 4);
+  const std::size_t bytes = bytes_for(function.table, count);
+  if (count == 0 || request[6] != bytes || request.size() != 9 + bytes) return std::nullopt;
+  const auto values = request.subspan(7, bytes);
+  return WrittenValues{count, {values.begin(), values.end()}};
 }
 
 }  // namespace
@@ -136,35 +191,36 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
   const Device* const device = device_at(stations, request[0]);
   const std::string whom =
       device == nullptr || request[0] == 0 ? "station " + std::to_string(request[0]) + ": " : std::string();
+  const FunctionRow* const function = function_of(request);
+  if (function == nullptr) return whom + hex_text(request);
   const int first = frame_word(request, 2);
-  const std::size_t size = request.size();
-  if (is_read(request[1]) && size == 8) {
-    return whom + "read " + number_of(first) + " " +
-           WordsText(device, table_of(device, request[1]), first, frame_word(request, 4), {}).text();
+  const Table table = table_of(device, *function);
+  const auto told = [&](const char* verb, int count, std::span<const std::uint8_t> values) {
+    return whom + verb + place_text(table, first, count) +
+           WordsText(device, table, first, count, values).text();
+  };
+  if (function->kind == Kind::read) {
+    return request.size() == 8 ? told("read ", frame_word(request, 4), {}) : whom + hex_text(request);
   }
-  const bool is_single = request[1] == 0x06 && size == 8;
-  const bool is_several =
-      request[1] == 0x10 && size == 9U + request[6] && request[6] == 2 * frame_word(request, 4);
-  if (!is_single && !is_several) return whom + hex_text(request);
-  const auto values = is_single ? request.subspan(4, 2) : request.subspan(7, request[6]);
-  return whom + "write " + number_of(first) + " " +
-         WordsText(device, Table::holding, first, static_cast<int>(values.size() / 2), values).text();
+  const auto values = written(*function, request);
+  return values ? told("write ", values->count, values->bytes) : whom + hex_text(request);
 }
 
 std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                               std::span<const std::uint8_t> reply) {
   if (reply.size() < 5 || !pty::rtu_crc_ok(reply)) return hex_text(reply);
   if ((reply[1] & kExceptionBit) != 0 && reply.size() == 5) return "exception " + exception_text(reply[2]);
+  const FunctionRow* const function = function_of(reply);
+  if (function == nullptr) return hex_text(reply);
+  if (function->kind != Kind::read) return reply.size() == 8 ? "done" : hex_text(reply);
   const bool is_asked = request.size() == 8 && request[0] == reply[0] && request[1] == reply[1];
-  if (is_read(reply[1]) && is_asked && reply[2] == 2 * frame_word(request, 4) &&
-      reply.size() == 5U + reply[2]) {
-    const Device* const device = device_at(stations, reply[0]);
-    return WordsText(device, table_of(device, reply[1]), frame_word(request, 2), frame_word(request, 4),
-                     reply.subspan(3, reply[2]))
-        .text();
-  }
-  if ((reply[1] == 0x06 || reply[1] == 0x10) && reply.size() == 8) return "done";
-  return hex_text(reply);
+  if (!is_asked) return hex_text(reply);
+  const int count = frame_word(request, 4);
+  if (reply[2] != bytes_for(function->table, count) || reply.size() != 5U + reply[2]) return hex_text(reply);
+  const Device* const device = device_at(stations, reply[0]);
+  return WordsText(device, table_of(device, *function), frame_word(request, 2), count,
+                   reply.subspan(3, reply[2]))
+      .text();
 }
 
 }  // namespace understudy::emulator::world

@@ -16,11 +16,11 @@ class TextSpeech final : public LineSpeech {
   const Protocol& protocol() const override { return kTextLines; }
   std::string_view messages() const override { return "lines of text"; }
 
-  std::unique_ptr<LineStation> make_station(Device& device,
+  std::unique_ptr<LineStation> make_station(Device& device, std::size_t port,
                                             const StationConditions& conditions) const override {
     if (device.speaker() == nullptr)
       throw std::logic_error(device.name() + ": speaks text, but is not a TextSpeaker");
-    return std::make_unique<TextStation>(device, conditions.is_instant);
+    return std::make_unique<TextStation>(device, port, conditions.is_instant);
   }
   bool may_be_unasked() const override { return true; }
 

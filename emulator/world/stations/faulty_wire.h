@@ -38,10 +38,11 @@ class FaultyWire {
 
   explicit FaultyWire(End& end) : end_(end) {}
 
-  /// Null: nothing is broken. The device's number is told with each frame.
-  void set_faults(FrameFaults* faults, std::size_t device) {
+  /// Null: nothing is broken. The numbers of the device and of the line are told with each frame.
+  void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
     faults_ = faults;
     device_ = device;
+    line_ = line;
   }
 
   // --- what the station hears ------------------------------------------------------------------
@@ -83,6 +84,7 @@ class FaultyWire {
  private:
   HeardFrame told(HeardFrame frame) const {
     frame.device = device_;
+    frame.line = line_;
     return frame;
   }
   void keep(Late message);
@@ -90,6 +92,7 @@ class FaultyWire {
   End& end_;
   FrameFaults* faults_ = nullptr;
   std::size_t device_ = 0;
+  std::size_t line_ = 0;
   std::vector<Late> late_;
   bool is_early_ = false;  // within the event that brought the frame
 };

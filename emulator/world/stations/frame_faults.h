@@ -15,6 +15,7 @@ namespace understudy::emulator::world {
 /// where the wire is asked.
 struct HeardFrame {
   std::size_t device = 0;  // whose station it is
+  std::size_t line = 0;    // on which it was heard
   std::span<const std::uint8_t> bytes;
   std::uint64_t last_character = 0;
   bool is_for_device = false;  // broadcasts as well

@@ -24,18 +24,22 @@ class LineStation : public pty::Station, private FaultyWire::End {
   LineStation(const LineStation&) = delete;
   LineStation& operator=(const LineStation&) = delete;
 
-  pty::LineSettings settings() const final { return device_.line_settings(); }
+  pty::LineSettings settings() const final { return device_.line_settings(port_); }
 
   /// Forgets what it was hearing, and what it still has to say.
   virtual void reset() = 0;
 
-  /// What is broken that frames meet; null: nothing. It gets the device's number with each frame.
-  void set_faults(FrameFaults* faults, std::size_t device) { wire_.set_faults(faults, device); }
+  /// What is broken that frames meet; null: nothing. It gets the numbers with each frame.
+  void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
+    wire_.set_faults(faults, device, line);
+  }
 
   /// The device may have something to say unasked. Returns whether it has: then due() has changed.
   virtual bool look_for_speech(pty::SimTime /*now*/) { return false; }
 
   const Device& device() const { return device_; }
+  /// By which of the device's ports it stands there.
+  std::size_t port() const { return port_; }
   const StationCounters& counters() const { return counters_; }
   /// Those that were heard and ignored.
   virtual std::uint64_t dropped_bytes() const = 0;
@@ -49,9 +53,10 @@ class LineStation : public pty::Station, private FaultyWire::End {
   virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
-  explicit LineStation(Device& device) : device_(device), wire_(*this) {}
+  LineStation(Device& device, std::size_t port) : device_(device), port_(port), wire_(*this) {}
 
   Device& device_;
+  std::size_t port_;
   StationCounters counters_;
   FaultyWire wire_;  // all that it hears and says goes through it
 };

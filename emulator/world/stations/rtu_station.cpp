@@ -33,7 +33,11 @@ void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
   if (wire_.take_early_frame()) {
     if (const auto frame = framer_.take_early()) take_frame(*frame, now, out);
   }
-  while (const auto frame = framer_.take_due(now)) take_frame(*frame, now, out);
+  while (const auto frame = framer_.take_due(now)) {
+    tell_errors(framer_);  // what came before it
+    take_frame(*frame, now, out);
+  }
+  tell_errors(framer_);
 }
 
 void RtuStation::reset() {
@@ -42,6 +46,10 @@ void RtuStation::reset() {
 }
 
 // --- what it has heard ---------------------------------------------------------------------------
+
+void RtuStation::tell_each_error(pty::RtuFramer& framer) {
+  while (const auto error = framer.take_error()) device_.modbus()->receive_failed(port_, *error);
+}
 
 HeardFrame RtuStation::heard(const pty::RtuFrame& frame, pty::SimTime now) const {
   return {.bytes = std::span(frame.bytes).first(frame.size),
@@ -68,6 +76,7 @@ void RtuStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t 
     framer.push({.start = now, .end = now, .value = value, .number = last_character});
   }
   while (const auto frame = framer.take(now + kInstant)) serve_frame(*frame, now, out);
+  tell_errors(framer);
 }
 
 void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out) {
@@ -87,7 +96,7 @@ void RtuStation::serve_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::
 
   ++counters_.replies;
   if (refuses) ++counters_.exceptions;
-  if (reply.objection) device_.register_bank()->exception_answered(reply.objection);
+  if (reply.refused.objection) device_.register_bank()->exception_answered(reply.refused);
   std::array<std::uint8_t, pty::kRtuMaxFrame> buffer;
   buffer[0] = address;
   std::copy_n(reply.pdu.begin(), reply.size, buffer.begin() + 1);

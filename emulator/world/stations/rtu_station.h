@@ -10,22 +10,29 @@ namespace understudy::emulator::world {
 
 class RtuStation final : public LineStation {
  public:
-  RtuStation(Device& device, pty::RtuFraming framing) : LineStation(device), framer_(framing) {}
+  RtuStation(Device& device, std::size_t port, pty::RtuFraming framing)
+      : LineStation(device, port), framer_(framing) {}
 
   // Without power it hears nothing.
   void hear_start_bit(pty::SimTime at) override {
-    if (device_.powered()) framer_.start_bit(at);
+    if (!device_.powered()) return;
+    framer_.start_bit(at);
+    tell_errors(framer_);
   }
   void hear(const pty::TimedByte& byte) override {
     if (!device_.powered()) return;
     framer_.push(byte);
+    tell_errors(framer_);
     if (wire_.is_broken()) look_at_completed(byte.number, byte.end);
   }
   void hear_other_station() override {
     framer_.reset();
     wire_.forget_early_frame();
   }
-  void hear_nothing_more() override { framer_.give_up_waiting(); }
+  void hear_nothing_more() override {
+    framer_.give_up_waiting();
+    tell_errors(framer_);
+  }
   std::optional<pty::SimTime> due() const override;
   void run(pty::SimTime now, pty::Transmitter& out) override;
 
@@ -48,6 +55,11 @@ class RtuStation final : public LineStation {
   void restore(const State& state);
 
  private:
+  /// To be called after all that a framer does: the device is told when it is over.
+  void tell_errors(pty::RtuFramer& framer) {
+    if (framer.has_errors()) tell_each_error(framer);
+  }
+  void tell_each_error(pty::RtuFramer& framer);
   HeardFrame heard(const pty::RtuFrame& frame, pty::SimTime now) const;
   void look_at_completed(std::uint64_t last_character, pty::SimTime now);
   void take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::Transmitter& out);

@@ -36,12 +36,24 @@ ModbusException exception_for(const Objection& objection) {
   return ModbusException::illegal_data_address;
 }
 
-ModbusReply exception(std::uint8_t function, const Objection& objection) {
+/// `row`: null where it is a function that is not served.
+ModbusReply exception(Pdu pdu, const FunctionRow* row, const Objection& objection) {
+  const ModbusException code = exception_for(objection);
   ModbusReply reply;
-  reply.pdu[0] = function | 0x80;
-  reply.pdu[1] = static_cast<std::uint8_t>(exception_for(objection));
+  reply.pdu[0] = (pdu.empty() ? 0 : pdu[0]) | 0x80;
+  reply.pdu[1] = static_cast<std::uint8_t>(code);
   reply.size = 2;
-  reply.objection = objection;
+  RefusedRequest& refused = reply.refused;
+  refused.function = pdu.empty() ? 0 : pdu[0];
+  refused.exception = static_cast<int>(code);
+  refused.objection = objection;
+  if (row == nullptr) return reply;
+  if (pdu.size() >= 3) refused.first = word_at(pdu, 1);
+  if (row->kind == FunctionRow::Kind::write_one) {
+    refused.count = 1;
+  } else if (pdu.size() >= 5) {
+    refused.count = word_at(pdu, 3);
+  }
   return reply;
 }
 
@@ -68,10 +80,11 @@ ModbusReply echo(Pdu pdu) {
 }
 
 ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
-  if (pdu.size() != 5) return exception(pdu[0], bad_value(Cause::bad_length));
+  if (pdu.size() != 5) return exception(pdu, &service.row, bad_value(Cause::bad_length));
   const std::uint16_t first = word_at(pdu, 1);
   const std::size_t quantity = word_at(pdu, 3);
-  if (quantity < 1 || quantity > service.most) return exception(pdu[0], bad_value(Cause::bad_count));
+  if (quantity < 1 || quantity > service.most)
+    return exception(pdu, &service.row, bad_value(Cause::bad_count));
   const std::size_t bytes = service.bytes_for(quantity);
   ModbusReply reply;
   reply.pdu[0] = pdu[0];
@@ -80,41 +93,43 @@ ModbusReply read(const RegisterBank& bank, const Service& service, Pdu pdu) {
   if (service.is_of_bits()) {
     const auto packed = std::span(reply.pdu).subspan(2, bytes);
     const Objection refused = read_bits_request(bank, service.table, first, quantity, packed);
-    if (refused) return exception(pdu[0], refused);
+    if (refused) return exception(pdu, &service.row, refused);
     reply.size += bytes;
     return reply;
   }
   std::array<std::uint16_t, kMostWordsRead> words;
   const Objection refused = read_request(bank, service.table, first, std::span(words).first(quantity));
-  if (refused) return exception(pdu[0], refused);
+  if (refused) return exception(pdu, &service.row, refused);
   for (std::size_t i = 0; i < quantity; ++i) put_word(reply, words[i]);
   return reply;
 }
 
 ModbusReply write_one(RegisterBank& bank, const Service& service, Pdu pdu) {
-  if (pdu.size() != 5) return exception(pdu[0], bad_value(Cause::bad_length));
+  if (pdu.size() != 5) return exception(pdu, &service.row, bad_value(Cause::bad_length));
   std::uint16_t word = word_at(pdu, 3);
   if (service.is_of_bits()) {
-    if (word != kOn && word != kOff) return exception(pdu[0], bad_value(Cause::bad_bit));
+    if (word != kOn && word != kOff) return exception(pdu, &service.row, bad_value(Cause::bad_bit));
     word = word == kOn ? 1 : 0;
   }
   const Objection refused = write_request(bank, service.table, word_at(pdu, 1), std::span(&word, 1));
-  return refused ? exception(pdu[0], refused) : echo(pdu);
+  return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 
 ModbusReply write_several(RegisterBank& bank, const Service& service, Pdu pdu) {
-  if (pdu.size() < 6) return exception(pdu[0], bad_value(Cause::bad_length));
+  if (pdu.size() < 6) return exception(pdu, &service.row, bad_value(Cause::bad_length));
   const std::size_t quantity = word_at(pdu, 3);
-  if (quantity < 1 || quantity > service.most) return exception(pdu[0], bad_value(Cause::bad_count));
+  if (quantity < 1 || quantity > service.most)
+    return exception(pdu, &service.row, bad_value(Cause::bad_count));
   const std::size_t bytes = service.bytes_for(quantity);
-  if (pdu[5] != bytes || pdu.size() != 6 + bytes) return exception(pdu[0], bad_value(Cause::bad_length));
+  if (pdu[5] != bytes || pdu.size() != 6 + bytes)
+    return exception(pdu, &service.row, bad_value(Cause::bad_length));
   std::array<std::uint16_t, kMostWritten> words;
   for (std::size_t i = 0; i < quantity; ++i) {
     words[i] = service.is_of_bits() ? pdu[6 + i / 8] >> i % 8 & 1 : word_at(pdu, 6 + 2 * i);
   }
   const Objection refused =
       write_request(bank, service.table, word_at(pdu, 1), std::span(words).first(quantity));
-  return refused ? exception(pdu[0], refused) : echo(pdu);
+  return refused ? exception(pdu, &service.row, refused) : echo(pdu);
 }
 
 /// Null where it cannot be served, or the model does not know it.
@@ -143,7 +158,7 @@ ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
   const std::uint8_t code = pdu.empty() ? 0 : pdu[0];
   const RtuRules& rules = *device.model().rtu;
   const FunctionRow* const row = find_function(rules, code);
-  if (row == nullptr) return exception(code, bad_value(Cause::unknown_function));
+  if (row == nullptr) return exception(pdu, nullptr, bad_value(Cause::unknown_function));
   RegisterBank& bank = *device.register_bank();
   const Service service = service_of(*row, rules, bank.map());
   switch (row->kind) {
@@ -151,7 +166,7 @@ ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
     case FunctionRow::Kind::write_one: return write_one(bank, service, pdu);
     case FunctionRow::Kind::write_several: return write_several(bank, service, pdu);
   }
-  return exception(code, bad_value(Cause::unknown_function));
+  return exception(pdu, nullptr, bad_value(Cause::unknown_function));
 }
 
 }  // namespace understudy::emulator::world

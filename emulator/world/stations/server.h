@@ -41,12 +41,20 @@ inline constexpr FunctionRow kModbusFunctions[] = {
     {0x10, Table::holding, FunctionRow::Kind::write_several, 123},
 };
 
+/// The one that reads a table, or writes to it; null where there is none: inputs cannot be written.
+constexpr const FunctionRow* function_for(Table table, FunctionRow::Kind kind) {
+  for (const FunctionRow& row : kModbusFunctions) {
+    if (row.table == table && row.kind == kind) return &row;
+  }
+  return nullptr;
+}
+
 inline constexpr std::size_t kModbusMaxPdu = 253;
 
 struct ModbusReply {
   std::array<std::uint8_t, kModbusMaxPdu> pdu{};
   std::size_t size = 0;
-  Objection objection{};  // why it is an exception
+  RefusedRequest refused{};  // what got an exception, and why
 };
 
 /// Carries out one request (function code and data) and makes its reply. A request that gets an exception

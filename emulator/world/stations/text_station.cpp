@@ -39,8 +39,8 @@ TextSpeaker& speaker_of(Device& device) {
 
 }  // namespace
 
-TextStation::TextStation(Device& device, bool is_instant)
-    : LineStation(device), speaker_(speaker_of(device)), is_instant_(is_instant) {}
+TextStation::TextStation(Device& device, std::size_t port, bool is_instant)
+    : LineStation(device, port), speaker_(speaker_of(device)), is_instant_(is_instant) {}
 
 void TextStation::hear(const pty::TimedByte& byte) {
   if (!device_.powered()) return;

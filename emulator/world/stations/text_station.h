@@ -28,7 +28,7 @@ class TextStation final : public LineStation {
   static constexpr std::size_t kMostOutgoing = 64 * 1024;
 
   /// `is_instant`: the line's characters take no time. The device must have a speaker.
-  TextStation(Device& device, bool is_instant);
+  TextStation(Device& device, std::size_t port, bool is_instant);
 
   void hear(const pty::TimedByte& byte) override;
   void hear_other_station() override {}  // there is none

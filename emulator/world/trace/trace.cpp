@@ -12,13 +12,16 @@ namespace {
 
 using SignalKind = TraceSignal::Kind;
 
-void add_axis(const std::string& axis, bool has_duty, std::vector<TraceSignal>& signals) {
+void add_axis(const std::string& axis, bool has_duty, const PlantSetup& machine,
+              std::vector<TraceSignal>& signals) {
   for (const auto& [word, kind] :
        {std::pair{"pulses", SignalKind::whole}, std::pair{"speed", SignalKind::real},
         std::pair{"position", SignalKind::whole}, std::pair{"home", SignalKind::bit},
         std::pair{"lower_limit", SignalKind::bit}, std::pair{"upper_limit", SignalKind::bit}}) {
     signals.push_back({.name = axis + "." + word, .kind = kind});
   }
+  if (machine.near_home) signals.push_back({.name = axis + ".near_home", .kind = SignalKind::bit});
+  if (machine.mark) signals.push_back({.name = axis + ".mark", .kind = SignalKind::bit});
   if (has_duty) signals.push_back({.name = axis + ".pwm", .kind = SignalKind::whole});
 }
 
@@ -26,39 +29,38 @@ void add_axis(const std::string& axis, bool has_duty, std::vector<TraceSignal>& 
 
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also) {
   std::vector<TraceSignal> signals;
+  const Probes probes(world);
+  const auto kind_of = [&](const std::string& name) {
+    return probes.may_be_a_fraction(probes.resolve(name).handle) ? SignalKind::real : SignalKind::whole;
+  };
   for (std::size_t d = 0; d < world.device_count(); ++d) {
     const KnownDevice& device = world.known()[d];
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
       if (!world.device(d).axes()->has_axis(static_cast<int>(a))) continue;
       add_axis(device.name + "." + std::string(device.model->axes[a].name),
-               world.device(d).axes()->duty_percent(static_cast<int>(a)).has_value(), signals);
+               world.device(d).axes()->duty_percent(static_cast<int>(a)).has_value(),
+               world.machine(d, static_cast<int>(a)), signals);
     }
-    for (std::size_t t = 0; t < device.model->terminals.size(); ++t) {
-      const TerminalRow& row = device.model->terminals[t];
-      if (row.kind == TerminalRow::Kind::dip_switch) continue;
-      if (!world.device(d).terminals()->has_terminal(static_cast<int>(t))) continue;
-      const bool is_bit = !is_analog(row.kind);
-      signals.push_back({.name = device.name + "." + std::string(row.name),
-                         .kind = is_bit ? SignalKind::bit : SignalKind::whole});
+    for (const TerminalSight& sight : terminal_sights(world.device(d))) {
+      if (sight.kind == TerminalRow::Kind::dip_switch) continue;
+      const bool is_bit = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
+      signals.push_back(
+          {.name = device.name + "." + sight.name, .kind = is_bit ? SignalKind::bit : SignalKind::whole});
     }
-    const SignalKind kind = device.model->registers == nullptr ? SignalKind::real : SignalKind::whole;
-    for (const std::string_view name : device.model->state_registers) {
-      signals.push_back({.name = device.name + "." + std::string(name), .kind = kind});
+    for (const std::string_view word : device.model->state_registers) {
+      const std::string name = device.name + "." + std::string(word);
+      const bool has_registers = device.model->registers != nullptr;
+      signals.push_back({.name = name, .kind = has_registers ? kind_of(name) : SignalKind::real});
     }
     const Axes* const axes = world.device(d).axes();
     if (axes != nullptr && !axes->pulse_formats().empty())
       signals.push_back({.name = device.name + ".pulse_format", .kind = SignalKind::whole});
     signals.push_back({.name = device.name + ".power", .kind = SignalKind::bit});
   }
-  const Probes probes(world);
   for (const std::string& name : also) {
-    const NamedNumber number = probes.resolve(name);
     const bool is_there = std::any_of(signals.begin(), signals.end(),
                                       [&](const TraceSignal& signal) { return signal.name == name; });
-    if (is_there) continue;
-    signals.push_back(
-        {.name = name,
-         .kind = probes.value(number.handle).is_whole() ? SignalKind::whole : SignalKind::real});
+    if (!is_there) signals.push_back({.name = name, .kind = kind_of(name)});
   }
   return signals;
 }

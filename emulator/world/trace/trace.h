@@ -37,8 +37,8 @@ std::unique_ptr<TraceFormat> csv_format(TakeLine take);
 std::unique_ptr<TraceFormat> vcd_format(TakeLine take);
 
 /// Of each device: for each axis its pulses, planned speed, the machine's position and switches, its duty;
-/// inputs, outputs, and the registers that show its state. Then what else is asked for, as probes.h names it
-/// (NameError).
+/// inputs and outputs, groups of them as words, and the registers that show its state. Then what else is
+/// asked for, as probes.h names it (NameError).
 std::vector<TraceSignal> trace_signals(const World& world, const std::vector<std::string>& also);
 
 /// Watches the world for as long as it lives.

@@ -1,4 +1,7 @@
 // Value change dumps (IEEE 1364), as GTKWave opens them.
+#include <algorithm>
+#include <cmath>
+
 #include "emulator/world/trace/trace.h"
 
 namespace understudy::emulator::world {
@@ -23,6 +26,12 @@ std::string binary(std::int64_t value) {
   for (auto bits = static_cast<std::uint64_t>(value); bits != 0; bits >>= 1)
     text.insert(0, bits & 1 ? "1" : "0");
   return text;
+}
+
+/// Of a value by name that was whole when the trace began, and is no more.
+std::int64_t nearest_whole(Number value) {
+  constexpr double kMost = 9e15;
+  return value.is_whole() ? value.whole() : std::llround(std::clamp(value.real(), -kMost, kMost));
 }
 
 class VcdTrace final : public TraceFormat {
@@ -54,7 +63,7 @@ class VcdTrace final : public TraceFormat {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!is_new[i]) continue;
       switch (signals_[i].kind) {
-        case TraceSignal::Kind::whole: text += "b" + binary(values[i].whole()) + " "; break;
+        case TraceSignal::Kind::whole: text += "b" + binary(nearest_whole(values[i])) + " "; break;
         case TraceSignal::Kind::real: text += "r" + number_text(values[i].real()) + " "; break;
         case TraceSignal::Kind::bit: text += values[i].is_true() ? "1" : "0"; break;
       }

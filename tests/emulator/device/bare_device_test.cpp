@@ -14,6 +14,7 @@ namespace bare_device_test {
 
 constexpr Protocol kSmokeSigns{"smoke signs"};
 constexpr int kBauds[] = {300, 1200};
+constexpr PortRow kPorts[] = {{.name = "HILL", .bauds = kBauds, .settings = {}}};
 constexpr TerminalRow kLamp[] = {{TerminalRow::Kind::digital_out, "LAMP"}};
 constexpr AxisRow kWheel[] = {{.name = "A"}};
 
@@ -45,7 +46,7 @@ Model bare_model() {
           .axes = {},
           .state_registers = {},
           .gaps = {},
-          .line = {.protocol = kSmokeSigns, .bauds = kBauds, .settings = {}},
+          .line = {.protocol = kSmokeSigns, .ports = kPorts},
           .make = nullptr};
 }
 
@@ -76,7 +77,7 @@ std::string complaint_of_making(const Model& model, const DeviceSettings& settin
 
 TEST(BareDevice, LivesWithoutAnyFacet) {
   const auto device = make_device(bare(), settings_at(1));
-  EXPECT_EQ(device->line_settings().baud, 300);
+  EXPECT_EQ(device->line_settings(0).baud, 300);
   device->sample_inputs(1);
   device->run_interpreters(1);
   device->step_motion(1);

@@ -57,7 +57,7 @@ TEST(Firmware, IsWrittenWithTwoDecimals) {
 TEST(MakeDevice, DefaultsToTheNewestFirmwareAndTheFactorySpeed) {
   const auto device = make_device(simple2(), {});
   EXPECT_EQ(device->firmware(), 152);
-  EXPECT_EQ(device->line_settings(),
+  EXPECT_EQ(device->line_settings(0),
             (pty::LineSettings{.baud = 19200, .data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1}));
   EXPECT_EQ(value_of(*device, "Version"), 152);
   EXPECT_EQ(value_of(*device, "HW_Code"), 0xC001);
@@ -77,7 +77,7 @@ TEST(MakeDevice, RefusesSettingsThatTheModelDoesNotHave) {
   }
   for (const int baud : {1, 9600, 38400, -19200}) {
     DeviceSettings line;
-    line.baud = baud;
+    line.bauds = {baud};
     EXPECT_EQ(error_of(line), "baud: " + std::to_string(baud) +
                                   " is not a speed of simple2-r3; expected one of 19200, 115200");
   }

@@ -104,7 +104,7 @@ TEST(WorkbenchMemory, SurvivesPowerCutsAtAnyMoment) {
     const auto number = static_cast<std::uint16_t>(random() % 100);
     const auto word = static_cast<std::uint16_t>('A' << 8 | ('a' + round % 26));
     const std::uint16_t words[] = {2, 0, number, word};
-    ASSERT_EQ(take_block(rig.device(), {}, words), Refusal::none);
+    ASSERT_EQ(take_block(rig.device(), {}, words).refusal, Refusal::none);
     files[number] += {'A', static_cast<char>('a' + round % 26)};
     const Value speed = 1 + static_cast<Value>(random() % 4000);
     rig.set("Speed_X", speed);

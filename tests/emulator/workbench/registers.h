@@ -10,6 +10,7 @@ class Workbench;
 
 inline constexpr std::string_view kAxes[] = {"X", "Y", "Z"};
 inline constexpr int kAxisCount = 3;
+inline constexpr std::string_view kPortNames[] = {"PC", "HMI"};
 inline constexpr int kOutputs = 80;
 inline constexpr int kRelays = 2000;
 inline constexpr std::uint16_t kWindow = 0x1F40;
@@ -27,11 +28,19 @@ Value is_driving(const Workbench& bench, Cell cell);
 Value is_any_driving(const Workbench& bench, Cell cell);
 Value fifo_length(const Workbench& bench, Cell cell);
 Value last_cause(const Workbench& bench, Cell cell);
+Value last_reason(const Workbench& bench, Cell cell);
 Value commands_done(const Workbench& bench, Cell cell);
 Value temperature(const Workbench& bench, Cell cell);
 Value input_level(const Workbench& bench, Cell cell);
-Refusal take_block(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
-Refusal take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+DeviceAnswer take_block(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+Value receive_errors(const Workbench& bench, Cell cell);
+DeviceAnswer take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
+
+// Why it refuses, in numbers of its own.
+inline constexpr int kUnknownCommand = 2;
+inline constexpr int kWrongWords = 3;
+inline constexpr int kFifoFull = 0xC1;
+inline constexpr int kModuleAbsent = 0xC2;
 
 inline constexpr BitField kModeBits[] = {bits(0, "AUTO"), bits(1, "HOLD"), bits(4, "PROGRAM", 4)};
 inline constexpr BitField kStateBits[] = {bits(0, "DRIVING").reads<is_any_driving>(),
@@ -56,10 +65,13 @@ inline constexpr RegisterRow kRows[] = {
     reg(0x0030, "Mode", Type::u16, Access::read_write).with_bits(kModeBits),
     reg(0x0031, "Word_Order", Type::u16, Access::read_write).range(0, 1),
     reg(0x0032, "Key", Type::u16, Access::write),
+    reg(0x0033, "Station", Type::u16, Access::read_write).range(0, 247).from_factory(1).kept(),
     reg(0x0040, "Done", Type::u32, Access::read).shows<commands_done>(),
     reg(0x0064, "D{}", Type::u16, Access::read_write).times(125, 1, 0),
     reg(0x0200, "Step{}", Type::u16, Access::read_write).times(3, 0x10, 8101).numbered_by(100),
-    reg(0x0300, "Total", Type::u32, Access::read_write).kept_at_once(),
+    reg(0x0300, "Volts", Type::u16, Access::read_write).range(0, 5000),
+    reg(0x0310, "DO_Word_{}", Type::u16, Access::read_write).times(8, 1, 0),
+    reg(0x0320, "Total", Type::u32, Access::read_write).kept_at_once(),
     window<take_command>(kWindow, "Command{}", kWindowWords, 1),
     window<take_block>(kBlockWindow, "Block{}", kBlockWords, 1),
 
@@ -67,6 +79,8 @@ inline constexpr RegisterRow kRows[] = {
     input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of>(),
     input(8, "Temperature", Type::f32).shows<temperature>(),
     input(16, "Cause", Type::u16).shows<last_cause>(),
+    input(17, "Reason", Type::u16).shows<last_reason>(),
+    input(18, "Receive_Errors_{}", Type::u16).each(kPortNames, 1).shows<receive_errors>(),
     input(20, "Module_ID", Type::u16).always(0x44),
 
     coil(0, "Output_{}").times(kOutputs, 1, 0),

@@ -72,6 +72,38 @@ TEST(ServedNames, ABenchAndTheControlSocketKnowTablesAndReals) {
   EXPECT_EQ(served.get("Mode.PROGRAM"), 15);
 }
 
+TEST(ServedNames, ExpressionsAndStatusKnowThem) {
+  Served served;
+  const std::pair<const char*, Json> cases[] = {
+      {"Gain_X * 2", 5},
+      {"Gain_X == 2.5 and coil.Output_9 == 0", 1},
+      {"input.Position_Z + holding.Position_Z", -18},
+      {"Mode.PROGRAM + Always_On_Y + Input_3", 7},
+      {"Temperature - 0.25", 21.25},
+  };
+  for (const auto& [expression, wanted] : cases) {
+    EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", expression}})["value"], wanted) << expression;
+  }
+  EXPECT_EQ(served.complaint_of_setting("Gain_X", 0.1), "");
+  EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", "Gain_X"}})["value"].dump(), "0.1");
+  EXPECT_EQ(served.ask({{"do", "eval"}, {"expression", "Gain_X == 0.1"}})["value"], 1);
+  const Json registers = served.ask({{"do", "status"}})["status"]["devices"][0]["registers"];
+  EXPECT_EQ(registers["Temperature"], 21.5) << registers;
+  EXPECT_EQ(registers["Mode.PROGRAM"], 6);
+}
+
+TEST(ServedNames, ADeviceThatFailsMeanwhileTakesNoMore) {
+  Served served;
+  const Json reply = served.ask({{"do", "set"}, {"values", {{"Absent", 1}, {"holding.Position_X", 5}}}});
+  EXPECT_EQ(
+      reply.value("error", ""),
+      "holding.Position_X was not written: after what was named before it the device does not take it now");
+  EXPECT_EQ(served.get("Absent"), 1);
+  EXPECT_EQ(served.get("holding.Position_X"), 0);
+  EXPECT_EQ(served.complaint_of_setting("holding.Position_X", 5),
+            "holding.Position_X cannot be written; the device has failed");
+}
+
 TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
   Served served;
   const std::tuple<const char*, Json, const char*> cases[] = {
@@ -103,10 +135,59 @@ TEST(ServedNames, FramesTellInputRegistersByTheirNames) {
   };
   const world::LineStations& stations = served.daemon.world().line(0).stations;
   const world::Bytes request = frame("01 04 00 08 00 02");
-  EXPECT_EQ(world::modbus_request_text(stations, request), "read 0x0008 it.Temperature");
+  EXPECT_EQ(world::modbus_request_text(stations, request), "read input registers 0x0008 it.Temperature");
   EXPECT_EQ(world::modbus_reply_text(stations, request, frame("01 04 04 41 AC 00 00")),
             "it.Temperature = 21.5");
   EXPECT_EQ(world::modbus_request_text(stations, frame("01 03 00 08 00 01")), "read 0x0008 it.Offset");
+}
+
+TEST(ServedNames, FramesOfAllFunctionsAreToldInWords) {
+  Served served;
+  const auto frame = [](std::string_view bytes) {
+    world::Bytes made = world::hex(bytes);
+    pty::append_rtu_crc(made);
+    return made;
+  };
+  const world::LineStations& stations = served.daemon.world().line(0).stations;
+  struct Case {
+    const char* request;
+    const char* told;
+    const char* reply;
+    const char* reply_told;
+  };
+  const Case cases[] = {
+      {"01 01 00 02 00 03", "read coils 0x0002 it.Output_2, Output_3, Output_4", "01 01 01 05",
+       "it.Output_2 = 1, Output_3 = 0, Output_4 = 1"},
+      {"01 01 10 00 07 D0",
+       "read coils 0x1000 it.Relay_0, Relay_1, Relay_2, Relay_3, Relay_4, Relay_5, Relay_6, Relay_7, and "
+       "1992 "
+       "bits more",
+       "01 01 01 05", "01 in bytes"},
+      {"01 02 00 10 00 02", "read discrete inputs 0x0010 it.DRIVING_X, Always_On_X", "01 02 01 02",
+       "it.DRIVING_X = 0, Always_On_X = 1"},
+      {"01 02 00 03 00 01", "read discrete input 0x0003 it.Input_3", "01 82 02",
+       "exception 2 (illegal data address)"},
+      {"01 04 00 14 00 01", "read input register 0x0014 it.Module_ID", "01 04 02 00 44", "it.Module_ID = 68"},
+      {"01 05 00 6E FF 00", "write coil 0x006E it.Run = 1", "01 05 00 6E FF 00", "done"},
+      {"01 05 00 6E 00 00", "write coil 0x006E it.Run = 0", "01 85 06", "exception 6 (device busy)"},
+      {"01 05 00 6E 12 34", "01 in bytes", "01 85 03", "exception 3 (illegal data value)"},
+      {"01 0F 00 4F 00 02 01 03", "write coils 0x004F it.Output_79 = 1, 0x0050 = 1", "01 0F 00 4F 00 02",
+       "done"},
+      {"01 0F 00 00 00 02 02 03 00", "01 in bytes", "01 8F 03", "exception 3 (illegal data value)"},
+      {"01 10 00 22 00 02 04 40 20 00 00", "write 0x0022 it.Gain_Y = 2.5", "01 10 00 22 00 02", "done"},
+  };
+  for (const Case& c : cases) {
+    const world::Bytes request = frame(c.request);
+    const std::string told = world::modbus_request_text(stations, request);
+    const bool is_bytes = std::string_view(c.told).starts_with("01 ");
+    EXPECT_EQ(is_bytes ? told.substr(0, std::string_view(c.request).size()) : told,
+              is_bytes ? c.request : c.told);
+    const std::string reply = world::modbus_reply_text(stations, request, frame(c.reply));
+    const bool reply_is_bytes = std::string_view(c.reply_told).starts_with("01 ");
+    EXPECT_EQ(reply_is_bytes ? reply.substr(0, std::string_view(c.reply).size()) : reply,
+              reply_is_bytes ? c.reply : c.reply_told)
+        << c.request;
+  }
 }
 
 }  // namespace served_names_test

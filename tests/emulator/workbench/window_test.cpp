@@ -3,58 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "emulator/device/register_map/access.h"
-#include "emulator/world/stations/rtu_station.h"
-#include "pty/rtu_crc.h"
-#include "tests/emulator/workbench/workbench.h"
-#include "tests/emulator/world/stations/pdus.h"
+#include "tests/emulator/workbench/one_station.h"
 
 namespace understudy::emulator::workbench {
 namespace window_test {
 
-using namespace std::chrono_literals;
-using pty::SimTime;
+using Rig = OneStation;
 
 constexpr const char* kMoveY = "10 1F 40 00 04 08 0A 01 00 01 00 00 03 E8";
 constexpr const char* kStopAll = "10 1F 40 00 01 02 0A 02";
-
-/// One station alone.
-struct Rig final : pty::Transmitter {
-  Rig() {
-    DeviceSettings settings;
-    settings.name = "it";
-    device = make_device(model(), settings);
-    station = std::make_unique<world::RtuStation>(
-        *device, pty::RtuFraming{.strict = false, .silence = 500us, .patience = 10ms});
-  }
-  void transmit(std::span<const std::uint8_t> bytes) override {
-    said = world::text(bytes.subspan(1, bytes.size() - 3));
-  }
-  void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
-
-  /// The reply to a PDU; empty if there is none.
-  std::string ask(std::string_view pdu, std::uint8_t address = 1) {
-    world::Bytes frame{address};
-    for (const std::uint8_t byte : world::hex(pdu)) frame.push_back(byte);
-    pty::append_rtu_crc(frame);
-    said.clear();
-    for (const std::uint8_t value : frame) {
-      station->hear({.start = now, .end = now + 87us, .value = value});
-      now += 87us;
-    }
-    for (int runs = 0; station->due() && runs < 100; ++runs) {
-      now = std::max(now, *station->due());
-      station->run(now, *this);
-    }
-    now += 10ms;
-    return said;
-  }
-  const WorkbenchState& state() const { return static_cast<const Workbench&>(*device).state; }
-
-  std::unique_ptr<Device> device;
-  std::unique_ptr<world::RtuStation> station;
-  std::string said;
-  SimTime now{0};
-};
 
 TEST(Window, TakesARequestAsOneMessage) {
   Rig rig;

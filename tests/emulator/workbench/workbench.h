@@ -12,10 +12,12 @@
 #include "base/state/difference.h"
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
+#include "emulator/device/axes.h"
 #include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
+#include "tests/emulator/workbench/machine.h"
 #include "tests/emulator/workbench/memory.h"
 #include "tests/emulator/workbench/registers.h"
 
@@ -27,7 +29,11 @@ struct WorkbenchState {
   std::array<std::int32_t, kAxisCount> targets{};
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
-  std::uint8_t cause = 0;  // of the last exception
+  std::uint8_t cause = 0;    // of the last exception
+  std::uint16_t reason = 0;  // the same in its own numbers
+  MotorsState motors{};
+  std::array<std::uint32_t, 2> receive_errors{};
+  std::array<std::uint8_t, 2> last_receive_error{};  // 1 + pty::ReceiveError
   Kept kept{};
 
   bool operator==(const WorkbenchState&) const = default;
@@ -40,10 +46,17 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::WorkbenchState> {
   using Value = emulator::workbench::WorkbenchState;
-  static constexpr auto fields = std::tuple{
-      field("image", &Value::image), field("positions", &Value::positions), field("targets", &Value::targets),
-      field("fifo", &Value::fifo),   field("done", &Value::done),           field("cause", &Value::cause),
-      field("kept", &Value::kept)};
+  static constexpr auto fields = std::tuple{field("image", &Value::image),
+                                            field("positions", &Value::positions),
+                                            field("targets", &Value::targets),
+                                            field("fifo", &Value::fifo),
+                                            field("done", &Value::done),
+                                            field("cause", &Value::cause),
+                                            field("reason", &Value::reason),
+                                            field("motors", &Value::motors),
+                                            field("receive_errors", &Value::receive_errors),
+                                            field("last_receive_error", &Value::last_receive_error),
+                                            field("kept", &Value::kept)};
 };
 
 }  // namespace understudy
@@ -53,7 +66,8 @@ namespace understudy::emulator::workbench {
 class Workbench final : public Device,
                         public RegisterBankOf<Workbench>,
                         public ModbusStation,
-                        public Terminals {
+                        public Terminals,
+                        public Axes {
  public:
   Workbench(const Model& model, const DeviceSettings& settings)
       : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
@@ -66,8 +80,11 @@ class Workbench final : public Device,
 
   RegisterBank* register_bank() override { return this; }
   const RegisterBank* register_bank() const override { return this; }
+  ModbusStation* modbus() override { return this; }
   const ModbusStation* modbus() const override { return this; }
   const Terminals* terminals() const override { return this; }
+  Axes* axes() override { return this; }
+  const Axes* axes() const override { return this; }
 
   KeptMemory* memory() override { return &memory_; }
   const KeptMemory* memory() const override { return &memory_; }
@@ -82,25 +99,79 @@ class Workbench final : public Device,
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
   Addressing addressing(std::uint8_t address) const override {
-    if (address == 0) return Addressing::obey_silently;
-    return address == settings().address ? Addressing::obey_and_reply : Addressing::ignore;
+    if (address == stored(station_)) return Addressing::obey_and_reply;
+    return address == 0 ? Addressing::obey_silently : Addressing::ignore;
+  }
+  void receive_failed(std::size_t port, pty::ReceiveError error) override {
+    ++state.receive_errors[port];
+    state.last_receive_error[port] = static_cast<std::uint8_t>(1 + static_cast<int>(error));
   }
   bool output(int number) const override {
-    return powered() && state.image[first_output_ + static_cast<std::size_t>(number)] != 0;
+    if (number >= kFirstGroupedOutput) return output_word(number, 1) != 0;
+    if (number < kFirstOutput || number >= kVolts) return false;
+    return powered() && state.image[first_output_ + static_cast<std::size_t>(number - kFirstOutput)] != 0;
+  }
+  std::uint32_t output_word(int first, int count) const override {
+    if (first < kFirstGroupedOutput) return Terminals::output_word(first, count);
+    // A run of them lies in three words at most.
+    const int at = first - kFirstGroupedOutput;
+    std::uint64_t words = 0;
+    for (int i = 0; i < 3 && powered(); ++i) {
+      const int word = at / kBitsOfGroup + i;
+      if (word < kOutputWords) {
+        const std::size_t slot = first_word_ + static_cast<std::size_t>(word);
+        words |= std::uint64_t{state.image[slot]} << (i * kBitsOfGroup);
+      }
+    }
+    return static_cast<std::uint32_t>(words >> (at % kBitsOfGroup) & ((std::uint64_t{1} << count) - 1));
+  }
+  std::int32_t analog_level(int) const override {
+    return powered() ? static_cast<std::int32_t>(stored(volts_)) : 0;
+  }
+  std::int64_t output_pulses(int) const override { return state.motors.compared; }
+
+  // --- its motors (machine.h), whose state is kept with the rest ---------------------------------------
+  Motors& motors() { return motors_; }
+  const Motors& motors() const { return motors_; }
+  std::int64_t pulses_this_tick(int axis) const override {
+    return powered() ? state.motors.motors[static_cast<std::size_t>(axis)].sent_pulses : 0;
+  }
+  double speed_pps(int) const override { return 0; }
+  void set_encoder(int, std::int64_t) override {}
+  bool meets_edges() const override { return true; }
+  std::int64_t place_pulses(int axis) const override {
+    return motors_.place_pulses(static_cast<std::size_t>(axis));
+  }
+  void set_edges(int axis, const MachineEdges& edges) override {
+    motors_.set_edges(*this, static_cast<std::size_t>(axis), edges);
+  }
+  void sample_inputs(Tick) override {
+    if (take_inputs_changed()) motors_.look_at_inputs(*this);
+  }
+  void step_motion(Tick tick) override { motors_.step(tick); }
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override {
+    if (module_moves() || inputs_changed()) return done + 1;
+    return std::min(motors_.next_event_tick(done, most, ahead), next_kept_tick(done));
+  }
+  void cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) override {
+    motors_.cross_to(tick, pulses);
   }
 
   /// Positions and commands are of a module that may be absent, and positions wait for room in its FIFO.
-  Refusal admits(const RegisterRequest& request, Checked checked) const override {
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override {
     const bool is_of_module =
         request.table == Table::holding && (request.first == kWindow || (request.first & 0xFFF0) == 0x0010);
     if (!is_of_module) return Refusal::none;
-    if (stored(absent_) != 0) return Refusal::failure;
+    if (stored(absent_) != 0) return {Refusal::failure, kModuleAbsent};
     // A command is judged first (take_command()).
     const bool is_full = request.is_write() && request.first != kWindow && state.fifo.size() >= kFifo;
-    return checked == Checked::everything && is_full ? Refusal::busy : Refusal::none;
+    if (checked == Checked::everything && is_full) return {Refusal::busy, kFifoFull};
+    return Refusal::none;
   }
-  void exception_answered(const Objection& objection) override {
-    state.cause = static_cast<std::uint8_t>(objection.cause);
+  void exception_answered(const RefusedRequest& request) override {
+    state.cause = static_cast<std::uint8_t>(request.objection.cause);
+    state.reason = request.objection.reason;
+    last_refused = request;
   }
 
   void run_interpreters(Tick) override {
@@ -117,9 +188,10 @@ class Workbench final : public Device,
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
   void update_outputs(Tick tick) override { state.kept.eeprom.step(tick, state.image); }
+  Tick next_kept_tick(Tick done) const { return std::max(done + 1, state.kept.eeprom.next_active_tick()); }
+  bool module_moves() const { return is_moving() || (stored(run_) != 0 && !state.fifo.empty()); }
   Tick next_active_tick(Tick done) const override {
-    const Tick kept_at = std::max(done + 1, state.kept.eeprom.next_active_tick());
-    return is_moving() || (stored(run_) != 0 && !state.fifo.empty()) ? done + 1 : kept_at;
+    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : next_kept_tick(done);
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -128,6 +200,7 @@ class Workbench final : public Device,
   }
 
   WorkbenchState state;
+  RefusedRequest last_refused;  // for tests, no part of its state
 
  protected:
   void power_up() override { recall(state.kept.eeprom, map(), state.image); }
@@ -157,6 +230,10 @@ class Workbench final : public Device,
   const std::size_t first_output_ = slot_of("Output_0");
   const std::size_t run_ = slot_of("Run");
   const std::size_t absent_ = slot_of("Absent");
+  const std::size_t station_ = slot_of("Station");
+  const std::size_t volts_ = slot_of("Volts");
+  const std::size_t first_word_ = slot_of("DO_Word_0");
+  Motors motors_{state.motors};
 };
 
 inline std::size_t axis_of(Cell cell) { return static_cast<std::size_t>(cell.index); }
@@ -172,43 +249,40 @@ inline Value is_driving(const Workbench& bench, Cell cell) {
 inline Value is_any_driving(const Workbench& bench, Cell) { return bench.is_moving() ? 1 : 0; }
 inline Value fifo_length(const Workbench& bench, Cell) { return static_cast<Value>(bench.state.fifo.size()); }
 inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause; }
+inline Value last_reason(const Workbench& bench, Cell) { return bench.state.reason; }
 inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
 inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
+inline Value receive_errors(const Workbench& bench, Cell cell) {
+  return bench.state.receive_errors[static_cast<std::size_t>(cell.index)];
+}
 inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
 
-inline Refusal take_block(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+inline DeviceAnswer take_block(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
   return change_block(bench.state.kept.blocks, words);
 }
 
 /// A command is good by its code, its words and its axis; then it waits in the FIFO.
-inline Refusal take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
-  const bool is_good = (words[0] == kMove && words.size() == 4 && words[1] < kAxisCount) ||
-                       (words[0] == kStop && words.size() == 1);
-  if (!is_good) return Refusal::bad_value;
-  if (bench.state.fifo.size() >= kFifo) return Refusal::busy;
+inline DeviceAnswer take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+  if (words[0] != kMove && words[0] != kStop) return {Refusal::bad_value, kUnknownCommand};
+  const bool is_good = words[0] == kMove ? words.size() == 4 && words[1] < kAxisCount : words.size() == 1;
+  if (!is_good) return {Refusal::bad_value, kWrongWords};
+  if (bench.state.fifo.size() >= kFifo) return {Refusal::busy, kFifoFull};
   bench.state.fifo.emplace_back(words.begin(), words.end());
   return Refusal::none;
 }
 
 inline constexpr std::uint8_t kFunctions[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
 inline constexpr int kBauds[] = {115200, 9600};
+inline constexpr int kSlowBauds[] = {19200, 38400};
+inline constexpr PortRow kPorts[] = {
+    {.name = kPortNames[0], .bauds = kBauds, .settings = {}},
+    {.kind = PortRow::Kind::rs232,
+     .name = kPortNames[1],
+     .bauds = kSlowBauds,
+     .settings = {.data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1}}};
 inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
-
-inline std::span<const TerminalRow> terminal_rows() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> made;
-    for (int i = 0; i < 16; ++i) made.push_back("IN" + std::to_string(i));
-    return made;
-  }();
-  static const std::vector<TerminalRow> rows = [] {
-    std::vector<TerminalRow> made;
-    for (const std::string& name : names) made.push_back({TerminalRow::Kind::digital_in, name});
-    return made;
-  }();
-  return rows;
-}
 
 inline const Model& model() {
   static const RegisterMap map(kRows, kPolicy);
@@ -218,14 +292,12 @@ inline const Model& model() {
       .firmwares = kFirmwares,
       .registers = &map,
       .choices = {},
-      .terminals = terminal_rows(),
-      .axes = {},
+      .terminals = terminal_tables().rows,
+      .terminal_groups = terminal_tables().groups,
+      .axes = motor_rows(),
       .state_registers = kStateRegisters,
       .gaps = {},
-      .line = {.protocol = kModbusRtu,
-               .bauds = kBauds,
-               .settings = {},
-               .station_numbers = StationNumbers{1, 247}},
+      .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 247, "Station"}},
       .rtu = RtuRules{.end_silence = std::chrono::microseconds(500), .functions = kFunctions},
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Workbench>(workbench::model(), settings);

@@ -108,6 +108,52 @@ TEST(Switches, ThatCannotBeWiredSoAreRefused) {
             "bench.wires[0]: 'A.home' is not an input of simple2-r3; expected one such as 'DIN_0'");
 }
 
+TEST(Switches, NearHomeMarkAndIndexAreLevelsToSuchAController) {
+  expect_passes(text_of(
+      "near_home: { at: 100, width: 50, hysteresis: 5, input: DIN_5 }, mark: { at: 200, width: 1, contact: "
+      "opens, input: DIN_6 }, encoder: { per_revolution: 4000, motor_pulses_per_revolution: 1000, index: { "
+      "at: "
+      "-2, width: 4, input: DIN_10 } }",
+      "x.A.near_home -> y.DIN_1, x.A.index -> y.DIN_2",
+      "  - assert: [ x.DIN_5 == 0, x.DIN_6 == 1, x.DIN_10 == 1, x.A.index == 1, x.A.mark == 0 ]\n"
+      "  - inject: { slip: x.A, pulses: 100 }\n"
+      "  - advance: 2ms\n"
+      "  - assert: [ x.DIN_5 == 1, y.DIN_1 == 1, y.DIN_2 == 0, x.DIN_10 == 0, x.A.near_home == 1 ]\n"
+      "  - inject: { slip: x.A, pulses: 54 }\n"
+      "  - advance: 2ms\n"
+      "  - assert: x.A.near_home == 1\n"
+      "  - inject: { slip: x.A, pulses: 46 }\n"
+      "  - advance: 2ms\n"
+      "  - assert: [ x.A.near_home == 0, x.A.mark == 1, x.DIN_6 == 0 ]\n"
+      "  - inject: { slip: x.A, pulses: 798 }\n"
+      "  - advance: 2ms\n"
+      "  - assert: [ x.A.index == 1, x.DIN_10 == 1, y.DIN_2 == 1 ]\n"
+      "  - inject: { slip: x.A, pulses: 4 }\n"
+      "  - advance: 2ms\n"
+      "  - assert: [ x.A.index == 0, x.DIN_10 == 0 ]\n"));
+}
+
+TEST(Switches, OfTheseKindsThatCannotBeAreRefused) {
+  EXPECT_EQ(complaint_of("near_home: { width: 5 }"),
+            "bench.plant.x.A.near_home: 'at' is missing; expected it here");
+  EXPECT_EQ(
+      complaint_of("mark: { at: 5, width: 0 }"),
+      "bench.plant.x.A.mark.width: '0' is not possible; expected a whole number from 1 to 1000000000000");
+  EXPECT_EQ(complaint_of("mark: { at: 5, width: 1, input: DOUT_1 }").substr(0, 45),
+            "bench.plant.x.A.mark.input: 'DOUT_1' is not a");
+  EXPECT_EQ(
+      complaint_of("encoder: { per_revolution: 400, index: { width: 50, period: 50 } }"),
+      "bench.plant.x.A.encoder.index.width: is on for 50 of 50 positions; expected fewer than its period");
+  EXPECT_EQ(complaint_of("encoder: { per_revolution: 400, on: wheel, index: { width: 5 } }"),
+            "bench.plant.x.A.encoder.index: is on a hand wheel; expected an encoder on the machine");
+  EXPECT_EQ(complaint_of("travel: [ -5, 5 ]", "x.A.mark -> y.DIN_1"),
+            "bench.wires[0]: the machine on x.A has no mark; expected it in `plant`");
+  EXPECT_EQ(
+      complaint_of("mark: { at: 5, width: 1, input: DIN_9 }, near_home: { at: 5, width: 1, input: DIN_9 }"),
+      "bench.plant.x.A: x.A.mark and x.A.near_home are both wired to DIN_9; expected one contact on an "
+      "input, and `wires` for more");
+}
+
 TEST(Machines, BeginWhereTheyAreSaidToStand) {
   expect_passes(text_of(
       "position: 500, travel: [ 100, 1000 ], home: { at: 480, width: 50 }, encoder: { per_revolution: "

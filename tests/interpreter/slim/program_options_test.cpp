@@ -275,6 +275,60 @@ TEST(SlimProgramOptions, WhatIsNoLineAtAllIsRefusedAsItIsEntered) {
   }
 }
 
+// Whichever was entered first: a program that is saved is read from its first line to its last.
+TEST(SlimProgramOptions, OfLinesWithOneLabelTheFirstIsGood) {
+  const ProgramOptions options{.check = ProgramOptions::Check::as_run};
+  const struct {
+    const char* what;
+    Error (*change)(Program& program, const ProgramOptions& options);
+    Lines lines;
+    std::vector<Error> errors;
+  } kCases[] = {
+      {"entered behind another",
+       [](Program& program, const ProgramOptions& with) { return program.insert(1, "$A SET P2", with); },
+       {"$A SET P1", "$A SET P2", "DN"},
+       {Error::none, Error::address, Error::none}},
+      {"entered before another",
+       [](Program& program, const ProgramOptions& with) { return program.insert(0, "$A SET P2", with); },
+       {"$A SET P2", "$A SET P1", "DN"},
+       {Error::none, Error::address, Error::none}},
+      {"the first is deleted",
+       [](Program& program, const ProgramOptions& with) {
+         EXPECT_EQ(program.insert(1, "$A SET P2", with), Error::none);
+         return program.remove(0, with);
+       },
+       {"$A SET P2", "DN"},
+       {Error::none, Error::none}},
+      {"the first is replaced",
+       [](Program& program, const ProgramOptions& with) {
+         EXPECT_EQ(program.insert(1, "$A SET P2", with), Error::none);
+         return program.replace(0, "$B SET P3", with);
+       },
+       {"$B SET P3", "$A SET P2", "DN"},
+       {Error::none, Error::none, Error::none}},
+      {"the last gets a label that is taken",
+       [](Program& program, const ProgramOptions& with) { return program.replace(1, "$A NONSENSE", with); },
+       {"$A SET P1", "$A NONSENSE"},
+       {Error::none, Error::syntax}},
+      {"nonsense is a place to jump to",
+       [](Program& program, const ProgramOptions& with) { return program.insert(0, "$A NONSENSE", with); },
+       {"$A NONSENSE", "$A SET P1", "DN"},
+       {Error::syntax, Error::address, Error::none}},
+  };
+  for (const auto& one : kCases) {
+    Program program;
+    ASSERT_TRUE(program.set_texts({"$A SET P1", "DN"}, options));
+    EXPECT_EQ(one.change(program, options), Error::none) << one.what;
+    EXPECT_EQ(program.texts(), one.lines) << one.what;
+    std::vector<Error> errors;
+    for (int i = 0; i < program.size(); ++i) errors.push_back(program.line(i).error);
+    EXPECT_EQ(errors, one.errors) << one.what;
+    Program restored;
+    EXPECT_TRUE(restored.set_texts(program.texts(), options)) << one.what;
+    EXPECT_EQ(restored, program) << one.what;
+  }
+}
+
 TEST(SlimProgramOptions, EmptyLinesEndEditingOrAreIgnored) {
   const ProgramOptions options{.empty_line = ProgramOptions::EmptyLine::is_ignored};
   Editor editor;

@@ -23,6 +23,7 @@ inline void PrintTo(Refusal refusal, std::ostream* out) {
 
 inline constexpr std::uint8_t kToyFunctions[] = {0x03, 0x04, 0x06, 0x10};
 inline constexpr int kToyBauds[] = {9600};
+inline constexpr PortRow kToyPorts[] = {{.name = "PORT", .bauds = kToyBauds, .settings = {}}};
 inline constexpr Firmware kToyFirmwares[] = {100, 200};
 
 class ToyDevice final : public Device, public RegisterBankOf<ToyDevice> {
@@ -82,7 +83,7 @@ struct Toy {
               .axes = {},
               .state_registers = {},
               .gaps = {},
-              .line = {.protocol = kModbusRtu, .bauds = kToyBauds, .settings = {}},
+              .line = {.protocol = kModbusRtu, .ports = kToyPorts},
               .rtu = RtuRules{.functions = kToyFunctions},
               .make = nullptr},
         device(model, settings(firmware)) {

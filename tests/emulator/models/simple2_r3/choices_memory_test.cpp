@@ -114,9 +114,9 @@ TEST(ChoicesMemory, SwitchesAreSampledAtPowerUpOrAlways) {
        each_option("switches_sampled", {{"at_power_up", 19200}, {"always", 115200}})) {
     OneSimple2 feeder(with("switches_sampled", option));
     feeder.world().set_external_input(0, find_terminal(model(), "DIP1"), 1);
-    EXPECT_EQ(feeder.device().line_settings().baud, baud) << option;
+    EXPECT_EQ(feeder.device().line_settings(0).baud, baud) << option;
     switch_off_and_on(feeder);
-    EXPECT_EQ(feeder.device().line_settings().baud, 115200) << option;
+    EXPECT_EQ(feeder.device().line_settings(0).baud, 115200) << option;
   }
 }
 

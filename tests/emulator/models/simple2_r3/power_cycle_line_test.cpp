@@ -239,7 +239,7 @@ TEST(PowerCycleOnTheLine, PulseFormatIsThatOfTheSwitchWhenThePowerComes) {
   EXPECT_EQ(feeder.axes()->pulse_format(), "CW/CCW");
   line.cycle(kFeeder);
   EXPECT_EQ(feeder.axes()->pulse_format(), "PLS/DIR");
-  EXPECT_EQ(feeder.line_settings().baud, 19'200) << "DIP1 is another one";
+  EXPECT_EQ(feeder.line_settings(0).baud, 19'200) << "DIP1 is another one";
 }
 
 }  // namespace power_cycle_line_test

@@ -11,19 +11,19 @@ class WrittenDown final : public Stage {
   WrittenDown(std::unique_ptr<Stage> stage, std::vector<std::string>& requests)
       : stage_(std::move(stage)), requests_(requests) {}
 
-  HostReply read_registers(std::size_t line, int station, std::uint16_t first, int count) override {
+  HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override {
     char text[64];
     std::snprintf(text, sizeof text, "read %d 0x%04X: %d", station, first, count);
     requests_.emplace_back(text);
-    return stage_->read_registers(line, station, first, count);
+    return stage_->read(line, station, table, first, count);
   }
-  HostReply write_registers(std::size_t line, int station, std::uint16_t first,
-                            std::span<const std::uint16_t> words) override {
+  HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
+                  std::span<const std::uint16_t> words) override {
     char text[64];
     std::snprintf(text, sizeof text, "write %d 0x%04X:", station, first);
     requests_.emplace_back(text);
     for (const std::uint16_t word : words) requests_.back() += " " + std::to_string(word);
-    return stage_->write_registers(line, station, first, words);
+    return stage_->write(line, station, table, first, words);
   }
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override {

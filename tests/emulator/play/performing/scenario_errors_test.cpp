@@ -132,8 +132,8 @@ TEST_F(ScenarioErrors, WhatIsNoStep) {
       {"{ advance: 1ms, say: x }", ".say: is a second step in one; expected `- ` before it"},
       {"{ advance: 1ms, exception: 3 }", ".exception: is not a key here; expected one of advance"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, exeption: 3 }",
-       ".exeption: is not a key here; expected one of write, exception, reply, within (the nearest is "
-       "'exception')"},
+       ".exeption: is not a key here; expected one of write, exception, reply, within, via (the nearest "
+       "is 'exception')"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, reply: 1 }",
        ".reply: '1' is unknown; expected nothing (what is read is compared without `reply`)"},
       {"{ write: { feeder.Aaxis_SVON: 1 }, within: 1s }",

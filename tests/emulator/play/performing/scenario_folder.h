@@ -24,6 +24,7 @@ lines:
       - { name: turner, model: simple2-r3, address: 2 }
 plant:
   feeder.A: { travel: [-20000, 20000], home: { at: 0, width: 200 } }
+  turner.B: { encoder: { per_revolution: 400, on: wheel } }
 )";
 
 class ScenarioFolder {

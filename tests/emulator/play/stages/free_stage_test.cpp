@@ -69,7 +69,7 @@ TEST(FreeStage, T35IsCountedInCharactersUpTo19200AndFixedAbove) {
 
 TEST(FreeStage, AReadTakesItsFramesTimeAndTheNextOneWaitsForT35) {
   HeardStage heard(kAt19200);
-  const HostReply code = heard.stage.read_registers(0, 1, 0x0001, 1);  // HW_Code
+  const HostReply code = heard.stage.read(0, 1, Table::holding, 0x0001, 1);  // HW_Code
   EXPECT_EQ(code.kind, Kind::good);
   EXPECT_EQ(code.words, std::vector<std::uint16_t>{0xC001});
   // 01 03 00 01 00 01 D5 CA is the manual's request, 01 03 02 C0 01 29 84 its reply.
@@ -78,15 +78,15 @@ TEST(FreeStage, AReadTakesItsFramesTimeAndTheNextOneWaitsForT35) {
   // 8 characters: 4,583,333; + 750,000; 7 characters: 4,010,416.
   EXPECT_EQ(heard.answers, std::vector{ns(5'333'333)});
   EXPECT_EQ(heard.stage.now(), ns(9'343'749));
-  heard.stage.read_registers(0, 1, 0x0001, 1);
+  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(heard.starts, (std::vector{ns(0), ns(9'343'749 + 2'005'209)}));
   EXPECT_EQ(heard.stage.now(), ns(11'348'958 + 9'343'749));
 }
 
 TEST(FreeStage, TheSameAt115200Baud) {
   HeardStage heard(kAt115200);
-  heard.stage.read_registers(0, 1, 0x0001, 1);
-  heard.stage.read_registers(0, 1, 0x0001, 1);
+  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
   // 11 bits are 95,486.11 ns: 8 of them 763,888, 7 of them 668,402.
   EXPECT_EQ(heard.answers[0], ns(763'888 + 750'000));
   EXPECT_EQ(heard.starts, (std::vector{ns(0), ns(1'513'888 + 668'402 + 1'750'000)}));
@@ -94,43 +94,46 @@ TEST(FreeStage, TheSameAt115200Baud) {
 
 TEST(FreeStage, TheGapComesOnTopOfT35ButTimeThatHasPassedCounts) {
   HeardStage heard(kAt19200, {.gap = std::chrono::milliseconds(5)});
-  heard.stage.read_registers(0, 1, 0x0001, 1);
-  heard.stage.read_registers(0, 1, 0x0001, 1);
+  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
+  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(heard.starts[1], ns(9'343'749 + 2'005'209 + 5'000'000));
   heard.stage.advance(std::chrono::seconds(1));
   const SimTime now = heard.stage.now();
-  heard.stage.read_registers(0, 1, 0x0001, 1);
+  heard.stage.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(heard.starts[2], now);
 }
 
 TEST(FreeStage, OneWordIsWrittenByFunction06AndMoreBy16) {
   HeardStage heard(kAt19200);
-  EXPECT_EQ(heard.stage.write_registers(0, 1, 0x1002, std::vector<std::uint16_t>{200}).kind, Kind::good);
+  EXPECT_EQ(heard.stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200}).kind,
+            Kind::good);
   EXPECT_EQ(std::vector(heard.heard.begin(), heard.heard.begin() + 6),
             (std::vector<std::uint8_t>{0x01, 0x06, 0x10, 0x02, 0x00, 0xC8}));
   heard.heard.clear();
-  EXPECT_EQ(heard.stage.write_registers(0, 1, 0x1002, std::vector<std::uint16_t>{200, 5}).kind, Kind::good);
+  EXPECT_EQ(heard.stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200, 5}).kind,
+            Kind::good);
   EXPECT_EQ(std::vector(heard.heard.begin(), heard.heard.begin() + 11),
             (std::vector<std::uint8_t>{0x01, 0x10, 0x10, 0x02, 0x00, 0x02, 0x04, 0x00, 0xC8, 0x00, 0x05}));
-  EXPECT_EQ(heard.stage.read_registers(0, 1, 0x1002, 2).words, (std::vector<std::uint16_t>{200, 5}));
+  EXPECT_EQ(heard.stage.read(0, 1, Table::holding, 0x1002, 2).words, (std::vector<std::uint16_t>{200, 5}));
 }
 
 TEST(FreeStage, AnExceptionIsTold) {
   HeardStage heard(kAt19200);
-  const HostReply refused = heard.stage.write_registers(0, 1, 0x1002, std::vector<std::uint16_t>{40'000});
+  const HostReply refused =
+      heard.stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});
   EXPECT_EQ(refused.kind, Kind::exception);
   EXPECT_EQ(refused.exception, 3);  // beyond 32768
   // 8 characters, 750 us, 5 characters: 2,864,583.
   EXPECT_EQ(heard.stage.now(), ns(5'333'333 + 2'864'583));
-  EXPECT_EQ(heard.stage.read_registers(0, 1, 0x9999, 1).exception, 2);
+  EXPECT_EQ(heard.stage.read(0, 1, Table::holding, 0x9999, 1).exception, 2);
 }
 
 TEST(FreeStage, WithoutAReplyItsTimeoutCountsFromTheRequestsEnd) {
   HeardStage heard(kAt19200, {.timeout = std::chrono::milliseconds(70)});
-  EXPECT_EQ(heard.stage.read_registers(0, 9, 0x0001, 1).kind, Kind::silence);  // nobody is station 9
+  EXPECT_EQ(heard.stage.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);  // nobody is station 9
   EXPECT_EQ(heard.stage.now(), ns(4'583'333 + 70'000'000));
   HeardStage patient(kAt19200);
-  EXPECT_EQ(patient.stage.read_registers(0, 9, 0x0001, 1).kind, Kind::silence);
+  EXPECT_EQ(patient.stage.read(0, 9, Table::holding, 0x0001, 1).kind, Kind::silence);
   EXPECT_EQ(patient.stage.now(), ns(504'583'333));
 }
 
@@ -149,7 +152,7 @@ TEST(FreeStage, APowerCutGarblesAReplyButNotTheNextRequest) {
     cut = std::make_unique<Cut>(world);
     world.add_watcher(*cut);
   });
-  const HostReply reply = heard.stage.read_registers(0, 1, 0x0001, 1);
+  const HostReply reply = heard.stage.read(0, 1, Table::holding, 0x0001, 1);
   EXPECT_EQ(reply.kind, Kind::garbled);
   // The reply begins at 5,333,333; at 7 ms its third character is on its way, which is over at 7,052,083.
   EXPECT_EQ(reply.bytes, (std::vector<std::uint8_t>{0x01, 0x03, 0x02}));
@@ -159,7 +162,7 @@ TEST(FreeStage, APowerCutGarblesAReplyButNotTheNextRequest) {
     world.remove_watcher(*cut);
     world.switch_power(0, true);
   });
-  EXPECT_EQ(heard.stage.read_registers(0, 1, 0x0001, 1).kind, Kind::good);
+  EXPECT_EQ(heard.stage.read(0, 1, Table::holding, 0x0001, 1).kind, Kind::good);
 }
 
 TEST(FreeStage, ExchangeSendsWhatItIsGivenAndTakesWhatComes) {
@@ -194,17 +197,18 @@ TEST(FreeStage, TheLastWriteActsFromTheTickAfterItIsCarriedOut) {
   HeardStage heard(kAt19200);
   FreeStage& stage = heard.stage;
   EXPECT_EQ(stage.tick_of_last_write(), 0);
-  stage.write_registers(0, 1, 0x1002, std::vector<std::uint16_t>{200});  // carried out at 5.333 ms
+  stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});  // carried out at 5.333 ms
   EXPECT_EQ(stage.tick_of_last_write(), 6);
-  stage.read_registers(0, 1, 0x1002, 1);
+  stage.read(0, 1, Table::holding, 0x1002, 1);
   EXPECT_EQ(stage.tick_of_last_write(), 6);
-  stage.write_registers(0, 1, 0x1002, std::vector<std::uint16_t>{40'000});  // refused
+  stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{40'000});  // refused
   EXPECT_EQ(stage.tick_of_last_write(), 6);
   stage.advance(std::chrono::milliseconds(100) - stage.now());
-  std::vector<std::uint8_t> broadcast = write_request(0, 0x1002, std::vector<std::uint16_t>{300});
+  std::vector<std::uint8_t> broadcast =
+      write_request(0, Table::holding, 0x1002, std::vector<std::uint16_t>{300});
   stage.exchange(0, broadcast, SIZE_MAX, std::chrono::milliseconds(20));  // at 105.333 ms; nobody answers
   EXPECT_EQ(stage.tick_of_last_write(), 106);
-  EXPECT_EQ(stage.read_registers(0, 1, 0x1002, 1).words, std::vector<std::uint16_t>{300});
+  EXPECT_EQ(stage.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{300});
 }
 
 TEST(FreeStage, RunUntilStopsAtTheVeryTick) {
@@ -242,18 +246,19 @@ TEST(FreeStage, LinesHaveHostsOfTheirOwn) {
                       "  two: { baud: 115200, stations: [ { name: b, model: simple2-r3, address: 2 } ] }\n",
                       "bench.yaml", "."),
                   {});
-  EXPECT_EQ(stage.write_registers(0, 1, 0x1002, std::vector<std::uint16_t>{11}).kind, Kind::good);
+  EXPECT_EQ(stage.write(0, 1, Table::holding, 0x1002, std::vector<std::uint16_t>{11}).kind, Kind::good);
   const SimTime begin = stage.now();
-  EXPECT_EQ(stage.write_registers(1, 2, 0x1002, std::vector<std::uint16_t>{22}).kind, Kind::good);
+  EXPECT_EQ(stage.write(1, 2, Table::holding, 0x1002, std::vector<std::uint16_t>{22}).kind, Kind::good);
   EXPECT_EQ(stage.now(), begin + ns(763'888 + 750'000 + 763'888));  // nothing was on that line before
-  EXPECT_EQ(stage.read_registers(0, 1, 0x1002, 1).words, std::vector<std::uint16_t>{11});
-  EXPECT_EQ(stage.read_registers(1, 2, 0x1002, 1).words, std::vector<std::uint16_t>{22});
-  EXPECT_EQ(stage.read_registers(0, 2, 0x1002, 1).kind, Kind::silence);
+  EXPECT_EQ(stage.read(0, 1, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{11});
+  EXPECT_EQ(stage.read(1, 2, Table::holding, 0x1002, 1).words, std::vector<std::uint16_t>{22});
+  EXPECT_EQ(stage.read(0, 2, Table::holding, 0x1002, 1).kind, Kind::silence);
 }
 
 TEST(ModbusHost, JudgesReplies) {
-  const std::vector<std::uint8_t> read = read_request(1, 0x0001, 1);
-  const std::vector<std::uint8_t> write = write_request(1, 0x1002, std::vector<std::uint16_t>{200});
+  const std::vector<std::uint8_t> read = read_request(1, Table::holding, 0x0001, 1);
+  const std::vector<std::uint8_t> write =
+      write_request(1, Table::holding, 0x1002, std::vector<std::uint16_t>{200});
   const auto with_crc = [](std::vector<std::uint8_t> bytes) {
     // CRC-16/MODBUS, bit by bit.
     unsigned crc = 0xFFFF;

@@ -180,7 +180,7 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
       {"{\"do\":null}", no_object},
       {"{\"do\":[\"status\"]}", no_object},
       {"{\"do\":\"\"}",
-       "'' is not a command; expected one of status, identify, get, eval, set, input, power, program, "
+       "'' is not a command; expected one of status, identify, get, eval, set, input, turn, power, program, "
        "inject, "
        "clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
       {"{\"do\":\"jump\"}", "'jump' is not a command; expected "},

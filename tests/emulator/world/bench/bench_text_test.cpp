@@ -39,7 +39,9 @@ plant:
     travel: [-20000, 30000]
     home: { at: 5, width: 7, hysteresis: 2 }
     limits: { lower: -18000, upper: 28000, hysteresis: 3 }
-    encoder: { per_revolution: 4000, motor_pulses_per_revolution: 3200, reversed: true }
+    near_home: { at: -40, width: 9, hysteresis: 4, contact: opens, input: DIN_5 }
+    mark: { at: 100, width: 1 }
+    encoder: { per_revolution: 4000, motor_pulses_per_revolution: 3200, reversed: true, index: { at: -3, width: 2, period: 1600, input: DIN_6 } }
     drive: { ready_after: 120ms, enabled_by: off, alarm_contact: opens }
   turner.B:
     position: -300
@@ -71,7 +73,7 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(feeder.name, "feeder");
   EXPECT_EQ(feeder.firmware, 140);
   EXPECT_EQ(feeder.address, 3);
-  EXPECT_EQ(feeder.baud, 115'200);
+  EXPECT_EQ(feeder.bauds, std::vector{115'200});
   EXPECT_EQ(feeder.dip, (std::map<std::string, bool>{{"DIP1", true}, {"DIP2", true}}));
   EXPECT_EQ(feeder.choices, (std::map<std::string, std::string>{{"loop_count", "further_passes"}}));
   EXPECT_EQ(feeder.set,
@@ -91,6 +93,17 @@ TEST(BenchText, ReadAgainIsTheSameBench) {
   EXPECT_EQ(plant.drive->ready_after, 120);
   EXPECT_FALSE(plant.drive->enabled_by);
   EXPECT_TRUE(plant.drive->alarm_opens);
+  EXPECT_EQ(plant.near_home->on.first, -40);
+  EXPECT_EQ(plant.near_home->on.last, -32);
+  EXPECT_EQ(plant.near_home->hysteresis_pulses, 4);
+  EXPECT_TRUE(plant.near_home->opens);
+  EXPECT_EQ(plant.near_home->input, bench.machines[0].plant.near_home->input);
+  EXPECT_EQ(plant.mark->on.last, 100);
+  EXPECT_EQ(plant.mark->input, -1);
+  EXPECT_EQ(plant.index->at, -3);
+  EXPECT_EQ(plant.index->width, 2);
+  EXPECT_EQ(plant.index->period, 1600);
+  EXPECT_EQ(plant.index->input, bench.machines[0].plant.index->input);
   const PlantSetup& other = again.machines.at(1).plant;
   EXPECT_EQ(other.position_pulses, -300);
   EXPECT_TRUE(other.home_opens && other.limits_open && other.has_wheel);

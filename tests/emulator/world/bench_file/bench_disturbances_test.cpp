@@ -37,7 +37,9 @@ TEST(BenchFile, MachinesHaveHysteresisAReversedEncoderAndADrive) {
 
 TEST(BenchFile, DevicesHaveTheirSwitchesAndTheFileOfTheirMemory) {
   const Bench bench = parse(kDisturbedBench);
-  const auto device = [&](std::size_t station) { return bench.devices[bench.lines[0].stations[station]]; };
+  const auto device = [&](std::size_t station) {
+    return bench.devices[bench.lines[0].stations[station].device];
+  };
   EXPECT_EQ(device(0).settings.dip, (std::map<std::string, bool>{{"DIP2", true}}));
   EXPECT_EQ(device(0).nv_path, "/benches/memory/feeder.json");
   EXPECT_EQ(device(1).settings.dip, (std::map<std::string, bool>{{"DIP1", false}, {"DIP2", false}}));

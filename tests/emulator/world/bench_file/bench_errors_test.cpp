@@ -87,7 +87,8 @@ TEST(BenchErrors, KeysThatAreUnknownOrGivenTwice) {
       {with_line("speed: 1, " + kStation),
        "3: lines.a.speed: is not a key here; expected one of link, baud, baud_tolerance, timing, stations"},
       {with("adress: 2"),
-       "5: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, firmware, "
+       "5: lines.a.stations[0].adress: is not a key here; expected one of name, model, address, port, "
+       "firmware, "
        "modules, set, "
        "choices, dip, program, nv (the nearest is 'address')"},
       {with("address:2"),

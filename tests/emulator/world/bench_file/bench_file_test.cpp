@@ -23,8 +23,8 @@ TEST(BenchFile, LinesHaveTheirLinkSpeedTimingAndStationsInOrder) {
   EXPECT_EQ(first.baud, 19200);
   EXPECT_EQ(first.timing, pty::Timing::wire);
   ASSERT_EQ(first.stations.size(), 2u);
-  EXPECT_EQ(bench.devices.at(first.stations[0]).settings.name, "feeder");
-  EXPECT_EQ(bench.devices.at(first.stations[1]).settings.name, "turner");
+  EXPECT_EQ(bench.devices.at(first.stations[0].device).settings.name, "feeder");
+  EXPECT_EQ(bench.devices.at(first.stations[1].device).settings.name, "turner");
   const LineSetup& second = bench.lines[1];
   EXPECT_EQ(second.name, "second");
   EXPECT_EQ(second.link, "");
@@ -36,23 +36,23 @@ TEST(BenchFile, LinesHaveTheirLinkSpeedTimingAndStationsInOrder) {
 TEST(BenchFile, DevicesHaveWhatWasWrittenInlineOrUnderDevices) {
   const Bench bench = parse(kFullBench);
   ASSERT_EQ(bench.devices.size(), 3u);
-  const DeviceSetup& feeder = bench.devices[bench.lines[0].stations[0]];
+  const DeviceSetup& feeder = bench.devices[bench.lines[0].stations[0].device];
   EXPECT_EQ(feeder.model, find_model(models::all_models(), "simple2-r3"));
   EXPECT_EQ(feeder.settings.firmware, 152);
   EXPECT_EQ(feeder.settings.address, 1);
-  EXPECT_EQ(feeder.settings.baud, 19200);
+  EXPECT_EQ(feeder.settings.bauds, std::vector{19200});
   EXPECT_TRUE(feeder.settings.set.empty());
-  const DeviceSetup& turner = bench.devices[bench.lines[0].stations[1]];
+  const DeviceSetup& turner = bench.devices[bench.lines[0].stations[1].device];
   EXPECT_EQ(turner.settings.firmware, 140);
   EXPECT_EQ(turner.settings.address, 2);
   EXPECT_EQ(turner.settings.set, (std::vector<std::pair<std::string, Value>>{
                                      {"Aaxis_Speed", 200}, {"Aaxis_Pulse", -32000}, {"DOUT_ALL", 127}}));
   EXPECT_EQ(turner.settings.choices,
             (std::map<std::string, std::string>{{"servo_at_power_up", "on"}, {"limit_reaction", "none"}}));
-  const DeviceSetup& lone = bench.devices[bench.lines[1].stations[0]];
+  const DeviceSetup& lone = bench.devices[bench.lines[1].stations[0].device];
   EXPECT_EQ(lone.settings.name, "lone-one_3");
   EXPECT_EQ(lone.settings.address, 1);
-  EXPECT_EQ(lone.settings.baud, 115200);
+  EXPECT_EQ(lone.settings.bauds, std::vector{115200});
 }
 
 TEST(BenchFile, MachinesHaveTheirTravelSwitchesAndEncoder) {

@@ -17,7 +17,7 @@ namespace fault_test {
 
 const KnownDevices& two() {
   static const Model* const model = find_model(models::all_models(), "simple2-r3");
-  static const KnownDevices devices{{"feeder", model, 152, "rs485"}, {"turner", model, 140, "rs485"}};
+  static const KnownDevices devices{{"feeder", model, 152, {"rs485"}}, {"turner", model, 140, {"rs485"}}};
   return devices;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "base/version.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench/bench_text.h"
 #include "emulator/world/recording/recorder.h"
@@ -19,7 +20,11 @@ class BusyWorld {
       : random_(seed),
         bench_(parse_bench(models::all_models(), two_devices(timing, 19200), "two.yaml", ".")),
         world_(bench_, {}, {}),
-        header_{.version = "1.2.3", .bench = to_text(bench_), .options = {}, .seed = seed, .snapshot = {}} {
+        header_{.version = std::string(program_version()),
+                .bench = to_text(bench_),
+                .options = {},
+                .seed = seed,
+                .snapshot = {}} {
     begin();
   }
 

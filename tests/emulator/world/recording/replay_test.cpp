@@ -6,7 +6,10 @@
 
 #include <sstream>
 
+#include "base/version.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/snapshot.h"
+#include "emulator/world/snapshot_file.h"
 #include "tests/emulator/world/recording/busy_world.h"
 #include "tests/emulator/world/same_world.h"
 
@@ -55,7 +58,7 @@ TEST(Replay, SaysEveryByteOfABusyWorldAgainAndEndsInItsState) {
     EXPECT_EQ(again.result.verdict, Verdict::same) << again.result.difference;
     EXPECT_TRUE(again.result.has_end);
     EXPECT_TRUE(same);
-    EXPECT_EQ(again.header.version, "1.2.3");
+    EXPECT_EQ(again.header.version, program_version());
     EXPECT_EQ(again.header.seed, seed);
     bytes += again.result.bytes_said;
   }
@@ -82,6 +85,40 @@ TEST(Replay, TellsTheFirstByteThatDiffers) {
     if (++changed == 20) break;
   }
   EXPECT_EQ(changed, 20);
+}
+
+// One byte of the state that a recording ended in is another: the field is named.
+TEST(Replay, NamesTheFieldInWhichItEndsInAnotherState) {
+  BusyWorld busy(4);
+  busy.play(300);
+  const std::vector<std::string> lines = lines_of(busy.finish());
+  ASSERT_NE(lines.back().find("\"state\":"), std::string::npos);
+  EXPECT_EQ(play(joined(lines)).result.verdict, Verdict::same);
+  const WorldState state = save(busy.world());
+  const auto ended_with = [&](const WorldState& other, std::string_view version = program_version()) {
+    std::vector<std::string> changed = lines;
+    RecordedEvent end{.at = state.time, .text = to_text(other, kBenchOfRecording)};
+    changed.back() = to_line(end, busy.world().known()) + "\n";
+    RecordingHeader header = parse_header(changed.front());
+    header.version = version;
+    changed.front() = to_line(header) + "\n";
+    return play(joined(changed)).result;
+  };
+  EXPECT_EQ(ended_with(state).verdict, Verdict::same);
+  WorldState other = state;
+  other.parts.back().bytes.back() ^= std::byte{1};  // at the edge
+  EXPECT_EQ(ended_with(other).verdict, Verdict::same) << "what a host has not taken yet is nobody's concern";
+  // All that differs of a world that was given one pulse more from outside.
+  busy.world().set_external_input(0, 0, busy.world().device(0).input(0) == 0 ? 1 : 0);
+  const ReplayResult moved = ended_with(save(busy.world()));
+  EXPECT_EQ(moved.verdict, Verdict::different);
+  EXPECT_TRUE(moved.difference.starts_with("ends in another state: ")) << moved.difference;
+  EXPECT_NE(moved.difference.find("inputs[0]"), std::string::npos) << moved.difference;
+  EXPECT_TRUE(moved.difference.ends_with("(recorded against replayed)")) << moved.difference;
+  EXPECT_EQ(ended_with(save(busy.world()), "0.0.1").verdict, Verdict::same) << "of another version";
+  WorldState short_of_one = state;
+  short_of_one.parts.erase(short_of_one.parts.begin());
+  EXPECT_THROW(ended_with(short_of_one), RecordingError);
 }
 
 TEST(Replay, ReportsWhatIsMissingOrExtraOrAtAnotherTime) {

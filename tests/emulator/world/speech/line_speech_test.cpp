@@ -48,7 +48,7 @@ TEST(LineSpeech, IsRefusedWhereTheWorldHasNone) {
                     .axes = {},
                     .state_registers = {},
                     .gaps = {},
-                    .line = {.protocol = kSmokeSigns, .bauds = kTextBauds, .settings = {}},
+                    .line = {.protocol = kSmokeSigns, .ports = kTextPort},
                     .make = nullptr};
   std::string complaint;
   try {
@@ -75,11 +75,11 @@ class Mute final : public Device {
 
 TEST(LineSpeech, MakesAStationOnlyOfADeviceThatSpeaks) {
   Mute mute(echo_box(), {});
-  EXPECT_THROW(text_speech().make_station(mute, {}), std::logic_error);
-  EXPECT_THROW(modbus_speech().make_station(mute, {}), std::logic_error);
+  EXPECT_THROW(text_speech().make_station(mute, 0, {}), std::logic_error);
+  EXPECT_THROW(modbus_speech().make_station(mute, 0, {}), std::logic_error);
   EchoBox box(echo_box(), {});
-  EXPECT_NE(text_speech().make_station(box, {}), nullptr);
-  EXPECT_THROW(modbus_speech().make_station(box, {}), std::logic_error);
+  EXPECT_NE(text_speech().make_station(box, 0, {}), nullptr);
+  EXPECT_THROW(modbus_speech().make_station(box, 0, {}), std::logic_error);
 }
 
 }  // namespace line_speech_test

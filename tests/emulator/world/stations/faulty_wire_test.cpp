@@ -19,6 +19,7 @@ struct Faults final : FrameFaults {
   bool is_early(const HeardFrame&) override { return true; }
   std::vector<pty::WireFault> on_request(const HeardFrame& frame) override {
     device = frame.device;
+    line = frame.line;
     return request;
   }
   Treatment on_serving(const HeardFrame&) override { return treatment; }
@@ -28,6 +29,7 @@ struct Faults final : FrameFaults {
   std::vector<pty::WireFault> reply;
   Treatment treatment;
   std::size_t device = 0;
+  std::size_t line = 0;
 };
 
 struct Silence final : pty::Transmitter {
@@ -73,9 +75,10 @@ TEST(FaultyWire, LetsAllThroughWhereNothingIsBroken) {
 
 TEST(FaultyWire, TellsWhichDeviceHears) {
   Rig rig;
-  rig.wire.set_faults(&rig.faults, 4);
+  rig.wire.set_faults(&rig.faults, 4, 7);
   EXPECT_TRUE(rig.hear({1, 2}, 5ms));
   EXPECT_EQ(rig.faults.device, 4u);
+  EXPECT_EQ(rig.faults.line, 7u);
 }
 
 TEST(FaultyWire, GarblesDropsAndDelaysBothWays) {
@@ -101,7 +104,7 @@ TEST(FaultyWire, GarblesDropsAndDelaysBothWays) {
   for (const Case& c : cases) {
     SCOPED_TRACE(c.what);
     Rig rig;
-    rig.wire.set_faults(&rig.faults, 0);
+    rig.wire.set_faults(&rig.faults, 0, 0);
     rig.faults.request = rig.faults.reply = c.stages;
     EXPECT_FALSE(rig.hear({1, 2}, 5ms));
     EXPECT_EQ(rig.log_until(15ms - 1ns), c.request);
@@ -115,7 +118,7 @@ TEST(FaultyWire, GarblesDropsAndDelaysBothWays) {
 
 TEST(FaultyWire, KeepsLateMessagesInTheOrderOfTime) {
   Rig rig;
-  rig.wire.set_faults(&rig.faults, 0);
+  rig.wire.set_faults(&rig.faults, 0, 0);
   rig.faults.reply = {{.kind = Kind::delay, .time = 10ms}};
   rig.faults.request = {{.kind = Kind::delay, .time = 2ms}};
   rig.answer({1}, 0ms);
@@ -127,7 +130,7 @@ TEST(FaultyWire, KeepsLateMessagesInTheOrderOfTime) {
 
 TEST(FaultyWire, LosesWhatIsTooMuchAndWhatIsReset) {
   Rig rig;
-  rig.wire.set_faults(&rig.faults, 0);
+  rig.wire.set_faults(&rig.faults, 0, 0);
   rig.faults.reply = {{.kind = Kind::delay, .time = 10ms}};
   for (std::size_t i = 0; i < FaultyWire::kMostLate + 5; ++i) rig.answer({1}, 0ms);
   EXPECT_EQ(rig.wire.late().size(), FaultyWire::kMostLate);

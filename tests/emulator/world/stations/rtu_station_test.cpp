@@ -35,7 +35,7 @@ Bytes framed(std::uint8_t address, const Bytes& pdu) {
 /// One station alone, spoken to in frames that are long apart.
 struct StationRig final : pty::Transmitter {
   explicit StationRig(const DeviceSettings& settings = {}, pty::RtuFraming framing = kTolerant)
-      : device(make_simple2(settings)), station(*device, framing) {}
+      : device(make_simple2(settings)), station(*device, 0, framing) {}
 
   void transmit(std::span<const std::uint8_t> bytes) override { said.push_back(text(bytes)); }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t) override { transmit(bytes); }
@@ -242,13 +242,13 @@ TEST(RtuStation, WhatItHalfHeardIsForgottenWhenAnotherStationSpeaks) {
 /// What comes back for a frame sent in two parts with an idle gap between them.
 std::string reply_to_split(const Bytes& frame, std::size_t first_part, SimTime gap, int baud) {
   DeviceSettings settings;
-  settings.baud = baud;
+  settings.bauds = {baud};
   const auto device = make_simple2(settings);
-  RtuStation station(*device, kStrict);
-  pty::Line line("line", {.settings = device->line_settings(), .enforce_settings = false}, {});
+  RtuStation station(*device, 0, kStrict);
+  pty::Line line("line", {.settings = device->line_settings(0), .enforce_settings = false}, {});
   line.attach(station);
   const auto parts = std::span(frame);
-  const SimTime second = device->line_settings().duration_of(static_cast<std::int64_t>(first_part)) + gap;
+  const SimTime second = device->line_settings(0).duration_of(static_cast<std::int64_t>(first_part)) + gap;
   line.receive(parts.first(first_part), 0ns);
   line.run(second - 1ns);
   line.receive(parts.subspan(first_part), second);
@@ -282,8 +282,8 @@ TEST(StrictFraming, AGapLongerThanTheEndTimeSplitsAFrame) {
 
 TEST(StrictFraming, TheReplyBeginsNoEarlierThanTheEndTime) {
   const auto device = make_simple2();
-  RtuStation station(*device, kStrict);
-  pty::Line line("line", {.settings = device->line_settings(), .enforce_settings = false}, {});
+  RtuStation station(*device, 0, kStrict);
+  pty::Line line("line", {.settings = device->line_settings(0), .enforce_settings = false}, {});
   line.attach(station);
   line.receive(hex("01 03 00 01 00 01 D5 CA"), 0ns);
   // 8 characters of 11 bits at 19200 baud, 0.75 ms, one character of the reply: 5,906,250 ns and a bit.

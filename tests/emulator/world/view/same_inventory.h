@@ -50,7 +50,7 @@ inline void expect_same_inventory(const Bench& bench) {
     const KnownDevice& here = inventory.known()[d];
     SCOPED_TRACE(here.name);
     EXPECT_EQ(here.name, world.known()[d].name);
-    EXPECT_EQ(here.line, world.known()[d].line);
+    EXPECT_EQ(here.lines, world.known()[d].lines);
     EXPECT_EQ(here.name, world.device(d).name());
     EXPECT_EQ(here.model, &world.device(d).model());
     EXPECT_EQ(here.firmware, world.device(d).firmware());

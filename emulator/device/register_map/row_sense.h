@@ -1,0 +1,11 @@
+// What a row of a register map cannot be, whatever the other rows are.
+#pragma once
+
+#include "emulator/device/register_map/row.h"
+
+namespace understudy::emulator {
+
+/// Throws std::logic_error with the row's name and what is wrong with it.
+void demand_sense(const RegisterRow& row);
+
+}  // namespace understudy::emulator

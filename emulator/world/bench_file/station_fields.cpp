@@ -1,0 +1,84 @@
+#include "emulator/world/bench_file/station_fields.h"
+
+#include <set>
+#include <string>
+
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "emulator/world/view/bench_inventory.h"
+
+namespace understudy::emulator::world {
+
+std::size_t read_port(const YamlFields& station, const Model& model) {
+  const auto field = station.find("port");
+  if (!field) return 0;
+  if (const auto port = find_port(model, field->text())) return *port;
+  std::vector<std::string> names;
+  for (const PortRow& row : model.line.ports) names.emplace_back(row.name);
+  field->fail(quoted(field->text()) + " is not a port of " + std::string(model.name) +
+              suggestion(field->text(), names));
+}
+
+void demand_room(const YamlFields& station, const StationSetup& wanted, const LineSetup& line,
+                 const Bench& bench) {
+  const auto rules_of = [&](const StationSetup& some) -> const LineRules& {
+    return bench.devices[some.device].model->line;
+  };
+  const auto is_alone = [&](const StationSetup& some) {
+    return !rules_of(some).station_numbers || rules_of(some).ports[some.port].kind == PortRow::Kind::rs232;
+  };
+  if (line.stations.empty() || (!is_alone(wanted) && !is_alone(line.stations.front()))) return;
+  const StationSetup& lone = is_alone(wanted) ? wanted : line.stations.front();
+  const LineRules& rules = rules_of(lone);
+  const std::string why =
+      rules.station_numbers ? " is there by " + std::string(rules.ports[lone.port].name) + ", an RS232 port,"
+                            : " speaks " + std::string(rules.protocol.name);
+  station.fail(quoted(bench.devices[lone.device].settings.name) + why +
+               " and must be alone on its line; expected no other station on it");
+}
+
+std::optional<int> read_address(const YamlFields& station, DeviceSetup& device) {
+  const auto field = station.find("address");
+  if (!field) return std::nullopt;
+  const auto& numbers = device.model->line.station_numbers;
+  if (!numbers) field->fail(std::string(device.model->name) + " has no station number; expected none");
+  const auto address = static_cast<int>(field->integer(numbers->lowest, numbers->highest));
+  std::optional<int>& known = device.settings.address;
+  if (known && *known != address) {
+    field->fail("the device has one station number, and on another line it is " + std::to_string(*known) +
+                "; expected the same");
+  }
+  known = address;
+  return address;
+}
+
+namespace {
+
+std::optional<int> number_of(const NumberedStation& station, const Bench& bench,
+                             const BenchInventory& inventory) {
+  if (station.address || !station.device) return station.address;
+  const DeviceSetup& device = bench.devices[*station.device];
+  if (device.settings.address || !device.model->line.station_numbers || !device.nv_path.empty())
+    return device.settings.address;
+  return inventory.device(*station.device).station_number();
+}
+
+}  // namespace
+
+void check_addresses(const std::vector<std::vector<NumberedStation>>& lines, const Bench& bench,
+                     Complaints& complaints) {
+  const BenchInventory inventory(bench);
+  for (const std::vector<NumberedStation>& line : lines) {
+    std::set<int> taken;
+    for (const NumberedStation& station : line) {
+      const auto number = number_of(station, bench, inventory);
+      if (!number || taken.insert(*number).second) continue;
+      complaints.attempt([&] {
+        station.fields.fail("address " + std::to_string(*number) +
+                            " is taken on this line; expected another");
+      });
+    }
+  }
+}
+
+}  // namespace understudy::emulator::world

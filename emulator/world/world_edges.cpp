@@ -1,0 +1,96 @@
+// What devices are told that meet edges between ticks: where along an axis its machine's switches change the
+// levels of inputs. It is told when it changes: when the machine loses pulses or finds them again, is pushed,
+// when a switch comes on or lets go, when an input is held, stuck or on by a wire.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/device/axes.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+/// In the machine's positions, less what the device has counted.
+MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
+  MachineEdges edges;
+  const PlantAxis& plant = plants_[device][axis];
+  if (!plant.steps_all()) return edges;  // levels count: nobody knows how far it will come
+  const std::int64_t origin = plant.position_pulses() - axes_[device]->place_pulses(static_cast<int>(axis));
+  for (const ContactWire& wire : contacts_[device]) {
+    const Input& input = inputs_[device][static_cast<std::size_t>(wire.input)];
+    if (wire.axis != axis || input.stuck || input.external != 0 || input.wired) continue;
+    if (wire.contact == Contact::index) {
+      const IndexSetup& index = *plant.setup().index;
+      edges.index = {
+          .input = wire.input, .at = index.at - origin, .width = index.width, .period = index.period};
+    } else if (const auto way = plant.way_of(wire.contact)) {
+      edges.spans[edges.span_count++] = {.input = wire.input,
+                                         .level_inside = !way->opens,
+                                         .first = way->on.first - origin,
+                                         .last = way->on.last - origin,
+                                         .slack = way->hysteresis_pulses};
+    }
+  }
+  return edges;
+}
+
+void World::begin_edges() {
+  const auto asks = [](const Axes* axes) { return axes != nullptr && axes->meets_edges(); };
+  if (std::none_of(axes_.begin(), axes_.end(), asks)) return;
+  for (std::size_t d = 0; d < devices_.size(); ++d) {
+    told_edges_.emplace_back(asks(axes_[d]) ? plants_[d].size() : 0);
+    for (std::size_t a = 0; a < told_edges_[d].size(); ++a) plants_[d][a].look_between_ticks();
+    tell_edges(d);
+  }
+}
+
+void World::tell_edges(std::size_t device) {
+  if (!meets_edges(device)) return;
+  for (std::size_t a = 0; a < told_edges_[device].size(); ++a) {
+    ToldEdges& told = told_edges_[device][a];
+    const MachineEdges edges = edges_of(device, a);
+    const auto axis = static_cast<int>(a);
+    told.origin = plants_[device][a].position_pulses() - axes_[device]->place_pulses(axis);
+    if (told.is_told && told.edges == edges) continue;
+    told.is_told = true;
+    told.edges = edges;
+    axes_[device]->set_edges(axis, edges);
+  }
+}
+
+void World::tell_edges_anew(std::size_t device) {
+  if (device >= told_edges_.size()) return;
+  for (ToldEdges& told : told_edges_[device]) told.is_told = false;
+  tell_edges(device);
+}
+
+/// After a tick in which no switch has changed.
+void World::look_at_places(std::size_t device) {
+  for (std::size_t a = 0; a < told_edges_[device].size(); ++a) {
+    const std::int64_t place = axes_[device]->place_pulses(static_cast<int>(a));
+    if (plants_[device][a].position_pulses() - place == told_edges_[device][a].origin) continue;
+    return tell_edges(device);
+  }
+}
+
+/// At the beginning of a tick: its part of the turns that are under way.
+void World::turn_inputs() {
+  __extension__ using Wide = __int128;
+  const auto turned = [](const InputTurn& turn) {
+    return static_cast<std::int64_t>(Wide{turn.counts} * (turn.ticks - turn.ticks_left) / turn.ticks);
+  };
+  for (InputTurn& turn : input_turns_) {
+    const std::int64_t before = turned(turn);
+    --turn.ticks_left;
+    // Counts wrap as a counter of 32 bits does.
+    std::int32_t& counts = inputs_[turn.device][static_cast<std::size_t>(turn.terminal)].external;
+    counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(counts) +
+                                       static_cast<std::uint32_t>(turned(turn) - before));
+    apply_input(turn.device, turn.terminal);
+  }
+  std::erase_if(input_turns_, [](const InputTurn& turn) { return turn.ticks_left == 0; });
+}
+
+}  // namespace understudy::emulator::world

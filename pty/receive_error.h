@@ -1,0 +1,14 @@
+// What can be wrong with characters that were received and are not a frame.
+#pragma once
+
+#include <cstdint>
+
+namespace understudy::pty {
+
+enum class ReceiveError : std::uint8_t {
+  bad_checksum,  // as long as a frame, but its checksum is not right
+  overlong,      // longer than any frame
+  cut_off,       // it ends before a frame could
+};
+
+}  // namespace understudy::pty

@@ -1,0 +1,185 @@
+// The motors of the controller that nobody makes. They meet edges at their pulse; B counts against the
+// motor's sense. A hand wheel turns A while it follows; an output gives a pulse for every tenth of A.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <tuple>
+
+#include "base/state/fields.h"
+#include "emulator/device/device.h"
+#include "emulator/device/machine_ahead.h"
+#include "emulator/device/machine_edges.h"
+#include "motion/axis.h"
+#include "motion/state_fields.h"
+#include "tests/emulator/workbench/machine_terminals.h"
+
+namespace understudy::emulator::workbench {
+
+struct Motor {
+  motion::Axis axis{};
+  motion::Surroundings here{};
+  std::int64_t sent_pulses = 0;  // in the last tick
+
+  bool operator==(const Motor&) const = default;
+};
+
+struct MotorsState {
+  std::array<Motor, kMotorCount> motors{};
+  std::int32_t wheel_seen = 0;
+  std::int32_t external_seen = 0;
+  std::int64_t external_edges = 0;
+  std::int64_t compared = 0;    // pulses of the output
+  std::uint8_t low_active = 0;  // a bit for each of MotorInput: active where it is 0
+
+  bool operator==(const MotorsState&) const = default;
+};
+
+class Motors {
+ public:
+  static constexpr std::int64_t kComparedEvery = 10;
+  static constexpr std::size_t kReversed = 1;
+
+  /// The state must outlive it.
+  explicit Motors(MotorsState& its) : state(its) {
+    for (Motor& motor : state.motors) motor.axis.servo_on = true;
+    state.motors[kReversed].axis.inverted = true;
+  }
+
+  /// What a motor meets now: where an input changes with the place, zones; else its level.
+  void look_round(const Device& device, std::size_t number) {
+    struct Function {
+      MotorInput input;
+      motion::Signal signal;
+      motion::Signal reversed;
+    };
+    using motion::Signal;
+    static constexpr Function kFunctions[] = {{kUpper, Signal::limit_plus, Signal::limit_minus},
+                                              {kLower, Signal::limit_minus, Signal::limit_plus},
+                                              {kHome, Signal::home, Signal::home},
+                                              {kNear, Signal::near_home, Signal::near_home},
+                                              {kMark, Signal::mark, Signal::mark},
+                                              {kIndex, Signal::index, Signal::index}};
+    const MachineEdges& edges = edges_[number];
+    motion::Surroundings now;
+    for (const Function& function : kFunctions) {
+      const int input = motor_input(number, function.input);
+      const bool active_level = (state.low_active >> function.input & 1) == 0;
+      const Signal signal = number == kReversed ? function.reversed : function.signal;
+      if (const MachineEdges::Span* const span = edges.span_of(input)) {
+        const bool is_inside = span->level_inside == active_level;
+        (is_inside ? now.add(signal, span->first, span->last, span->slack)
+                   : now.add_outside(signal, span->first, span->last, span->slack));
+      } else if (edges.index.period != 0 && edges.index.input == input) {
+        now.index_period = edges.index.period;
+        now.index_at = edges.index.at;
+        now.index_width = edges.index.width;
+      } else {
+        now.set_steady(signal, (device.input(input) != 0) == active_level);
+      }
+    }
+    motion::Surroundings& here = state.motors[number].here;
+    now.version = here.version;
+    if (now == here) return;
+    ++now.version;
+    here = now;
+  }
+
+  void look_at_inputs(const Device& device) {
+    for (std::size_t i = 0; i < kMotorCount; ++i) look_round(device, i);
+    const std::int32_t turned = difference(device.input(kHandWheel), state.wheel_seen);
+    state.wheel_seen = device.input(kHandWheel);
+    motion::Axis& axis = state.motors[0].axis;
+    if (turned != 0 && axis.task == motion::Task::following) axis.feed(turned);
+    state.external_edges += std::abs(difference(device.input(kExternal), state.external_seen));
+    state.external_seen = device.input(kExternal);
+  }
+
+  void set_edges(const Device& device, std::size_t number, const MachineEdges& edges) {
+    edges_[number] = number == kReversed ? edges.reversed() : edges;
+    look_round(device, number);
+  }
+  std::int64_t place_pulses(std::size_t number) const {
+    const std::int64_t travel = state.motors[number].axis.travel_pulses;
+    return number == kReversed ? -travel : travel;
+  }
+
+  void step(Tick tick) {
+    const std::int64_t before = state.motors[0].axis.travel_pulses;
+    for (Motor& motor : state.motors) motor.sent_pulses = motor.axis.step(tick, motor.here);
+    compare(before);
+  }
+
+  bool is_quiet() const {
+    return std::all_of(state.motors.begin(), state.motors.end(), [](const Motor& motor) {
+      const motion::Axis& axis = motor.axis;
+      return !axis.moving() && !axis.attentive && axis.events == 0 && axis.events_between == 0 &&
+             motor.sent_pulses == 0 && motor.here.version == axis.seen_version;
+    });
+  }
+
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+    Tick last = most;
+    for (std::size_t i = 0; i < kMotorCount && last > done; ++i) {
+      const motion::Axis& axis = state.motors[i].axis;
+      PulseRoom room = ahead.room(static_cast<int>(i));
+      if (i == kReversed) room = {.least = -room.most, .most = -room.least};
+      last =
+          axis.quiet_until(done + 1, last, state.motors[i].here,
+                           {.low = axis.travel_pulses + room.least, .high = axis.travel_pulses + room.most});
+    }
+    return last + 1;
+  }
+
+  void cross_to(Tick tick, std::span<std::int64_t> pulses) {
+    const std::int64_t before = state.motors[0].axis.travel_pulses;
+    for (std::size_t i = 0; i < kMotorCount; ++i) {
+      Motor& motor = state.motors[i];
+      pulses[i] += motor.axis.cross_to(tick - 1);
+      motor.sent_pulses = motor.axis.step(tick, motor.here);
+      pulses[i] += motor.sent_pulses;
+    }
+    compare(before);
+  }
+
+  MotorsState& state;
+
+ private:
+  /// Of counts that wrap at 32 bits.
+  static std::int32_t difference(std::int32_t a, std::int32_t b) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
+  }
+  static std::int64_t tenth(std::int64_t travel) {
+    return travel / kComparedEvery - (travel % kComparedEvery < 0 ? 1 : 0);
+  }
+  void compare(std::int64_t before) {
+    state.compared += std::abs(tenth(state.motors[0].axis.travel_pulses) - tenth(before));
+  }
+
+  std::array<MachineEdges, kMotorCount> edges_{};  // not state: they are told again
+};
+
+}  // namespace understudy::emulator::workbench
+
+namespace understudy {
+
+template <>
+struct StateOf<emulator::workbench::Motor> {
+  using Value = emulator::workbench::Motor;
+  static constexpr auto fields = std::tuple{field("axis", &Value::axis), field("here", &Value::here),
+                                            field("sent_pulses", &Value::sent_pulses)};
+};
+
+template <>
+struct StateOf<emulator::workbench::MotorsState> {
+  using Value = emulator::workbench::MotorsState;
+  static constexpr auto fields = std::tuple{field("motors", &Value::motors),
+                                            field("wheel_seen", &Value::wheel_seen),
+                                            field("external_seen", &Value::external_seen),
+                                            field("external_edges", &Value::external_edges),
+                                            field("compared", &Value::compared),
+                                            field("low_active", &Value::low_active)};
+};
+
+}  // namespace understudy

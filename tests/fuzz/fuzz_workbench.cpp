@@ -1,0 +1,225 @@
+// What may come to a controller with four tables: anything, above all requests of the eight functions. It has
+// coils, inputs, pairs, reals, holes and a window with a FIFO behind it (tests/emulator/workbench). Whatever
+// it hears, its replies are well-formed and tell what it holds, and a request that gets an exception has
+// changed nothing.
+//
+// An input is one byte of options, then lumps. A lump is: a byte of gap (in units of 100 us), a byte of
+// length, its bytes. With the length's top bit the bytes are a PDU: station 1 is put before it, a right
+// checksum behind.
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/stations/server.h"
+#include "emulator/world/world.h"
+#include "pty/rtu_crc.h"
+#include "tests/emulator/workbench/workbench.h"
+#include "tests/fuzz/fuzzing.h"
+
+namespace {
+
+using namespace understudy;
+using fuzzing::demand;
+using namespace std::chrono_literals;
+namespace world = emulator::world;
+namespace workbench = emulator::workbench;
+
+constexpr std::size_t kMostLumps = 32;  // so that a run has an end
+constexpr SimTime kAfterwards = 500ms;  // for what is still on the wire, at most
+constexpr std::size_t kSettings = 4;    // what the byte of options can ask for
+
+struct Lump {
+  SimTime gap{0};
+  std::vector<std::uint8_t> bytes;
+  bool is_pdu = false;
+};
+
+std::vector<Lump> read_lumps(std::span<const std::uint8_t> data) {
+  std::vector<Lump> lumps;
+  while (data.size() >= 2 && lumps.size() < kMostLumps) {
+    Lump& lump = lumps.emplace_back();
+    lump.gap = data[0] * 100us;
+    lump.is_pdu = (data[1] & 0x80) != 0;
+    const std::size_t length = std::min<std::size_t>(data[1] & 0x7F, data.size() - 2);
+    if (lump.is_pdu) lump.bytes.push_back(1);
+    lump.bytes.insert(lump.bytes.end(), data.begin() + 2,
+                      data.begin() + 2 + static_cast<std::ptrdiff_t>(length));
+    if (lump.is_pdu) pty::append_rtu_crc(lump.bytes);
+    data = data.subspan(2 + length);
+  }
+  return lumps;
+}
+
+/// One controller in a world of its own, with what it has said.
+class Listener {
+ public:
+  Listener(std::uint8_t options, bool in_bulk)
+      : world_(bench_for(options), {.strict_framing = (options & 2) != 0, .enforce_settings = false}, {}),
+        make_anew_(world::read_state(world_, save(world_))) {
+    world_.set_bulk_ticks(in_bulk);
+  }
+
+  void play(std::span<const Lump> lumps) {
+    make_anew_();
+    take();
+    said_.clear();
+    for (const Lump& lump : lumps) {
+      world_.advance_to(world_.now() + lump.gap);
+      world_.receive(0, lump.bytes);
+      world_.advance_to(world_.now());
+      take();
+    }
+    const SimTime end = world_.now() + kAfterwards;
+    while (line().due() && world_.now() < end) {
+      world_.advance_to(world_.now() + 25ms);
+      take();
+    }
+  }
+
+  const pty::Line& line() const { return world_.line(0).line; }
+  workbench::Workbench& device() { return static_cast<workbench::Workbench&>(world_.device(0)); }
+  const world::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
+  SimTime now() const { return world_.now(); }
+  const std::vector<std::uint8_t>& said() const { return said_; }
+
+ private:
+  void take() {
+    const auto output = line().output();
+    said_.insert(said_.end(), output.begin(), output.end());
+    world_.take_output(0, output.size());
+  }
+  static world::Bench bench_for(std::uint8_t options) {
+    world::Bench bench;
+    world::DeviceSetup device{.model = &workbench::model(), .settings = {}};
+    device.settings.name = "it";
+    device.settings.bauds = {115200};
+    bench.devices.push_back(device);
+    bench.lines.push_back({.name = "line",
+                           .link = {},
+                           .baud = 115200,
+                           .timing = (options & 1) != 0 ? pty::Timing::instant : pty::Timing::wire,
+                           .stations = {0}});
+    return bench;
+  }
+
+  world::World world_;
+  std::function<void()> make_anew_;
+  std::vector<std::uint8_t> said_;
+};
+
+const world::FunctionRow* function_called(std::uint8_t code) {
+  for (const world::FunctionRow& row : world::kModbusFunctions) {
+    if (row.code == code) return &row;
+  }
+  return nullptr;
+}
+
+/// How long the reply is whose beginning is here; nothing if it is none.
+std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
+  if (said.size() < 5) return std::nullopt;
+  if ((said[1] & 0x80) != 0) return 5;
+  const world::FunctionRow* const row = function_called(said[1]);
+  if (row == nullptr) return std::nullopt;
+  return row->kind == world::FunctionRow::Kind::read ? 5U + said[2] : 8U;
+}
+
+void check_replies(Listener& listener) {
+  if (listener.line().counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
+  std::span<const std::uint8_t> said = listener.said();
+  std::uint64_t replies = 0;
+  std::uint64_t exceptions = 0;
+  while (!said.empty()) {
+    const auto size = reply_size(said);
+    demand(size && *size <= said.size(), "replies are whole frames");
+    demand(*size <= 256, "a reply is no longer than 256 bytes");
+    demand(pty::rtu_crc_ok(said.first(*size)), "a reply has a right checksum");
+    demand(said[0] == 1, "a station gives its own number");
+    if ((said[1] & 0x80) != 0) {
+      ++exceptions;
+      demand((said[2] >= 1 && said[2] <= 4) || said[2] == 6, "there are five exceptions");
+    }
+    ++replies;
+    said = said.subspan(*size);
+  }
+  demand(replies == listener.counters().replies, "every reply leaves");
+  demand(exceptions == listener.counters().exceptions, "exceptions are counted");
+}
+
+/// Without a line: what was refused has changed nothing but what the device notes of it, and what was written
+/// can be read again.
+void check_requests(std::span<const Lump> lumps) {
+  emulator::DeviceSettings settings;
+  settings.name = "it";
+  static const auto device = emulator::make_device(workbench::model(), settings);
+  static const workbench::WorkbenchState fresh = static_cast<workbench::Workbench&>(*device).state;
+  auto& state = static_cast<workbench::Workbench&>(*device).state;
+  state = fresh;
+  for (const Lump& lump : lumps) {
+    if (!lump.is_pdu) continue;
+    const auto pdu = std::span(lump.bytes).subspan(1, lump.bytes.size() - 3);
+    const workbench::WorkbenchState before = state;
+    const world::ModbusReply reply = world::serve(*device, pdu);
+    demand(reply.size >= 2 && reply.size <= world::kModbusMaxPdu, "a reply has a size");
+    const bool is_exception = (reply.pdu[0] & 0x80) != 0;
+    demand(is_exception == static_cast<bool>(reply.refused.objection), "an exception has a cause");
+    if (is_exception) {
+      demand(state == before, "a refused request changes nothing");
+      demand(reply.refused.exception == reply.pdu[1], "the device hears what was answered");
+      demand(pdu.empty() || reply.refused.function == pdu[0], "and to what");
+      continue;
+    }
+    const world::FunctionRow* const row = function_called(pdu[0]);
+    demand(row != nullptr, "only known functions are served");
+    if (row->kind == world::FunctionRow::Kind::read) demand(state == before, "reading changes nothing");
+    if (row->code != 0x0F && row->code != 0x05) continue;
+    // Coils hold what was written to them.
+    const std::size_t count = row->code == 0x05 ? 1U : static_cast<std::size_t>(pdu[3] << 8 | pdu[4]);
+    const std::array<std::uint8_t, 5> again{0x01, pdu[1], pdu[2], static_cast<std::uint8_t>(count >> 8),
+                                            static_cast<std::uint8_t>(count)};
+    const world::ModbusReply read = world::serve(*device, again);
+    demand(read.pdu[0] == 0x01, "what was written can be read");
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool wanted = row->code == 0x05 ? pdu[3] == 0xFF : (pdu[6 + i / 8] >> i % 8 & 1) != 0;
+      demand(((read.pdu[2 + i / 8] >> i % 8 & 1) != 0) == wanted, "a coil holds what was written");
+    }
+  }
+}
+
+struct Crowd {
+  explicit Crowd(std::uint8_t options) : listener(options, true), stepped(options, false) {}
+  Listener listener;
+  Listener stepped;  // the same, every tick run one by one
+};
+
+/// Made when it is first asked for.
+Crowd& crowd_for(std::uint8_t options) {
+  static std::array<std::unique_ptr<Crowd>, kSettings> crowds;
+  auto& crowd = crowds[options % kSettings];
+  if (!crowd) crowd = std::make_unique<Crowd>(options);
+  return *crowd;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::vector<Lump> lumps = read_lumps({data + 1, size - 1});
+  check_requests(lumps);
+  Crowd& crowd = crowd_for(data[0]);
+  crowd.listener.play(lumps);
+  check_replies(crowd.listener);
+  demand(crowd.listener.device().state.fifo.size() <= workbench::kFifo, "the FIFO holds what it can");
+  if (!fuzzing::is_checked_wholly({data, size})) return 0;
+  crowd.stepped.play(lumps);
+  demand(crowd.stepped.said() == crowd.listener.said(), "ticks left out are not to be seen on the line");
+  demand(crowd.stepped.now() == crowd.listener.now(), "nor do they take another time");
+  demand(crowd.stepped.device().same_state(crowd.listener.device()), "ticks left out leave the same state");
+  return 0;
+}
