@@ -226,7 +226,7 @@ TEST(TwoHosts, GoOnFromASnapshotInAnotherWorld) {
       }
     }
     EXPECT_EQ(of_other.value(), of_one.value());
-    EXPECT_EQ(world::difference(other.world, world::save(other.world), world::save(busy.two.world)), "");
+    EXPECT_EQ(world::hash(other.world), world::hash(busy.two.world));
   }
 }
 
