@@ -37,6 +37,8 @@ template <class T>
 std::string value_text(T value) {
   if constexpr (std::is_same_v<T, bool>) {
     return value ? "true" : "false";
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return text_in_quotes(value);
   } else if constexpr (std::is_floating_point_v<T>) {
     return number_text(static_cast<double>(value));
   } else if constexpr (std::is_signed_v<T>) {

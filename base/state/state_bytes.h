@@ -9,14 +9,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/state/fields.h"
+#include "base/state/shared_text.h"
 #include "base/state/state_error.h"
 
 namespace understudy {
@@ -44,6 +47,8 @@ template <class T>
 inline constexpr bool kIsMap = false;
 template <class Key, class T>
 inline constexpr bool kIsMap<std::map<Key, T>> = true;
+template <class Key, class T>
+inline constexpr bool kIsMap<std::map<Key, T, std::less<>>> = true;
 template <class T>
 inline constexpr bool kIsTime = false;
 template <class Count, class Period>
@@ -86,10 +91,18 @@ inline constexpr bool kIsAsInMemory =
 
 class StateWriter {
  public:
-  explicit StateWriter(std::size_t expected_bytes = 0) { bytes_.reserve(expected_bytes); }
+  /// With `shared`, texts that copies share are put there, and the bytes have their digests only.
+  explicit StateWriter(std::size_t expected_bytes = 0, SharedTexts* shared = nullptr) : shared_(shared) {
+    bytes_.reserve(expected_bytes);
+  }
 
   template <class T>
   void write(const T& value);
+  void write_shared(const SharedText& value) {
+    if (shared_ == nullptr) return write(value.text());
+    write(value.digest());
+    shared_->push_back(value);
+  }
   /// What has been saved already.
   void append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
 
@@ -131,6 +144,7 @@ class StateWriter {
   }
 
   std::vector<std::byte> bytes_;
+  SharedTexts* shared_ = nullptr;
 };
 
 /// Everything here throws StateError for bytes that end too early or hold what the type cannot (a bool of 7,
@@ -138,6 +152,9 @@ class StateWriter {
 class StateReader {
  public:
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  /// Of a writer that shares: with the texts, in their order.
+  StateReader(std::span<const std::byte> bytes, std::span<const SharedText> shared)
+      : rest_(bytes), shared_(shared) {}
 
   template <class T>
   void read(T& value);
@@ -149,7 +166,11 @@ class StateReader {
     rest_ = rest_.subspan(count);
     return taken;
   }
-  void demand_end() const { demand_state(rest_.empty(), "bytes are left over"); }
+  void read_shared(SharedText& value);
+  void demand_end() const {
+    demand_state(rest_.empty(), "bytes are left over");
+    demand_state(!shared_ || shared_->empty(), "texts are left over");
+  }
 
  private:
   template <class T>
@@ -192,7 +213,23 @@ class StateReader {
   }
 
   std::span<const std::byte> rest_;
+  std::optional<std::span<const SharedText>> shared_;
 };
+
+inline void StateReader::read_shared(SharedText& value) {
+  if (!shared_) {
+    std::string text;
+    read(text);
+    value = SharedText(std::move(text));
+    return;
+  }
+  std::uint64_t digest = 0;
+  read(digest);
+  demand_state(!shared_->empty(), "the texts end too early");
+  demand_state(shared_->front().digest() == digest, "a text is not the one that was saved");
+  value = shared_->front();
+  shared_ = shared_->subspan(1);
+}
 
 // Outside of their classes, so that a room can have those of its big types made once (motion/state_fields.h).
 

@@ -18,6 +18,7 @@
 #include "pty/line_settings.h"
 
 namespace understudy {
+class SharedText;
 class StateReader;
 class StateWriter;
 template <class T>
@@ -111,15 +112,19 @@ class Device {
   /// Its whole state at this moment; what it was made from (model, firmware, settings, choices) is not
   /// included.
   std::vector<std::byte> save_state() const;
+  /// Like the above; texts that copies share are added to `shared` and stand in the bytes as digests.
+  std::vector<std::byte> save_state(std::vector<SharedText>& shared) const;
   /// Calling the result puts the device into a state that save_state() of a device of the same make has
   /// returned. Throws StateError for other bytes.
   std::function<void()> read_state(std::span<const std::byte> bytes);
+  std::function<void()> read_state(StateReader reader);
   /// Like the above, at once; if it throws, nothing has changed.
   void restore_state(std::span<const std::byte> bytes) { read_state(bytes)(); }
   std::uint64_t state_hash() const;
   /// "axes[0].motor.travel_pulses: 12 against 13": the first field by which two states differ that
   /// save_state() of devices made alike has given; empty if none does. Throws StateError for other bytes.
   std::string state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const;
+  std::string state_difference(StateReader a, StateReader b) const;
 
   // --- levels from outside, by the terminal's number in the model's table, in its unit -----------------
   /// The device looks at them in sample_inputs().

@@ -45,16 +45,29 @@ void read_common(const Model& model, StateReader& reader, Common& common) {
 
 }  // namespace
 
+namespace {
+constexpr std::size_t kExpectedBytes = 32 * 1024;
+}
+
 std::vector<std::byte> Device::save_state() const {
-  constexpr std::size_t kExpectedBytes = 32 * 1024;
   StateWriter writer(kExpectedBytes);
   writer.write(*this);
   write_own_state(writer);
   return writer.take();
 }
 
+std::vector<std::byte> Device::save_state(std::vector<SharedText>& shared) const {
+  StateWriter writer(kExpectedBytes, &shared);
+  writer.write(*this);
+  write_own_state(writer);
+  return writer.take();
+}
+
 std::function<void()> Device::read_state(std::span<const std::byte> bytes) {
-  StateReader reader(bytes);
+  return read_state(StateReader(bytes));
+}
+
+std::function<void()> Device::read_state(StateReader reader) {
   Common restored = copy_fields(*this);
   read_common(model_, reader, restored);
   auto put_own = read_own_state(reader);
@@ -66,11 +79,16 @@ std::function<void()> Device::read_state(std::span<const std::byte> bytes) {
   };
 }
 
-std::uint64_t Device::state_hash() const { return hash_of(save_state()); }
+std::uint64_t Device::state_hash() const {
+  SharedTexts shared;  // their digests are in the bytes
+  return hash_of(save_state(shared));
+}
 
 std::string Device::state_difference(std::span<const std::byte> a, std::span<const std::byte> b) const {
-  StateReader of_a(a);
-  StateReader of_b(b);
+  return state_difference(StateReader(a), StateReader(b));
+}
+
+std::string Device::state_difference(StateReader of_a, StateReader of_b) const {
   Common common_a = copy_fields(*this);
   Common common_b = common_a;
   read_common(model_, of_a, common_a);

@@ -200,7 +200,8 @@ class Parts {
       throw StateError(name + ": is missing where it was expected");
     }
     try {
-      return read(std::span(state_.parts[next_++].bytes));
+      const WorldState::Part& part = state_.parts[next_++];
+      return read(StateReader(part.bytes, part.texts));
     } catch (const std::runtime_error& error) {
       throw StateError(name + ": " + error.what());
     } catch (const std::invalid_argument& error) {
@@ -223,7 +224,9 @@ WorldState save(const World& world) {
   state.parts.reserve(2 + world.device_count() + world.line_count());
   state.parts.push_back(world_part(world));
   for (std::size_t i = 0; i < world.device_count(); ++i) {
-    state.parts.push_back({"device " + world.device(i).name(), world.device(i).save_state()});
+    WorldState::Part part{.name = "device " + world.device(i).name(), .bytes = {}};
+    part.bytes = world.device(i).save_state(part.texts);
+    state.parts.push_back(std::move(part));
   }
   for (std::size_t i = 0; i < world.line_count(); ++i) state.parts.push_back(line_part(world.line(i)));
   state.parts.push_back(edge_part(world));
@@ -232,8 +235,7 @@ WorldState save(const World& world) {
 
 std::function<void()> read_state(World& world, const WorldState& state) {
   Parts parts(state);
-  auto [values, machines] = parts.read("world", [&](std::span<const std::byte> bytes) {
-    StateReader reader(bytes);
+  auto [values, machines] = parts.read("world", [&](StateReader reader) {
     WorldValues of_world = read_values(world, reader);
     Machines of_machines = read_machines(world, reader);
     reader.demand_end();
@@ -241,24 +243,22 @@ std::function<void()> read_state(World& world, const WorldState& state) {
   });
   std::vector<std::function<void()>> put_devices;
   for (std::size_t i = 0; i < world.device_count(); ++i) {
-    put_devices.push_back(
-        parts.read("device " + world.device(i).name(),
-                   [&](std::span<const std::byte> bytes) { return world.device(i).read_state(bytes); }));
+    put_devices.push_back(parts.read("device " + world.device(i).name(), [&](const StateReader& reader) {
+      return world.device(i).read_state(reader);
+    }));
   }
   LineStates lines(world.line_count());
   std::vector<std::function<void()>> put_stations;
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     const WorldLine& line = world.line(i);
-    parts.read("line " + line.line.name(), [&](std::span<const std::byte> bytes) {
-      StateReader reader(bytes);
+    parts.read("line " + line.line.name(), [&](StateReader reader) {
       read_hearing(line, reader);
       reader.read(lines[i]);
       for (const auto& station : line.stations) put_stations.push_back(station->read_state(reader));
       reader.demand_end();
     });
   }
-  auto ticks = parts.read(std::string(kEdgePart), [&](std::span<const std::byte> bytes) {
-    StateReader reader(bytes);
+  auto ticks = parts.read(std::string(kEdgePart), [&](StateReader reader) {
     auto of_world = OfWorld::ticks(world);
     reader.read(of_world);
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -302,17 +302,15 @@ std::string difference(const World& world, const WorldState& a, const WorldState
   // The first is told, and all is read: a state that is not one is refused wherever it differs.
   std::string first;
   const auto look = [&](const std::string& name, auto differ) {
-    of_a.read(name, [&](std::span<const std::byte> bytes_a) {
-      of_b.read(name, [&](std::span<const std::byte> bytes_b) {
-        std::string found = differ(bytes_a, bytes_b);
+    of_a.read(name, [&](const StateReader& of_first) {
+      of_b.read(name, [&](const StateReader& of_second) {
+        std::string found = differ(of_first, of_second);
         if (first.empty()) first = std::move(found);
       });
     });
   };
   const auto look_with_readers = [&](const std::string& name, auto differ) {
-    look(name, [&](std::span<const std::byte> bytes_a, std::span<const std::byte> bytes_b) {
-      StateReader reader_a(bytes_a);
-      StateReader reader_b(bytes_b);
+    look(name, [&](StateReader reader_a, StateReader reader_b) {
       std::string found = differ(reader_a, reader_b);
       reader_a.demand_end();
       reader_b.demand_end();
@@ -341,11 +339,10 @@ std::string difference(const World& world, const WorldState& a, const WorldState
   });
   for (std::size_t i = 0; i < world.device_count(); ++i) {
     const Device& device = world.device(i);
-    look("device " + device.name(),
-         [&](std::span<const std::byte> bytes_a, std::span<const std::byte> bytes_b) {
-           const std::string found = device.state_difference(bytes_a, bytes_b);
-           return found.empty() ? found : device.name() + "." + found;
-         });
+    look("device " + device.name(), [&](const StateReader& of_first, const StateReader& of_second) {
+      const std::string found = device.state_difference(of_first, of_second);
+      return found.empty() ? found : device.name() + "." + found;
+    });
   }
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     const WorldLine& line = world.line(i);

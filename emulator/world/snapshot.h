@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "base/state/shared_text.h"
 #include "base/state/state_error.h"
 #include "emulator/world/world.h"
 
@@ -24,8 +25,9 @@ struct WorldState {
   struct Part {
     std::string name;  // "world", "device feeder", "line rs485", "edge"
     std::vector<std::byte> bytes;
+    SharedTexts texts{};  // shared with the world that was saved; `bytes` has their digests
     bool operator==(const Part& other) const {
-      return name == other.name && bytes.size() == other.bytes.size() &&
+      return name == other.name && texts == other.texts && bytes.size() == other.bytes.size() &&
              (bytes.empty() || std::memcmp(bytes.data(), other.bytes.data(), bytes.size()) == 0);
     }
   };

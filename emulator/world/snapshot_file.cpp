@@ -77,6 +77,24 @@ Json parse_json(const std::string& text) {
   return parsed;
 }
 
+std::optional<WorldState::Part> parse_part(const std::string& name, std::string_view text) {
+  WorldState::Part part{.name = name, .bytes = {}};
+  for (bool is_first = true; !text.empty() || is_first; is_first = false) {
+    const std::size_t end = text.find('.');
+    const auto decoded = from_base64(std::string(text.substr(0, end)));
+    if (!decoded) return std::nullopt;
+    if (is_first) {
+      part.bytes = *decoded;
+    } else {
+      part.texts.emplace_back(std::string(reinterpret_cast<const char*>(decoded->data()), decoded->size()));
+    }
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+    if (text.empty()) part.texts.emplace_back();
+  }
+  return part;
+}
+
 }  // namespace
 
 std::uint64_t bench_hash(const Bench& bench) {
@@ -87,7 +105,15 @@ std::uint64_t bench_hash(const Bench& bench) {
 
 std::string to_text(const WorldState& state, std::uint64_t bench) {
   Json parts = Json::object();
-  for (const WorldState::Part& part : state.parts) parts[part.name] = to_base64(part.bytes);
+  for (const WorldState::Part& part : state.parts) {
+    // The bytes, and after each point a text.
+    std::string encoded = to_base64(part.bytes);
+    for (const SharedText& text : part.texts) {
+      encoded += '.';
+      encoded += to_base64(std::as_bytes(std::span(text.text())));
+    }
+    parts[part.name] = std::move(encoded);
+  }
   const Json file{{"understudy", kSnapshotFormat},
                   {"kind", kSnapshotKind},
                   {"version", program_version()},
@@ -127,10 +153,9 @@ WorldState parse_snapshot(const std::string& text, std::uint64_t bench) {
   const Json& parts = demand_key(file, "state");
   if (!parts.is_object()) throw SnapshotError("state: is not an object; expected the parts of a world");
   for (const auto& [name, bytes] : parts.items()) {
-    const auto decoded = bytes.is_string() ? from_base64(bytes.get_ref<const std::string&>()) : std::nullopt;
-    if (!decoded)
-      throw SnapshotError("state: " + understudy::quoted(name) + ": is not base64; expected bytes");
-    state.parts.push_back({name, *decoded});
+    auto part = bytes.is_string() ? parse_part(name, bytes.get_ref<const std::string&>()) : std::nullopt;
+    if (!part) throw SnapshotError("state: " + understudy::quoted(name) + ": is not base64; expected bytes");
+    state.parts.push_back(*std::move(part));
   }
   if (text_of(file, "checksum") != hex(checksum(state))) {
     throw SnapshotError("checksum: is not that of the state; expected a file as it was written");

@@ -6,9 +6,13 @@
 
 namespace understudy::emulator {
 
-Eeprom::Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept)
+Eeprom::Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept,
+               std::span<const bool> at_once)
     : kept_(factory.begin(), factory.end()) {
-  for (const bool kept : is_kept) slots_.push_back(kept ? Slot::rests : Slot::not_kept);
+  for (std::size_t slot = 0; slot < is_kept.size(); ++slot) {
+    const bool needs_no_time = !at_once.empty() && at_once[slot];
+    slots_.push_back(!is_kept[slot] ? Slot::not_kept : needs_no_time ? Slot::at_once : Slot::rests);
+  }
 }
 
 void Eeprom::begin(Tick at) { done_at_ = jobs_.empty() ? kNever : at + jobs_.front().takes; }
@@ -20,6 +24,7 @@ void Eeprom::keep(std::size_t slot, std::uint32_t bits) {
 }
 
 void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, bool even_if_same) {
+  if (slots_[slot] == Slot::at_once) return keep(slot, bits);
   const std::vector<std::uint32_t>& before = rewriting_.empty() ? kept_ : rewriting_;
   if (slots_[slot] != Slot::rests || (before[slot] == bits && !even_if_same)) return;
   slots_[slot] = Slot::waits;
@@ -30,6 +35,9 @@ void Eeprom::write(std::size_t slot, std::uint32_t bits, Tick takes, Tick now, b
 
 void Eeprom::rewrite(std::span<const std::uint32_t> image, Tick takes, Tick now) {
   forget_jobs();
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    if (slots_[slot] == Slot::at_once) keep(slot, image[slot]);
+  }
   rewriting_.assign(image.begin(), image.end());
   jobs_.push_back({kEverything, takes});
   begin(now + 1);
@@ -41,7 +49,7 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
     jobs_.erase(jobs_.begin());
     if (done.slot == kEverything) {
       // Not what has been written since: that waits, and may yet be lost.
-      keep_all(rewriting_);
+      keep_all(rewriting_, false);
       rewriting_.clear();
     } else {
       slots_[done.slot] = Slot::rests;
@@ -51,15 +59,16 @@ void Eeprom::step(Tick tick, std::span<const std::uint32_t> image) {
   }
 }
 
-void Eeprom::keep_all(std::span<const std::uint32_t> image) {
+void Eeprom::keep_all(std::span<const std::uint32_t> image, bool even_at_once) {
   for (std::size_t slot = 0; slot < kept_.size(); ++slot) {
-    if (slots_[slot] != Slot::not_kept) keep(slot, image[slot]);
+    const bool is_left = slots_[slot] == Slot::not_kept || (slots_[slot] == Slot::at_once && !even_at_once);
+    if (!is_left) keep(slot, image[slot]);
   }
 }
 
 void Eeprom::settle(std::span<const std::uint32_t> image) {
   forget_jobs();
-  keep_all(image);
+  keep_all(image, true);
 }
 
 void Eeprom::forget_jobs() {
@@ -78,8 +87,10 @@ void Eeprom::check_restored(const Eeprom& earlier) const {
   demand_state(kept_.size() == earlier.kept_.size() && slots_.size() == earlier.slots_.size(),
                "it is the memory of other registers");
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    demand_state((slots_[slot] == Slot::not_kept) == (earlier.slots_[slot] == Slot::not_kept),
-                 "it is the memory of other registers");
+    for (const Slot lasting : {Slot::not_kept, Slot::at_once}) {
+      demand_state((slots_[slot] == lasting) == (earlier.slots_[slot] == lasting),
+                   "it is the memory of other registers");
+    }
   }
   // A waiting register has one job, whose place it keeps; to write everything comes before all others.
   std::vector<Slot> left = slots_;

@@ -1,5 +1,6 @@
-// An EEPROM behind a register image. What is written to a kept register waits its turn and takes its time;
-// after that it survives power-off. A value: it can be copied and compared.
+// The memory behind a register image: an EEPROM, and beside it what is kept at once. What is written to a
+// kept register waits its turn and takes its time; after that it survives power-off. What a battery or an
+// FRAM holds survives from the write on. A value: it can be copied and compared.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,9 @@ class Eeprom {
  public:
   Eeprom() = default;
   /// What the factory put there, and for each slot whether it is kept at all.
-  Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept);
+  /// `at_once`: those of them that a battery or an FRAM keeps, without time; by default none.
+  Eeprom(std::span<const std::uint32_t> factory, std::span<const bool> is_kept,
+         std::span<const bool> at_once = {});
 
   /// A register was written after tick `now`; `bits` is what it holds. A value that is kept already is not
   /// written again, and one that waits keeps its place. `even_if_same`: also write what is there already.
@@ -45,7 +48,7 @@ class Eeprom {
   bool operator==(const Eeprom&) const = default;
 
   // --- its state as bytes (eeprom_fields.h) ------------------------------------------------
-  enum class Slot : std::uint8_t { not_kept, rests, waits };
+  enum class Slot : std::uint8_t { not_kept, rests, waits, at_once };
   /// Throws StateError unless it can be a later state of `earlier`: of the same registers, with jobs that can
   /// be done.
   void check_restored(const Eeprom& earlier) const;
@@ -64,7 +67,8 @@ class Eeprom {
   void begin(Tick at);
   void forget_jobs();
   void keep(std::size_t slot, std::uint32_t bits);
-  void keep_all(std::span<const std::uint32_t> image);
+  /// `even_at_once`: also what needs no time.
+  void keep_all(std::span<const std::uint32_t> image, bool even_at_once);
 
   Tick done_at_ = kNever;  // first: each tick looks at it
   std::uint64_t revision_ = 0;

@@ -10,7 +10,7 @@ namespace understudy {
 
 template <>
 struct StateOf<emulator::Eeprom::Slot> {
-  static constexpr auto last = emulator::Eeprom::Slot::waits;
+  static constexpr auto last = emulator::Eeprom::Slot::at_once;
 };
 
 template <>

@@ -7,6 +7,7 @@ namespace understudy::emulator {
 NvImage KeptMemory::nv_image() const {
   NvImage image{.model = std::string(model_name_), .firmware = version_text(firmware_)};
   write_memory(image);
+  if (const TextBlocks* const blocks = text_blocks()) image.blocks = blocks->all();
   return image;
 }
 
@@ -15,7 +16,13 @@ void KeptMemory::load_nv(const NvImage& image) {
     throw NvError("model: is the memory of a " + quoted(image.model) + "; expected one of " +
                   std::string(model_name_));
   }
+  TextBlocks* const blocks = text_blocks();
+  if (blocks == nullptr && !image.blocks.empty()) {
+    throw NvError("blocks: are not part of the memory of " + image.model + "; expected none");
+  }
+  if (blocks != nullptr) blocks->check(image.blocks);
   read_memory(image);
+  if (blocks != nullptr) blocks->replace(image.blocks);
 }
 
 }  // namespace understudy::emulator

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/register_map/register_map.h"
 
 namespace understudy::emulator {
@@ -15,6 +16,10 @@ class KeptMemory {
   /// To and from the form in files (from: only without power). Throws NvError for what it cannot hold.
   NvImage nv_image() const;
   void load_nv(const NvImage& image);
+
+  /// The named texts that it keeps; null for most. They are in its images without more ado.
+  virtual TextBlocks* text_blocks() { return nullptr; }
+  virtual const TextBlocks* text_blocks() const { return nullptr; }
 
   /// Changes whenever what would survive a power failure now may have changed.
   virtual std::uint64_t kept_revision() const = 0;
@@ -26,7 +31,7 @@ class KeptMemory {
   KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
   ~KeptMemory() = default;
 
-  /// Puts all that is kept into an image that has the model and the firmware already.
+  /// Puts all that is kept, but for text_blocks(), into an image that has the model and the firmware already.
   virtual void write_memory(NvImage& image) const = 0;
   /// The reverse, without power: what the image does not name has the factory's value. If it throws (NvError:
   /// it cannot hold that), nothing has changed.

@@ -43,10 +43,14 @@ NvWriter::~NvWriter() {
   thread_.join();
 }
 
-void NvWriter::write(const std::string& path, std::string contents) {
+void NvWriter::write(const std::string& path, std::string contents) { take(path, std::move(contents)); }
+
+void NvWriter::write(const std::string& path, NvImage image) { take(path, std::move(image)); }
+
+void NvWriter::take(const std::string& path, Contents contents) {
   {
     const std::lock_guard lock(mutex_);
-    waiting_[path] = std::move(contents);
+    waiting_.insert_or_assign(path, std::move(contents));
   }
   changed_.notify_all();
 }
@@ -78,7 +82,10 @@ void NvWriter::run() {
     const auto work = std::exchange(waiting_, {});
     is_busy_ = true;
     lock.unlock();
-    for (const auto& [path, contents] : work) replace(path, contents);
+    for (const auto& [path, contents] : work) {
+      const auto* const image = std::get_if<NvImage>(&contents);
+      replace(path, image != nullptr ? to_json(*image) : std::get<std::string>(contents));
+    }
     lock.lock();
     is_busy_ = false;
     changed_.notify_all();

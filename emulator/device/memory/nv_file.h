@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "emulator/device/memory/nv_image.h"
@@ -34,6 +35,8 @@ class NvWriter {
 
   /// Takes the file's new contents.
   void write(const std::string& path, std::string contents);
+  /// Like the above; the helper thread makes the text of it.
+  void write(const std::string& path, NvImage image);
   /// Waits until everything taken is on the disk, or was refused by it.
   void flush();
   /// Nothing waits, nothing is being written, and there is no news.
@@ -42,12 +45,14 @@ class NvWriter {
   std::vector<std::string> take_news();
 
  private:
+  using Contents = std::variant<std::string, NvImage>;
   void run();
+  void take(const std::string& path, Contents contents);
   void replace(const std::string& path, const std::string& contents);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::string, std::string> waiting_;  // by path
+  std::map<std::string, Contents> waiting_;  // by path
   std::vector<std::string> news_;
   bool is_busy_ = false;
   bool is_hurried_ = false;  // somebody waits: do not wait for more

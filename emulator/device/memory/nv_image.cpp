@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "base/text/one_line.h"
+#include "base/text/utf8.h"
 
 namespace understudy::emulator {
 
@@ -35,11 +37,58 @@ std::string line_of(const std::string& text, std::size_t byte) {
   return "line " + std::to_string(1 + std::count(text.begin(), end, '\n'));
 }
 
+/// Tells the parser's place, which is right behind a key when it has read one.
+struct JsonPlace {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  const char* at = nullptr;
+  const char** seen = nullptr;
+  reference operator*() const { return *at; }
+  JsonPlace& operator++() {
+    *seen = ++at;
+    return *this;
+  }
+  bool operator==(const JsonPlace& other) const { return at == other.at; }
+  bool operator!=(const JsonPlace& other) const { return at != other.at; }
+};
+
+/// Counts lines up to places that follow each other.
+class LineCount {
+ public:
+  explicit LineCount(const std::string& text) : counted_to_(text.data()) {}
+  std::size_t at(const char* place) {
+    number_ += static_cast<std::size_t>(std::count(counted_to_, place, '\n'));
+    counted_to_ = place;
+    return number_;
+  }
+
+ private:
+  const char* counted_to_;
+  std::size_t number_ = 1;
+};
+
+struct BlockPlace {
+  std::string kind;
+  std::string name;
+  std::size_t line = 0;  // in the file
+};
+
+/// "line 12: blocks: files: "A": "
+std::string text_of(const BlockPlace& place) {
+  std::string text = "line " + std::to_string(place.line) + ": blocks: ";
+  if (!place.kind.empty()) text += place.kind + ": ";
+  return place.name.empty() ? text : text + understudy::quoted(place.name) + ": ";
+}
+
 struct Parsed {
   Json file;
   // Their names as they follow each other, which `file` forgets.
   std::vector<std::string> registers{};
   std::vector<std::string> reals{};
+  std::vector<BlockPlace> blocks{};  // kinds (without a name) and entries
 };
 
 /// nlohmann keeps the last of two equal keys without a word; this one refuses them.
@@ -47,23 +96,42 @@ Parsed parse_strictly(const std::string& text) {
   std::vector<std::set<std::string>> keys;
   std::string outermost;
   Parsed parsed;
+  const char* seen = text.data();
+  LineCount lines(text);
+  const auto line_there = [&] { return "line " + std::to_string(lines.at(seen)); };
+  const auto end_of_block = [&]() -> std::string {
+    return outermost == "blocks" && !parsed.blocks.empty() ? text_of(parsed.blocks.back()) : "";
+  };
   const auto take = [&](int depth, Json::parse_event_t event, Json& json) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event != Json::parse_event_t::key) return true;
     const auto& key = json.get_ref<const std::string&>();
     if (!keys.back().insert(key).second) {
-      throw NvError(understudy::quoted(key) + ": appears twice; expected it once");
+      const std::string where = outermost == "blocks" && depth > 1 ? line_there() + ": blocks: " : "";
+      throw NvError(where + understudy::quoted(key) + ": appears twice; expected it once");
     }
     if (depth == 1) outermost = key;
     if (depth == 2 && outermost == "registers") parsed.registers.push_back(key);
     if (depth == 2 && outermost == "reals") parsed.reals.push_back(key);
+    if (outermost != "blocks" || depth < 2) return true;
+    if (depth == 2) parsed.blocks.push_back({.kind = key, .name = {}, .line = lines.at(seen)});
+    if (depth == 3) {
+      parsed.blocks.push_back({.kind = parsed.blocks.back().kind, .name = key, .line = lines.at(seen)});
+    }
     return true;
   };
   try {
-    parsed.file = Json::parse(text, take);
+    const char* const begin = text.data();
+    parsed.file = Json::parse(JsonPlace{begin, &seen}, JsonPlace{begin + text.size(), &seen}, take);
     return parsed;
   } catch (const Json::parse_error& error) {
+    // Whichever line the block began in, the one that is wrong is told.
+    const std::string block = end_of_block();
+    const auto wrong = first_not_utf8(text);
+    if (wrong && !block.empty()) {
+      throw NvError(line_of(text, *wrong) + block.substr(block.find(':')) + "is not UTF-8; expected text");
+    }
     throw NvError(line_of(text, error.byte) + ": is torn or not JSON; expected an NV image");
   } catch (const Json::exception&) {  // a number that no type holds
     throw NvError("a number is beyond all bounds; expected one that 64 bits hold");
@@ -107,7 +175,46 @@ void read_program(const Json& program, NvImage& image) {
   }
 }
 
+/// Its lines; the last is empty where the text ends with a line's end.
+OrderedJson json_of_block(const std::string& text) {
+  OrderedJson::array_t lines;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvImage& image) {
+  if (!blocks.is_object()) throw NvError("blocks: is not an object; expected kinds of blocks");
+  for (const BlockPlace& place : places) {
+    const Json& entries = blocks[place.kind];
+    if (!entries.is_object()) throw NvError(text_of(place) + "is not an object; expected names and lines");
+    if (place.name.empty()) {
+      image.blocks[place.kind];
+      continue;
+    }
+    const Json& lines = entries[place.name];
+    const auto is_line = [](const Json& line) {
+      return line.is_string() && line.get_ref<const std::string&>().find('\n') == std::string::npos;
+    };
+    if (!lines.is_array() || lines.empty() || !std::all_of(lines.begin(), lines.end(), is_line)) {
+      throw NvError(text_of(place) + "is not a list of lines; expected one");
+    }
+    std::string text;
+    for (const Json& line : lines) text += line.get_ref<const std::string&>() + "\n";
+    text.pop_back();
+    image.blocks[place.kind][place.name] = SharedText(std::move(text));
+  }
+}
+
 }  // namespace
+
+bool holds_the_same(const NvImage& a, const NvImage& b) {
+  return a.model == b.model && a.registers == b.registers && a.reals == b.reals && a.program == b.program &&
+         a.blocks == b.blocks;
+}
 
 std::string to_json(const NvImage& image) {
   OrderedJson::object_t registers;
@@ -121,6 +228,13 @@ std::string to_json(const NvImage& image) {
   for (const auto& [name, value] : image.reals) reals.push_back({name, value});
   if (!reals.empty()) file["reals"] = std::move(reals);
   for (const std::string& line : image.program) file["program"].push_back(json_of_line(line));
+  OrderedJson::object_t kinds;
+  for (const auto& [kind, entries] : image.blocks) {
+    OrderedJson::object_t of_kind;
+    for (const auto& [name, text] : entries) of_kind.push_back({name, json_of_block(text.text())});
+    kinds.push_back({kind, std::move(of_kind)});
+  }
+  if (!kinds.empty()) file["blocks"] = std::move(kinds);
   return file.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
@@ -137,8 +251,8 @@ NvImage parse_nv_image(const std::string& text) {
     throw NvError("kind: is " + understudy::quoted(text_of(file, "kind")) + "; expected " + kKind);
   }
   for (const auto& [key, value] : file.items()) {
-    const std::set<std::string> known{"understudy", "kind",  "model",  "firmware",
-                                      "registers",  "reals", "program"};
+    const std::set<std::string> known{"understudy", "kind",  "model",   "firmware",
+                                      "registers",  "reals", "program", "blocks"};
     if (!known.contains(key))
       throw NvError(understudy::quoted(key) + ": is not a key of an NV image; expected none");
   }
@@ -155,6 +269,7 @@ NvImage parse_nv_image(const std::string& text) {
   }
   if (file.contains("reals")) read_reals(file["reals"], parsed.reals, image);
   if (file.contains("program")) read_program(file["program"], image);
+  if (file.contains("blocks")) read_blocks(file["blocks"], parsed.blocks, image);
   return image;
 }
 

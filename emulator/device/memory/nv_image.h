@@ -1,15 +1,22 @@
 // NV images: a device's non-volatile memory as a value, and as a file: JSON that people read and compare. It
-// names what differs from the factory's values, in the order of the model's table. Real numbers and a stored
-// program are for models whose memory has them.
+// names what differs from the factory's values, in the order of the model's table. Real numbers, a stored
+// program and blocks of text are for models whose memory has them.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/state/shared_text.h"
+
 namespace understudy::emulator {
+
+/// Texts by kind ("files") and name; a copy shares them.
+using NamedBlocks = std::map<std::string, std::map<std::string, SharedText, std::less<>>, std::less<>>;
 
 struct NvImage {
   std::string model;
@@ -17,6 +24,7 @@ struct NvImage {
   std::vector<std::pair<std::string, std::int64_t>> registers{};  // by the manual's names
   std::vector<std::pair<std::string, double>> reals{};            // finite
   std::vector<std::string> program{};                             // its lines
+  NamedBlocks blocks{};                                           // in UTF-8
 
   bool operator==(const NvImage&) const = default;
 };
@@ -26,9 +34,12 @@ struct NvError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether they hold the same, whichever firmware wrote them.
+bool holds_the_same(const NvImage& a, const NvImage& b);
+
 std::string to_json(const NvImage& image);
-/// Throws NvError for text that is torn, not JSON, or not an NV image. KeptMemory::load_nv() decides whether
-/// the names and values suit the device.
+/// Throws NvError for text that is torn, not JSON, or not an NV image; of a block, with its line in the file.
+/// KeptMemory::load_nv() decides whether the names and values suit the device.
 NvImage parse_nv_image(const std::string& text);
 
 }  // namespace understudy::emulator

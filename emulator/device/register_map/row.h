@@ -147,6 +147,7 @@ struct RegisterRow {
   std::string_view unit;
   Value factory = 0;
   bool persistent = false;
+  bool needs_no_time = false;               // to be kept: a battery or an FRAM holds it, not an EEPROM
   std::uint32_t stored_bits = 0xFFFF'FFFF;  // what the register really holds of a written value
 
   int count = 1;   // a range of `count` registers, `stride` addresses apart,
@@ -189,6 +190,11 @@ struct RegisterRow {
   constexpr RegisterRow& from_factory(Value value) {
     factory = value;
     return *this;
+  }
+  /// Kept at once: in battery RAM or FRAM.
+  constexpr RegisterRow& kept_at_once() {
+    needs_no_time = true;
+    return kept();
   }
   constexpr RegisterRow& kept() {
     persistent = true;

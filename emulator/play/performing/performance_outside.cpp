@@ -1,11 +1,17 @@
 // Steps that act on the bench from outside: inputs, faults, power, programs, memories.
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/files/text_file.h"
+#include "base/text/one_line.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_file.h"
@@ -20,27 +26,86 @@ namespace understudy::emulator::play {
 
 namespace {
 
-/// What differs, a line each: registers by name; one that an image leaves out has the factory's value.
-std::vector<std::string> differences(const NvImage& present, const NvImage& wanted) {
-  std::vector<std::string> lines;
-  const auto has_other_model = present.model != wanted.model;
-  if (has_other_model) lines.push_back("model is " + present.model + "; expected " + wanted.model);
-  const std::map<std::string, std::int64_t> is(present.registers.begin(), present.registers.end());
-  const std::map<std::string, std::int64_t> should_be(wanted.registers.begin(), wanted.registers.end());
-  const auto text = [](const auto& registers, const std::string& name) {
-    const auto found = registers.find(name);
-    return found == registers.end() ? std::string("the factory's value") : std::to_string(found->second);
+std::string text_of_value(std::int64_t value) { return std::to_string(value); }
+std::string text_of_value(double value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};  // the shortest
+}
+
+/// Of registers or reals: one that an image leaves out has the factory's value.
+template <class Values>
+void compare_values(const Values& present, const Values& wanted, std::vector<std::string>& lines) {
+  using Map = std::map<std::string, typename Values::value_type::second_type>;
+  const Map is(present.begin(), present.end());
+  const Map should_be(wanted.begin(), wanted.end());
+  const auto text = [](const auto& values, const std::string& name) {
+    const auto found = values.find(name);
+    return found == values.end() ? std::string("the factory's value") : text_of_value(found->second);
   };
   const auto compare = [&](const std::string& name) {
     lines.push_back(name + " is " + text(is, name) + "; expected " + text(should_be, name));
   };
-  for (const auto& [name, value] : present.registers) {  // in the order of the model's table
+  for (const auto& [name, value] : present) {  // in the order of the model's table
     const auto found = should_be.find(name);
     if (found == should_be.end() || found->second != value) compare(name);
   }
-  for (const auto& [name, value] : wanted.registers) {
+  for (const auto& [name, value] : wanted) {
     if (!is.contains(name)) compare(name);
   }
+}
+
+/// The first line that differs.
+void compare_lines(const std::string& what, const std::vector<std::string>& present,
+                   const std::vector<std::string>& wanted, std::vector<std::string>& lines) {
+  const auto text = [](const std::vector<std::string>& all, std::size_t i) {
+    return i < all.size() ? quoted(all[i]) : std::string("not there");
+  };
+  for (std::size_t i = 0; i < std::max(present.size(), wanted.size()); ++i) {
+    if (i < present.size() && i < wanted.size() && present[i] == wanted[i]) continue;
+    lines.push_back(what + " line " + std::to_string(i + 1) + " is " + text(present, i) + "; expected " +
+                    text(wanted, i));
+    return;
+  }
+}
+
+std::vector<std::string> lines_in(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream rest(text);
+  for (std::string line; std::getline(rest, line);) lines.push_back(line);
+  if (text.empty() || text.back() == '\n') lines.emplace_back();
+  return lines;
+}
+
+/// A block that one of them lacks is told as a whole.
+void compare_blocks(const NamedBlocks& present, const NamedBlocks& wanted, std::vector<std::string>& lines) {
+  std::map<std::string, std::pair<const SharedText*, const SharedText*>> both;
+  for (const auto& [kind, entries] : present) {
+    for (const auto& [name, text] : entries) both[kind + " " + quoted(name)].first = &text;
+  }
+  for (const auto& [kind, entries] : wanted) {
+    for (const auto& [name, text] : entries) both[kind + " " + quoted(name)].second = &text;
+  }
+  for (const auto& [what, texts] : both) {
+    const auto [is, should_be] = texts;
+    if (should_be == nullptr) {
+      lines.push_back(what + " is there; expected none");
+    } else if (is == nullptr) {
+      lines.push_back(what + " is not there; expected it");
+    } else if (*is != *should_be) {
+      compare_lines(what, lines_in(is->text()), lines_in(should_be->text()), lines);
+    }
+  }
+}
+
+/// What differs, a line each.
+std::vector<std::string> differences(const NvImage& present, const NvImage& wanted) {
+  std::vector<std::string> lines;
+  const auto has_other_model = present.model != wanted.model;
+  if (has_other_model) lines.push_back("model is " + present.model + "; expected " + wanted.model);
+  compare_values(present.registers, wanted.registers, lines);
+  compare_values(present.reals, wanted.reals, lines);
+  compare_lines("program", present.program, wanted.program, lines);
+  compare_blocks(present.blocks, wanted.blocks, lines);
   return lines;
 }
 

@@ -80,9 +80,10 @@ NvKeeper::NvKeeper(const world::Bench& bench, const world::World& world,
     claim(device);
     files_.push_back({.device = i, .path = device.nv_path});
     files_.back().written = world.device(i).memory()->kept_revision();
-    const NvImage image = world.device(i).memory()->nv_image();
     const bool is_there = device.settings.nv && std::filesystem::exists(device.nv_path);
-    if (!is_there || device.settings.nv->registers != image.registers) write(files_.back());
+    if (!is_there || !holds_the_same(*device.settings.nv, world.device(i).memory()->nv_image())) {
+      write(files_.back());
+    }
   }
 }
 
@@ -114,7 +115,7 @@ bool NvKeeper::is_behind(const File& file) const {
 
 void NvKeeper::write(File& file) {
   file.written = world_.device(file.device).memory()->kept_revision();
-  writer_.write(file.path, to_json(world_.device(file.device).memory()->nv_image()));
+  writer_.write(file.path, world_.device(file.device).memory()->nv_image());
 }
 
 void NvKeeper::world_restored() {

@@ -23,6 +23,10 @@ Json device_text(const DeviceSetup& device) {
     std::string program;
     for (const std::string& line : settings.nv->program) program += line + "\n";
     if (!program.empty()) text["nv"]["program"] = program;
+    for (const auto& [kind, entries] : settings.nv->blocks) {
+      text["nv"][kind] = Json::object();
+      for (const auto& [name, block] : entries) text["nv"][kind][name] = block.text();
+    }
   }
   if (!settings.program.empty()) {
     // With a line's end it is known for a text and not a path.

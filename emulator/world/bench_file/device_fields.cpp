@@ -56,18 +56,26 @@ void read_value_of_memory(const std::string& name, const YamlFields& value, NvIm
   }
 }
 
+/// Blocks of text of one kind, by name.
+void read_blocks(const std::string& kind, const YamlFields& entries, NvImage& image) {
+  entries.demand_map();
+  auto& of_kind = image.blocks[kind];
+  for (const auto& [name, text] : entries.entries()) of_kind[name] = SharedText(text.text());
+}
+
 bool is_real_register(const Model& model, std::string_view name) {
   const auto place = find_register(model, name, model.firmwares.back());
   return place && place->is_real();
 }
 
-/// The registers of a memory, given in the bench: they have no file, so what changes lasts as long as the
-/// run.
+/// The registers and blocks of a memory, given in the bench: they have no file, so what changes lasts as long
+/// as the run.
 NvImage read_memory(const YamlFields& field, const Model& model, Complaints& complaints) {
   NvImage image{.model = std::string(model.name), .firmware = {}, .registers = {}};
   complaints.attempt([&] { field.demand_map(); });
   for (const auto& [register_name, value] : field.entries()) {
     complaints.attempt([&, &name = register_name, &number = value] {
+      if (number.is_map()) return read_blocks(name, number, image);
       if (model.registers == nullptr) return read_value_of_memory(name, number, image);
       if (is_real_register(model, name)) {
         image.reals.emplace_back(name, demand_real(number));

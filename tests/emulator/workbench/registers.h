@@ -15,6 +15,8 @@ inline constexpr int kOutputs = 80;
 inline constexpr int kRelays = 2000;
 inline constexpr std::uint16_t kWindow = 0x1F40;
 inline constexpr int kWindowWords = 20;
+inline constexpr std::uint16_t kBlockWindow = 0x1E00;
+inline constexpr int kBlockWords = 100;
 inline constexpr std::size_t kFifo = 3;
 inline constexpr std::uint16_t kMove = 0x0A01;  // axis, target (two words)
 inline constexpr std::uint16_t kStop = 0x0A02;
@@ -30,6 +32,7 @@ Value last_reason(const Workbench& bench, Cell cell);
 Value commands_done(const Workbench& bench, Cell cell);
 Value temperature(const Workbench& bench, Cell cell);
 Value input_level(const Workbench& bench, Cell cell);
+DeviceAnswer take_block(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
 Value receive_errors(const Workbench& bench, Cell cell);
 DeviceAnswer take_command(Workbench& bench, Cell cell, std::span<const std::uint16_t> words);
 
@@ -68,7 +71,9 @@ inline constexpr RegisterRow kRows[] = {
     reg(0x0200, "Step{}", Type::u16, Access::read_write).times(3, 0x10, 8101).numbered_by(100),
     reg(0x0300, "Volts", Type::u16, Access::read_write).range(0, 5000),
     reg(0x0310, "DO_Word_{}", Type::u16, Access::read_write).times(8, 1, 0),
+    reg(0x0320, "Total", Type::u32, Access::read_write).kept_at_once(),
     window<take_command>(kWindow, "Command{}", kWindowWords, 1),
+    window<take_block>(kBlockWindow, "Block{}", kBlockWords, 1),
 
     input(0, "STATE", Type::u16).shows_bits(kStateBits),
     input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of>(),

@@ -18,6 +18,7 @@
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
 #include "tests/emulator/workbench/machine.h"
+#include "tests/emulator/workbench/memory.h"
 #include "tests/emulator/workbench/registers.h"
 
 namespace understudy::emulator::workbench {
@@ -33,6 +34,7 @@ struct WorkbenchState {
   MotorsState motors{};
   std::array<std::uint32_t, 2> receive_errors{};
   std::array<std::uint8_t, 2> last_receive_error{};  // 1 + pty::ReceiveError
+  Kept kept{};
 
   bool operator==(const WorkbenchState&) const = default;
 };
@@ -53,7 +55,8 @@ struct StateOf<emulator::workbench::WorkbenchState> {
                                             field("reason", &Value::reason),
                                             field("motors", &Value::motors),
                                             field("receive_errors", &Value::receive_errors),
-                                            field("last_receive_error", &Value::last_receive_error)};
+                                            field("last_receive_error", &Value::last_receive_error),
+                                            field("kept", &Value::kept)};
 };
 
 }  // namespace understudy
@@ -72,6 +75,7 @@ class Workbench final : public Device,
       const auto slots = static_cast<std::size_t>(row.is_view ? 0 : row.count);
       state.image.insert(state.image.end(), slots, static_cast<std::uint32_t>(row.factory));
     }
+    state.kept = factory_kept(*model.registers);
   }
 
   RegisterBank* register_bank() override { return this; }
@@ -82,10 +86,15 @@ class Workbench final : public Device,
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
 
+  KeptMemory* memory() override { return &memory_; }
+  const KeptMemory* memory() const override { return &memory_; }
+
   std::span<std::uint32_t> image() override { return state.image; }
   std::span<const std::uint32_t> image() const override { return state.image; }
   bool low_word_first() const override { return stored(word_order_) == 1; }
-  void register_written(const RegisterRow&, std::size_t) override {}
+  void register_written(const RegisterRow& row, std::size_t slot) override {
+    if (keeps(row)) state.kept.eeprom.write(slot, stored(slot), kWriteTime, now());
+  }
   void mention_unmodelled(const RegisterRow& row) const override {
     Device::mention_unmodelled(row.name, row.unmodelled);
   }
@@ -142,7 +151,7 @@ class Workbench final : public Device,
   void step_motion(Tick tick) override { motors_.step(tick); }
   Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override {
     if (module_moves() || inputs_changed()) return done + 1;
-    return motors_.next_event_tick(done, most, ahead);
+    return std::min(motors_.next_event_tick(done, most, ahead), next_kept_tick(done));
   }
   void cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) override {
     motors_.cross_to(tick, pulses);
@@ -178,9 +187,11 @@ class Workbench final : public Device,
     if (command[0] != kMove) return;
     state.targets[command[1]] = static_cast<std::int32_t>(std::uint32_t{command[2]} << 16 | command[3]);
   }
+  void update_outputs(Tick tick) override { state.kept.eeprom.step(tick, state.image); }
+  Tick next_kept_tick(Tick done) const { return std::max(done + 1, state.kept.eeprom.next_active_tick()); }
   bool module_moves() const { return is_moving() || (stored(run_) != 0 && !state.fifo.empty()); }
   Tick next_active_tick(Tick done) const override {
-    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : kNever;
+    return module_moves() || inputs_changed() || !motors_.is_quiet() ? done + 1 : next_kept_tick(done);
   }
   bool is_moving() const { return state.positions != state.targets; }
 
@@ -192,11 +203,15 @@ class Workbench final : public Device,
   RefusedRequest last_refused;  // for tests, no part of its state
 
  protected:
+  void power_up() override { recall(state.kept.eeprom, map(), state.image); }
+  void power_down() override { state.kept.eeprom.lose_power(); }
   void write_own_state(StateWriter& writer) const override { writer.write(state); }
   std::function<void()> read_own_state(StateReader& reader) override {
     const auto restored = std::make_shared<WorkbenchState>();
     reader.read(*restored);
     demand_state(restored->image.size() == state.image.size(), "the image has another size");
+    restored->kept.eeprom.check_restored(state.kept.eeprom);
+    restored->kept.blocks.check_restored(state.kept.blocks);
     demand_state(restored->fifo.size() <= kFifo, "the FIFO holds more than it can");
     return [this, restored] { state = *restored; };
   }
@@ -210,6 +225,7 @@ class Workbench final : public Device,
   }
   std::uint32_t stored(std::size_t slot) const { return state.image[slot]; }
 
+  WorkbenchMemory memory_{"workbench", firmware(), *this, state.kept};
   const std::size_t word_order_ = slot_of("Word_Order");
   const std::size_t first_output_ = slot_of("Output_0");
   const std::size_t run_ = slot_of("Run");
@@ -240,6 +256,10 @@ inline Value receive_errors(const Workbench& bench, Cell cell) {
   return bench.state.receive_errors[static_cast<std::size_t>(cell.index)];
 }
 inline Value input_level(const Workbench& bench, Cell cell) { return bench.input(cell.index); }
+
+inline DeviceAnswer take_block(Workbench& bench, Cell, std::span<const std::uint16_t> words) {
+  return change_block(bench.state.kept.blocks, words);
+}
 
 /// A command is good by its code, its words and its axis; then it waits in the FIFO.
 inline DeviceAnswer take_command(Workbench& bench, Cell, std::span<const std::uint16_t> words) {

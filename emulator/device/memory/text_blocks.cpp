@@ -1,0 +1,108 @@
+#include "emulator/device/memory/text_blocks.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/state/state_error.h"
+#include "base/text/one_line.h"
+#include "base/text/suggestion.h"
+#include "base/text/utf8.h"
+
+namespace understudy::emulator {
+
+const BlockKind* TextBlocks::kind(std::string_view name) const {
+  const auto found =
+      std::find_if(kinds_.begin(), kinds_.end(), [&](const BlockKind& one) { return one.name == name; });
+  return found == kinds_.end() ? nullptr : &*found;
+}
+
+const SharedText* TextBlocks::find(std::string_view kind, std::string_view name) const {
+  const auto entries = all_.find(kind);
+  if (entries == all_.end()) return nullptr;
+  const auto found = entries->second.find(name);
+  return found == entries->second.end() ? nullptr : &found->second;
+}
+
+std::string TextBlocks::why_not(const BlockKind& kind, const std::string& name, const SharedText& block) {
+  const std::string& text = block.text();
+  if (name.empty()) return "has no name; expected one";
+  if (first_not_utf8(name)) return "has a name that is not UTF-8; expected text";
+  if (const auto at = first_not_utf8(text)) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(*at);
+    return "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) +
+           ": is not UTF-8; expected text";
+  }
+  if (text.size() > kind.longest) {
+    return "has " + std::to_string(text.size()) + " bytes; expected at most " + std::to_string(kind.longest);
+  }
+  if (kind.why_not_called != nullptr) {
+    if (auto why = kind.why_not_called(name); !why.empty()) return why;
+  }
+  return kind.why_not_text != nullptr ? kind.why_not_text(text) : "";
+}
+
+std::string TextBlocks::put(std::string_view kind_name, const std::string& name, SharedText text) {
+  const BlockKind* const of = kind(kind_name);
+  if (of == nullptr) return quoted(std::string(kind_name)) + " is not a kind of block";
+  const SharedText* const before = find(kind_name, name);
+  if (before != nullptr && *before == text) return "";
+  if (std::string why = why_not(*of, name, text); !why.empty()) return why;
+  const auto there = all_.find(kind_name);
+  if (before == nullptr && (there == all_.end() ? 0 : there->second.size()) >= of->most) {
+    return "there is no room; expected at most " + std::to_string(of->most);
+  }
+  all_[std::string(kind_name)][name] = std::move(text);
+  ++revision_;
+  return "";
+}
+
+bool TextBlocks::erase(std::string_view kind, std::string_view name) {
+  const auto entries = all_.find(kind);
+  if (entries == all_.end()) return false;
+  const auto found = entries->second.find(name);
+  if (found == entries->second.end()) return false;
+  entries->second.erase(found);
+  if (entries->second.empty()) all_.erase(entries);
+  ++revision_;
+  return true;
+}
+
+void TextBlocks::check(const NamedBlocks& blocks) const {
+  for (const auto& [kind_name, entries] : blocks) {
+    const BlockKind* const of = kind(kind_name);
+    if (of == nullptr) {
+      std::vector<std::string> known;
+      for (const BlockKind& one : kinds_) known.emplace_back(one.name);
+      throw NvError("blocks: " + quoted(kind_name) + " is not a kind of block" +
+                    suggestion(kind_name, known));
+    }
+    if (entries.size() > of->most) {
+      throw NvError("blocks: " + kind_name + ": has " + std::to_string(entries.size()) +
+                    " entries; expected at most " + std::to_string(of->most));
+    }
+    for (const auto& [name, text] : entries) {
+      const std::string why = why_not(*of, name, text);
+      if (!why.empty()) throw NvError("blocks: " + kind_name + ": " + quoted(name) + ": " + why);
+    }
+  }
+}
+
+void TextBlocks::replace(const NamedBlocks& blocks) {
+  NamedBlocks without_empty = blocks;
+  std::erase_if(without_empty, [](const auto& kind) { return kind.second.empty(); });
+  if (without_empty == all_) return;
+  all_ = std::move(without_empty);
+  ++revision_;
+}
+
+void TextBlocks::check_restored(const TextBlocks& earlier) {
+  kinds_ = earlier.kinds_;
+  try {
+    check(all_);
+  } catch (const NvError& wrong) {
+    throw StateError(wrong.what());
+  }
+  for (const auto& [name, entries] : all_) demand_state(!entries.empty(), "a kind of block is empty");
+}
+
+}  // namespace understudy::emulator

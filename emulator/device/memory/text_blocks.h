@@ -1,0 +1,85 @@
+// Named texts that a device keeps at once, such as its files, recipes and macros. A value; copies share the
+// texts. What kinds there are and what fits in them is data of the model.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "base/state/fields.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/nv_image.h"
+
+namespace understudy::emulator {
+
+/// A kind of block: a row of the model's table.
+struct BlockKind {
+  std::string_view name;    // "files": a key of the image
+  std::size_t most = 0;     // entries
+  std::size_t longest = 0;  // bytes of one
+  /// Why an entry cannot be called so; empty if it can. Null: any name.
+  std::string (*why_not_called)(const std::string& name) = nullptr;
+  /// What is wrong with a text, "line 3: ..."; empty if nothing is. Null: any text.
+  std::string (*why_not_text)(const std::string& text) = nullptr;
+};
+
+class TextBlocks {
+ public:
+  TextBlocks() = default;
+  explicit TextBlocks(std::span<const BlockKind> kinds) : kinds_(kinds) {}
+
+  std::span<const BlockKind> kinds() const { return kinds_; }
+  const NamedBlocks& all() const { return all_; }
+  /// Null if there is none.
+  const SharedText* find(std::string_view kind, std::string_view name) const;
+
+  /// Puts a text there and returns "", or why it cannot be there: then nothing has changed. The same text
+  /// again changes nothing.
+  std::string put(std::string_view kind, const std::string& name, SharedText text);
+  /// Whether it was there.
+  bool erase(std::string_view kind, std::string_view name);
+  /// Throws NvError, "files: 'A': what is wrong", for blocks that do not fit.
+  void check(const NamedBlocks& blocks) const;
+  /// All at once, after check().
+  void replace(const NamedBlocks& blocks);
+  /// Grows with everything that changes.
+  std::uint64_t revision() const { return revision_; }
+
+  bool operator==(const TextBlocks& other) const {
+    return revision_ == other.revision_ && all_ == other.all_;
+  }
+
+  // --- its state as bytes (StateOf<TextBlocks> below): of such a device ---------------------------
+  void check_restored(const TextBlocks& earlier);
+
+ private:
+  template <class T>
+  friend struct understudy::StateOf;
+  const BlockKind* kind(std::string_view name) const;
+  static std::string why_not(const BlockKind& kind, const std::string& name, const SharedText& text);
+
+  std::uint64_t revision_ = 0;
+  NamedBlocks all_;  // kinds without entries are left out
+  std::span<const BlockKind> kinds_;
+};
+
+}  // namespace understudy::emulator
+
+namespace understudy {
+
+template <>
+struct StateOf<emulator::TextBlocks> {
+  using Value = emulator::TextBlocks;
+  static constexpr auto fields =
+      std::tuple{field("blocks", &Value::all_), field("revision", &Value::revision_)};
+  static constexpr std::size_t members = 3;
+  static constexpr std::size_t apart = 1;  // the model's table
+  static void name_all(Value& all) {       // does not compile if there are others
+    [[maybe_unused]] auto& [revision, blocks, kinds] = all;
+  }
+};
+
+}  // namespace understudy
