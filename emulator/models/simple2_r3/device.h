@@ -234,6 +234,7 @@ class Simple2R3 final : public Device,
   void start_program(std::uint8_t line);
   void stop_program();
   /// The clock of the timers, in their unit.
+  Tick timer_unit() const { return timer_unit_; }  // in ticks
   Tick timer_time() const { return now() / timer_unit_; }
   void run_timer(Timer& timer, bool on) {
     timer.run(on, timer_time(), chose(option("timer_overflow", "stays")));

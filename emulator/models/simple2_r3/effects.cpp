@@ -170,6 +170,14 @@ Value read_timer(const Simple2R3& device, Cell cell) {
       device.timer_time(), device.chose(option("timer_overflow", "stays")));
 }
 
+Tick every_tick(const Simple2R3&, Cell, Tick done) { return done + 1; }
+
+Tick next_count_of_timer(const Simple2R3& device, Cell cell, Tick done) {
+  const Tick unit = device.timer_unit();
+  return device.state().timers[static_cast<std::size_t>(cell.argument)].running ? (done / unit + 1) * unit
+                                                                                : kNever;
+}
+
 Value read_servo(const Simple2R3& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
 
 Value read_alarm_clear(const Simple2R3& device, Cell cell) { return device.alarm_clear(cell.argument); }

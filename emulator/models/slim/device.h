@@ -100,6 +100,7 @@ class Slim final : public TextDevice,
 
   // --- by name ---
   std::optional<double> value_named(std::string_view name) const override;
+  Tick next_change(std::string_view name, Tick done) const override;
   std::optional<std::string> assign(std::string_view name, double value) override;
   std::vector<std::string> names() const override;
 

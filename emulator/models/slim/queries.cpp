@@ -276,6 +276,15 @@ std::optional<double> Slim::value_named(std::string_view name) const {
   return answer.number;
 }
 
+Tick Slim::next_change(std::string_view /*name*/, Tick done) const {
+  // Its clocks count seconds.
+  constexpr Tick kSecond = 1000;
+  const auto next_second = [&](Tick since) {
+    return done + kSecond - ((done - since) % kSecond + kSecond) % kSecond;
+  };
+  return std::min(next_second(state_.powered_at), next_second(state_.clock_zero));
+}
+
 std::optional<std::string> Slim::assign(std::string_view name, double value) {
   if (!powered()) return "it has no power";
   wake();
