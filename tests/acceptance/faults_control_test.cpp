@@ -221,5 +221,35 @@ TEST(ControlInput, TakesVoltagesWordsAndSwitches) {
   expect_refused(daemon, {"input"}, "input: nothing to do; expected NAME=LEVEL");
 }
 
+const std::string kHandWheel =
+    "understudy: 1\n"
+    "lines: { line: { link: ./port, stations: [ { name: feeder, model: simple2-r3, address: 1 } ] } }\n"
+    "plant: { feeder.A: { encoder: { per_revolution: 4000, on: wheel } } }\n";
+
+TEST(ControlTurn, MovesTheCountsOfAWheelAtOnceOrEvenly) {
+  const auto served = RunningUnderstudy::of_bench(kHandWheel, {"--speed", "manual"});
+  const RunningUnderstudy& daemon = *served;
+  EXPECT_EQ(obeyed(daemon, {"turn", "feeder.A=300"}), "");
+  obeyed(daemon, {"advance", "1ms"});
+  EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}), "feeder.A.encoder 300\n");
+  obeyed(daemon, {"turn", "feeder.A=-200", "in=2s"});
+  for (const auto& [after, counts] : {std::pair{"500ms", 250}, {"500ms", 200}, {"1s", 100}, {"1s", 100}}) {
+    obeyed(daemon, {"advance", after});
+    EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}),
+              "feeder.A.encoder " + std::to_string(counts) + "\n");
+  }
+}
+
+TEST(ControlTurn, IsRefusedWhereNothingTurns) {
+  const auto served = RunningUnderstudy::of_bench(kHandWheel, {"--speed", "manual"});
+  const RunningUnderstudy& daemon = *served;
+  expect_refused(daemon, {"turn", "feeder.B=1"},
+                 "turn: feeder.B has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
+  expect_refused(daemon, {"turn", "feeder.A=1", "in=soon"},
+                 "turn: turn: in: 'soon' is not possible; expected a duration such as 250ms");
+  expect_refused(daemon, {"turn"}, "turn: nothing to do; expected NAME=VALUE");
+  EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}), "feeder.A.encoder 0\n");
+}
+
 }  // namespace faults_control_test
 }  // namespace understudy::acceptance
