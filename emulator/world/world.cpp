@@ -9,6 +9,7 @@
 #include "emulator/device/axes.h"
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/fault_watch.h"
@@ -371,8 +372,15 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
-  emulator::load_program(*devices_[device], text);  // throws before anything has changed
-  if (listener_ != nullptr) listener_->on_program(device, text);
+  // Also one that will be refused: a device may show that it was.
+  if (listener_ != nullptr && devices_[device]->user_program() != nullptr)
+    listener_->on_program(device, text);
+  try {
+    emulator::load_program(*devices_[device], text);
+  } catch (const ProgramError&) {
+    look_for_speech(now_);
+    throw;
+  }
   look_for_speech(now_);
 }
 

@@ -2,9 +2,11 @@
 #include <algorithm>
 
 #include "emulator/device/memory/register_memory.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/language.h"
 #include "interpreter/simple2/listing.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -207,10 +209,7 @@ void Simple2R3::reload_program() {
 
 void Simple2R3::load_program(std::string_view listing) {
   const auto assembly = interpreter::simple2::assemble(listing);
-  if (!assembly.lines) {
-    const auto& error = assembly.errors.front();
-    throw ProgramError(error.line, error.field + ": " + error.what + "; expected " + error.expected);
-  }
+  if (!assembly.lines) throw ProgramError(mistakes_of(assembly));
   auto address = kProgramAddress;
   for (const auto& line : *assembly.lines) {
     const std::array<std::uint16_t, 4> words{line.command, line.data1, line.data2, line.flag};

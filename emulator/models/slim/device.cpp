@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
+#include "emulator/device/program_error.h"
 #include "emulator/models/slim/model.h"
 
 namespace understudy::emulator::models::slim {
@@ -199,9 +201,8 @@ void Slim::read_memory(const NvImage& given) {
   ++state_.kept_revision;
 }
 
-void Slim::load_program(std::string_view text) {
-  wake();
-  lang::Program program;
+Slim::ReadProgram Slim::read_program(std::string_view text) const {
+  ReadProgram read;
   std::istringstream lines{std::string(text)};
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -209,7 +210,7 @@ void Slim::load_program(std::string_view text) {
     const std::size_t first = line.find_first_not_of(" \t");
     // What a file has for people: empty lines and remarks.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
-    const Error error = program.insert(program.size(), line, of_programs());
+    const Error error = read.program.insert(read.program.size(), line, of_programs());
     if (error == Error::none) continue;
     const std::string lines_that_fit = std::to_string(of_programs().capacity);
     const std::string what =
@@ -218,10 +219,18 @@ void Slim::load_program(std::string_view text) {
         : error == Error::not_allowed ? "may not stand in a program"
         : error == Error::address     ? "begins with a label that another line has"
                                   : "is not a command; expected one of `understudy describe slim commands`";
-    throw ProgramError(number, what);
+    read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
+    if (error == Error::buffer_full) break;  // for all that follow as well
   }
+  return read;
+}
+
+void Slim::load_program(std::string_view text) {
+  ReadProgram read = read_program(text);
+  if (!read.mistakes.empty()) throw ProgramError(std::move(read.mistakes));
+  wake();
   stop(state_.execution);
-  state_.program = std::move(program);
+  state_.program = std::move(read.program);
 }
 
 std::string Slim::program_text() const {

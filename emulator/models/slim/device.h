@@ -109,6 +109,8 @@ class Slim final : public TextDevice,
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  /// What is wrong with a text, for a device made like this one.
+  std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 
   // --- time ---
   void sample_inputs(Tick tick) override;
@@ -147,6 +149,13 @@ class Slim final : public TextDevice,
     std::optional<double> number{};  // of a query that has one
     bool has_words = true;           // false: only the number is wanted
   };
+
+  /// A program, as far as its lines are good.
+  struct ReadProgram {
+    lang::Program program{};
+    std::vector<ProgramMistake> mistakes{};
+  };
+  ReadProgram read_program(std::string_view text) const;
 
   // Of a program: interpreter/slim/machine.h.
   bool input(int number) const override;
