@@ -285,7 +285,7 @@ int print_completion(const CommandWords& words, const std::string& shell, ModelL
   const auto script = completion_script(words, shell, models);
   if (!script) {
     throw UsageError("completion: " + understudy::quoted(shell) +
-                     " is not a shell that is known; expected bash, zsh or fish");
+                     " is not a known shell; expected bash, zsh or fish");
   }
   std::fputs(script->c_str(), stdout);
   return kExitWell;

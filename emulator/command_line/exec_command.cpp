@@ -45,7 +45,7 @@ namespace {
 constexpr int kExitTimedOut = 124;
 constexpr int kExitNotStarted = 127;
 
-/// Calls once, so long after it was made.
+/// Calls once, this long after it was made.
 class Alarm {
  public:
   Alarm(serve::EventLoop& loop, serve::WallTime after, std::function<void()> call)

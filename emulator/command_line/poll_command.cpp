@@ -86,7 +86,7 @@ void read_value_of(Item& item, const std::string& text) {
   const auto real = parse_real(value);
   if (!real) throw UsageError("poll: " + quoted(text) + " is not understood; expected NAME=NUMBER");
   const auto single = static_cast<float>(*real);
-  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is more than a single can hold");
+  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is more than a 32-bit real can hold");
   item.value = value_of_real(single);
 }
 

@@ -198,7 +198,7 @@ struct Model {
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};  // of a model with ModbusStation
-  int most_modules = 0;           // the most the most that one device can consist of; 0: it is not a chain
+  int most_modules = 0;           // the most that one device can consist of; 0: it is not a chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
 };

@@ -86,7 +86,7 @@ class World final : public WorldView {
   }
   /// The clock stands, and nothing more has come for as long as a frame is waited for.
   void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
-  /// The host has taken so many bytes of the line's output.
+  /// The host has taken this many bytes of the line's output.
   void take_output(std::size_t line, std::size_t count) { lines_[line]->line.take_output(count); }
 
   // Those who look at a line; they change nothing.

@@ -179,7 +179,7 @@ struct RegisterRow {
   bool is_view = false;  // of other state: no slot in the image, and not kept; without a reader `factory`
   std::span<const BitField> fields{};
   Message message = nullptr;    // a window: takes what one request writes from its first word on,
-  int least_words = 1;          // so many words or more, as one message
+  int least_words = 1;          // this many words or more, as one message
   bool acts_on_zero = true;     // false: a trigger, for which a written 0 does nothing
   std::string_view unmodelled;  // what is missing, if the register only stores and reads back
 

@@ -16,6 +16,7 @@ Slim::Slim(const DeviceSettings& settings)
   flow_options_ = flow_options();
   state_.kept = factory();
   state_.ram = state_.kept;
+  state_.chain.set_options(chain_options());
 }
 
 /// Each row's option in force, as the device has it.
@@ -49,7 +50,7 @@ lang::ProgramOptions Slim::program_options() const {
   if (chose(option("refused_line", "ends_editing")))
     options.refused_line = Options::RefusedLine::ends_pe_and_pi;
   options.check_command =
-      chose(option("axis_values", "is_taken_from_its_letter"))
+      takes_letters_away()
           ? [](const lang::Command& command) { return check_parameter_line(command, true); }
           : [](const lang::Command& command) { return check_parameter_line(command, false); };
   if (chose(option("same_label", "the_first_counts"))) options.same_label = Options::SameLabel::first_counts;
@@ -123,8 +124,9 @@ void Slim::power_down() {
   blank.ram = blank.kept;
   blank.kept_program = std::move(state_.kept_program);
   blank.kept_revision = state_.kept_revision;
+  blank.chain.set_options(chain_options());
   blank.chain.skip_to(now());
-  if (chose(option("history_kept", "for_ever"))) {
+  if (history_is_kept()) {
     for (std::size_t m = 0; m < blank.errors.size(); ++m) {
       blank.errors[m].history = std::move(state_.errors[m].history);
     }
@@ -146,7 +148,7 @@ void Slim::settle_memory() {
 
 void Slim::write_memory(NvImage& image) const {
   write_image(state_.kept, factory(), memory_form(), image);
-  if (chose(option("history_kept", "for_ever"))) write_history(image);
+  if (history_is_kept()) write_history(image);
   image.program = state_.kept_program;
 }
 
@@ -163,7 +165,7 @@ void Slim::write_history(NvImage& image) const {
 /// Takes them out of the image.
 std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
   std::array<Errors, kModules> errors{};
-  if (!chose(option("history_kept", "for_ever"))) return errors;
+  if (!history_is_kept()) return errors;
   for (int m = 0; m < kModules; ++m) {
     for (std::size_t i = 0; i < history_length(); ++i) {
       const auto found = std::ranges::find(image.registers, history_name(m, i),
@@ -196,7 +198,7 @@ void Slim::read_memory(const NvImage& given) {
         "program: holds a line that is not a command of a program; expected lines as ULP shows them");
   }
   state_.kept = std::move(memory);
-  if (chose(option("history_kept", "for_ever"))) state_.errors = errors;
+  if (history_is_kept()) state_.errors = errors;
   state_.kept_program = image.program;
   ++state_.kept_revision;
 }
@@ -274,7 +276,7 @@ void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
 void Slim::update_outputs(Tick) {
   for (int m = 0; m < kModules; ++m) {
     const Error late = state_.chain.take_late_error(m);
-    if (late != Error::none) note_error(chose(option("error_of", "t0")) ? 0 : m, late);
+    if (late != Error::none) note_error(errors_are_of_t0() ? 0 : m, late);
   }
 }
 

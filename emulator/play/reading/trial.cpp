@@ -196,7 +196,7 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   };
   const auto fitting = value_for(target, number);
   const bool is_real = target.place && target.place->is_real();
-  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a single can hold");
+  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a 32-bit real can hold");
   if (!fitting) field.fail(world::number_text(number) + " is not a whole number; expected one");
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
                          target.place->place.part == Place::Part::whole && !is_refused;
