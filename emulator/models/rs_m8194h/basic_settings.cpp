@@ -15,9 +15,6 @@ namespace {
 using lang::Command;
 using lang::Verb;
 
-std::uint8_t byte_at(const Command& command, std::size_t i) {
-  return static_cast<std::uint8_t>(command.values[i]);
-}
 
 void pulse_mode(BasicSettings& s, const Command& c) { s.pulse_mode = byte_at(c, 1); }
 void max_v(BasicSettings& s, const Command& c) { s.max_v = c.values[1]; }

@@ -28,6 +28,11 @@ using InitialTable = std::array<BasicSettings, kAxes>;
 void keep_initial_table(TextBlocks& blocks, const InitialTable& table);
 InitialTable initial_table_of(const TextBlocks& blocks);
 
+/// A parameter of one register.
+inline std::uint8_t byte_at(const lang::Command& command, std::size_t i) {
+  return static_cast<std::uint8_t>(command.values[i]);
+}
+
 /// What a command of section 3 makes of settings; nothing for another one.
 void apply_setting(BasicSettings& settings, const lang::Command& command);
 

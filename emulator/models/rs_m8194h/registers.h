@@ -81,10 +81,10 @@ inline constexpr auto kInputRows3 = section("12.1.3", {
     input(25,  "EMERGENCY_STOP state", u16).also("EMERGENCY_STOP").shows<emergency_state>(),
 });
 inline constexpr auto kInputRows4 = section("12.1.4", {
-    input(26,  "Logic Position {}", s32).also("LP_{}").each(kAxisNames, 2).in("pulse").shows<logic_position>(),
-    input(34,  "Encoder Position {}", s32).also("EP_{}").each(kAxisNames, 2).in("pulse").shows<encoder_position>(),
-    input(42,  "Current velocity {}", s32).also("CV_{}").each(kAxisNames, 2).in("PPS").shows<current_velocity>(),
-    input(50,  "Current acceleration {}", s32).also("CA_{}").each(kAxisNames, 2).in("PPS/s").shows<current_acceleration>(),
+    input(26,  "Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<logic_position>(),
+    input(34,  "Encoder Position {}", s32).each(kAxisNames, 2).in("pulse").shows<encoder_position>(),
+    input(42,  "Current velocity {}", s32).each(kAxisNames, 2).in("PPS").shows<current_velocity>(),
+    input(50,  "Current acceleration {}", s32).each(kAxisNames, 2).in("PPS/s").shows<current_acceleration>(),
 });
 inline constexpr auto kInputRows5 = section("12.1.5", {
     input(58,  "Stop Status {}", u16).also("STOP_{}").each(kAxisNames, 1).shows<stop_status>(),
@@ -154,7 +154,7 @@ inline constexpr auto kInputRows17 = section("12.1.15", {
     with_names(input(139, "INT factor 9 SYNC", u16).also("INT_SYNC").shows<factor_axes>(9), kAxisMaskBits),
 });
 inline constexpr auto kInputRows18 = section("12.1.11", {
-    input(160, "Absolute Logic Position {}", s32).also("ABS_{}").each(kAxisNames, 2).in("pulse").shows<absolute_position>(),
+    input(160, "Absolute Logic Position {}", s32).each(kAxisNames, 2).in("pulse").shows<absolute_position>(),
 });
 
 inline constexpr auto kHoldingRows1 = section("12.2.1", {

@@ -12,9 +12,6 @@ using lang::Command;
 using lang::Verb;
 using CommandRow = HandlerRow<Verb, CommandAction>;
 
-inline std::uint8_t byte_at(const Command& command, std::size_t i) {
-  return static_cast<std::uint8_t>(command.values[i]);
-}
 inline AxisMask axes_at(const Command& command, std::size_t i) {
   return static_cast<AxisMask>(command.values[i] & kAllAxes);
 }
