@@ -74,7 +74,7 @@ TEST(RsM8194hFifo, ADriveWaitsForItsAxisAndSettingsBehindItWait) {
             "RSM_SET_LP Y 5"});
   EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 28);
   EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
-  rsm.run(100);
+  rsm.run(101);
   EXPECT_EQ(rsm.get("LP_X"), 100);
   EXPECT_EQ(rsm.get("LP_Y"), 5);
   rsm.run_to_rest();
