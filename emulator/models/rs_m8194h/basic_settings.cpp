@@ -15,7 +15,6 @@ namespace {
 using lang::Command;
 using lang::Verb;
 
-
 void pulse_mode(BasicSettings& s, const Command& c) { s.pulse_mode = byte_at(c, 1); }
 void max_v(BasicSettings& s, const Command& c) { s.max_v = c.values[1]; }
 void limit_levels(BasicSettings& s, const Command& c) {

@@ -180,9 +180,9 @@ void RsM8194h::step_motion(Tick tick) {
 
 void RsM8194h::update_outputs(Tick tick) {
   start_held();
-  start_queued_trigger();
   // Macros first; what they leave of the tick is the FIFO's.
   state_.steps_left = lang::run_tick(state_.execution, tick, kStepsOfATick, state_.paused, {}, *this);
+  start_queued_trigger();
   run_fifo(state_.steps_left);
   state_.eeprom.step(tick, state_.image);
 }

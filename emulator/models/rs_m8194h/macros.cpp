@@ -93,7 +93,7 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   const lang::Closed closed = lang::close(state_.download);
   state_.downloaded = lang::status_of(state_.download, state_.downloaded);
   state_.rsm = lang::State::ready;
-  state_.download = {};
+  state_.download = kNoDownload;
   if (closed.macro) {
     lang::replaced(state_.execution, name, *this);
     state_.blocks.put(blocks_of(name), std::to_string(name.number),

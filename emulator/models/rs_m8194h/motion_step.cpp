@@ -102,9 +102,8 @@ void RsM8194h::act_together(Tick tick) {
     using Action = motion::SyncAction::Drive;
     motion::SyncAction& action = acting.actions[a];
     acting.speeds[a] = law_of(state_.units[a]);
-    acting.latches[a].taken = false;
-    // EP counts the pulses themselves where there is no encoder.
-    if (action.latch_encoder && !state_.units[a].has_encoder) action.latch_command = true;
+    // Latches and presets are of the moment of the event; EP counts the pulses where there is no encoder.
+    action.latch_command = action.latch_encoder = true;
     const bool on_path = state_.paths.together.takes(a);
     slows_path[a] = on_path && action.drive == Action::slow_down;
     stops_path[a] = on_path && action.drive == Action::stop_at_once;
@@ -121,17 +120,16 @@ void RsM8194h::act_together(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(acted, a)) continue;
     AxisUnit& unit = state_.units[a];
-    motion::Axis& motor = state_.motors[a];
     const motion::SyncAction& action = state_.sync.actions[a];
-    if (acting.latches[a].taken) {
-      const motion::SyncTable::Latch& latch = acting.latches[a];
-      const std::int64_t encoder = unit.has_encoder ? latch.encoder_pulses : latch.travel_pulses;
+    const motion::SyncTable::Latch& latch = acting.latches[a];
+    const std::int64_t encoder = unit.has_encoder ? latch.encoder_pulses : latch.travel_pulses;
+    if (action.latch_command || action.latch_encoder) {
       unit.latched = static_cast<std::int32_t>(action.latch_encoder ? unit.encoder.at(encoder)
                                                                     : unit.logic.at(latch.travel_pulses));
     }
     const auto preset = static_cast<std::int32_t>(action.preset_value);
-    if (has(outcome.presets_command, a)) set_logic_position(unit, motor, preset);
-    if (has(outcome.presets_encoder, a)) set_encoder_position(unit, motor, preset);
+    if (has(outcome.presets_command, a)) unit.logic.set(preset, latch.travel_pulses);
+    if (has(outcome.presets_encoder, a)) unit.encoder.set(preset, encoder);
     if (action.preset == motion::SyncAction::Preset::speed && preset > 0) {
       unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
       if (!starts_something(action.drive)) change_speed(a);

@@ -83,6 +83,9 @@ constexpr std::uint8_t bit_of(Rint bit) {
   return static_cast<std::uint8_t>(1U << static_cast<unsigned>(bit));
 }
 
+/// None is being downloaded: a name all the same, as each download has one.
+inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
+
 /// Which macro, which command, which line, which error: inputs 115 to 119.
 using MacroReport = std::array<std::uint16_t, 5>;
 
@@ -99,7 +102,7 @@ struct State {
   // The RS-M8194H's own.
   lang::State rsm = lang::State::ready;
   std::uint16_t illegal_reason = 0;
-  lang::Download download{};  // while `rsm` says so
+  lang::Download download = kNoDownload;  // while `rsm` says so
   lang::DownloadStatus downloaded{};
   // The module's.
   bool emergency_state = false;
