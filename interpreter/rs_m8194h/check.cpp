@@ -1,0 +1,156 @@
+#include "interpreter/rs_m8194h/check.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/operators.h"
+
+namespace understudy::interpreter::rs_m8194h {
+namespace {
+
+constexpr bool is_one_axis(std::int64_t mask) { return mask == 1 || mask == 2 || mask == 4 || mask == 8; }
+
+std::size_t place_of(const CommandRow& row, std::string_view name) {
+  for (std::size_t i = 0; i < row.parameter_count(); ++i) {
+    if (row.parameters[i].name == name) return i;
+  }
+  return kMostParameters;
+}
+
+/// A parameter of the same command that decides whether another is used; nothing while it is a variable.
+std::optional<std::uint32_t> deciding(const Command& command, std::string_view name) {
+  const std::size_t place = place_of(command.row(), name);
+  if (is_reference(command, place)) return std::nullopt;
+  return command.values[place];
+}
+
+/// A segment of a mixed stream: lines have an end, circles a centre, arcs both.
+bool uses_point(const Command& command, std::string_view point) {
+  const std::optional<std::uint32_t> shape = deciding(command, "nType");
+  if (!shape) return false;
+  return point.starts_with("cp") ? *shape != 1 : *shape <= 3;
+}
+
+bool is_axis_taken(const Command& command, std::size_t parameter) {
+  for (std::size_t i = 0; i < parameter; ++i) {
+    const Kind kind = command.row().parameters[i].kind;
+    const bool is_axis = kind == Kind::axis || kind == Kind::axis_or_none;
+    if (is_axis && command.values[i] == command.values[parameter]) return true;
+  }
+  return false;
+}
+
+bool is_axis_mask(const Command& command, const Parameter& row, std::int64_t mask) {
+  if (row.kind == Kind::setting_axes && !command.is_macro_line()) {
+    return mask < 2 * kInitial && (mask & kAllAxes) != 0;
+  }
+  if (command.verb() == Verb::line_scan && command.number(1) % 2 != 0) return mask == 1;  // uneven: X alone
+  return row.lists(mask);
+}
+
+bool is_good(const Command& command, std::size_t parameter) {
+  const Parameter& row = command.row().parameters[parameter];
+  if (is_reference(command, parameter)) return true;
+  const std::int64_t value = command.number(parameter);
+  switch (row.kind) {
+    case Kind::axes:
+    case Kind::setting_axes: return is_axis_mask(command, row, value);
+    case Kind::axis: return is_one_axis(value) && !is_axis_taken(command, parameter);
+    case Kind::axis_or_none: return value == 0 || (is_one_axis(value) && !is_axis_taken(command, parameter));
+    case Kind::isr_if_used: return deciding(command, "nINT") != 1 || row.lists(value);
+    case Kind::point_if_used: return !uses_point(command, row.name) || row.lists(value);
+    case Kind::arithmetic:
+    case Kind::comparison: return true;
+    case Kind::operand:
+    case Kind::variable:
+      if (command.verb() == Verb::var_calculate) return true;
+      [[fallthrough]];
+    case Kind::number:
+    case Kind::speed:
+    case Kind::as_it_comes:
+    case Kind::byte_variable:
+    case Kind::memory: return row.lists(value);
+  }
+  return false;
+}
+
+/// The radius of a rectangle whose corners are longer than its sides.
+std::optional<std::size_t> bad_radius(const Command& command) {
+  const std::size_t radius = place_of(command.row(), "Rp");
+  if (is_reference(command, radius)) return std::nullopt;
+  for (const std::size_t side : {place_of(command.row(), "Lp"), place_of(command.row(), "Wp")}) {
+    if (!is_reference(command, side) && 2 * command.number(radius) > command.number(side)) return radius;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::size_t> bad_parameter(const Command& command, const CommandOptions& options) {
+  const std::size_t count = command.row().parameter_count();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_good(command, i)) return i;
+  }
+  if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) return bad_radius(command);
+  return std::nullopt;
+}
+
+std::optional<std::size_t> bad_operand(const Command& command) {
+  if (command.verb() != Verb::if_ && command.verb() != Verb::var_calculate) return std::nullopt;
+  const CommandRow& row = command.row();
+  for (std::size_t i = 0; i < row.parameter_count(); ++i) {
+    const bool is_sound = row.parameters[i].kind == Kind::arithmetic ? is_arithmetic(command.values[i])
+                          : row.parameters[i].kind == Kind::comparison
+                              ? find_comparison(command.values[i]) != nullptr
+                              : is_reference(command, i) || row.parameters[i].lists(command.number(i));
+    if (!is_sound) return i;
+  }
+  return std::nullopt;
+}
+
+Fault operand_fault(const Command& command) {
+  if (!bad_operand(command)) return Fault::none;
+  return command.verb() == Verb::if_ ? Fault::comparison : Fault::operand;
+}
+
+std::string expected_of(const Command& command, std::size_t parameter) {
+  const Parameter& row = command.row().parameters[parameter];
+  const std::string or_variable = !command.is_macro_line() || row.reference == Reference::none ? ""
+                                  : row.reference == Reference::variable ? ", or VAR0 to VAR511"
+                                                                         : ", or bVAR0 to bVAR127";
+  switch (row.kind) {
+    case Kind::axes:
+      if (row.most < 3) return "X or Y";
+      return row.most == 3 ? "X, Y or XY" : "axes, X to XYZU";
+    case Kind::setting_axes:
+      return command.is_macro_line() ? "axes, X to XYZU" : "axes, X to XYZU, or INITIAL_X to INITIAL_XYZU";
+    case Kind::axis: return "X, Y, Z or U, and none of them twice";
+    case Kind::axis_or_none: return "X, Y, Z, U or 0, and none of them twice";
+    case Kind::variable: return "VAR0 to VAR511";
+    case Kind::byte_variable: return "bVAR0 to bVAR127";
+    case Kind::memory: return "MD0 to MD2047";
+    case Kind::arithmetic: return "one of + - * / & |";
+    case Kind::comparison: return "one of < <= > >= == !=";
+    case Kind::number:
+    case Kind::speed:
+    case Kind::as_it_comes:
+    case Kind::operand:
+    case Kind::isr_if_used:
+    case Kind::point_if_used: break;
+  }
+  if (row.width == Width::real) return "a real number";
+  if (row.only == 0) return std::to_string(row.least) + " to " + std::to_string(row.most) + or_variable;
+  std::string list;
+  for (std::int64_t value = row.least; value <= row.most; ++value) {
+    if (row.lists(value)) list += (list.empty() ? "" : ", ") + std::to_string(value);
+  }
+  return "one of " + list + or_variable;
+}
+
+}  // namespace understudy::interpreter::rs_m8194h

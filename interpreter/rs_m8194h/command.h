@@ -1,0 +1,58 @@
+// One command or macro line, as a value.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "interpreter/rs_m8194h/commands.h"
+
+namespace understudy::interpreter::rs_m8194h {
+
+/// What is not a parameter is 0. A number with a sign is in two's complement, a real number is its bits.
+/// Operators of comparison are the codes of operators.h, whatever order the host wrote their letters in.
+struct Command {
+  std::uint16_t code = 0;
+  std::array<std::uint32_t, kMostParameters> values = {};
+
+  constexpr Verb verb() const { return verb_of(code); }
+  constexpr bool is_macro_line() const { return is_macro_code(code); }
+  constexpr const CommandRow& row() const { return row_of(verb()); }
+  constexpr std::int32_t signed_value(std::size_t parameter) const {
+    return static_cast<std::int32_t>(values[parameter]);
+  }
+  /// By the parameter's width.
+  constexpr std::int64_t number(std::size_t parameter) const {
+    const bool has_sign = row().parameters[parameter].width == Width::signed_long;
+    return has_sign ? std::int64_t{signed_value(parameter)} : std::int64_t{values[parameter]};
+  }
+
+  bool operator==(const Command&) const = default;
+};
+
+/// Whether a value stands for VARn.
+constexpr bool is_variable(std::uint32_t value) {
+  return value >= kVariable0 && value < kVariable0 + kVariableCount;
+}
+/// Whether a byte stands for bVARn.
+constexpr bool is_byte_variable(std::uint32_t value) {
+  return value >= kByteVariable0 && value < kByteVariable0 + kByteVariableCount;
+}
+constexpr std::size_t variable_number(std::uint32_t value) {
+  return static_cast<std::size_t>(value - kVariable0);
+}
+constexpr std::size_t byte_variable_number(std::uint32_t value) {
+  return static_cast<std::size_t>(value - kByteVariable0);
+}
+
+/// Whether a parameter of a macro line is read from a variable when the line runs. Operands of program flow
+/// are, too.
+constexpr bool is_reference(const Command& command, std::size_t parameter) {
+  if (!command.is_macro_line()) return false;
+  const Parameter& row = command.row().parameters[parameter];
+  const std::uint32_t value = command.values[parameter];
+  if (row.reference == Reference::variable) return is_variable(value);
+  return row.reference == Reference::byte_variable && is_byte_variable(value);
+}
+
+}  // namespace understudy::interpreter::rs_m8194h

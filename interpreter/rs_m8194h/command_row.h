@@ -1,0 +1,126 @@
+// What a row of RS-M8194H's command table consists of. A row is a function of the manual: its low byte makes
+// a real-time code, 0x0Axx, a macro code, 0x0Cxx, or both, with the same parameters.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "interpreter/rs_m8194h/verbs.h"
+
+namespace understudy::interpreter::rs_m8194h {
+
+/// How many registers a parameter takes, and how they are read.
+enum class Width : std::uint8_t {
+  byte,           // one register
+  unsigned_long,  // two
+  signed_long,    // two
+  real,           // two, IEEE 754
+};
+
+/// What a parameter is: how it is checked and how it is written.
+enum class Kind : std::uint8_t {
+  number,         // within its range, or one of its list
+  speed,          // also accelerations and their rates: any value, clamped by who moves
+  as_it_comes,    // any value
+  axes,           // a mask of X Y Z U, not empty
+  setting_axes,   // the same; bit 4 of a real-time command: into the Initial Table
+  axis,           // one of X Y Z U, and none of them twice
+  axis_or_none,   // the same, or 0
+  variable,       // VARn, as a destination
+  byte_variable,  // bVARn, as a destination
+  memory,         // MDn
+  operand,        // a constant, or VARn that is read when the line runs
+  arithmetic,     // + - * / & |
+  comparison,     // < <= > >= == !=
+  isr_if_used,    // an ISR or 0; any value if the command's nINT is 0
+  point_if_used,  // a position; any value if the command's nType does not use it
+};
+
+/// What may stand in a macro line instead of a constant: it is read when the line runs.
+enum class Reference : std::uint8_t { none, byte_variable, variable };
+
+struct Parameter {
+  std::string_view name;  // the manual's
+  Kind kind = Kind::number;
+  Width width = Width::byte;
+  std::int64_t least = 0;
+  std::int64_t most = 0;
+  std::uint32_t only = 0;  // not 0: bit n: n is one of the list
+  Reference reference = Reference::none;
+  std::string_view values = {};  // what the numbers mean
+
+  constexpr int registers() const { return width == Width::byte ? 1 : 2; }
+  constexpr bool lists(std::int64_t value) const {
+    return value >= least && value <= most && (only == 0 || ((only >> value) & 1U) != 0);
+  }
+};
+
+/// What becomes of the real-time code.
+enum class RealTime : std::uint8_t {
+  none,       // there is not one
+  queued,     // into the FIFO
+  immediate,  // acts on receipt, occupies no block
+  stop,       // the same, or queued, by choice
+};
+
+/// Where a function may stand, and how the FIFO and macros treat it.
+struct Use {
+  RealTime real_time = RealTime::none;
+  bool in_mp = false;          // its macro code
+  bool in_isr = false;         // its macro code
+  bool initial = false;        // its real-time code stores in the Initial Table, too
+  bool starts_motion = false;  // locks, holds and waits apply
+  bool refused_while_mp_runs = false;
+};
+
+inline constexpr std::size_t kMostParameters = 12;
+using Parameters = std::array<Parameter, kMostParameters>;
+
+struct CommandRow {
+  Verb verb;
+  std::string_view real_time_name;  // the manual's; empty: there is not one
+  std::string_view macro_name;
+  Use use;
+  int cost;  // blocks of the FIFO or lines of a macro; what acts on receipt and the two CLOSE take none
+  Parameters parameters;  // those with a name
+  std::string_view section;
+  std::string_view meaning;
+
+  constexpr std::size_t parameter_count() const {
+    std::size_t count = 0;
+    while (count < kMostParameters && !parameters[count].name.empty()) ++count;
+    return count;
+  }
+  /// With the code.
+  constexpr int registers() const {
+    int count = 1;
+    for (const Parameter& parameter : parameters) count += parameter.name.empty() ? 0 : parameter.registers();
+    return count;
+  }
+  constexpr int fifo_blocks() const { return use.real_time == RealTime::queued ? cost : 0; }
+  constexpr bool closes() const { return verb == Verb::mp_close || verb == Verb::isr_close; }
+  constexpr int macro_lines() const { return closes() ? 0 : cost; }
+};
+
+inline constexpr int kMpCount = 157;
+inline constexpr int kIsrCount = 20;
+inline constexpr int kVariableCount = 512;      // VAR0 to VAR511
+inline constexpr int kByteVariableCount = 128;  // bVAR0 to bVAR127
+inline constexpr int kMemoryCount = 2048;       // MD0 to MD2047
+inline constexpr int kFirstRealMemory = 1024;
+inline constexpr int kLabelCount = 4;
+inline constexpr int kDeepest = 7;  // open IF, open FOR, levels of calls
+
+/// What stands for VAR0 and bVAR0 in a parameter.
+inline constexpr std::int64_t kVariable0 = 0x7FFF0000;
+inline constexpr std::int64_t kByteVariable0 = 0x80;
+/// The range of positions, distances, times and constants.
+inline constexpr std::int64_t kMost = 2'000'000'000;
+inline constexpr std::int64_t kLeast = -kMost;
+/// Of an axis mask: the value is for the Initial Table.
+inline constexpr std::int64_t kInitial = 0x10;
+inline constexpr std::int64_t kAllAxes = 0xF;
+
+}  // namespace understudy::interpreter::rs_m8194h

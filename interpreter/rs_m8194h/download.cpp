@@ -1,0 +1,143 @@
+#include "interpreter/rs_m8194h/download.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/macro.h"
+
+namespace understudy::interpreter::rs_m8194h {
+namespace {
+
+bool is_label(const Command& command, std::uint32_t number) {
+  return command.verb() == Verb::label && command.values[0] == number;
+}
+
+/// What is wrong with a line by the block it stands in, the innermost one.
+struct BlockRule {
+  Verb verb;
+  Fault outside;
+  Fault in_if;
+  Fault in_for;
+};
+constexpr auto kBlockRules = std::to_array<BlockRule>({
+    {Verb::else_, Fault::else_outside, Fault::none, Fault::else_outside},
+    {Verb::end_if, Fault::end_if_outside, Fault::none, Fault::end_if_outside},
+    {Verb::next, Fault::next_outside, Fault::next_outside, Fault::none},
+    {Verb::label, Fault::none, Fault::label_in_if, Fault::label_in_for},
+});
+/// And by how many blocks of its kind are open, innermost or not.
+struct DepthRule {
+  Verb verb;
+  Verb opener;
+  int least;
+  int most;
+  Fault fault;
+};
+constexpr auto kDepthRules = std::to_array<DepthRule>({
+    {Verb::if_, Verb::if_, 0, kDeepest - 1, Fault::if_too_deep},
+    {Verb::for_, Verb::for_, 0, kDeepest - 1, Fault::for_too_deep},
+    {Verb::exit_for, Verb::for_, 1, kDeepest, Fault::exit_for_outside},
+});
+
+Fault block_fault(const std::vector<Command>& lines, const Command& command) {
+  const Verb verb = command.verb();
+  for (const BlockRule& rule : kBlockRules) {
+    if (rule.verb != verb) continue;
+    const Blocks blocks = blocks_behind(lines);
+    if (blocks.empty()) return rule.outside;
+    if (verb == Verb::else_ && blocks.back().has_else) return rule.outside;
+    return blocks.back().opener == Verb::if_ ? rule.in_if : rule.in_for;
+  }
+  for (const DepthRule& rule : kDepthRules) {
+    if (rule.verb != verb) continue;
+    const int open = count_open(blocks_behind(lines), rule.opener);
+    return open >= rule.least && open <= rule.most ? Fault::none : rule.fault;
+  }
+  return Fault::none;
+}
+
+Fault line_fault(const Download& download, const Command& command, const DownloadOptions& options) {
+  const int room = capacity_of(download.name) - (options.close_takes_line ? 1 : 0);
+  if (lines_used(download.lines) + command.row().macro_lines() > room) return Fault::macro_memory;
+  if (const Fault fault = operand_fault(command); fault != Fault::none) return fault;
+  const bool is_twice =
+      command.verb() == Verb::label && std::ranges::any_of(download.lines, [&command](const Command& other) {
+        return is_label(other, command.values[0]);
+      });
+  if (is_twice) return Fault::label_twice;
+  return block_fault(download.lines, command);
+}
+
+void fail(Download& download, Fault fault, std::uint16_t code, std::size_t line) {
+  if (download.fault != Fault::none) return;
+  download.fault = fault;
+  download.code = code;
+  download.line = static_cast<std::uint16_t>(line);
+}
+
+/// A GOTO to a label that has not come.
+const Command* lost_jump(const std::vector<Command>& lines) {
+  const auto lost = std::ranges::find_if(lines, [&lines](const Command& jump) {
+    return jump.verb() == Verb::goto_ && std::ranges::none_of(lines, [&jump](const Command& command) {
+             return is_label(command, jump.values[0]);
+           });
+  });
+  return lost == lines.end() ? nullptr : &*lost;
+}
+
+}  // namespace
+
+Fault add(Download& download, const Command& command, const DownloadOptions& options) {
+  const Fault fault = line_fault(download, command, options);
+  if (fault == Fault::none) {
+    download.lines.push_back(command);
+  } else {
+    fail(download, fault, command.code, download.lines.size());
+  }
+  return fault;
+}
+
+void refuse(Download& download, std::uint16_t code, Fault fault, const DownloadOptions& options) {
+  if (is_download_error(fault)) {
+    fail(download, fault, code, download.lines.size());
+  } else if (options.refused_line == DownloadOptions::RefusedLine::spoils) {
+    download.is_spoilt = true;
+  }
+}
+
+Closed close(Download& download) {
+  const std::vector<Command>& lines = download.lines;
+  if (const Blocks blocks = blocks_behind(lines); !blocks.empty()) {
+    const Block& open = blocks.front();
+    const Fault fault = open.opener == Verb::if_ ? Fault::if_open : Fault::for_open;
+    fail(download, fault, lines[open.line].code, open.line);
+    return {.fault = fault};
+  }
+  if (const Command* jump = lost_jump(lines)) {
+    fail(download, Fault::goto_without_label, jump->code, static_cast<std::size_t>(jump - lines.data()));
+    return {.fault = Fault::goto_without_label};
+  }
+  if (download.fault != Fault::none || download.is_spoilt) return {};
+  return {.macro = linked(lines)};
+}
+
+DownloadStatus status_of(const Download& closed, const DownloadStatus& before,
+                         const DownloadOptions& options) {
+  DownloadStatus status = before;
+  (closed.name.is_isr ? status.isr : status.mp) = static_cast<std::uint16_t>(closed.name.number);
+  const bool is_real_time = options.shown_code == DownloadOptions::ShownCode::real_time;
+  const std::uint16_t shown = is_real_time ? real_time_code(verb_of(closed.code)) : closed.code;
+  status.command = closed.fault == Fault::none ? std::uint16_t{0} : shown;
+  status.line = closed.line;
+  status.error = row_of(closed.fault).download_error;
+  return status;
+}
+
+}  // namespace understudy::interpreter::rs_m8194h

@@ -1,0 +1,69 @@
+// Macros and triggers as text and back, without loss:
+//
+//   MP 21
+//     RSM_MACRO_SET_VAR VAR1 10
+//     RSM_MACRO_FOR VAR1              ; blocks may be indented
+//       RSM_MACRO_FIXED_MOVE XYZU 1000
+//     RSM_MACRO_NEXT
+//   END
+//
+//   ISR 3
+//     RSM_MACRO_GET_LP X
+//     RSM_MACRO_SET_RVAR VAR5
+//   END
+//
+//   TRIGGER 8.0 off_to_on MP21        ; group 8, channel 0
+//   TRIGGER 8.1 on hold X
+//   TRIGGER 15.15 change abort_macro  ; abort_command, abort_macro, pause, clear_stop
+//
+// Each macro passes the checks of a download.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/triggers.h"
+
+namespace understudy::interpreter::rs_m8194h {
+
+struct ListedMacro {
+  MacroName name;
+  Macro macro;
+
+  bool operator==(const ListedMacro&) const = default;
+};
+struct ListedTrigger {
+  int channel = 0;  // 0 to 127: of group 8 first
+  Trigger trigger = {};
+
+  bool operator==(const ListedTrigger&) const = default;
+};
+
+/// In the order of the text.
+struct Listing {
+  std::vector<ListedMacro> macros = {};
+  std::vector<ListedTrigger> triggers = {};
+
+  bool operator==(const Listing&) const = default;
+};
+
+struct ParsedListing {
+  Listing listing = {};                // only if there is no error
+  std::vector<TextError> errors = {};  // all of them, in the order of the text
+};
+ParsedListing parse_listing(std::string_view text, const CommandOptions& command_options = {},
+                            const DownloadOptions& download_options = {});
+
+std::string text_of(const Listing& listing);
+std::string text_of(const MacroName& name, const Macro& macro);
+/// "TRIGGER 8.0 off_to_on MP21"
+std::string text_of(int channel, const Trigger& trigger);
+/// "8.0"
+std::string text_of_channel(int channel);
+
+}  // namespace understudy::interpreter::rs_m8194h

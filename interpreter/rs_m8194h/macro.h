@@ -1,0 +1,82 @@
+// A stored macro: its lines, and where those of program flow lead.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "interpreter/rs_m8194h/command.h"
+
+namespace understudy::interpreter::rs_m8194h {
+
+/// MP1 to MP157, ISR1 to ISR20.
+struct MacroName {
+  bool is_isr = false;
+  int number = 0;
+
+  auto operator<=>(const MacroName&) const = default;
+};
+constexpr int count_of(bool is_isr) { return is_isr ? kIsrCount : kMpCount; }
+constexpr bool exists(const MacroName& name) {
+  return name.number >= 1 && name.number <= count_of(name.is_isr);
+}
+/// "MP21", "ISR3".
+std::string to_string(const MacroName& name);
+
+/// How many lines a macro has room for.
+struct CapacityRow {
+  bool is_isr;
+  int first;
+  int last;
+  int lines;
+};
+inline constexpr auto kCapacities = std::to_array<CapacityRow>({
+    {true, 1, 6, 8},
+    {true, 7, 15, 16},
+    {true, 16, 18, 32},
+    {true, 19, 20, 64},
+    {false, 1, 40, 8},
+    {false, 41, 90, 16},
+    {false, 91, 130, 32},
+    {false, 131, 150, 64},
+    {false, 151, 155, 128},
+    {false, 156, 157, 512},
+});
+constexpr int capacity_of(const MacroName& name) {
+  for (const CapacityRow& row : kCapacities) {
+    if (row.is_isr == name.is_isr && name.number >= row.first && name.number <= row.last) return row.lines;
+  }
+  return 0;
+}
+inline constexpr int kMostLines = 512;
+
+struct Macro {
+  std::vector<Command> lines = {};
+  /// Of each line: IF: behind its ELSE or END_IF. ELSE: behind END_IF. FOR, EXIT_FOR: behind NEXT. NEXT:
+  /// behind its FOR. GOTO: its label. Of all others: the next line.
+  std::vector<std::uint16_t> leads_to = {};
+
+  std::size_t size() const { return lines.size(); }
+  bool operator==(const Macro&) const = default;
+};
+
+/// With each command's cost.
+int lines_used(const std::vector<Command>& lines);
+
+/// The blocks that are open behind some lines, the innermost last.
+struct Block {
+  Verb opener = Verb::if_;  // or for_
+  std::uint16_t line = 0;
+  bool has_else = false;
+};
+using Blocks = std::vector<Block>;
+Blocks blocks_behind(const std::vector<Command>& lines);
+int count_open(const Blocks& blocks, Verb opener);
+
+/// Lines that a download has checked.
+Macro linked(std::vector<Command> lines);
+
+}  // namespace understudy::interpreter::rs_m8194h

@@ -1,0 +1,152 @@
+// How the rows of the command table write their parameters.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "interpreter/rs_m8194h/command_row.h"
+
+namespace understudy::interpreter::rs_m8194h::rows {
+
+constexpr Parameter axes(std::string_view name) {
+  return {.name = name, .kind = Kind::axes, .least = 1, .most = kAllAxes};
+}
+inline constexpr Parameter kSettingAxes = {
+    .name = "axis", .kind = Kind::setting_axes, .least = 1, .most = kAllAxes};
+constexpr Parameter axes_up_to(std::string_view name, std::int64_t most) {
+  return {.name = name, .kind = Kind::axes, .least = 1, .most = most};
+}
+constexpr Parameter one_axis(std::string_view name) {
+  return {.name = name, .kind = Kind::axis, .least = 1, .most = 8};
+}
+constexpr Parameter axis_or_none(std::string_view name) {
+  return {.name = name, .kind = Kind::axis_or_none, .least = 0, .most = 8};
+}
+
+/// Constants end below 0x80, so that bVARn may stand in a macro instead.
+constexpr Parameter byte(std::string_view name, std::int64_t least, std::int64_t most,
+                         std::string_view values = {}) {
+  return {
+      .name = name, .least = least, .most = most, .reference = Reference::byte_variable, .values = values};
+}
+constexpr Parameter byte_of(std::string_view name, std::uint32_t only, std::string_view values = {}) {
+  return {.name = name,
+          .least = 0,
+          .most = 31,
+          .only = only,
+          .reference = Reference::byte_variable,
+          .values = values};
+}
+/// What a macro is checked by when it is stored.
+constexpr Parameter constant_byte(std::string_view name, std::int64_t least, std::int64_t most) {
+  return {.name = name, .least = least, .most = most};
+}
+constexpr Parameter any_byte(std::string_view name) {
+  return {.name = name, .kind = Kind::as_it_comes, .least = 0, .most = 0xFFFF};
+}
+constexpr Parameter any_isr(std::string_view name) {
+  return {.name = name,
+          .kind = Kind::isr_if_used,
+          .least = 0,
+          .most = kIsrCount,
+          .reference = Reference::byte_variable};
+}
+
+constexpr Parameter unsigned_range(std::string_view name, std::int64_t least, std::int64_t most,
+                                   std::string_view values = {}) {
+  return {.name = name,
+          .width = Width::unsigned_long,
+          .least = least,
+          .most = most,
+          .reference = Reference::variable,
+          .values = values};
+}
+constexpr Parameter long_range(std::string_view name, std::int64_t least, std::int64_t most) {
+  return {.name = name,
+          .width = Width::signed_long,
+          .least = least,
+          .most = most,
+          .reference = Reference::variable};
+}
+constexpr Parameter position(std::string_view name) { return long_range(name, kLeast, kMost); }
+constexpr Parameter point(std::string_view name) {
+  Parameter parameter = position(name);
+  parameter.kind = Kind::point_if_used;
+  return parameter;
+}
+constexpr Parameter speed(std::string_view name) {
+  return {.name = name,
+          .kind = Kind::speed,
+          .width = Width::unsigned_long,
+          .least = 0,
+          .most = UINT32_MAX,
+          .reference = Reference::variable};
+}
+constexpr Parameter signed_speed(std::string_view name) {
+  return {.name = name,
+          .kind = Kind::speed,
+          .width = Width::signed_long,
+          .least = INT32_MIN,
+          .most = INT32_MAX,
+          .reference = Reference::variable};
+}
+constexpr Parameter any_long(std::string_view name) {
+  return {.name = name,
+          .kind = Kind::as_it_comes,
+          .width = Width::signed_long,
+          .least = INT32_MIN,
+          .most = INT32_MAX};
+}
+constexpr Parameter any_real(std::string_view name) {
+  return {.name = name, .kind = Kind::as_it_comes, .width = Width::real, .least = 0, .most = UINT32_MAX};
+}
+
+constexpr Parameter variable(std::string_view name) {
+  return {.name = name,
+          .kind = Kind::variable,
+          .width = Width::signed_long,
+          .least = kVariable0,
+          .most = kVariable0 + kVariableCount - 1};
+}
+constexpr Parameter byte_variable(std::string_view name) {
+  return {.name = name,
+          .kind = Kind::byte_variable,
+          .least = kByteVariable0,
+          .most = kByteVariable0 + kByteVariableCount - 1};
+}
+constexpr Parameter memory(std::string_view name) {
+  return {
+      .name = name, .kind = Kind::memory, .width = Width::signed_long, .least = 0, .most = kMemoryCount - 1};
+}
+constexpr Parameter operand(std::string_view name) {
+  Parameter parameter = position(name);
+  parameter.kind = Kind::operand;
+  return parameter;
+}
+constexpr Parameter arithmetic(std::string_view name) {
+  return {.name = name, .kind = Kind::arithmetic, .least = 0, .most = 0x7F, .values = "+ - * / & |"};
+}
+constexpr Parameter comparison(std::string_view name) {
+  return {.name = name, .kind = Kind::comparison, .least = 0, .most = 0xFFFF, .values = "< <= > >= == !="};
+}
+
+/// Where a function may stand.
+inline constexpr Use kAtOnce = {.real_time = RealTime::immediate};
+inline constexpr Use kDownload = {.real_time = RealTime::immediate, .refused_while_mp_runs = true};
+inline constexpr Use kStop = {.real_time = RealTime::stop, .in_mp = true};
+inline constexpr Use kQueued = {.real_time = RealTime::queued};
+inline constexpr Use kQueuedDrive = {.real_time = RealTime::queued, .starts_motion = true};
+inline constexpr Use kQueuedUnlessMp = {.real_time = RealTime::queued, .refused_while_mp_runs = true};
+inline constexpr Use kSetting = {.real_time = RealTime::queued, .in_mp = true, .initial = true};
+inline constexpr Use kNotInIsr = {.real_time = RealTime::queued, .in_mp = true};
+inline constexpr Use kDriveNotInIsr = {.real_time = RealTime::queued, .in_mp = true, .starts_motion = true};
+inline constexpr Use kCall = {.real_time = RealTime::queued, .in_mp = true, .refused_while_mp_runs = true};
+inline constexpr Use kEverywhere = {.real_time = RealTime::queued, .in_mp = true, .in_isr = true};
+inline constexpr Use kDrive = {
+    .real_time = RealTime::queued, .in_mp = true, .in_isr = true, .starts_motion = true};
+inline constexpr Use kTerminate = {.real_time = RealTime::immediate, .in_mp = true, .in_isr = true};
+inline constexpr Use kMacro = {.in_mp = true, .in_isr = true};
+inline constexpr Use kMpOnly = {.in_mp = true};
+inline constexpr Use kIsrOnly = {.in_isr = true};
+
+}  // namespace understudy::interpreter::rs_m8194h::rows

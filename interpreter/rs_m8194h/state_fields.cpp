@@ -1,0 +1,63 @@
+#include "interpreter/rs_m8194h/state_fields.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/state/state_error.h"
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/window.h"
+
+namespace understudy {
+
+namespace lang = interpreter::rs_m8194h;
+
+void StateOf<lang::Command>::write(const lang::Command& command, StateWriter& writer) {
+  const bool is_empty = lang::find_code(command.code) == nullptr;
+  writer.write(is_empty ? std::vector<std::uint16_t>{} : lang::encode(command));
+}
+
+void StateOf<lang::Command>::read(lang::Command& command, StateReader& reader) {
+  std::vector<std::uint16_t> registers;
+  reader.read(registers);
+  command = {};
+  if (registers.empty()) return;
+  const bool is_whole =
+      lang::read_registers(registers, lang::WordOrder::high_first, command) == lang::Fault::none;
+  demand_state(is_whole && !lang::bad_parameter(command, {.rectangle_corners_must_fit = false}),
+               "a command is not one of the manual's");
+}
+
+std::string StateOf<lang::Command>::told(const lang::Command& command) {
+  return lang::find_code(command.code) == nullptr ? "" : lang::text_of(command);
+}
+
+void StateOf<lang::Download>::check(const lang::Download& download) {
+  demand_state(lang::exists(download.name), "a macro has no such number");
+  lang::Download again{.name = download.name};
+  for (const lang::Command& line : download.lines) {
+    const bool is_line = line.is_macro_line() && lang::add(again, line) == lang::Fault::none;
+    demand_state(is_line, "a line of a macro would have been refused");
+  }
+}
+
+void StateOf<lang::Trigger>::check(const lang::Trigger& trigger) {
+  const int argument = trigger.argument;
+  const bool is_axis = argument == 1 || argument == 2 || argument == 4 || argument == 8;
+  const bool fits = trigger.event == lang::TriggerEvent::call_mp ? lang::exists({false, argument})
+                    : trigger.event == lang::TriggerEvent::hold  ? is_axis
+                                                                 : argument == 0;
+  demand_state(fits, "a trigger has a wrong number");
+}
+
+void StateOf<lang::Run>::check(const lang::Run& run) {
+  if (run.until_ms != lang::kNever) demand_reach(run.until_ms);
+  demand_state(run.levels.size() <= lang::kDeepest, "macros are nested too deep");
+}
+
+void StateOf<lang::Execution>::check(const lang::Execution& execution) {
+  demand_state(execution.isrs.size() <= 64, "too many ISRs are at work");
+}
+
+}  // namespace understudy

@@ -1,0 +1,126 @@
+// What of commands, downloads and running macros a state consists of (base/state/fields.h), in the order of
+// the bytes.
+#pragma once
+
+#include <tuple>
+
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/machine.h"
+#include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/triggers.h"
+
+namespace understudy {
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Fault> {
+  static constexpr auto last = interpreter::rs_m8194h::Fault::macro_runs;
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Hold> {
+  static constexpr auto last = interpreter::rs_m8194h::Hold::machine;
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::TriggerCondition> {
+  static constexpr auto last = interpreter::rs_m8194h::TriggerCondition::change;
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::TriggerEvent> {
+  static constexpr auto last = interpreter::rs_m8194h::TriggerEvent::clear_stop;
+};
+
+/// As the registers that it came in.
+template <>
+struct StateOf<interpreter::rs_m8194h::Command> {
+  static void write(const interpreter::rs_m8194h::Command& command, StateWriter& writer);
+  static void read(interpreter::rs_m8194h::Command& command, StateReader& reader);
+  /// By which two are told apart.
+  static std::string told(const interpreter::rs_m8194h::Command& command);
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::MacroName> {
+  using Value = interpreter::rs_m8194h::MacroName;
+  static constexpr auto fields = std::tuple{field("is_isr", &Value::is_isr), field("number", &Value::number)};
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Download> {
+  using Value = interpreter::rs_m8194h::Download;
+  static constexpr auto fields = std::tuple{
+      field("name", &Value::name), field("lines", &Value::lines), field("fault", &Value::fault),
+      field("code", &Value::code), field("line", &Value::line),   field("is_spoilt", &Value::is_spoilt)};
+  static void check(const Value& download);
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::DownloadStatus> {
+  using Value = interpreter::rs_m8194h::DownloadStatus;
+  static constexpr auto fields =
+      std::tuple{field("mp", &Value::mp), field("isr", &Value::isr), field("command", &Value::command),
+                 field("line", &Value::line), field("error", &Value::error)};
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::ExecutionFault> {
+  using Value = interpreter::rs_m8194h::ExecutionFault;
+  static constexpr auto fields = std::tuple{field("macro", &Value::macro), field("code", &Value::code),
+                                            field("line", &Value::line), field("fault", &Value::fault)};
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Trigger> {
+  using Value = interpreter::rs_m8194h::Trigger;
+  static constexpr auto fields =
+      std::tuple{field("condition", &Value::condition), field("event", &Value::event),
+                 field("argument", &Value::argument)};
+  static void check(const Value& trigger);
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Loop> {
+  using Value = interpreter::rs_m8194h::Loop;
+  static constexpr auto fields = std::tuple{field("line", &Value::line), field("left", &Value::left)};
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Level> {
+  using Value = interpreter::rs_m8194h::Level;
+  static constexpr auto fields =
+      std::tuple{field("number", &Value::number), field("line", &Value::line), field("loops", &Value::loops)};
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::Run> {
+  using Value = interpreter::rs_m8194h::Run;
+  static constexpr auto fields =
+      std::tuple{field("is_isr", &Value::is_isr),   field("levels", &Value::levels),
+                 field("hold", &Value::hold),       field("until_ms", &Value::until_ms),
+                 field("awaited", &Value::awaited), field("saw_other_level", &Value::saw_other_level)};
+  static void check(const Value& run);
+};
+
+template <>
+struct StateOf<interpreter::rs_m8194h::ReturnRegister> {
+  using Value = interpreter::rs_m8194h::ReturnRegister;
+  static constexpr auto fields = std::tuple{field("value", &Value::value), field("is_full", &Value::is_full)};
+};
+
+/// Restored, it still has to be sound with the macros of its machine: is_sound().
+template <>
+struct StateOf<interpreter::rs_m8194h::Execution> {
+  using Value = interpreter::rs_m8194h::Execution;
+  static constexpr auto fields =
+      std::tuple{field("mp", &Value::mp), field("isrs", &Value::isrs), field("mp_return", &Value::mp_return),
+                 field("isr_return", &Value::isr_return)};
+  static void check(const Value& execution);
+};
+
+}  // namespace understudy

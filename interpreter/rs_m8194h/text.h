@@ -1,0 +1,35 @@
+// A command as text and back, without loss: the manual's name, then the parameters.
+//
+//   RSM_FIXED_MOVE XYZU 10000
+//   RSM_SET_NHOME INITIAL_XY 1            ; into the Initial Table; AXIS_XY is XY
+//   RSM_WRITE_MD MD1500 0 1.5
+//   RSM_MACRO_IF VAR1 <= VAR2
+//   RSM_MACRO_FRNET_OUT bVAR0, VAR1       ; commas may stand between them
+//
+// Names in upper or lower case; numbers decimal or 0x.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/tokens.h"
+
+namespace understudy::interpreter::rs_m8194h {
+
+std::string text_of(const Command& command);
+
+struct ParsedCommand {
+  std::optional<Command> command;
+  std::optional<TextError> error;  // if there is not a command
+};
+
+/// One line: what decode() takes in some state of the device. Operators are checked, too.
+ParsedCommand parse_command(std::string_view text, const CommandOptions& options = {});
+/// The same, of tokens; at least one.
+ParsedCommand parse_command(std::span<const Token> tokens, const CommandOptions& options = {});
+
+}  // namespace understudy::interpreter::rs_m8194h

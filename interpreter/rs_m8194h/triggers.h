@@ -1,0 +1,61 @@
+// The trigger table: what each FRnet input starts without a host.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace understudy::interpreter::rs_m8194h {
+
+enum class TriggerCondition : std::uint8_t { none, on, off, off_to_on, on_to_off, change };
+enum class TriggerEvent : std::uint8_t {
+  none,
+  call_mp,        // its number
+  hold,           // an axis
+  abort_command,  // what waits
+  abort_macro,
+  pause,
+  clear_stop,
+};
+
+/// By their text.
+struct ConditionRow {
+  TriggerCondition condition;
+  std::string_view text;
+};
+inline constexpr auto kTriggerConditions = std::to_array<ConditionRow>({
+    {TriggerCondition::on, "on"},
+    {TriggerCondition::off, "off"},
+    {TriggerCondition::off_to_on, "off_to_on"},
+    {TriggerCondition::on_to_off, "on_to_off"},
+    {TriggerCondition::change, "change"},
+});
+struct EventRow {
+  TriggerEvent event;
+  std::string_view text;  // of a call: before the number
+};
+inline constexpr auto kTriggerEvents = std::to_array<EventRow>({
+    {TriggerEvent::call_mp, "MP"},
+    {TriggerEvent::hold, "hold"},
+    {TriggerEvent::abort_command, "abort_command"},
+    {TriggerEvent::abort_macro, "abort_macro"},
+    {TriggerEvent::pause, "pause"},
+    {TriggerEvent::clear_stop, "clear_stop"},
+});
+
+struct Trigger {
+  TriggerCondition condition = TriggerCondition::none;
+  TriggerEvent event = TriggerEvent::none;
+  std::uint8_t argument = 0;  // the number of an MP; an axis: 1 2 4 8
+
+  bool operator==(const Trigger&) const = default;
+};
+
+inline constexpr int kFirstTriggerGroup = 8;
+inline constexpr int kTriggerGroups = 8;
+inline constexpr int kChannelsPerGroup = 16;
+inline constexpr int kTriggerCount = kTriggerGroups * kChannelsPerGroup;
+/// By channel: those of group 8 first.
+using TriggerTable = std::array<Trigger, kTriggerCount>;
+
+}  // namespace understudy::interpreter::rs_m8194h
