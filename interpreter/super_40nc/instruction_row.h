@@ -240,7 +240,7 @@ constexpr InstructionRow motion(Op op, std::string_view mnemonic, Areas areas, i
   return {op, mnemonic, Group::motion, areas, steps, slots, in_plc, meaning, section};
 }
 /// It has no description: refused when it is loaded.
-constexpr InstructionRow named(Op op, std::string_view mnemonic, std::string_view section) {
+constexpr InstructionRow undescribed(Op op, std::string_view mnemonic, std::string_view section) {
   return {op, mnemonic, Group::undocumented, 0, 1, {}, InPlc::nothing, "Named only; refused", section};
 }
 

@@ -275,11 +275,11 @@ inline constexpr std::array<InstructionRow, kOpCount> kInstructions = [] {
              "Says where axes are in the machine's system; nothing moves", "指令一覽表")
           .without("the axis is left alone"),
       // Names without a description
-      named(Op::m, "M", "Motion指令一覽表"),
-      named(Op::brk, "BRK", "Motion指令一覽表"),
-      named(Op::aost, "AOST", "Motion指令一覽表"),
-      named(Op::arot, "AROT", "Motion指令一覽表"),
-      named(Op::pnt, "PNT", "編輯頁操作說明"),
+      undescribed(Op::m, "M", "Motion指令一覽表"),
+      undescribed(Op::brk, "BRK", "Motion指令一覽表"),
+      undescribed(Op::aost, "AOST", "Motion指令一覽表"),
+      undescribed(Op::arot, "AROT", "Motion指令一覽表"),
+      undescribed(Op::pnt, "PNT", "編輯頁操作說明"),
   };
 }();
 

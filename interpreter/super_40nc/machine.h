@@ -54,7 +54,7 @@ class Machine {
   virtual std::int32_t rpm_at_power_up(int axis) const = 0;
 
   /// D8094 to D8096. `step` counts from the base of its area, of one layout of the memory.
-  virtual void report(Code code, int step, int other_step = 0) = 0;
+  virtual void report(Code code, int step, int other_step) = 0;
 
   // --- step programs ------------------------------------------------------------------------------
   /// M8x02, M8002 or CEMG is ON: it cannot start.
