@@ -214,6 +214,7 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
              const Options& options) {
   ++plc.scans;
   if (!plc.runs) return {};
+  if (plc.memories.size() != ladder.memories().size()) plc.memories.assign(ladder.memories().size(), 0);
   Scan scan(plc, ladder, machine, programs, options);
   scan.steps(ladder.steps().data());
   Scanned scanned = scan.ended();
