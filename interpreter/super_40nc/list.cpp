@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -29,10 +28,11 @@ std::string text_of(Operand operand) {
 std::string text_of(const Instruction& instruction) {
   const InstructionRow& row = row_of(instruction.op);
   std::string text(instruction.op == Op::out_tc ? "OUT" : row.mnemonic);
-  int count = row.slots[0] == Slot::none ? 0 : 1;
+  int count = 0;
   for (std::size_t i = 0; i < instruction.fields.size(); ++i) {
-    if (instruction.fields[i].is_set()) count = std::max(count, static_cast<int>(i) + 1);
+    if (instruction.fields[i].is_set()) count = static_cast<int>(i) + 1;
   }
+  if (count == 0) count = row.fields();  // "STP * * * *"
   for (int i = 0; i < count; ++i) text += ' ' + text_of(instruction.fields[static_cast<std::size_t>(i)]);
   return text;
 }
