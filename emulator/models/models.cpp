@@ -6,11 +6,13 @@
 #include "emulator/models/rs_m8194h/model.h"
 #include "emulator/models/simple2_r3/model.h"
 #include "emulator/models/slim/model.h"
+#include "emulator/models/super_40nc/model.h"
 
 namespace understudy::emulator::models {
 
 ModelList all_models() {
-  static const std::array<const Model*, 3> models{&rs_m8194h::model(), &simple2_r3::model(), &slim::model()};
+  static const std::array<const Model*, 4> models{&simple2_r3::model(), &slim::model(), &rs_m8194h::model(),
+                                                  &super_40nc::model()};
   return models;
 }
 

@@ -1,0 +1,361 @@
+// A text line by line, each instruction by its row; then each area as a whole (structure.h).
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/text/parse_integer.h"
+#include "base/text/suggestion.h"
+#include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/structure.h"
+
+namespace understudy::interpreter::super_40nc {
+namespace {
+
+struct Token {
+  std::string_view text;
+  int line = 0;
+  int column = 0;
+};
+
+constexpr bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
+constexpr char upper(char letter) {
+  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+}
+std::string upper_case(std::string_view text) {
+  std::string made(text);
+  std::transform(made.begin(), made.end(), made.begin(), upper);
+  return made;
+}
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+std::vector<Token> tokens_of(std::string_view text, int line) {
+  text = text.substr(0, text.find(';'));
+  constexpr std::string_view kBlanks = " \t\r\f\v,";
+  std::vector<Token> tokens;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(kBlanks, at)) != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    tokens.push_back({text.substr(at, end - at), line, static_cast<int>(at) + 1});
+    at = end;
+  }
+  return tokens;
+}
+
+/// Digits with a sign perhaps; nothing if 64 bits do not hold it.
+std::optional<std::int64_t> decimal(std::string_view text) {
+  const std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return {};
+  return parse_integer(text);
+}
+
+const InstructionRow* find_mnemonic(const std::string& word) {
+  for (const InstructionRow& row : kInstructions) {
+    if (word == upper_case(row.mnemonic)) return &row;
+  }
+  return nullptr;
+}
+
+std::string names_of(Letters some) {
+  std::string names;
+  for (const Letter letter : {Letter::k, Letter::x, Letter::y, Letter::m, Letter::t, Letter::c, Letter::d}) {
+    if (has(some, letter)) names += (names.empty() ? "" : ", ") + std::string(name_of(letter));
+  }
+  return names;
+}
+
+std::string ranges_of(Letter letter) {
+  std::string ranges;
+  const std::string name(name_of(letter));
+  for (const Block& block : kBlocks) {
+    if (block.letter != letter) continue;
+    ranges += (ranges.empty() ? "" : ", ") + name + std::to_string(block.first) + " to " + name +
+              std::to_string(block.last);
+  }
+  return ranges;
+}
+
+class Checker {
+ public:
+  explicit Checker(const Options& options) : options_(options) {}
+
+  Checked run(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    for (int line = 1; !text.empty(); ++line) {
+      const std::size_t end = text.find('\n');
+      read(tokens_of(text.substr(0, end), line));
+      text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    end_area();
+    const auto in_order = [](const Complaint& a, const Complaint& b) {
+      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+    };
+    std::stable_sort(checked_.errors.begin(), checked_.errors.end(), in_order);
+    std::stable_sort(checked_.warnings.begin(), checked_.warnings.end(), in_order);
+    if (checked_.errors.empty()) checked_.program = std::move(program_);
+    return std::move(checked_);
+  }
+
+ private:
+  void fail(const Token& token, Code code, std::string what, std::string expected = {}) {
+    const int step = is_in_area_ ? base_of(area_, options_) + step_ : 0;
+    checked_.errors.push_back(
+        {token.line, token.column, std::move(what), std::move(expected), code, step, 0});
+  }
+
+  // --- lines ------------------------------------------------------------------------------------------
+
+  void read(const std::vector<Token>& tokens) {
+    if (tokens.empty()) return;
+    const std::string word = upper_case(tokens[0].text);
+    if (word == "AREA") return begin_area(tokens);
+    if (word == "FILE") return begin_file(tokens);
+    std::size_t at = 0;
+    if (is_digit(tokens[0].text.front())) read_step(tokens[at++]);
+    if (at == tokens.size()) return fail(tokens[0], Code::unknown, "a step stands alone", "an instruction");
+    read_instruction(tokens, at);
+  }
+
+  void begin_area(const std::vector<Token>& tokens) {
+    end_area();
+    const std::string name = tokens.size() < 2 ? "" : upper_case(tokens[1].text);
+    const auto row =
+        std::find_if(kAreas.begin(), kAreas.end(), [&](const AreaRow& r) { return r.name == name; });
+    const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
+    is_in_area_ = false;
+    is_lost_ = true;  // nothing more is said of its lines
+    if (row == kAreas.end()) {
+      return fail(at, Code::unknown, name.empty() ? "AREA has no name" : quoted(at.text) + " is not an area",
+                  "C, X, Y, Z, U or PLC");
+    }
+    if (program_.area(row->area)) {
+      return fail(at, Code::unknown, "area " + name + " appears twice", "each area once");
+    }
+    file_ = -1;
+    open(row->area, tokens);
+  }
+
+  void begin_file(const std::vector<Token>& tokens) {
+    end_area();
+    is_in_area_ = false;
+    is_lost_ = true;
+    const auto number = tokens.size() < 2 ? std::optional<std::int64_t>{} : decimal(tokens[1].text);
+    const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
+    if (!number || *number < 0 || *number > kGreatestFile) {
+      return fail(at, Code::no_such_file, "FILE has no number", "0 to " + std::to_string(kGreatestFile));
+    }
+    if (program_.files.contains(static_cast<int>(*number))) {
+      return fail(at, Code::unknown, "file " + std::to_string(*number) + " appears twice", "each file once");
+    }
+    file_ = static_cast<int>(*number);
+    open(Area::c, tokens);
+  }
+
+  void open(Area area, const std::vector<Token>& tokens) {
+    area_ = area;
+    is_in_area_ = true;
+    is_lost_ = false;
+    step_ = 0;
+    current_ = AreaProgram{row_of(area).base};
+    places_.clear();
+    if (tokens.size() == 2) return;
+    const bool is_base = upper_case(tokens[2].text) == "BASE";
+    const auto base = is_base && tokens.size() == 4 ? decimal(tokens[3].text) : std::optional<std::int64_t>{};
+    constexpr int kGreatestBase = 999999;
+    if (!base || *base < 0 || *base > kGreatestBase) {
+      return fail(tokens[2], Code::unknown, quoted(tokens[2].text) + " is not understood",
+                  "BASE and a number");
+    }
+    current_.base = static_cast<int>(*base);
+  }
+
+  void read_step(const Token& token) {
+    if (!is_in_area_) return;
+    const auto number = decimal(token.text);
+    const int right = current_.base + step_;
+    if (number && *number == right) return;
+    fail(token, Code::unknown, "step " + std::string(token.text) + " is not the next one",
+         std::to_string(right));
+  }
+
+  void read_instruction(const std::vector<Token>& tokens, std::size_t at) {
+    const Token& token = tokens[at];
+    if (!is_in_area_) {
+      if (!std::exchange(is_lost_, true)) {
+        fail(token, Code::unknown, quoted(token.text) + " stands in no area", "AREA before it");
+      }
+      return;
+    }
+    const InstructionRow* row = find_mnemonic(upper_case(token.text));
+    if (row == nullptr) {
+      return fail(token, Code::unknown, quoted(token.text) + " is not an instruction" + near(token.text));
+    }
+    if (row->group == Group::undocumented || (row->op == Op::mset && !options_.knows_mset)) {
+      return fail(token, Code::unknown, quoted(row->mnemonic) + " is a name without a description",
+                  "a described instruction");
+    }
+    Instruction instruction{row->op};
+    const std::size_t errors = checked_.errors.size();
+    if (tokens.size() - at - 1 > instruction.fields.size()) {
+      fail(tokens[at + 5], Code::unknown, "is a field too many", "at most 4");
+    }
+    for (std::size_t i = 0; i < instruction.fields.size() && at + 1 + i < tokens.size(); ++i) {
+      instruction.fields[i] = read_operand(tokens[at + 1 + i]);
+    }
+    if (row->op == Op::out && has(letters_of(Slot::timer), instruction.fields[0].letter)) {
+      instruction.op = Op::out_tc;
+      row = &row_of(Op::out_tc);
+    }
+    look_at_area(*row, token);
+    if (checked_.errors.size() == errors) look_at_fields(*row, instruction, tokens, at);
+    places_.push_back(token);
+    current_.lines.push_back(instruction);
+    step_ += steps_of(instruction);
+  }
+
+  static std::string near(std::string_view word) {
+    std::vector<std::string> known;
+    for (const InstructionRow& row : kInstructions) known.emplace_back(row.mnemonic);
+    return suggestion(word, known);
+  }
+
+  void look_at_area(const InstructionRow& row, const Token& token) {
+    const std::string name(row_of(area_).name);
+    if (!has(row.areas, area_)) {
+      std::string where;
+      for (const AreaRow& other : kAreas) {
+        if (has(row.areas, other.area)) where += (where.empty() ? "" : ", ") + std::string(other.name);
+      }
+      fail(token, Code::wrong_area, std::string(row.mnemonic) + " may not stand in area " + name,
+           "area " + where);
+    } else if (has(row.void_in, area_) && options_.void_lines == Options::VoidLines::are_refused) {
+      fail(token, Code::wrong_area, std::string(row.mnemonic) + " is void in area " + name, "another area");
+    }
+  }
+
+  // --- fields -----------------------------------------------------------------------------------------
+
+  Operand read_operand(const Token& token) {
+    if (token.text.find_first_not_of('*') == std::string_view::npos) return {};
+    const char first = upper(token.text.front());
+    for (const Letter letter :
+         {Letter::k, Letter::x, Letter::y, Letter::m, Letter::t, Letter::c, Letter::d}) {
+      if (name_of(letter).front() != first) continue;
+      const auto number = decimal(token.text.substr(1));
+      if (!number) break;
+      return read_number(token, letter, *number);
+    }
+    fail(token, Code::unknown, quoted(token.text) + " is not an operand", "a letter and a number, or *");
+    return {};
+  }
+
+  Operand read_number(const Token& token, Letter letter, std::int64_t number) {
+    constexpr std::int64_t kLeast = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    const bool fits = number >= kLeast && number <= kMost;
+    const Operand operand{letter, fits ? static_cast<std::int32_t>(number) : 0};
+    if (letter == Letter::k) {
+      if (!fits) fail(token, Code::out_of_range, std::string(token.text) + " does not fit into 32 bits");
+      return operand;
+    }
+    if (!fits || block_of(operand) == nullptr) {
+      fail(token, Code::out_of_range, upper_case(token.text) + " does not exist", ranges_of(letter));
+    }
+    return operand;
+  }
+
+  void look_at_fields(const InstructionRow& row, const Instruction& instruction,
+                      const std::vector<Token>& tokens, std::size_t at) {
+    for (std::size_t i = 0; i < instruction.fields.size(); ++i) {
+      const Operand field = instruction.fields[i];
+      const Token& token = at + 1 + i < tokens.size() ? tokens[at + 1 + i] : tokens[at];
+      const Slot slot = row.slots[i];
+      const std::string name = "field " + std::to_string(i + 1) + " of " + std::string(row.mnemonic);
+      if (!field.is_set()) {
+        if (!may_be_unset(slot)) fail(token, Code::unknown, name + " is unset", names_of(allowed(slot)));
+      } else if (slot == Slot::none) {
+        fail(token, Code::unknown, name + " has no meaning",
+             i == 0 ? "no field" : std::to_string(i) + " at most");
+      } else if (!has(allowed(slot), field.letter)) {
+        fail(token, Code::unknown, text_of(field) + " cannot be " + name, names_of(allowed(slot)));
+      } else if (slot == Slot::label && (field.number < 0 || field.number > kGreatestLabel)) {
+        fail(token, Code::unknown, text_of(field) + " is not a label",
+             "K0 to K" + std::to_string(kGreatestLabel));
+      }
+    }
+    if (row.op == Op::zrst) look_at_range(instruction, tokens[at]);
+  }
+  static constexpr std::int32_t kGreatestLabel = 9999999;
+
+  Letters allowed(Slot slot) const {
+    const Letters some = letters_of(slot);
+    const bool may_reset = options_.timers_can_be_reset || (slot != Slot::resettable && slot != Slot::range);
+    return may_reset ? some : static_cast<Letters>(some & ~letters(Letter::t, Letter::c));
+  }
+
+  void look_at_range(const Instruction& zrst, const Token& token) {
+    const auto& [first, last, unused, unused2] = zrst.fields;
+    if (!first.is_set() || !last.is_set()) return;
+    if (first.letter != last.letter || first.number > last.number || block_of(first) != block_of(last)) {
+      fail(token, Code::out_of_range, text_of(first) + " to " + text_of(last) + " is not a range",
+           "two of one kind, the lower one first, without a hole between them");
+    }
+  }
+
+  // --- areas ------------------------------------------------------------------------------------------
+
+  void end_area() {
+    if (!is_in_area_) return;
+    is_in_area_ = false;
+    const int base = base_of(area_, options_);
+    std::vector<int> steps;
+    int step = base;
+    for (const Instruction& line : current_.lines) {
+      steps.push_back(step);
+      step += steps_of(line);
+    }
+    for (Fault& fault : faults_of(current_, area_, options_)) {
+      const auto line = static_cast<std::size_t>(fault.line);
+      const Token& token = places_[line];
+      const std::string subject = fault.code == Code::label_twice ? "" : text_of(current_.lines[line]) + " ";
+      Complaint complaint{
+          token.line, token.column, subject + fault.what, std::move(fault.expected), fault.code, steps[line],
+          0};
+      if (fault.other_line >= 0) {
+        complaint.other_step = steps[static_cast<std::size_t>(fault.other_line)];
+        complaint.expected +=
+            ", as in line " + std::to_string(places_[static_cast<std::size_t>(fault.other_line)].line);
+      }
+      (fault.is_warning ? checked_.warnings : checked_.errors).push_back(std::move(complaint));
+    }
+    if (file_ >= 0) {
+      program_.files.emplace(file_, std::move(current_));
+    } else {
+      program_.areas[index_of(area_)] = std::move(current_);
+    }
+  }
+
+  const Options& options_;
+  Checked checked_;
+  Program program_;
+  bool is_in_area_ = false;
+  bool is_lost_ = false;  // its AREA or FILE was wrong
+  int file_ = -1;
+  Area area_ = Area::c;
+  AreaProgram current_;
+  std::vector<Token> places_;  // of its lines
+  int step_ = 0;               // of the next line, within the area
+};
+
+}  // namespace
+
+Checked check(std::string_view text, const Options& options) { return Checker(options).run(text); }
+
+}  // namespace understudy::interpreter::super_40nc

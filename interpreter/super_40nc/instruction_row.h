@@ -1,0 +1,247 @@
+// What a row of the table of instructions consists of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/operand.h"
+
+namespace understudy::interpreter::super_40nc {
+
+/// One for each mnemonic, in the order of the table.
+enum class Op : std::uint8_t {
+  // Logic
+  ld,
+  ldi,
+  ldp,
+  ldf,
+  or_,
+  ori,
+  orp,
+  orf,
+  and_,
+  ani,
+  anp,
+  anf,
+  anb,
+  orb,
+  mps,
+  mrd,
+  mpp,
+  inv,
+  nop,
+  alt,
+  pls,
+  plf,
+  set,
+  rst,
+  out,
+  out_tc,
+  end,
+  // Data
+  mov,
+  zrst,
+  fmv,
+  add,
+  sub,
+  mul,
+  div,
+  ld_equal,
+  ld_gt,
+  ld_lt,
+  ld_ne,
+  ld_le,
+  ld_ge,
+  ad_equal,
+  ad_gt,
+  ad_lt,
+  ad_ne,
+  ad_le,
+  ad_ge,
+  or_equal,
+  or_gt,
+  or_lt,
+  or_ne,
+  or_le,
+  or_ge,
+  inc,
+  dec,
+  abs,
+  // Sequence
+  lab,
+  if_,
+  else_,
+  endi,
+  cal,
+  ret,
+  jmp,
+  cj,
+  cjn,
+  wat,
+  wtn,
+  tmr,
+  // Motion
+  f,
+  lin,
+  cw,
+  ccw,
+  c3p,
+  cwr,
+  ccwr,
+  xyp,
+  xzp,
+  yzp,
+  absc,
+  incc,
+  rpm,
+  drv,
+  hom,
+  mpg,
+  mrk,
+  vdrv,
+  pjg,
+  mjg,
+  chk,
+  stp,
+  str,
+  pset,
+  mset,
+  // names without a description
+  m,
+  brk,
+  aost,
+  arot,
+  pnt,
+};
+inline constexpr int kOpCount = static_cast<int>(Op::pnt) + 1;
+
+enum class Group : std::uint8_t { logic, data, sequence, motion, undocumented };
+
+/// What a field is to its instruction.
+enum class Slot : std::uint8_t {
+  none,        // the field has to be unset
+  contact,     // read
+  bit,         // switched
+  resettable,  // RST: as bit; timers and counters where that is chosen
+  timer,       // or counter: its coil
+  preset,
+  source,  // a value
+  target,  // a register that is written
+  range,   // an end of ZRST's range
+  label,   // K 0 to 9999999
+  times,   // unset: once
+  amount,  // unset has a meaning: the row's `unset`
+  needed,  // must be set
+};
+
+/// Which letters may stand in a slot.
+constexpr Letters letters_of(Slot slot) {
+  switch (slot) {
+    case Slot::none: return 0;
+    case Slot::contact: return letters(Letter::x, Letter::y, Letter::m, Letter::t, Letter::c);
+    case Slot::bit: return letters(Letter::y, Letter::m);
+    case Slot::resettable: return letters(Letter::y, Letter::m, Letter::t, Letter::c);
+    case Slot::timer: return letters(Letter::t, Letter::c);
+    case Slot::preset:
+    case Slot::times:
+    case Slot::amount:
+    case Slot::needed: return letters(Letter::k, Letter::d);
+    case Slot::source: return letters(Letter::k, Letter::t, Letter::c, Letter::d);
+    case Slot::target: return letters(Letter::d);
+    case Slot::range: return letters(Letter::y, Letter::m, Letter::t, Letter::c, Letter::d);
+    case Slot::label: return letters(Letter::k);
+  }
+  return 0;
+}
+constexpr bool may_be_unset(Slot slot) {
+  return slot == Slot::none || slot == Slot::times || slot == Slot::amount;
+}
+
+/// How the condition of an instruction counts in the PLC.
+enum class InPlc : std::uint8_t {
+  nothing,  // not there, or without a condition
+  contact,  // it makes the condition
+  every_scan,
+  every_scan_on_or_off,
+  rising_edge,
+  falling_edge,
+  level,
+};
+
+/// What a step program waits for at the line.
+enum class Waits : std::uint8_t { no, for_on, for_off, for_time, for_arrival, for_home, for_standstill };
+
+using Slots = std::array<Slot, 4>;
+
+struct InstructionRow {
+  Op op;
+  std::string_view mnemonic;
+  Group group;
+  Areas areas;  // where it may stand
+  int steps;
+  Slots slots;
+  InPlc in_plc;
+  std::string_view meaning;  // for people
+  std::string_view section;  // of the manual
+  Waits waits = Waits::no;
+  bool ends_single_step = false;
+  Areas void_in = 0;            // where it may stand, does nothing, and says so in D8094
+  std::string_view unset = {};  // what an unset field means
+
+  constexpr int fields() const {
+    int count = 0;
+    for (const Slot slot : slots) count += slot == Slot::none ? 0 : 1;
+    return count;
+  }
+
+  // How a row says what few rows have.
+  constexpr InstructionRow waits_for(Waits what) const {
+    InstructionRow row = *this;
+    row.waits = what;
+    return row;
+  }
+  constexpr InstructionRow is_motion() const {
+    InstructionRow row = *this;
+    row.ends_single_step = true;
+    return row;
+  }
+  constexpr InstructionRow is_void_in(Areas some) const {
+    InstructionRow row = *this;
+    row.void_in = some;
+    return row;
+  }
+  constexpr InstructionRow without(std::string_view means) const {
+    InstructionRow row = *this;
+    row.unset = means;
+    return row;
+  }
+};
+
+// How rows are written, by the manual's groups.
+constexpr InstructionRow logic(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
+                               InPlc in_plc, std::string_view meaning, std::string_view section) {
+  return {op, mnemonic, Group::logic, areas, steps, slots, in_plc, meaning, section};
+}
+constexpr InstructionRow data(Op op, std::string_view mnemonic, int steps, const Slots& slots, InPlc in_plc,
+                              std::string_view meaning, std::string_view section) {
+  return {op, mnemonic, Group::data, (1U << kAreaCount) - 1, steps, slots, in_plc, meaning, section};
+}
+constexpr InstructionRow sequence(Op op, std::string_view mnemonic, int steps, const Slots& slots,
+                                  Waits waits, std::string_view meaning, std::string_view section) {
+  return {op,      mnemonic, Group::sequence, (1U << kStepProgramCount) - 1,
+          steps,   slots,    InPlc::nothing,  meaning,
+          section, waits};
+}
+constexpr InstructionRow motion(Op op, std::string_view mnemonic, Areas areas, int steps, const Slots& slots,
+                                InPlc in_plc, std::string_view meaning, std::string_view section) {
+  return {op, mnemonic, Group::motion, areas, steps, slots, in_plc, meaning, section};
+}
+/// It has no description: refused when it is loaded.
+constexpr InstructionRow undescribed(Op op, std::string_view mnemonic, std::string_view section) {
+  return {op, mnemonic, Group::undocumented, 0, 1, {}, InPlc::nothing, "Named only; refused", section};
+}
+
+}  // namespace understudy::interpreter::super_40nc

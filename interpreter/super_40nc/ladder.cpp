@@ -1,0 +1,202 @@
+#include "interpreter/super_40nc/ladder.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/structure.h"
+
+namespace understudy::interpreter::super_40nc {
+namespace {
+
+constexpr bool is_edge_contact(Op op) {
+  return op == Op::ldp || op == Op::ldf || op == Op::orp || op == Op::orf || op == Op::anp || op == Op::anf;
+}
+constexpr bool is_falling(Op op) { return op == Op::ldf || op == Op::orf || op == Op::anf; }
+constexpr bool has_memory(Op op) {
+  const InPlc how = row_of(op).in_plc;
+  return how == InPlc::rising_edge || how == InPlc::falling_edge;
+}
+constexpr bool is_plain(Operand operand) { return !is_special(operand); }
+
+/// Those that have a step of their own, if what they switch or write is plain.
+constexpr std::pair<Op, Act> kActs[] = {
+    {Op::anb, Act::join_series},  {Op::orb, Act::join_parallel}, {Op::mps, Act::branch},
+    {Op::mrd, Act::branch_again}, {Op::mpp, Act::branch_last},   {Op::inv, Act::invert},
+    {Op::out, Act::out},          {Op::set, Act::set},           {Op::rst, Act::reset},
+    {Op::mov, Act::move},         {Op::add, Act::add},           {Op::sub, Act::subtract}};
+
+constexpr Act at(Place place, Act begins) {
+  return static_cast<Act>(static_cast<int>(begins) + static_cast<int>(place));
+}
+
+}  // namespace
+
+class LadderMaker {
+ public:
+  LadderMaker(Ladder& ladder, const CellLayout& layout, const Options& options)
+      : ladder_(ladder), layout_(layout), options_(options) {}
+
+  void run() {
+    ladder_.steps_.clear();
+    int step = base_of(Area::plc, options_);
+    bool is_over = false;  // lines behind END are kept, but never run
+    for (std::size_t i = 0; i < ladder_.program_.lines.size(); ++i) {
+      const Instruction& line = ladder_.program_.lines[i];
+      ladder_.step_numbers_.push_back(step);
+      step += steps_of(line);
+      is_over |= line.op == Op::end;
+      if (is_over || line.op == Op::nop) continue;
+      make(line, static_cast<std::uint16_t>(i));
+      note_reads(line);
+    }
+    ladder_.steps_.push_back({});
+    for (const auto& [letter, number] : reads_) {
+      ladder_.reads_.push_back({letter, number});
+      ladder_.reads_special_ |= is_special(ladder_.reads_.back());
+    }
+    look_at_timers();
+  }
+
+ private:
+  std::uint16_t new_memory(AtRun at_run) {
+    ladder_.memories_.push_back(at_run);
+    return static_cast<std::uint16_t>(ladder_.memories_.size() - 1);
+  }
+
+  std::uint32_t constant(std::int32_t value) {
+    ladder_.constants_.push_back(static_cast<std::uint32_t>(value));
+    return static_cast<std::uint32_t>(ladder_.constants_.size() - 1);
+  }
+
+  std::tuple<Bank, std::uint32_t> contact(Operand operand) {
+    const bool is_always_on = operand.letter == Letter::m && operand.number == named::kAlwaysOn;
+    if (is_always_on) return {Bank::constants, constant(1)};
+    if (is_special(operand)) return {Bank::special, static_cast<std::uint32_t>(operand.number)};
+    return {Bank::cells, contact_cell(layout_, operand)};
+  }
+  std::tuple<Bank, std::uint32_t> value(Operand operand) {
+    if (operand.letter == Letter::k) return {Bank::constants, constant(operand.number)};
+    if (is_special(operand)) return {Bank::special, static_cast<std::uint32_t>(operand.number)};
+    return {Bank::cells, value_cell(layout_, operand)};
+  }
+
+  void make(const Instruction& line, std::uint16_t number) {
+    LadderStep step;
+    step.line = number;
+    step.act = Act::general;
+    const auto& [first, second, third, fourth] = line.fields;
+    const Place place = place_of(line.op);
+    if (relations_of(line.op) != 0) {
+      step.act = at(place, Act::load_comparison);
+      step.flags = relations_of(line.op);
+      std::tie(step.bank_a, step.a) = value(first);
+      std::tie(step.bank_b, step.b) = value(second);
+    } else if (is_edge_contact(line.op)) {
+      step.act = at(place, Act::load_edge);
+      step.flags = is_falling(line.op) ? kFalling : 0;
+      std::tie(step.bank_a, step.a) = contact(first);
+      step.memory = new_memory(AtRun::present_state);
+    } else if (is_contact(line.op)) {
+      step.act = at(place, Act::load);
+      step.flags = is_inverted(line.op) ? kInverted : 0;
+      std::tie(step.bank_a, step.a) = contact(first);
+    } else {
+      make_other(line, step);
+    }
+    if (step.act == Act::general && has_memory(line.op)) step.memory = new_memory(AtRun::off);
+    ladder_.steps_.push_back(step);
+  }
+
+  void make_other(const Instruction& line, LadderStep& step) {
+    for (const auto& [op, act] : kActs) {
+      if (op != line.op) continue;
+      if (act <= Act::invert) {
+        step.act = act;
+      } else if (act <= Act::reset) {
+        make_switch(line, act, step);
+      } else {
+        make_sum(line, act, act == Act::move ? 1 : 2, step);
+      }
+    }
+    if (line.op == Op::out_tc) make_count(line, step);
+  }
+
+  void make_switch(const Instruction& line, Act act, LadderStep& step) {
+    const Operand bit = line.fields[0];
+    const bool is_counting = bit.letter == Letter::t || bit.letter == Letter::c;
+    if (is_counting || is_special(bit)) return;
+    step.act = act;
+    step.c = contact_cell(layout_, bit);
+    step.flags = is_kept(bit) ? kKept : 0;
+  }
+
+  /// b: the preset; c: the value. The contact is in a.
+  void make_count(const Instruction& line, LadderStep& step) {
+    const Operand what = line.fields[0];
+    const bool is_timer = what.letter == Letter::t;
+    step.act = is_timer ? Act::timer : Act::counter;
+    step.a = contact_cell(layout_, what);
+    std::tie(step.bank_b, step.b) = value(line.fields[1]);
+    step.c = value_cell(layout_, what);
+    step.flags = is_kept(what) ? kKept : 0;
+    step.memory = new_memory(is_timer ? AtRun::by_value : AtRun::present_state);
+    if (is_timer) ladder_.timers_.push_back(static_cast<std::uint32_t>(ladder_.steps_.size()));
+  }
+
+  void make_sum(const Instruction& line, Act act, std::size_t target, LadderStep& step) {
+    for (std::size_t i = 0; i <= target; ++i) {
+      if (!is_plain(line.fields[i])) return;
+    }
+    step.act = act;
+    std::tie(step.bank_a, step.a) = value(line.fields[0]);
+    if (target == 2) std::tie(step.bank_b, step.b) = value(line.fields[1]);
+    step.c = value_cell(layout_, line.fields[target]);
+    step.flags = is_kept(line.fields[target]) ? kKept : 0;
+  }
+
+  void note(Operand first, std::int64_t count = 1) {
+    const Block* const block = block_of(first);
+    if (block == nullptr) return;
+    const std::int64_t last = std::min<std::int64_t>(first.number + count - 1, block->last);
+    for (; first.number <= last; ++first.number) reads_.emplace(first.letter, first.number);
+  }
+
+  void note_reads(const Instruction& line) {
+    const auto& [first, second, third, fourth] = line.fields;
+    for (std::size_t i = 0; i < line.fields.size(); ++i) {
+      note(line.fields[i]);
+      const Slot slot = row_of(line.op).slots[i];
+      const bool is_value = slot == Slot::source && line.fields[i].letter == Letter::t;
+      if (is_value) timers_read_.insert(value_cell(layout_, line.fields[i]));
+    }
+    if (line.op == Op::zrst) note(first, std::int64_t{second.number} - first.number + 1);
+    if (line.op == Op::div) note(third, 2);
+    if (line.op == Op::fmv) note(second, third.letter == Letter::k ? third.number : INT32_MAX);
+  }
+
+  /// A timer may be left to run only if nobody sees it do so, and if it is alone.
+  void look_at_timers() {
+    std::set<std::uint32_t> seen = timers_read_;
+    for (const std::uint32_t index : ladder_.timers_) {
+      LadderStep& timer = ladder_.steps_[index];
+      if (!seen.insert(timer.c).second) timer.flags |= kValueIsRead;
+    }
+  }
+
+  Ladder& ladder_;
+  const CellLayout& layout_;
+  const Options& options_;
+  std::set<std::pair<Letter, std::int32_t>> reads_;
+  std::set<std::uint32_t> timers_read_;  // cells of values
+};
+
+Ladder::Ladder(const AreaProgram& program, const CellLayout& layout, const Options& options)
+    : program_(program) {
+  LadderMaker(*this, layout, options).run();
+}
+
+}  // namespace understudy::interpreter::super_40nc

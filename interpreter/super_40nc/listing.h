@@ -1,0 +1,58 @@
+// Programs as text and back, without loss: list() and check() again give the same program.
+//
+//   AREA X BASE 500          ; C, X, Y, Z, U or PLC; BASE: the number of its first step, if it is not the
+//   area's 500 LD X0                ; an instruction a line, upper or lower case alike; its step, checked if
+//   it is given 501 CJ K10               ; K: constants and labels
+//       END
+//       LAB K10
+//       DRV K1000, *, K-50   ; *: an unset field; those at the end may be left out; commas may stand between
+//       OUT T0 K1000
+//       END
+//   FILE 3                   ; the C program of path file 3
+//       END
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
+
+namespace understudy::interpreter::super_40nc {
+
+struct Complaint {
+  int line = 0;    // of the text, from 1
+  int column = 0;  // in bytes, from 1
+  std::string what;
+  std::string expected;
+  Code code = Code::none;
+  int step = 0;        // for D8095
+  int other_step = 0;  // for D8096
+
+  std::string message() const { return expected.empty() ? what : what + "; expected " + expected; }
+  bool operator==(const Complaint&) const = default;
+};
+
+/// "4:9: X50 does not exist; expected X0 to X47".
+std::string to_string(const Complaint& complaint);
+
+struct Checked {
+  std::optional<Program> program;   // only if nothing is wrong
+  std::vector<Complaint> errors;    // all of them, in the order of the text
+  std::vector<Complaint> warnings;  // what loads all the same, and is reported: a label twice
+};
+
+inline constexpr int kGreatestFile = 29999;
+
+Checked check(std::string_view text, const Options& options = {});
+
+/// Steps are numbered.
+std::string list(const Program& program);
+/// "DRV K1000 * K-50".
+std::string text_of(const Instruction& instruction);
+std::string text_of(Operand operand);
+
+}  // namespace understudy::interpreter::super_40nc

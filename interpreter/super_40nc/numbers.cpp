@@ -1,0 +1,123 @@
+#include "interpreter/super_40nc/numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+#include "base/complete_table.h"
+
+namespace understudy::interpreter::super_40nc {
+namespace {
+
+constexpr std::int64_t kLeast = std::numeric_limits<std::int32_t>::min();
+constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+
+constexpr std::int32_t wrapped(std::int64_t value) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(value));
+}
+
+/// The register behind another one of its block; unset at its end.
+Operand next_to(Operand reg) {
+  const Block* const block = block_of(reg);
+  if (block == nullptr || reg.number == block->last) return {};
+  return {reg.letter, reg.number + 1};
+}
+
+Calculated divide(const Instruction& line, Access& access, const Options& options) {
+  const std::int64_t dividend = access.value(line.fields[0]);
+  const std::int64_t divisor = access.value(line.fields[1]);
+  if (divisor == 0 && options.division_by_zero == Options::DivisionByZero::changes_nothing) {
+    return {false, Code::division_by_zero};
+  }
+  Calculated result;
+  if (divisor == 0) result.code = Code::division_by_zero;
+  const std::int64_t quotient = divisor == 0 ? 0 : dividend / divisor;  // to 0
+  const std::int64_t remainder = divisor == 0 ? 0 : dividend % divisor;
+  result.has_changed = access.write(line.fields[2], wrapped(quotient));
+  if (const Operand behind = next_to(line.fields[2]); behind.is_set()) {
+    result.has_changed |= access.write(behind, wrapped(remainder));
+  }
+  return result;
+}
+
+/// FMV: registers in ascending order, so that each of them acts in its turn.
+Calculated fill(const Instruction& line, Access& access, const Options& options) {
+  const std::int64_t count = access.value(line.fields[2]);
+  const Block* const block = block_of(line.fields[1]);
+  if (count <= 0 || block == nullptr) return {};
+  Calculated result;
+  const std::int64_t room = block->last - line.fields[1].number + 1;
+  if (count > room) result.code = Code::out_of_range;
+  if (count > room && options.fill_beyond == Options::FillBeyond::does_nothing) return result;
+  const std::int32_t value = access.value(line.fields[0]);
+  for (std::int64_t i = 0; i < std::min(count, room); ++i) {
+    const Operand target{line.fields[1].letter, line.fields[1].number + static_cast<std::int32_t>(i)};
+    result.has_changed |= access.write(target, value);
+  }
+  return result;
+}
+
+Calculated clear(const Instruction& line, Access& access) {
+  Calculated result;
+  for (Operand at = line.fields[0]; at.number <= line.fields[1].number; ++at.number) {
+    result.has_changed |= at.letter == Letter::d ? access.write(at, 0) : access.reset(at);
+  }
+  return result;
+}
+
+std::int32_t product(std::int64_t first, std::int64_t second, const Options& options) {
+  const std::int64_t whole = first * second;
+  return options.product == Options::Product::wraps
+             ? wrapped(whole)
+             : static_cast<std::int32_t>(std::clamp(whole, kLeast, kMost));
+}
+
+Calculated gives(const Instruction& line, std::size_t field, std::int64_t result, Access& access) {
+  return {access.write(line.fields[field], wrapped(result))};
+}
+std::int64_t value(const Instruction& line, std::size_t field, const Access& access) {
+  return access.value(line.fields[field]);
+}
+
+using Calculation = Calculated (*)(const Instruction& line, Access& access, const Options& options);
+constexpr HandlerRow<Op, Calculation> kCalculationRows[] = {
+    {Op::mov, [](const auto& line, auto& access,
+                 const auto&) { return gives(line, 1, value(line, 0, access), access); }},
+    {Op::zrst, [](const auto& line, auto& access, const auto&) { return clear(line, access); }},
+    {Op::fmv, fill},
+    {Op::add,
+     [](const auto& line, auto& access, const auto&) {
+       return gives(line, 2, value(line, 0, access) + value(line, 1, access), access);
+     }},
+    {Op::sub,
+     [](const auto& line, auto& access, const auto&) {
+       return gives(line, 2, value(line, 0, access) - value(line, 1, access), access);
+     }},
+    {Op::mul,
+     [](const auto& line, auto& access, const auto& options) {
+       return gives(line, 2, product(value(line, 0, access), value(line, 1, access), options), access);
+     }},
+    {Op::div, divide},
+    {Op::inc, [](const auto& line, auto& access,
+                 const auto&) { return gives(line, 0, value(line, 0, access) + 1, access); }},
+    {Op::dec, [](const auto& line, auto& access,
+                 const auto&) { return gives(line, 0, value(line, 0, access) - 1, access); }},
+    {Op::abs,
+     [](const auto& line, auto& access, const auto&) {
+       return gives(line, 0, std::abs(value(line, 0, access)), access);  // the least one stays
+     }},
+};
+constexpr std::array kCalculationOps{Op::mov, Op::zrst, Op::fmv, Op::add, Op::sub,
+                                     Op::mul, Op::div,  Op::inc, Op::dec, Op::abs};
+constexpr CompleteTable<Op, Calculation> kCalculations(kCalculationOps, kCalculationRows);
+
+}  // namespace
+
+Calculated calculate(const Instruction& line, Access& access, const Options& options) {
+  return kCalculations[line.op](line, access, options);
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,79 @@
+// What the manual leaves open about the languages; the first of each is ours.
+#pragma once
+
+#include <cstdint>
+
+#include "interpreter/super_40nc/areas.h"
+
+namespace understudy::interpreter::super_40nc {
+
+struct Options {
+  // --- when a listing is checked ------------------------------------------------------------------
+  /// Of the program memory, which D8095 and D8096 count in.
+  enum class Bases : std::uint8_t { newer, older } bases = Bases::newer;
+  enum class Capacity : std::uint8_t { steps, lines } capacity = Capacity::steps;
+  int c_capacity = 1500;  // D9042
+  int stack_depth = 16;   // of blocks and branches
+  int if_depth = 8;
+  /// CJ, CJN or IF without contacts before it, contacts without one of them behind.
+  enum class LooseGroups : std::uint8_t {
+    are_refused,
+    take_last_result
+  } loose_groups = LooseGroups::are_refused;
+  /// Two OUTs of one coil.
+  enum class DoubleCoils : std::uint8_t { last_wins, are_refused } double_coils = DoubleCoils::last_wins;
+  /// A label twice in one area: the first is taken, and reported.
+  enum class DoubleLabels : std::uint8_t { load, are_refused } double_labels = DoubleLabels::load;
+  /// RST and ZRST of T and C.
+  bool timers_can_be_reset = true;
+  /// Lines that the manual calls void in their area.
+  enum class VoidLines : std::uint8_t { do_nothing, are_refused } void_lines = VoidLines::do_nothing;
+  bool knows_mset = true;
+
+  // --- numbers --------------------------------------------------------------------------------------
+  /// FMV beyond the end of its block.
+  enum class FillBeyond : std::uint8_t { is_clipped, does_nothing } fill_beyond = FillBeyond::is_clipped;
+  enum class DivisionByZero : std::uint8_t {
+    changes_nothing,
+    gives_zero
+  } division_by_zero = DivisionByZero::changes_nothing;
+  enum class Product : std::uint8_t { wraps, saturates } product = Product::wraps;
+
+  // --- the PLC --------------------------------------------------------------------------------------
+  int timer_unit_ms = 1;
+  /// A counter stops at its preset, or counts on.
+  bool counts_beyond_preset = false;
+  /// DRV, HOM, STR: at the rising edge of their condition, or in every scan.
+  bool motions_need_edge = true;
+  /// At RUN: PLS, ALT and the like fire once if their condition is ON, or see no edge.
+  bool outputs_fire_at_run = true;
+
+  // --- step programs ----------------------------------------------------------------------------------
+  int slice = 64;  // instructions of a program in a tick
+  int call_depth = 16;
+  enum class LooseReturn : std::uint8_t {
+    stops_program,
+    is_ignored
+  } loose_return = LooseReturn::stops_program;
+  /// CAL with a count below 1.
+  enum class NoPasses : std::uint8_t { are_skipped, mean_endless } no_passes = NoPasses::are_skipped;
+  /// Motion of an axis that the program does not own (C21).
+  enum class NotOwned : std::uint8_t { is_void, stops_program } not_owned = NotOwned::is_void;
+  /// START of an empty area.
+  enum class EmptyProgram : std::uint8_t {
+    ends_silently,
+    is_an_error
+  } empty_program = EmptyProgram::ends_silently;
+  /// What loads F, plane, speeds and modes anew.
+  enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
+  bool rotation_0_waits = true;  // VDRV 0 until its axes stand
+
+  bool operator==(const Options&) const = default;
+};
+
+/// The number of an area's first step, as D8095 and D8096 count.
+constexpr int base_of(Area area, const Options& options) {
+  return options.bases == Options::Bases::newer ? row_of(area).base : row_of(area).older_base;
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,24 @@
+// Which axes a program may move: C21 (D9003) gives the first of them to C. (Manual, C21, 故障排除.)
+#pragma once
+
+#include <algorithm>
+
+#include "interpreter/super_40nc/machine.h"
+
+namespace understudy::interpreter::super_40nc {
+
+/// The first so many axes are C's.
+inline int axes_of_c(const Machine& machine) {
+  return std::clamp(machine.special_register(named::kOwnedAxes), 0, kAxisCount);
+}
+
+/// C moves its own ones, an axis program its own one if it is not C's, and the PLC C's only while C does not
+/// run.
+inline bool may_move(const Machine& machine, Area by, int axis) {
+  const bool is_of_c = axis < axes_of_c(machine);
+  if (by == Area::c) return is_of_c;
+  if (by == Area::plc) return !is_of_c || !machine.special_contact(row_of(Area::c).run_contact);
+  return !is_of_c && axis == axis_of(by);
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,243 @@
+#include "interpreter/super_40nc/plc.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/plc_lines.h"
+
+namespace understudy::interpreter::super_40nc {
+namespace {
+
+/// The registers of a scan: cells and constants side by side, blocks and branches as shift registers of bits,
+/// whose bit 0 is the top.
+class Scan {
+ public:
+  Scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs, const Options& options)
+      : plc_(plc),
+        machine_(machine),
+        cells_(machine.cells().data()),
+        banks_{cells_, ladder.constants().data()},
+        lines_(plc, ladder, machine, programs, options),
+        options_(options),
+        depth_mask_((std::uint64_t{1} << options.stack_depth) - 1),
+        a_unit_is_over_(options.timer_unit_ms <= 1 ||
+                        plc.scans % static_cast<std::uint64_t>(options.timer_unit_ms) == 0) {}
+
+  void steps(const LadderStep* step) {
+    for (;; ++step) {
+      switch (step->act) {
+        case Act::load: push(contact(*step) != inverted(*step)); break;
+        case Act::series: blocks_ &= ~std::uint64_t{1} | bit(contact(*step) != inverted(*step)); break;
+        case Act::parallel: blocks_ |= bit(contact(*step) != inverted(*step)); break;
+        case Act::load_edge: push(edge(*step)); break;
+        case Act::series_edge: blocks_ &= ~std::uint64_t{1} | bit(edge(*step)); break;
+        case Act::parallel_edge: blocks_ |= bit(edge(*step)); break;
+        case Act::load_comparison: push(holds(*step)); break;
+        case Act::series_comparison: blocks_ &= ~std::uint64_t{1} | bit(holds(*step)); break;
+        case Act::parallel_comparison: blocks_ |= bit(holds(*step)); break;
+        case Act::join_series: blocks_ = (blocks_ >> 1) & (~std::uint64_t{1} | blocks_); break;
+        case Act::join_parallel: blocks_ = (blocks_ >> 1) | (blocks_ & 1); break;
+        case Act::branch: branches_ = (branches_ << 1) | (blocks_ & 1); break;
+        case Act::branch_again: blocks_ = (blocks_ & ~std::uint64_t{1}) | (branches_ & 1); break;
+        case Act::branch_last:
+          blocks_ = (blocks_ & ~std::uint64_t{1}) | (branches_ & 1);
+          branches_ >>= 1;
+          break;
+        case Act::invert: blocks_ ^= 1; break;
+        case Act::out: put(step->c, static_cast<std::uint32_t>(blocks_ & 1), step->flags); break;
+        case Act::set:
+          if (result()) put(step->c, 1, step->flags);
+          break;
+        case Act::reset:
+          if (result()) put(step->c, 0, step->flags);
+          break;
+        case Act::timer: time(*step); break;
+        case Act::counter: count(*step); break;
+        case Act::move:
+          if (result()) put(step->c, plain(step->bank_a, step->a), step->flags);
+          break;
+        case Act::add:
+          if (result()) {
+            put(step->c, plain(step->bank_a, step->a) + plain(step->bank_b, step->b), step->flags);
+          }
+          break;
+        case Act::subtract:
+          if (result()) {
+            put(step->c, plain(step->bank_a, step->a) - plain(step->bank_b, step->b), step->flags);
+          }
+          break;
+        case Act::general: has_changed_ |= lines_.carry_out(*step, result()); break;
+        case Act::end: return;
+      }
+    }
+  }
+
+  Scanned ended() {
+    has_changed_ |= lines_.end_scan();
+    return {has_changed_, has_changed_ ? 0 : quiet_scans_};
+  }
+
+ private:
+  static std::uint64_t bit(bool value) { return value ? 1 : 0; }
+  bool result() const { return (blocks_ & 1) != 0; }
+  void push(bool value) { blocks_ = ((blocks_ << 1) & depth_mask_) | bit(value); }
+
+  static bool inverted(const LadderStep& step) { return (step.flags & kInverted) != 0; }
+  bool contact(const LadderStep& step) const {
+    if (step.bank_a == Bank::special) [[unlikely]] {
+      return machine_.special_contact(static_cast<int>(step.a));
+    }
+    return banks_[static_cast<std::size_t>(step.bank_a)][step.a] != 0;
+  }
+
+  std::uint32_t plain(Bank bank, std::uint32_t at) const {
+    return banks_[static_cast<std::size_t>(bank)][at];
+  }
+  std::uint32_t value(Bank bank, std::uint32_t at) const {
+    if (bank == Bank::special) [[unlikely]] {
+      return static_cast<std::uint32_t>(machine_.special_register(static_cast<int>(at)));
+    }
+    return plain(bank, at);
+  }
+  bool holds(const LadderStep& step) const {
+    const auto first = static_cast<std::int32_t>(value(step.bank_a, step.a));
+    const auto second = static_cast<std::int32_t>(value(step.bank_b, step.b));
+    return (relation_of(first, second) & step.flags) != 0;
+  }
+
+  /// Whether the bit has just come to be ON, or OFF.
+  bool edge(const LadderStep& step) {
+    const bool is_on = contact(step);
+    const bool was_on = remember(step.memory, is_on);
+    return is_on != was_on && is_on == ((step.flags & kFalling) == 0);
+  }
+  bool remember(std::uint16_t memory, bool is_on) {
+    std::uint8_t& kept = plc_.memories[memory];
+    const bool was_on = kept != 0;
+    kept = is_on ? 1 : 0;
+    has_changed_ |= is_on != was_on;
+    return was_on;
+  }
+
+  void put(std::uint32_t cell, std::uint32_t value, std::uint8_t flags) {
+    if (cells_[cell] == value) return;
+    cells_[cell] = value;
+    has_changed_ = true;
+    if ((flags & kKept) != 0) machine_.kept_cell_written(cell);
+  }
+
+  /// Its value is 0 in the scan that turns it ON, and grows with each later one.
+  void time(const LadderStep& step) {
+    const bool is_on = result();
+    const bool was_on = remember(step.memory, is_on);
+    if (!is_on || !was_on) put(step.c, 0, step.flags);
+    if (!is_on) return put(step.a, 0, step.flags);
+    const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
+    auto present = static_cast<std::int32_t>(cells_[step.c]);
+    if (was_on && present < preset && a_unit_is_over_) {
+      const bool had_changed = has_changed_;
+      put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+      if ((step.flags & kValueIsRead) == 0 && present < preset) has_changed_ = had_changed;
+    }
+    put(step.a, present >= preset ? 1 : 0, step.flags);
+    if (present < preset) {
+      const std::int64_t left = std::int64_t{preset} - present - 1;
+      quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 ? left : 0);
+      if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
+    }
+  }
+
+  void count(const LadderStep& step) {
+    const bool is_on = result();
+    const bool was_on = remember(step.memory, is_on);
+    const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
+    auto present = static_cast<std::int32_t>(cells_[step.c]);
+    const bool may_count = options_.counts_beyond_preset ? present < INT32_MAX : present < preset;
+    if (is_on && !was_on && !plc_.is_first_scan && may_count) {
+      put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    }
+    put(step.a, present >= preset ? 1 : 0, step.flags);
+  }
+
+  PlcState& plc_;
+  Machine& machine_;
+  std::uint32_t* cells_;
+  const std::uint32_t* banks_[2];
+  PlcLines lines_;
+  const Options& options_;
+  std::uint64_t depth_mask_;
+  bool a_unit_is_over_;
+  std::uint64_t blocks_ = 0;
+  std::uint64_t branches_ = 0;
+  bool has_changed_ = false;
+  std::int64_t quiet_scans_ = INT64_MAX;
+};
+
+}  // namespace
+
+void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
+  const Access access(machine);
+  plc.runs = true;
+  plc.is_first_scan = true;
+  const bool is_same_program = plc.memories.size() == ladder.memories().size();
+  if (!is_same_program) plc.memories.assign(ladder.memories().size(), 0);
+  for (const LadderStep& step : ladder.steps()) {
+    const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
+    const bool has_own = step.act == Act::general && !ladder.is_empty() &&
+                         (row_of(ladder.line(step.line).op).in_plc == InPlc::rising_edge ||
+                          row_of(ladder.line(step.line).op).in_plc == InPlc::falling_edge);
+    std::uint8_t* const memory = is_edge || has_own || step.act == Act::timer || step.act == Act::counter
+                                     ? &plc.memories[step.memory]
+                                     : nullptr;
+    if (memory == nullptr) continue;
+    if (is_edge) *memory = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
+    if (has_own || step.act == Act::counter) *memory = 0;
+    if (step.act == Act::timer) *memory = machine.cells()[step.c] != 0 ? 1 : 0;  // goes on if it is still ON
+  }
+  plc.targets = machine.special_register(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    plc.rpm[static_cast<std::size_t>(axis)] = machine.rpm_at_power_up(axis);
+  }
+}
+
+void stop(PlcState& plc, Machine& machine) {
+  plc.runs = false;
+  if (plc.jogs == Jogs{}) return;
+  plc.jogs = {};
+  machine.plc_jog({});
+}
+
+Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,
+             const Options& options) {
+  ++plc.scans;
+  if (!plc.runs) return {};
+  if (plc.memories.size() != ladder.memories().size()) plc.memories.assign(ladder.memories().size(), 0);
+  Scan scan(plc, ladder, machine, programs, options);
+  scan.steps(ladder.steps().data());
+  Scanned scanned = scan.ended();
+  if (plc.is_first_scan) scanned = {true, 0};
+  plc.is_first_scan = false;
+  return scanned;
+}
+
+void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
+           const Options& options) {
+  plc.scans += static_cast<std::uint64_t>(scans);
+  if (!plc.runs) return;
+  const std::span<std::uint32_t> cells = machine.cells();
+  const Access access(machine);
+  for (const std::uint32_t index : ladder.timers()) {
+    const LadderStep& timer = ladder.steps()[index];
+    if (plc.memories[timer.memory] == 0 || options.timer_unit_ms > 1) continue;
+    const std::int64_t preset = access.value(ladder.line(timer.line).fields[1]);
+    const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
+    if (present >= preset) continue;
+    cells[timer.c] = static_cast<std::uint32_t>(present + scans);
+    if ((timer.flags & kKept) != 0) machine.kept_cell_written(timer.c);
+  }
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,40 @@
+// The instructions of the PLC that are not decoded into small steps: rarer outputs, numbers that act on the
+// device, and motion by level or by edge.
+#pragma once
+
+#include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/plc.h"
+
+namespace understudy::interpreter::super_40nc {
+
+class PlcLines {
+ public:
+  PlcLines(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,
+           const Options& options)
+      : plc_(plc), ladder_(ladder), access_(machine), programs_(programs), options_(options) {}
+
+  /// Returns whether anything has changed.
+  bool carry_out(const LadderStep& step, bool is_on);
+  bool end_scan();
+
+ private:
+  bool count_as_edge(const LadderStep& step, bool is_on, bool& fires);
+  bool begin_motion(const Instruction& line, int step);
+  bool set_modes(const Instruction& line);
+  void jog(const Instruction& line);
+  void control_programs(const Instruction& line);
+  AxisValues movable(AxisValues values, int step);
+  bool report(Code code, int step) {
+    access_.machine().report(code, step, 0);
+    return true;
+  }
+
+  PlcState& plc_;
+  const Ladder& ladder_;
+  Access access_;
+  StepControl& programs_;
+  const Options& options_;
+  Jogs jogs_;
+};
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,41 @@
+// Programs as values: what the program memory of a SUPER-40NC holds.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/operand.h"
+
+namespace understudy::interpreter::super_40nc {
+
+struct Instruction {
+  Op op = Op::nop;
+  std::array<Operand, 4> fields{};
+
+  bool operator==(const Instruction&) const = default;
+};
+
+constexpr int steps_of(const Instruction& instruction) { return row_of(instruction.op).steps; }
+
+/// Of one area, or of one path file.
+struct AreaProgram {
+  int base = 0;  // from which its listing numbers the steps
+  std::vector<Instruction> lines = {};
+
+  bool operator==(const AreaProgram&) const = default;
+};
+
+struct Program {
+  std::array<std::optional<AreaProgram>, kAreaCount> areas = {};  // what a listing does not name is nothing
+  std::map<int, AreaProgram> files = {};                          // of C, by number
+
+  const std::optional<AreaProgram>& area(Area which) const { return areas[index_of(which)]; }
+  bool operator==(const Program&) const = default;
+};
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,46 @@
+#include "interpreter/super_40nc/step_code.h"
+
+#include <map>
+
+namespace understudy::interpreter::super_40nc {
+
+StepCode::StepCode(const AreaProgram& program) : program_(program) {
+  for (const Instruction& line : program_.lines) {
+    steps_.push_back(static_cast<int>(lines_.size()));
+    lines_.push_back(static_cast<int>(steps_.size()) - 1);
+    lines_.resize(lines_.size() + static_cast<std::size_t>(steps_of(line)) - 1, -1);
+  }
+  targets_.assign(program_.lines.size(), -1);
+  find_labels();
+  find_blocks();
+}
+
+void StepCode::find_labels() {
+  std::map<std::int32_t, int> labels;
+  for (std::size_t i = 0; i < program_.lines.size(); ++i) {
+    if (program_.lines[i].op == Op::lab) labels.emplace(program_.lines[i].fields[0].number, steps_[i]);
+  }
+  for (std::size_t i = 0; i < program_.lines.size(); ++i) {
+    const Instruction& line = program_.lines[i];
+    if (line.op != Op::jmp && line.op != Op::cj && line.op != Op::cjn && line.op != Op::cal) continue;
+    if (const auto label = labels.find(line.fields[0].number); label != labels.end())
+      targets_[i] = label->second;
+  }
+}
+
+void StepCode::find_blocks() {
+  std::vector<std::size_t> open;  // IF, or its ELSE
+  for (std::size_t i = 0; i < program_.lines.size(); ++i) {
+    const Op op = program_.lines[i].op;
+    if (op == Op::if_) open.push_back(i);
+    if ((op != Op::else_ && op != Op::endi) || open.empty()) continue;
+    targets_[open.back()] = op == Op::else_ ? steps_[i] + 1 : steps_[i];
+    if (op == Op::else_) {
+      open.back() = i;
+    } else {
+      open.pop_back();
+    }
+  }
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,162 @@
+// The lines of a step program that are not motion. (Manual, Sequence 指令一覽表.)
+#include <cstddef>
+
+#include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/step_programs.h"
+#include "interpreter/super_40nc/structure.h"
+
+namespace understudy::interpreter::super_40nc {
+
+StepPrograms::Slice StepPrograms::execute(Area area, const Instruction& line) {
+  if (is_contact(line.op) || joins_blocks(line.op)) return read_contact(area, line);
+  if (is_calculation(line.op)) {
+    const Calculated result = calculate(line, access_, options_);
+    if (result.code != Code::none) report(area, result.code);
+    return advance(area, line);
+  }
+  if (row_of(line.op).group == Group::motion) return set_mode(area, line);
+  const bool holds = (state(area).blocks & 1) != 0;
+  if (line.op == Op::set) {
+    access_.switch_contact(line.fields[0], true);
+  } else if (line.op == Op::rst) {
+    access_.reset(line.fields[0]);
+  } else if (line.op == Op::end) {
+    return end(area);
+  } else if (line.op == Op::jmp || (line.op == Op::cj && holds) || (line.op == Op::cjn && !holds)) {
+    return jump_to_label(area);
+  } else if ((line.op == Op::if_ && !holds) || line.op == Op::else_) {
+    state(area).step = code(area).target_of(code(area).line_at(state(area).step));
+    return Slice::goes_on;
+  } else if (line.op == Op::cal) {
+    return call(area, line);
+  } else if (line.op == Op::ret) {
+    return return_(area, line);
+  } else if (line.op == Op::wat || line.op == Op::wtn) {
+    return wait(area, line, access_.contact(line.fields[0]) == (line.op == Op::wat));
+  } else if (line.op == Op::tmr) {
+    return wait_for_time(area, line);
+  }
+  return advance(area, line);  // LAB, ENDI, NOP; CJ, CJN and IF that do not jump
+}
+
+StepPrograms::Slice StepPrograms::advance(Area area, const Instruction& line) {
+  StepState& program = state(area);
+  program.phase = Phase::executing;
+  program.step += steps_of(line);
+  return Slice::goes_on;
+}
+
+StepPrograms::Slice StepPrograms::jump(Area area, int step) {
+  state(area).step = step;
+  return Slice::is_over;
+}
+
+StepPrograms::Slice StepPrograms::jump_to_label(Area area) {
+  const int target = code(area).target_of(code(area).line_at(state(area).step));
+  if (target >= 0) return jump(area, target);
+  fail(area, Code::label_missing);
+  return Slice::is_over;
+}
+
+StepPrograms::Slice StepPrograms::call(Area area, const Instruction& line) {
+  StepState& program = state(area);
+  std::int64_t passes = line.fields[1].is_set() ? access_.value(line.fields[1]) : 1;
+  if (passes <= 0) {
+    if (options_.no_passes == Options::NoPasses::are_skipped) return advance(area, line);
+    passes = INT64_MAX;
+  }
+  const int label = code(area).target_of(code(area).line_at(program.step));
+  if (label < 0 || program.calls.size() >= static_cast<std::size_t>(options_.call_depth)) {
+    fail(area, label < 0 ? Code::label_missing : Code::pairing);
+    return Slice::is_over;
+  }
+  program.calls.push_back({program.step + steps_of(line), label, passes});
+  return jump(area, label);
+}
+
+StepPrograms::Slice StepPrograms::return_(Area area, const Instruction& line) {
+  StepState& program = state(area);
+  if (program.calls.empty()) {
+    if (options_.loose_return == Options::LooseReturn::is_ignored) return advance(area, line);
+    fail(area, Code::pairing);
+    return Slice::is_over;
+  }
+  Call& last = program.calls.back();
+  if (last.passes > 1) {
+    --last.passes;
+    return jump(area, last.label);
+  }
+  const int back = last.back;
+  program.calls.pop_back();
+  return jump(area, back);
+}
+
+StepPrograms::Slice StepPrograms::end(Area area) {
+  machine_.program_ended(area);
+  const bool is_continuous = area == Area::c && (machine_.special_contact(named::kContinuous) ||
+                                                 machine_.special_contact(named::kContinuousKey));
+  take(is_continuous ? Event::end_continuous : Event::end, area);
+  return Slice::is_over;
+}
+
+StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool is_over) {
+  if (is_over) return advance(area, line);
+  state(area).phase = Phase::waiting;
+  return Slice::is_over;
+}
+
+/// Reads its time once. It goes on so many ticks after the one that has reached it.
+StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
+  StepState& program = state(area);
+  if (program.left_ms > 0) return wait(area, line, --program.left_ms == 0);
+  const std::int32_t ms = access_.value(line.fields[0]);
+  if (ms > 0) program.left_ms = ms;
+  return wait(area, line, ms <= 0);
+}
+
+StepPrograms::Slice StepPrograms::read_contact(Area area, const Instruction& line) {
+  std::uint64_t& blocks = state(area).blocks;
+  if (joins_blocks(line.op)) {
+    const bool is_series = line.op == Op::anb;
+    blocks = is_series ? (blocks >> 1) & (~std::uint64_t{1} | blocks) : (blocks >> 1) | (blocks & 1);
+    return advance(area, line);
+  }
+  const Relations relations = relations_of(line.op);
+  const bool is_on =
+      relations != 0
+          ? (relation_of(access_.value(line.fields[0]), access_.value(line.fields[1])) & relations) != 0
+          : access_.contact(line.fields[0]) != is_inverted(line.op);
+  const std::uint64_t bit = is_on ? 1 : 0;
+  switch (place_of(line.op)) {
+    case Place::begins:
+      blocks = ((blocks << 1) | bit) & ((std::uint64_t{1} << options_.stack_depth) - 1);
+      break;
+    case Place::in_series: blocks &= ~std::uint64_t{1} | bit; break;
+    case Place::in_parallel: blocks |= bit; break;
+  }
+  return advance(area, line);
+}
+
+/// Whether the next line belongs to the contacts before it: all of them are read at once.
+bool StepPrograms::is_in_group(Area area) const {
+  const int line = code(area).line_at(state(area).step);
+  if (state(area).phase != Phase::executing || line < 0) return false;
+  const Op op = code(area).line(line).op;
+  return (is_contact(op) && !begins_block(op)) || joins_blocks(op) || reads_group(op);
+}
+
+/// STP, STR: in every program their fields are X, Y, Z, U; no field is set: C.
+StepPrograms::Slice StepPrograms::control(Area area, const Instruction& line) {
+  const AxisValues values = axis_values(line, access_);
+  const AxisSet axes = chosen_axes(values);
+  advance(area, line);
+  const auto act = [&](Area other) { line.op == Op::str ? start(other) : stop(other); };
+  if (is_empty(values)) act(Area::c);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (has_axis(axes, axis)) act(area_of_axis(axis));
+  }
+  return Slice::goes_on;
+}
+
+}  // namespace understudy::interpreter::super_40nc

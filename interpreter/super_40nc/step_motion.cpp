@@ -1,0 +1,166 @@
+// The motion instructions of a step program: what they ask of the machine, and whether the program waits.
+// (Manual, Motion 指令一覽表.)
+#include <algorithm>
+#include <cstddef>
+
+#include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/step_programs.h"
+
+namespace understudy::interpreter::super_40nc {
+
+Plane StepPrograms::plane() const {
+  return static_cast<Plane>(std::clamp(machine_.special_register(named::kPlane), 0, 2));
+}
+
+/// What does not move anything by itself.
+StepPrograms::Slice StepPrograms::set_mode(Area area, const Instruction& line) {
+  StepState& program = state(area);
+  if (has(row_of(line.op).void_in, area)) {
+    report(area, Code::wrong_area);
+    return advance(area, line);
+  }
+  if (line.op == Op::stp || line.op == Op::str) return control(area, line);
+  if (line.op == Op::pset || line.op == Op::mset) {
+    const AxisValues values = axis_values(line, access_);
+    if (!is_empty(values)) machine_.set_positions({values, line.op == Op::mset});
+  } else if (line.op == Op::rpm) {
+    const AxisValues values = values_of(area, line);
+    for (std::size_t i = 0; i < values.size(); ++i) program.rpm[i] = values[i].value_or(program.rpm[i]);
+  } else if (line.op == Op::absc || line.op == Op::incc) {
+    program.targets = line.op == Op::absc ? Targets::absolute : Targets::relative;
+  } else if (line.op == Op::chk) {
+    program.waits_for_drive = access_.value(line.fields[0]) != 0;
+  } else if (line.op == Op::f) {
+    machine_.set_special_register(named::kFeed, access_.value(line.fields[0]));
+  } else if (line.op >= Op::xyp && line.op <= Op::yzp) {
+    machine_.set_special_register(named::kPlane, static_cast<int>(line.op) - static_cast<int>(Op::xyp));
+  } else {
+    return move(area, line);
+  }
+  return advance(area, line);
+}
+
+/// Of an axis program only the first field counts, and means its own axis.
+AxisValues StepPrograms::values_of(Area area, const Instruction& line) const {
+  if (area == Area::c) return axis_values(line, access_);
+  AxisValues values;
+  if (line.fields[0].is_set())
+    values[static_cast<std::size_t>(axis_of(area))] = access_.value(line.fields[0]);
+  return values;
+}
+
+/// Whether the program goes on without them.
+bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
+  bool is_void = false;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    auto& value = values[static_cast<std::size_t>(axis)];
+    if (!value || may_move(machine_, area, axis)) continue;
+    value.reset();
+    is_void = true;
+  }
+  if (!is_void) return true;
+  if (options_.not_owned == Options::NotOwned::is_void) {
+    report(area, Code::axis_not_owned);
+    return true;
+  }
+  fail(area, Code::axis_not_owned);
+  return false;
+}
+
+template <class Request>
+StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& line, const Request& request,
+                                               bool waits) {
+  StepState& program = state(area);
+  const Begun begun = machine_.begin(area, request);
+  switch (begun) {
+    case Begun::taken: program.phase = Phase::waiting; return Slice::is_over;
+    case Begun::refused:
+      program.phase = Phase::moving;
+      take(Event::broken, area);
+      return Slice::is_over;
+    case Begun::void_: return advance(area, line);
+    case Begun::runs:
+      if (!waits) break;
+      program.next_step = program.step + steps_of(line);
+      program.phase = row_of(line.op).waits == Waits::for_home ? Phase::homing : Phase::moving;
+      return Slice::is_over;
+    case Begun::done: break;
+  }
+  advance(area, line);
+  if (row_of(line.op).ends_single_step && is_single_step(area)) {
+    take(Event::single_step, area);
+    return Slice::is_over;
+  }
+  return waits ? Slice::is_over : Slice::goes_on;
+}
+
+StepPrograms::Slice StepPrograms::move(Area area, const Instruction& line) {
+  const bool is_arc = line.op >= Op::cw && line.op <= Op::ccwr;
+  if (is_arc) return begin_arc(area, line);
+  const StepState& program = state(area);
+  AxisValues values = values_of(area, line);
+  if (line.op == Op::hom) {
+    for (auto& value : values) {
+      if (value == 0) value.reset();
+    }
+  }
+  if (is_empty(values)) return advance(area, line);
+  if (!drop_what_it_may_not_move(area, values)) return Slice::is_over;
+  if (is_empty(values)) return advance(area, line);
+  const bool stops = std::any_of(values.begin(), values.end(), [](const auto& value) { return value == 0; });
+  const bool turns =
+      std::any_of(values.begin(), values.end(), [](const auto& value) { return value.value_or(0) != 0; });
+  const bool is_inhibitable = line.op == Op::vdrv ? turns : line.op != Op::mpg;
+  if (is_inhibitable && is_inhibited()) {
+    state(area).phase = Phase::waiting;
+    return Slice::is_over;
+  }
+  if (line.op == Op::lin) return begin_motion(area, line, LinearMove{values, program.targets, feed()}, true);
+  if (line.op == Op::mrk) {
+    return begin_motion(area, line, MarkSearch{values, program.targets, program.rpm}, true);
+  }
+  if (line.op == Op::hom) return begin_motion(area, line, HomeSearch{chosen_axes(values)}, true);
+  if (line.op == Op::mpg) return begin_motion(area, line, WheelRatios{values}, false);
+  if (line.op == Op::vdrv) {
+    return begin_motion(area, line, Rotation{values}, stops && options_.rotation_0_waits);
+  }
+  const bool waits = area == Area::c || program.waits_for_drive;
+  return begin_motion(area, line, Drive{values, program.targets, program.rpm, waits}, waits);
+}
+
+/// Both axes of the plane have to be C's.
+StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) {
+  const StepState& program = state(area);
+  const auto field = [&](std::size_t i) {
+    return line.fields[i].is_set() ? std::optional(access_.value(line.fields[i])) : std::nullopt;
+  };
+  if (!line.fields[0].is_set() && !line.fields[1].is_set() && !line.fields[2].is_set() &&
+      !line.fields[3].is_set()) {
+    return advance(area, line);
+  }
+  const std::array<int, 2> axes = axes_of(plane());
+  AxisValues moved;
+  for (const int axis : axes) moved[static_cast<std::size_t>(axis)] = 0;
+  const AxisValues all = moved;
+  if (!drop_what_it_may_not_move(area, moved)) return Slice::is_over;
+  if (moved != all) return advance(area, line);
+  if (is_inhibited()) {
+    state(area).phase = Phase::waiting;
+    return Slice::is_over;
+  }
+  const PlanePoint first{field(0), field(1)};
+  const PlanePoint second{field(2), field(3)};
+  const Turn turn = line.op == Op::cw || line.op == Op::cwr ? Turn::clockwise : Turn::counter_clockwise;
+  if (line.op == Op::c3p) {
+    return begin_motion(area, line, PointArc{plane(), first, second, program.targets, feed()}, true);
+  }
+  if (line.op == Op::cw || line.op == Op::ccw) {
+    const std::array<std::int32_t, 2> centre{second[0].value_or(0), second[1].value_or(0)};
+    return begin_motion(area, line, CentreArc{plane(), turn, first, centre, program.targets, feed()}, true);
+  }
+  const std::int32_t radius = second[0].value_or(0);  // is set, or the line would not have been loaded
+  return begin_motion(area, line, RadiusArc{plane(), turn, first, radius, program.targets, feed()}, true);
+}
+
+}  // namespace understudy::interpreter::super_40nc

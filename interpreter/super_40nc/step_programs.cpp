@@ -1,0 +1,230 @@
+#include "interpreter/super_40nc/step_programs.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace understudy::interpreter::super_40nc {
+
+void StepPrograms::report(Area area, Code code) {
+  machine_.report(code, base_of(area, options_) + state(area).step, 0);
+}
+
+/// An error that stops the program.
+void StepPrograms::fail(Area area, Code code) {
+  report(area, code);
+  forget(area);
+}
+
+// --- events -----------------------------------------------------------------------------------------
+
+void StepPrograms::take(Event event, Area area) {
+  const Reaction reaction = reaction_of(event, state(area).phase);
+  switch (reaction) {
+    case Reaction::nothing:
+    case Reaction::pause_later:
+    case Reaction::motions_wait:
+    case Reaction::rest_waits: break;  // asked for when their time comes
+    case Reaction::fresh_start:
+    case Reaction::go_on:
+    case Reaction::resume: begin(area, reaction); break;
+    case Reaction::pause: pause(area, false); break;
+    case Reaction::hold:
+      machine_.hold(area);
+      state(area).machine_holds = true;
+      pause(area, true);
+      break;
+    case Reaction::freeze: freeze(area); break;
+    case Reaction::next_line: state(area).phase = Phase::executing; break;
+    case Reaction::forget:
+      if (state(area).machine_holds) machine_.drop_held(area);
+      forget(area);
+      break;
+    case Reaction::restart:
+      state(area) = {};
+      begin(area, Reaction::fresh_start);
+      break;
+    case Reaction::stop_motors: stop_motors(area); break;
+    case Reaction::stop:
+      stop_motors(area);
+      forget(area);
+      break;
+    case Reaction::broken: forget(area); break;
+    case Reaction::same_step: change_file(area); break;
+  }
+}
+
+/// Starts, or goes on.
+void StepPrograms::begin(Area area, Reaction how) {
+  StepState& program = state(area);
+  if (machine_.is_held_in_reset(area)) return set_contact(area, false);
+  if (code(area).is_empty()) {
+    if (options_.empty_program == Options::EmptyProgram::is_an_error) report(area, Code::no_end);
+    return forget(area);
+  }
+  machine_.program_starts(area);
+  set_contact(area, true);
+  program.is_paused_by_key = false;
+  const bool is_new = program.step == 0 && how != Reaction::resume && program.resumes == Phase::executing;
+  if (is_new || options_.fresh_start == Options::FreshStart::every_start) load_modes(area);
+  const bool has_motion = program.resumes == Phase::moving || program.resumes == Phase::homing;
+  if (is_inhibited() && (has_motion || program.machine_holds)) {
+    program.phase = Phase::waiting;
+    program.waits_to_resume = true;
+    return;
+  }
+  resume(area);
+}
+
+void StepPrograms::resume(Area area) {
+  StepState& program = state(area);
+  program.waits_to_resume = false;
+  if (std::exchange(program.machine_holds, false)) machine_.go_on(area);
+  program.phase = std::exchange(program.resumes, Phase::executing);
+}
+
+void StepPrograms::load_modes(Area area) {
+  StepState& program = state(area);
+  const int axis = axis_of(area);
+  const int where = axis < 0 ? named::kTargetsOfC : named::kTargetsOfX + 100 * axis;
+  program.targets = machine_.special_register(where) == 0 ? Targets::absolute : Targets::relative;
+  program.waits_for_drive = true;
+  for (int i = 0; i < kAxisCount; ++i) {
+    program.rpm[static_cast<std::size_t>(i)] = machine_.rpm_at_power_up(i);
+  }
+  if (area != Area::c) return;
+  machine_.set_special_register(named::kFeed, machine_.special_register(named::kDefaultFeed));
+  machine_.set_special_register(named::kPlane, machine_.special_register(named::kDefaultPlane));
+}
+
+void StepPrograms::forget(Area area) {
+  state(area) = {};
+  set_contact(area, false);
+}
+
+void StepPrograms::stop_motors(Area area) {
+  const Areas lost = machine_.stop(area);
+  for (const AreaRow& row : kAreas) {
+    if (row.area != Area::plc && row.area != area && has(lost, row.area)) take(Event::broken, row.area);
+  }
+}
+
+void StepPrograms::pause(Area area, bool by_key) {
+  StepState& program = state(area);
+  const bool was_waiting = program.phase == Phase::waiting && !program.waits_to_resume;
+  if (program.phase != Phase::paused && !program.waits_to_resume) {
+    program.resumes = was_waiting ? Phase::waiting : Phase::executing;
+  }
+  program.waits_to_resume = false;
+  program.phase = Phase::paused;
+  program.is_paused_by_key |= by_key;
+  set_contact(area, false);
+}
+
+void StepPrograms::freeze(Area area) {
+  StepState& program = state(area);
+  if (!program.waits_to_resume) program.resumes = program.phase;
+  program.waits_to_resume = false;
+  program.phase = Phase::held;
+  program.is_paused_by_key = true;
+  program.machine_holds = true;
+  machine_.hold(area);
+  set_contact(area, false);
+}
+
+/// C goes on at the same step; a wait for the same goes on.
+void StepPrograms::change_file(Area area) {
+  StepState& program = state(area);
+  if (program.phase != Phase::waiting || program.waits_to_resume) return;
+  program.phase = Phase::executing;
+  const int line = code(area).line_at(program.step);
+  if (line < 0 || code(area).line(line).op != Op::tmr) program.left_ms = 0;
+}
+
+void StepPrograms::set_step(Area area, int step) {
+  StepState& program = state(area);
+  const bool is_at_rest =
+      program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
+  if (!is_at_rest) return;
+  if (program.machine_holds) machine_.drop_held(area);
+  program.machine_holds = false;
+  if (program.phase == Phase::held) program.phase = Phase::paused;
+  program.resumes = Phase::executing;
+  program.left_ms = 0;
+  program.step = step;
+}
+
+bool StepPrograms::shows_pausing() const {
+  const StepState& program = state(Area::c);
+  return program.is_paused_by_key && (program.phase == Phase::paused || program.phase == Phase::held);
+}
+
+// --- a tick -----------------------------------------------------------------------------------------
+
+void StepPrograms::run_slices() {
+  for (int i = 0; i < kStepProgramCount; ++i) run_slice(static_cast<Area>(i));
+}
+
+void StepPrograms::end_of_motion(Area area) {
+  StepState& program = state(area);
+  program.step = program.next_step;
+  take(is_single_step(area) ? Event::single_step : Event::motion_ended, area);
+}
+
+void StepPrograms::run_slice(Area area) {
+  StepState& program = state(area);
+  const bool rests =
+      program.phase == Phase::idle || program.phase == Phase::paused || program.phase == Phase::held;
+  if (rests && contact_is_on(area)) take(Event::start, area);
+  if (program.phase == Phase::moving || program.phase == Phase::homing) {
+    if (machine_.is_running(area)) return;
+    end_of_motion(area);
+  }
+  if (program.phase == Phase::waiting && program.waits_to_resume && contact_is_on(area)) {
+    if (!is_inhibited()) resume(area);
+    return;
+  }
+  for (int executed = 0; executed < options_.slice || is_in_group(area); ++executed) {
+    if (program.phase != Phase::executing && program.phase != Phase::waiting) return;
+    if (!contact_is_on(area)) return take(Event::contact_off, area);
+    const int line = code(area).line_at(program.step);
+    if (line < 0) return fail(area, Code::unknown);
+    if (execute(area, code(area).line(line)) == Slice::is_over) return;
+  }
+}
+
+Operand StepPrograms::awaited(Area area) const {
+  const StepState& program = state(area);
+  const int line = code(area).line_at(program.step);
+  if (program.phase != Phase::waiting || program.waits_to_resume || line < 0) return {};
+  const Instruction& instruction = code(area).line(line);
+  return instruction.op == Op::wat || instruction.op == Op::wtn ? instruction.fields[0] : Operand{};
+}
+
+std::int64_t StepPrograms::quiet_ms(Area area) const {
+  constexpr std::int64_t kForEver = INT64_MAX;
+  const StepState& program = state(area);
+  switch (program.phase) {
+    case Phase::idle:
+    case Phase::paused:
+    case Phase::held: return contact_is_on(area) ? 0 : kForEver;
+    case Phase::executing: return 0;
+    case Phase::moving:
+    case Phase::homing: return machine_.is_running(area) ? kForEver : 0;
+    case Phase::waiting: break;
+  }
+  if (!contact_is_on(area)) return 0;
+  if (program.left_ms > 0) return program.left_ms - 1;
+  if (program.waits_to_resume) return is_inhibited() ? kForEver : 0;
+  const Operand contact = awaited(area);
+  if (!contact.is_set())
+    return is_inhibited() ? kForEver : 0;  // an axis that is taken is asked for in each tick
+  const bool waits_for_on = code(area).line(code(area).line_at(program.step)).op == Op::wat;
+  return access_.contact(contact) == waits_for_on ? 0 : kForEver;
+}
+
+void StepPrograms::cross(Area area, std::int64_t ticks) {
+  StepState& program = state(area);
+  if (program.phase == Phase::waiting && program.left_ms > 0) program.left_ms -= ticks;
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,142 @@
+// The five step programs of a SUPER-40NC at work. What each is doing is a plain value; events change it by
+// the table of events.h, and a slice a tick advances it over its lines. (Manual, 軟體架構, STR 指令, M8000.)
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/plc.h"
+#include "interpreter/super_40nc/step_code.h"
+
+namespace understudy::interpreter::super_40nc {
+
+struct Call {
+  int back = 0;             // step behind CAL
+  int label = 0;            // step
+  std::int64_t passes = 0;  // left, with the one that runs
+
+  bool operator==(const Call&) const = default;
+};
+
+struct StepState {
+  Phase phase = Phase::idle;
+  Phase resumes = Phase::executing;  // what a paused or held one goes on with
+  bool is_paused_by_key = false;     // by M8006 or PAUSE
+  bool machine_holds = false;        // motions, until go_on()
+  bool waits_to_resume = false;      // M8004
+  int step = 0;                      // about to be executed, or at work; from the begin of its area
+  int next_step = 0;                 // behind a motion
+  std::int64_t left_ms = 0;          // of TMR; 0: it has not begun
+  std::vector<Call> calls = {};
+  std::uint64_t blocks = 0;  // the result of the last contacts
+  // Modal; loaded at a fresh start. F and the plane are D8006 and D8007.
+  Targets targets = Targets::absolute;
+  std::array<std::int32_t, kAxisCount> rpm{};
+  bool waits_for_drive = true;  // CHK
+
+  bool operator==(const StepState&) const = default;
+};
+
+struct StepStates {
+  std::array<StepState, kStepProgramCount> programs{};
+  bool operator==(const StepStates&) const = default;
+};
+
+using StepCodes = std::array<StepCode, kStepProgramCount>;
+
+/// To be made for a tick, or for an event: it only refers to what it is given.
+class StepPrograms : public StepControl {
+ public:
+  StepPrograms(StepStates& states, const StepCodes& codes, Machine& machine, const Options& options)
+      : states_(states), codes_(codes), access_(machine), machine_(machine), options_(options) {}
+
+  /// From outside: start, contact_off, hold, stop, broken, file_changed (C), plc_stop, plc_run; reset and
+  /// emergency in each tick in which they hold, before the slices.
+  void take(Event event, Area area);
+  void start(Area area) override { take(Event::start, area); }
+  void stop(Area area) override { take(Event::stop, area); }
+
+  /// The slice of a tick of one program; of all, in the order of the areas. Their contacts (M8000, M8x00) are
+  /// looked at first: one that is ON starts what does not run, one that is OFF pauses it.
+  void run_slice(Area area);
+  void run_slices();
+
+  /// D8000, D8x00.
+  int step(Area area) const { return state(area).step; }
+  /// A write of it: ignored while the program runs, else what was held is forgotten.
+  void set_step(Area area, int step);
+  /// M8022.
+  bool shows_pausing() const;
+
+  /// How many ticks a slice of it would do nothing but count, if no contact, register or axis changes.
+  std::int64_t quiet_ms(Area area) const;
+  /// So many of them at once.
+  void cross(Area area, std::int64_t ticks);
+  /// What WAT or WTN waits for; unset otherwise.
+  Operand awaited(Area area) const;
+
+ private:
+  struct Stepping;  // what one instruction does to its slice
+  enum class Slice : std::uint8_t { goes_on, is_over };
+
+  StepState& state(Area area) { return states_.programs[index_of(area)]; }
+  const StepState& state(Area area) const { return states_.programs[index_of(area)]; }
+  const StepCode& code(Area area) const { return codes_[index_of(area)]; }
+  bool contact_is_on(Area area) const { return machine_.special_contact(row_of(area).run_contact); }
+  void set_contact(Area area, bool on) { machine_.set_special_contact(row_of(area).run_contact, on); }
+  bool is_single_step(Area area) const {
+    return machine_.special_contact(row_of(area).run_contact - 8000 + named::kSingleStep);
+  }
+  bool is_inhibited() const { return machine_.special_contact(named::kMotionInhibit); }
+  void report(Area area, Code code);
+  void fail(Area area, Code code);
+
+  // step_programs.cpp
+  void begin(Area area, Reaction how);
+  void load_modes(Area area);
+  void forget(Area area);
+  void stop_motors(Area area);
+  void pause(Area area, bool by_key);
+  void freeze(Area area);
+  void resume(Area area);
+  void change_file(Area area);
+  void end_of_motion(Area area);
+
+  // step_flow.cpp
+  Slice execute(Area area, const Instruction& line);
+  Slice advance(Area area, const Instruction& line);
+  Slice jump(Area area, int step);
+  Slice jump_to_label(Area area);
+  Slice call(Area area, const Instruction& line);
+  Slice return_(Area area, const Instruction& line);
+  Slice end(Area area);
+  Slice wait(Area area, const Instruction& line, bool is_over);
+  Slice wait_for_time(Area area, const Instruction& line);
+  Slice read_contact(Area area, const Instruction& line);
+  Slice control(Area area, const Instruction& line);
+  bool is_in_group(Area area) const;
+
+  // step_motion.cpp
+  Slice set_mode(Area area, const Instruction& line);
+  Slice move(Area area, const Instruction& line);
+  Slice begin_arc(Area area, const Instruction& line);
+  template <class Request>
+  Slice begin_motion(Area area, const Instruction& line, const Request& request, bool waits);
+  AxisValues values_of(Area area, const Instruction& line) const;
+  bool drop_what_it_may_not_move(Area area, AxisValues& values);
+  std::int32_t feed() const { return machine_.special_register(named::kFeed); }
+  Plane plane() const;
+
+  StepStates& states_;
+  const StepCodes& codes_;
+  Access access_;
+  Machine& machine_;
+  const Options& options_;
+};
+
+}  // namespace understudy::interpreter::super_40nc

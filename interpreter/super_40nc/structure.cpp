@@ -1,0 +1,178 @@
+#include "interpreter/super_40nc/structure.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace understudy::interpreter::super_40nc {
+namespace {
+
+class Structure {
+ public:
+  Structure(const AreaProgram& program, Area area, const Options& options)
+      : program_(program), area_(area), options_(options) {}
+
+  std::vector<Fault> run() {
+    int room = area_ == Area::c ? options_.c_capacity : row_of(area_).steps;
+    const auto& lines = program_.lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      line_ = static_cast<int>(i);
+      const Op op = lines[i].op;
+      room -= options_.capacity == Options::Capacity::steps ? steps_of(lines[i]) : 1;
+      if (room < 0 && !is_full_) {
+        is_full_ = true;
+        fault(Code::memory_full, "does not fit into area " + std::string(row_of(area_).name));
+      }
+      if (op != Op::nop) look_at_logic(op);
+      look_at_pairs(op);
+      if (op == Op::lab) look_at_label(lines[i].fields[0].number);
+      if (op == Op::out || op == Op::out_tc) look_at_coil(lines[i].fields[0]);
+      has_end_ |= op == Op::end;
+      if (op != Op::nop) before_ = op;
+    }
+    look_at_end();
+    std::stable_sort(faults_.begin(), faults_.end(),
+                     [](const Fault& a, const Fault& b) { return a.line < b.line; });
+    return std::move(faults_);
+  }
+
+ private:
+  void fault(Code code, std::string what, std::string expected = {}) {
+    faults_.push_back({line_, code, std::move(what), std::move(expected)});
+  }
+
+  // --- blocks and branches ------------------------------------------------------------------------
+
+  void look_at_logic(Op op) {
+    const bool is_plc = area_ == Area::plc;
+    if (!is_plc) look_at_group(op);
+    if (is_contact(op)) {
+      if (begins_block(op)) {
+        ++blocks_;
+        if (++pending_ == options_.stack_depth + 1) {
+          fault(Code::logic, "begins one block too many", "at most " + std::to_string(options_.stack_depth));
+        }
+      } else {
+        demand_block();
+      }
+    } else if (joins_blocks(op)) {
+      if (blocks_ < 2) fault(Code::logic, "joins blocks that were not begun", "two blocks before it");
+      pending_ = std::max(0, pending_ - 1);
+    } else if (op == Op::mps) {
+      demand_block();
+      if (++branches_ == options_.stack_depth + 1) {
+        fault(Code::logic, "begins one branch too many", "at most " + std::to_string(options_.stack_depth));
+      }
+    } else if (op == Op::mrd || op == Op::mpp) {
+      if (branches_ == 0) fault(Code::logic, "goes on with a branch that was not begun", "MPS before it");
+      if (op == Op::mpp) branches_ = std::max(0, branches_ - 1);
+    } else if (op == Op::inv) {
+      demand_block();
+    } else if (is_plc ? op != Op::end : reads_group(op)) {
+      demand_block();
+      pending_ = 0;
+    }
+  }
+
+  /// In step programs look_at_group() does it.
+  void demand_block() {
+    if (blocks_ == 0 && area_ == Area::plc) fault(Code::logic, "has no condition", "a block before it");
+  }
+
+  bool is_loose_allowed() const { return options_.loose_groups == Options::LooseGroups::take_last_result; }
+
+  /// In step programs contacts are for the jump behind them.
+  void look_at_group(Op op) {
+    if (is_loose_allowed()) return;
+    const bool goes_on = is_contact(before_) || joins_blocks(before_) || reads_group(before_);
+    const bool is_part = is_contact(op) || joins_blocks(op);
+    if (is_part && !begins_block(op) && !goes_on) {
+      fault(Code::logic, "has nothing to go on from", "a block before it");
+    }
+    const bool follows_jump = before_ == Op::cj || before_ == Op::cjn;
+    if (reads_group(op) && !is_contact(before_) && !joins_blocks(before_) && !follows_jump) {
+      fault(Code::logic, "has no condition", "contacts before it");
+    }
+    if (!is_part && !reads_group(op) && (is_contact(before_) || joins_blocks(before_))) {
+      fault(Code::logic, "follows contacts", "CJ, CJN or IF behind them");
+    }
+  }
+
+  // --- partners -------------------------------------------------------------------------------------
+
+  struct OpenIf {
+    int line;
+    bool has_else = false;
+  };
+
+  void look_at_pairs(Op op) {
+    if (op == Op::if_) {
+      ifs_.push_back({line_});
+      if (static_cast<int>(ifs_.size()) == options_.if_depth + 1) {
+        fault(Code::pairing, "is one IF too many inside another",
+              "at most " + std::to_string(options_.if_depth));
+      }
+    } else if (op == Op::else_) {
+      if (ifs_.empty()) return fault(Code::pairing, "has no partner", "IF before it");
+      if (std::exchange(ifs_.back().has_else, true)) {
+        fault(Code::pairing, "is the second ELSE of an IF", "one at most");
+      }
+    } else if (op == Op::endi) {
+      if (ifs_.empty()) return fault(Code::pairing, "has no partner", "IF before it");
+      ifs_.pop_back();
+    }
+  }
+
+  void look_at_label(std::int32_t label) {
+    const auto [first, is_new] = labels_.emplace(label, line_);
+    if (is_new) return;
+    faults_.push_back({line_, Code::label_twice, "label K" + std::to_string(label) + " appears twice", "one",
+                       first->second, options_.double_labels == Options::DoubleLabels::load});
+  }
+
+  void look_at_coil(const Operand& coil) {
+    if (options_.double_coils == Options::DoubleCoils::last_wins) return;
+    if (!coils_.emplace(std::pair(static_cast<int>(coil.letter), coil.number), line_).second) {
+      fault(Code::logic, "switches a coil that another OUT switches", "one OUT");
+    }
+  }
+
+  void look_at_end() {
+    if (program_.lines.empty()) return;
+    line_ = static_cast<int>(program_.lines.size()) - 1;
+    const bool is_open = area_ != Area::plc && (is_contact(before_) || joins_blocks(before_));
+    if (is_open && !is_loose_allowed())
+      fault(Code::logic, "is the last of contacts", "CJ, CJN or IF behind it");
+    if (!has_end_) fault(Code::no_end, "is the last line", "END");
+    for (const OpenIf& open : ifs_) {
+      faults_.push_back({open.line, Code::pairing, "has no partner", "ENDI behind it"});
+    }
+  }
+
+  const AreaProgram& program_;
+  Area area_;
+  const Options& options_;
+  std::vector<Fault> faults_;
+  int line_ = 0;
+  Op before_ = Op::end;  // the last line but for NOP
+  int blocks_ = 0;       // begun in the area so far
+  int pending_ = 0;      // begun since something has read the result
+  int branches_ = 0;
+  bool has_end_ = false;
+  bool is_full_ = false;
+  std::vector<OpenIf> ifs_;
+  std::map<std::int32_t, int> labels_;
+  std::map<std::pair<int, std::int32_t>, int> coils_;
+};
+
+}  // namespace
+
+std::vector<Fault> faults_of(const AreaProgram& program, Area area, const Options& options) {
+  return Structure(program, area, options).run();
+}
+
+}  // namespace understudy::interpreter::super_40nc

@@ -1,0 +1,34 @@
+// What is wrong with an area's lines taken together: blocks and branches, IF and its partners, labels, END,
+// room.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
+
+namespace understudy::interpreter::super_40nc {
+
+struct Fault {
+  int line = 0;  // index into the area's lines
+  Code code = Code::none;
+  std::string what;
+  std::string expected;
+  int other_line = -1;  // of a label that appears twice
+  bool is_warning = false;
+};
+
+/// In the order of the lines.
+std::vector<Fault> faults_of(const AreaProgram& program, Area area, const Options& options);
+
+/// A block begins; contacts in series and in parallel; any of them; the joins of blocks.
+constexpr bool begins_block(Op op) {
+  return (op >= Op::ld && op <= Op::ldf) || (op >= Op::ld_equal && op <= Op::ld_ge);
+}
+constexpr bool is_contact(Op op) { return op <= Op::anf || (op >= Op::ld_equal && op <= Op::or_ge); }
+constexpr bool joins_blocks(Op op) { return op == Op::anb || op == Op::orb; }
+constexpr bool reads_group(Op op) { return op == Op::cj || op == Op::cjn || op == Op::if_; }
+
+}  // namespace understudy::interpreter::super_40nc
