@@ -9,6 +9,7 @@
 #include <random>
 
 #include "tests/motion/exact_trapezoid.h"
+#include "tests/sanitized.h"
 
 namespace understudy::motion {
 
@@ -21,17 +22,7 @@ inline std::uint64_t seed() {
 /// How many random cases a test tries: `usual`, a tenth of it under sanitizers, UNDERSTUDY_MOVES if given.
 inline int random_cases(int usual) {
   if (const char* given = std::getenv("UNDERSTUDY_MOVES")) return std::atoi(given);
-#if defined(__SANITIZE_ADDRESS__)
-  return usual / 10;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  return usual / 10;
-#else
-  return usual;
-#endif
-#else
-  return usual;
-#endif
+  return is_address_sanitized() ? usual / 10 : usual;
 }
 
 class RandomMoves {

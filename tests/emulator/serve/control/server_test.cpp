@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "tests/emulator/serve/control/daemon_rig.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::serve {
 namespace server_test {
@@ -421,10 +422,8 @@ TEST(ControlServer, WithoutDescriptorsItRestsUntilAClientHasGone) {
 }
 
 TEST(ControlServer, WithoutDescriptorsItTriesAgainByItself) {
-#ifdef __SANITIZE_ADDRESS__
   // Its check of a virtual call opens a pipe to see whether memory can be read.
-  GTEST_SKIP() << "the sanitizer needs descriptors of its own";
-#endif
+  if (is_address_sanitized()) GTEST_SKIP() << "the sanitizer needs descriptors of its own";
   ServerRig rig;
   rig.serve(rig.path);
   Client waiting(rig.path);

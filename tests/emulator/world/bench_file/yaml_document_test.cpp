@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/files/file_error.h"
+#include "tests/sanitized.h"
 
 namespace understudy::emulator::world {
 namespace yaml_document_test {
@@ -105,10 +106,8 @@ TEST(YamlDocument, AllFilesOfThreeTokensAreReadAtOnce) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     const rlimit limit{.rlim_cur = rlim_t{1} << 30, .rlim_max = rlim_t{1} << 30};
-    setrlimit(RLIMIT_AS, &limit);
-#endif
+    if (!is_sanitized()) setrlimit(RLIMIT_AS, &limit);
     alarm(120);
     try {
       try_all("", 3);

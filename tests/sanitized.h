@@ -1,0 +1,15 @@
+// Whether the product under test is looked at by a sanitizer. Tests ask when they run: they may have been
+// compiled without.
+#pragma once
+
+extern "C" {
+__attribute__((weak)) void __asan_init();  // NOLINT: their own names
+__attribute__((weak)) void __tsan_init();
+}
+
+namespace understudy {
+
+inline bool is_address_sanitized() { return &__asan_init != nullptr; }
+inline bool is_sanitized() { return is_address_sanitized() || &__tsan_init != nullptr; }
+
+}  // namespace understudy
