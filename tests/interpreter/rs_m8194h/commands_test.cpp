@@ -87,8 +87,12 @@ TEST(RsM8194hCommands, EachIsCarriedOutInOnePlace) {
     EXPECT_LE(in_macros, 1) << row.meaning;
     EXPECT_TRUE(is_devices || in_macros == 1) << row.meaning;
     const bool has_real_time = !row.real_time_name.empty() && !is_one_of(row.verb, kDownloadVerbs);
-    if (has_real_time) EXPECT_TRUE(is_devices) << row.meaning;
-    if (is_line && in_macros == 1 && !has_real_time) EXPECT_FALSE(is_devices) << row.meaning;
+    if (has_real_time) {
+      EXPECT_TRUE(is_devices) << row.meaning;
+    }
+    if (is_line && in_macros == 1 && !has_real_time) {
+      EXPECT_FALSE(is_devices) << row.meaning;
+    }
   }
 }
 

@@ -29,7 +29,7 @@ struct Allowed {
   std::string rule;
   std::int64_t least = 0;
   std::int64_t most = 0;
-  std::vector<std::int64_t> list;
+  std::vector<std::int64_t> list = {};
 
   bool has_range() const { return rule == "number" && list.empty(); }
 };
