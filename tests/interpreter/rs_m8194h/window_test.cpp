@@ -174,7 +174,7 @@ TEST(RsM8194hWindow, AxesAreTheMasksOfTheManualsTables) {
           if (is_setting && value > 0x10 && value < 0x20) is_good = true;
           if (is_one && (value == 1 || value == 2 || value == 4 || value == 8)) {
             // The others of the command are 1, 2 and so on, in its first registers.
-            const auto& parameters = printed::allowed().at(code & 0xFF);
+            const auto parameters = printed::allowed().at(code & 0xFF);
             is_good = true;
             for (std::size_t i = 0; i < parameters.size(); ++i) {
               const std::size_t other = printed::place_of(parameters, i);
