@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/window.h"
+#include "tests/interpreter/rs_m8194h/printed.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace download_test {
@@ -121,6 +123,8 @@ TEST(RsM8194hDownload, EachErrorShowsItsLineCommandAndCode) {
       {0x09, {"NEXT"}, {Fault::next_outside}, 0x0AD6, 0},
       {0x09, {"FOR 2", "IF 1 < 2", "NEXT", "END_IF", "NEXT"}, {Fault::next_outside}, 0x0AD6, 2},
       {0x0A, {"FOR 2", "SET_VAR VAR1 1"}, {Fault::for_open}, 0x0AD5, 0},
+      {0x0A, {"SET_VAR VAR1 1", "FOR 2", "IF 1 < 2"}, {Fault::for_open}, 0x0AD5, 1},
+      {0x05, {"IF 1 < 2", "FOR 2", "GOTO 1"}, {Fault::if_open}, 0x0AD7, 0},
       {0x0B, {"LABEL 1", "LABEL 2", "LABEL 1"}, {Fault::label_twice}, 0x0AE1, 2},
       {0x0C, {"IF 1 < 2", "LABEL 1", "END_IF"}, {Fault::label_in_if}, 0x0AE1, 1},
       {0x0D, {"FOR 2", "LABEL 1", "NEXT"}, {Fault::label_in_for}, 0x0AE1, 1},
@@ -209,6 +213,28 @@ TEST(RsM8194hDownload, CloseTakesALineIfChosen) {
   EXPECT_TRUE(download({false, 1}, repeated(7, "NEXT"), options).answers.size() == 7U);
   EXPECT_TRUE(download({false, 1}, repeated(7, "SET_VAR VAR1 1"), options).is_stored);
   EXPECT_EQ(download({false, 1}, repeated(8, "SET_VAR VAR1 1"), options).status.error, 0x01);
+}
+
+/// Each in a download of its own, behind what has to be open for it.
+TEST(RsM8194hDownload, EveryPrintedMacroFrameIsALine) {
+  int count = 0;
+  for (const auto& registers : printed::window_frames()) {
+    if (!is_macro_code(registers[0])) continue;
+    ++count;
+    SCOPED_TRACE(name_of(registers[0]));
+    const bool is_of_isr = !find_code(registers[0])->use.in_mp;
+    Download going{.name = is_of_isr ? MacroName{true, 20} : MacroName{false, 156}};
+    const Decoded decoded = decode(registers, is_of_isr ? State::isr_download : State::mp_download);
+    ASSERT_EQ(decoded.fault, Fault::none);
+    const Verb verb = decoded.command.verb();
+    if (verb == Verb::else_ || verb == Verb::end_if) add(going, line_of("IF 1 < 2"));
+    if (verb == Verb::next || verb == Verb::exit_for) add(going, line_of("FOR 2"));
+    const std::size_t before = going.lines.size();
+    if (decoded.command.row().closes()) continue;
+    EXPECT_EQ(add(going, decoded.command), Fault::none);
+    EXPECT_EQ(going.lines.size(), before + 1);
+  }
+  EXPECT_GT(count, 100);
 }
 
 /// Its 15 commands, one of which takes two lines, fill the 16 lines of MP59.

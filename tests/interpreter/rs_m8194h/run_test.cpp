@@ -192,6 +192,18 @@ TEST(RsM8194hRun, ReferencesAreReadWhenTheLineRuns) {
                  "1 fault 16 MP41 line 5", "1 fault 16 MP41 line 6", "1 fault 16 MP41 line 7", "1 end"}));
 }
 
+TEST(RsM8194hRun, WhatAVariableHoldsIsNotAReferenceAgain) {
+  Bench bench(mp(41,
+                 "SET_ACTION X 0 0 0 0 1 bVAR3 0 0 0|SET_ACTION X 0 0 0 0 bVAR1 bVAR3 0 0 0|"
+                 "SET_ACTION X 0 0 0 0 1 bVAR2 0 0 0|SET_VAR VAR1 VAR2|FIXED_MOVE X VAR1"));
+  bench.machine.byte_variables = {0, 0, 20, 0x83};
+  bench.machine.variables[2] = 0x7FFF0003;
+  bench.start(41);
+  bench.run(1);
+  EXPECT_EQ(bench.machine.log, (Log{"1 fault 16 MP41 line 0", "1 SET_ACTION X 0 0 0 0 0 bVAR3 0 0 0",
+                                    "1 SET_ACTION X 0 0 0 0 1 20 0 0 0", "1 fault 16 MP41 line 4", "1 end"}));
+}
+
 TEST(RsM8194hRun, ReturnValuesOutliveCallsButNotTheRun) {
   const std::string text =
       mp(1, "SET_RVAR VAR0|GET_ERROR|MP_CALL 2|SET_RVAR VAR2") + mp(2, "SET_RVAR VAR1|GET_EP Y");
@@ -459,6 +471,23 @@ TEST(RsM8194hRun, UnsoundStatesAreKnown) {
   EXPECT_FALSE(is_sound_with([](Execution& e) { e.isrs.push_back(e.mp); }));
   EXPECT_FALSE(is_sound_with([](Execution& e) { e.isrs.push_back({.is_isr = true}); }));
   EXPECT_FALSE(is_sound_with([](Execution& e) { e.mp.is_isr = true; }));
+  EXPECT_FALSE(is_sound_with([](Execution& e) { e.mp.levels[0].loops[0].left = 0; }));
+  EXPECT_FALSE(is_sound_with([](Execution& e) { e.mp = {.hold = Hold::timer}; }));
+  for (const std::uint32_t axes : {0x10U, 0xFFFFFFFFU}) {
+    EXPECT_FALSE(is_sound_with([axes](Execution& e) {
+      e.mp.hold = Hold::axes;
+      e.mp.awaited = axes;
+    }));
+  }
+  for (const auto& [awaited, is_input] :
+       {std::pair(0x00803U, true), std::pair(0x10F0FU, true), std::pair(0x703U, false),
+        std::pair(0x1003U, false), std::pair(0x810U, false), std::pair(0x20803U, false)}) {
+    const bool is_sound_wait = is_sound_with([awaited = awaited](Execution& e) {
+      e.mp.hold = Hold::frnet;
+      e.mp.awaited = awaited;
+    });
+    EXPECT_EQ(is_sound_wait, is_input) << awaited;
+  }
 }
 
 }  // namespace run_test

@@ -199,6 +199,7 @@ TEST(RsM8194hWindow, ParametersThatDependOnEachOther) {
       {"without nINT an ISR is any number", {0x0A98, 1, 0, 0, 0, 0, 0, 999, 21, 0, 0xFFFF}, Fault::none},
       {"with nINT it is one, or none", {0x0A98, 1, 0, 0, 0, 0, 1, 20, 0, 0, 0}, Fault::none},
       {"or a fault", {0x0A98, 1, 0, 0, 0, 0, 1, 21, 0, 0, 0}, Fault::parameter},
+      {"a variable may say either", {0x0C98, 1, 0, 0, 0, 0, 0x80, 999, 0, 0, 0}, Fault::none},
       {"a line has no centre", {0x0A84, 0, 1, 0x7FFF, 0, 0x8000, 0, 0, 1, 0, 1}, Fault::none},
       {"but an end", {0x0A84, 0, 1, 0, 0, 0, 0, 0x7FFE, 0, 0, 1}, Fault::parameter},
       {"a circle has no end", {0x0A84, 0, 4, 0, 1, 0, 1, 0x7FFF, 0, 0x7FFF, 0}, Fault::none},
