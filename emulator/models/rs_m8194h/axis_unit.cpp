@@ -1,0 +1,200 @@
+#include "emulator/models/rs_m8194h/axis_unit.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+#include "motion/axis.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+using motion::Comparator;
+using motion::Counter;
+
+/// What EP counts: the bench's encoder, or the pulses themselves.
+std::int64_t encoder_travel(const AxisUnit& axis, const motion::Axis& motor) {
+  return axis.has_encoder ? motor.encoder_pulses : motor.travel_pulses;
+}
+
+/// Another range, with the count that there is.
+void set_range(Counter& counter, Counter::Range range, std::int64_t ring_top, std::int64_t travel) {
+  const std::int64_t count = counter.at(travel);
+  counter.range = range;
+  counter.ring_top = ring_top;
+  counter.set(count, travel);
+}
+
+motion::Reaction limit_reaction(const BasicSettings& basic) {
+  return basic.limit_stop_mode == 1 ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+}
+
+/// 3.10: edges of both lines, of one, or its rising edges. Up and down pulses are not divided.
+std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
+  const bool is_quadrature = basic.encoder_mode == 0 || basic.encoder_mode == 2;
+  const std::int64_t by = is_quadrature ? std::int64_t{1} << basic.encoder_division : 1;
+  const std::int64_t counts = edges >= 0 ? edges / by : -((-edges + by - 1) / by);
+  return basic.encoder_mode >= 2 ? -counts : counts;
+}
+
+}  // namespace
+
+SpeedRange range_of(const AxisUnit& axis) { return speed_range(axis.basic.max_v); }
+
+motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps) {
+  return law_of(axis.speed, drive_pps, range_of(axis), kNormalShapes[axis.speed.mode],
+                axis.basic.avoids_triangles);
+}
+
+motion::SpeedLaw law_of(const AxisUnit& axis) { return law_at(axis, axis.speed.drive_pps); }
+
+std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor) {
+  return static_cast<std::int32_t>(axis.logic.at(motor.travel_pulses));
+}
+
+std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor) {
+  return static_cast<std::int32_t>(axis.absolute.at(motor.travel_pulses));
+}
+
+std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor) {
+  return static_cast<std::int32_t>(axis.encoder.at(encoder_travel(axis, motor)));
+}
+
+void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value) {
+  axis.logic.set(value, motor.travel_pulses);
+}
+
+void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value) {
+  axis.absolute.set(value, motor.travel_pulses);
+}
+
+void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value) {
+  axis.encoder.set(value, encoder_travel(axis, motor));
+}
+
+void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
+  if (!axis.has_encoder) {
+    // The count goes on from where the pulses have brought it.
+    const std::int32_t count = encoder_count(axis, motor);
+    axis.has_encoder = true;
+    axis.encoder_zero = axis.encoder_raw;
+    motor.set_encoder(0);
+    motor.encoder_seen = motor.encoder_pulses;
+    axis.encoder.set(count, motor.encoder_pulses);
+  }
+  axis.encoder_raw = raw_count;
+  motor.set_encoder(divided(axis.basic, raw_count - axis.encoder_zero));
+}
+
+void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings) {
+  const BasicSettings before = axis.basic;
+  axis.basic = settings;
+  motion::AxisSettings changed = motor.settings;
+  changed.at_limit_plus = changed.at_limit_minus = limit_reaction(settings);
+  changed.at_soft_limit = motion::Reaction::slow_down;
+  changed.at_alarm = changed.at_emergency = motion::Reaction::stop_at_once;
+  changed.needs_servo = false;
+  changed.waits_for_in_position = settings.in_position;
+  motor.set(changed);
+  if (before.ring != settings.ring || before.ring_top != settings.ring_top) {
+    const auto range = settings.ring ? Counter::Range::ring : Counter::Range::bits32;
+    set_range(axis.logic, range, settings.ring ? settings.ring_top : 0, motor.travel_pulses);
+    set_range(axis.encoder, range, settings.ring ? settings.ring_top : 0, encoder_travel(axis, motor));
+  }
+  const bool counts_otherwise =
+      before.encoder_mode != settings.encoder_mode || before.encoder_division != settings.encoder_division;
+  if (axis.has_encoder && counts_otherwise) {
+    // From here on: what was counted stays.
+    const std::int32_t count = encoder_count(axis, motor);
+    axis.encoder_zero = axis.encoder_raw;
+    motor.set_encoder(0);
+    motor.encoder_seen = motor.encoder_pulses;
+    axis.encoder.set(count, motor.encoder_pulses);
+  }
+}
+
+void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked) {
+  struct Comparison {
+    motion::Event event;
+    std::size_t which;  // C+, C-
+    Comparator::Relation relation;
+  };
+  static constexpr Comparison kComparisons[] = {
+      {motion::Event::comparator_0, 0, Comparator::Relation::at_least},
+      {motion::Event::comparator_1, 0, Comparator::Relation::below},
+      {motion::Event::comparator_2, 1, Comparator::Relation::below},
+      {motion::Event::comparator_3, 1, Comparator::Relation::at_least},
+  };
+  for (const Comparison& each : kComparisons) {
+    const Compare& mine = axis.compare[each.which];
+    Comparator wanted;
+    if ((asked.events & motion::bit(each.event)) != 0) {
+      if ((asked.stopping & motion::bit(each.event)) != 0) wanted.reaction = asked.stop;
+      wanted.relation = each.relation;
+      wanted.value = mine.value;
+      wanted.counter = mine.source == 0 ? axis.logic : axis.encoder;
+      const bool by_pulses = mine.source == 0 || !axis.has_encoder;
+      wanted.count = by_pulses ? motion::Count::command : motion::Count::encoder;
+    }
+    const auto number = static_cast<std::size_t>(each.event);
+    wanted.was_true = motor.comparators[number].was_true;
+    if (wanted != motor.comparators[number]) motor.set_comparator(number, wanted);
+  }
+  motion::AxisSettings changed = motor.settings;
+  constexpr motion::Events kCostly = motion::bit(motion::Event::pulse) |
+                                     motion::bit(motion::Event::constant_started) |
+                                     motion::bit(motion::Event::constant_ended);
+  changed.raises = asked.events & kCostly;
+  changed.soft_limit_plus.reset();
+  changed.soft_limit_minus.reset();
+  const bool by_pulses = axis.basic.soft_limit_source == 0 || !axis.has_encoder;
+  if (axis.basic.soft_limits && by_pulses) {
+    const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
+    changed.soft_limit_plus = axis.basic.forward_soft_limit - counter.offset;
+    changed.soft_limit_minus = axis.basic.reverse_soft_limit - counter.offset;
+  }
+  if (changed != motor.settings) motor.set(changed);
+}
+
+motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way) {
+  const bool by_encoder = axis.basic.soft_limits && axis.basic.soft_limit_source == 1 && axis.has_encoder;
+  if (!by_encoder) return motion::Cause::none;
+  const std::int32_t count = encoder_count(axis, motor);
+  if (way > 0 && count >= axis.basic.forward_soft_limit) return motion::Cause::soft_limit_plus;
+  if (way < 0 && count <= axis.basic.reverse_soft_limit) return motion::Cause::soft_limit_minus;
+  return motion::Cause::none;
+}
+
+std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving) {
+  const auto is_on = [&](Pin pin) { return (axis.pins.passed & bit_of(pin)) != 0; };
+  const BasicSettings& basic = axis.basic;
+  const bool bits[] = {
+      is_driving,
+      is_active(is_on(Pin::limit_plus), basic.forward_limit_level),
+      is_active(is_on(Pin::limit_minus), basic.reverse_limit_level),
+      emergency_is_on,
+      basic.alarm && is_active(is_on(Pin::alarm), basic.alarm_level),
+      !is_on(Pin::home),
+      !is_on(Pin::near_home),
+      !is_on(Pin::in3),
+      !is_on(Pin::in_position),
+      !is_on(Pin::index),
+  };
+  std::uint16_t word = 0;
+  for (std::size_t i = 0; i < std::size(bits); ++i) word |= static_cast<std::uint16_t>(bits[i] ? 1U << i : 0);
+  return word;
+}
+
+std::uint16_t di_signal_word(const AxisUnit& axis) {
+  const auto is_on = [&](Pin pin) { return (axis.pins.passed & bit_of(pin)) != 0; };
+  // IN0 to IN3 are 0 while on, the others 1 (12.5.4).
+  const bool bits[] = {!is_on(Pin::near_home),  !is_on(Pin::home),         !is_on(Pin::index),
+                       !is_on(Pin::in3),        is_on(Pin::external_plus), is_on(Pin::external_minus),
+                       is_on(Pin::in_position), is_on(Pin::alarm)};
+  std::uint16_t word = 0;
+  for (std::size_t i = 0; i < std::size(bits); ++i) word |= static_cast<std::uint16_t>(bits[i] ? 1U << i : 0);
+  return word;
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,222 @@
+// RS-M8194H: what the firmware keeps about an axis, beside the motor that sends its pulses (motion/axis.h).
+//
+//   commands ──> motor ──> travel ──> LP, EP, ABS: three counters of the same pulses
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+#include "base/simulated_time.h"
+#include "base/state/fields.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "motion/axis.h"
+#include "motion/counter.h"
+#include "motion/external_drive.h"
+#include "motion/state_fields.h"
+#include "motion/surroundings.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+/// Bits of ERROR_CODE (4.9.2).
+enum class ErrorBit : std::uint8_t {
+  soft_limit_plus,
+  soft_limit_minus,
+  limit_plus,
+  limit_minus,
+  alarm,
+  emergency,
+  reserved,
+  home,
+  soft_stop,
+  soft_emergency,
+};
+constexpr std::uint16_t bit_of(ErrorBit bit) {
+  return static_cast<std::uint16_t>(1U << static_cast<unsigned>(bit));
+}
+
+/// The factors that call an ISR, nINT 0 to 7 (7.3.12), and the two that inputs 138 and 139 add.
+enum class Factor : std::uint8_t {
+  pulse,
+  at_least_minus,  // P >= C-
+  below_minus,     // P < C-
+  below_plus,      // P < C+
+  at_least_plus,   // P >= C+
+  constant_ended,
+  constant_started,
+  drive_ended,
+  homed,
+  synchronous,
+};
+inline constexpr std::size_t kIsrFactors = 8;
+inline constexpr std::size_t kFactors = 10;
+
+/// A drive of one axis that a command asks for.
+struct Drive {
+  enum class What : std::uint8_t { none, fixed, absolute, endless, home, scan };
+  What what = What::none;
+  std::int32_t value = 0;  // pulses, a place, or pulses a second
+
+  bool operator==(const Drive&) const = default;
+};
+
+/// C+ or C-: where, and of which counter (7.3.6).
+struct Compare {
+  std::int32_t value = 0;
+  std::uint8_t source = 0;  // 0 LP, 1 EP
+
+  bool operator==(const Compare&) const = default;
+};
+
+/// What an activated axis does beyond motion/synchronous.h (7.3.5).
+struct OutSettings {
+  std::uint8_t level = 0;       // outEdge
+  std::uint8_t width_code = 0;  // PulseWidth
+  std::int64_t pulses = 0;      // given so far
+
+  bool operator==(const OutSettings&) const = default;
+};
+
+/// A level that the input filter lets through only after a while (3.14).
+struct FilteredPins {
+  std::uint16_t raw = 0;                  // as at the terminals; a bit is 1 while conducting
+  std::uint16_t passed = 0;               // as the chip sees them
+  std::array<Tick, kPinsOfAxis> since{};  // when a raw bit last changed
+
+  bool operator==(const FilteredPins&) const = default;
+};
+
+struct AxisUnit {
+  BasicSettings basic{};
+  SpeedSettings speed{};
+  HomeSettings homing{};
+  motion::Counter logic{};
+  motion::Counter absolute{};
+  motion::Counter encoder{};  // of the travel, or of the bench's encoder where there is one
+  bool has_encoder = false;
+  std::int64_t encoder_raw = 0;   // as the bench tells it: edges
+  std::int64_t encoder_zero = 0;  // raw count where the divided one was 0
+  std::int64_t sent_pulses = 0;   // in the last tick
+  std::uint16_t error_code = 0;
+  bool locked = false;       // by STOP_*
+  bool path_locked = false;  // by VSTOP_*
+  bool held = false;         // DRV_HOLD
+  Drive held_drive{};        // waits for DRV_START
+  FilteredPins pins{};
+  motion::ExternalDrive external{};
+  std::uint32_t external_pps = 0;                // of EXD_CP
+  std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP-
+  std::array<Compare, 2> compare{};              // C+, C-
+  std::uint8_t factors = 0;                      // INTFACTOR_ENABLE, a bit for each nINT
+  std::array<std::uint8_t, kIsrFactors> isr_of{};
+  std::uint8_t action_isr = 0;  // of its action set
+  OutSettings out{};
+  std::int32_t latched = 0;
+
+  bool operator==(const AxisUnit&) const = default;
+};
+
+SpeedRange range_of(const AxisUnit& axis);
+/// The law of a drive at another speed than V.
+motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps);
+motion::SpeedLaw law_of(const AxisUnit& axis);
+
+/// The three counters.
+std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
+std::int32_t absolute_count(const AxisUnit& axis, const motion::Axis& motor);
+std::int32_t encoder_count(const AxisUnit& axis, const motion::Axis& motor);
+void set_logic_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value);
+void set_absolute_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value);
+void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t value);
+/// The bench's encoder has come to this count of edges.
+void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
+
+/// Puts the basic settings in force, beside what runs.
+void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings);
+/// What of an axis's events somebody waits for.
+struct Asked {
+  motion::Events events = 0;
+  motion::Events stopping = 0;  // comparisons that stop the axis itself, at their pulse
+  motion::Reaction stop = motion::Reaction::ignore;
+};
+/// Limits and comparators as the motor watches them: again whenever a counter or one of them is set.
+void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked);
+/// Of a soft limit on a bench's encoder, which the motor does not watch: the cause of a motion in `way` that
+/// may not go on.
+motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way);
+
+/// DI_ALL (4.6.2) and DI_SIGNAL (4.7.2).
+std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving);
+std::uint16_t di_signal_word(const AxisUnit& axis);
+/// Whether a pin is at the level that a setting calls active: 0 is low, and on is low.
+constexpr bool is_active(bool is_on, std::uint8_t level_setting) { return is_on == (level_setting == 0); }
+
+}  // namespace understudy::emulator::models::rs_m8194h
+
+namespace understudy {
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::Drive::What> {
+  static constexpr auto last = emulator::models::rs_m8194h::Drive::What::scan;
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::Drive> {
+  using Value = emulator::models::rs_m8194h::Drive;
+  static constexpr auto fields = std::tuple{field("what", &Value::what), field("value", &Value::value)};
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::Compare> {
+  using Value = emulator::models::rs_m8194h::Compare;
+  static constexpr auto fields = std::tuple{field("value", &Value::value), field("source", &Value::source)};
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::OutSettings> {
+  using Value = emulator::models::rs_m8194h::OutSettings;
+  static constexpr auto fields =
+      std::tuple{field("level", &Value::level), field("width_code", &Value::width_code),
+                 field("pulses", &Value::pulses)};
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::FilteredPins> {
+  using Value = emulator::models::rs_m8194h::FilteredPins;
+  static constexpr auto fields =
+      std::tuple{field("raw", &Value::raw), field("passed", &Value::passed), field("since", &Value::since)};
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
+  using Value = emulator::models::rs_m8194h::AxisUnit;
+  static constexpr auto fields = std::tuple{field("basic", &Value::basic),
+                                            field("speed", &Value::speed),
+                                            field("homing", &Value::homing),
+                                            field("logic", &Value::logic),
+                                            field("absolute", &Value::absolute),
+                                            field("encoder", &Value::encoder),
+                                            field("has_encoder", &Value::has_encoder),
+                                            field("encoder_raw", &Value::encoder_raw),
+                                            field("encoder_zero", &Value::encoder_zero),
+                                            field("sent_pulses", &Value::sent_pulses),
+                                            field("error_code", &Value::error_code),
+                                            field("locked", &Value::locked),
+                                            field("path_locked", &Value::path_locked),
+                                            field("held", &Value::held),
+                                            field("held_drive", &Value::held_drive),
+                                            field("pins", &Value::pins),
+                                            field("external", &Value::external),
+                                            field("external_pps", &Value::external_pps),
+                                            field("external_seen", &Value::external_seen),
+                                            field("compare", &Value::compare),
+                                            field("factors", &Value::factors),
+                                            field("isr_of", &Value::isr_of),
+                                            field("action_isr", &Value::action_isr),
+                                            field("out", &Value::out),
+                                            field("latched", &Value::latched)};
+};
+
+}  // namespace understudy

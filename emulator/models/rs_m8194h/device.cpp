@@ -1,0 +1,301 @@
+#include "emulator/models/rs_m8194h/device.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "base/state/difference.h"
+#include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/model.h"
+#include "emulator/models/rs_m8194h/state_fields.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+/// 3.3.
+constexpr std::string_view kPulseFormats[] = {"CW/CCW rising",      "CW/CCW falling",
+                                              "PULSE rising/DIR -", "PULSE falling/DIR -",
+                                              "PULSE rising/DIR +", "PULSE falling/DIR +"};
+
+std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
+  return words[static_cast<std::size_t>(number)];
+}
+
+}  // namespace
+
+RsM8194h::RsM8194h(const DeviceSettings& given)
+    : Device(rs_m8194h::model(), given),
+      RegisterBankOf(*this, *rs_m8194h::model().registers, given.firmware),
+      KeptMemory(rs_m8194h::model().name, given.firmware) {
+  state_.blocks = TextBlocks(block_kinds());
+  state_.eeprom = factory_memory();
+  blank();
+}
+
+// --- power ---------------------------------------------------------------------------------------------
+
+void RsM8194h::blank_module() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    // The motor stands where it is, and the bench's encoder too.
+    const motion::Axis before = state_.motors[a];
+    const AxisUnit unit = state_.units[a];
+    motion::Axis& motor = state_.motors[a] = motion::Axis{};
+    motor.travel_pulses = motor.base_pulses = before.travel_pulses;
+    motor.watch_low = motor.watch_high = before.travel_pulses;
+    AxisUnit& blank = state_.units[a] = AxisUnit{};
+    blank.has_encoder = unit.has_encoder;
+    blank.encoder_raw = blank.encoder_zero = unit.encoder_raw;
+    blank.pins = unit.pins;
+    blank.external_seen = unit.external_seen;
+    blank.out.pulses = unit.out.pulses;
+    blank.logic.range = blank.absolute.range = blank.encoder.range = motion::Counter::Range::bits32;
+    set_logic_position(blank, motor, 0);
+    set_absolute_position(blank, motor, 0);
+    set_encoder_position(blank, motor, 0);
+    apply_basic(blank, motor, state_.initial_table[a]);
+  }
+  state_.sync = {};
+  state_.paths = {};
+  state_.scans = {};
+  state_.scanning = 0;
+  state_.fifo = {};
+  state_.held_paths.clear();
+  state_.emergency_state = false;
+  state_.rint = 0;
+  state_.interrupts = false;
+  state_.factor_axes = {};
+  state_.marks.clear();
+  state_.execution = {};
+  state_.paused = false;
+  state_.queued_triggers.clear();
+  state_.trigger_holds = {};
+  for (std::size_t a = 0; a < kAxes; ++a) look_again(a);
+}
+
+void RsM8194h::blank() {
+  State made;
+  made.initial_table = initial_table_of(state_.blocks);
+  made.eeprom = std::move(state_.eeprom);
+  made.blocks = std::move(state_.blocks);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    made.units[a].has_encoder = state_.units[a].has_encoder;
+    made.units[a].encoder_raw = state_.units[a].encoder_raw;
+    made.units[a].out.pulses = state_.units[a].out.pulses;
+  }
+  made.image.resize(kSlotCount);
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    for (int i = 0; i < row.count && !row.is_view; ++i, ++next) {
+      made.image[next] = row.persistent && next < made.eeprom.kept().size()
+                             ? made.eeprom.kept()[next]
+                             : static_cast<std::uint32_t>(row.factory);
+    }
+  }
+  state_ = std::move(made);
+  blank_module();
+}
+
+void RsM8194h::power_up() {
+  blank();
+  state_.powered_at = now();
+  state_.steps_left = kStepsOfATick;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = state_.units[a];
+    for (int i = 0; i < 2; ++i) {
+      const Pin pin = i == 0 ? Pin::external_plus : Pin::external_minus;
+      unit.external_seen[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(input(terminal(a, pin)));
+    }
+  }
+  pass_pins(now());
+  for (AxisUnit& unit : state_.units) unit.pins.passed = unit.pins.raw;
+  scan_frnet();
+  heed_triggers(state_.inputs, true);
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    look_again(a);
+    motion::Axis& motor = state_.motors[a];
+    // What is there at power-up is not an edge.
+    motor.signals = state_.here[a].at(motor.travel_pulses);
+  }
+}
+
+void RsM8194h::power_down() {
+  state_.eeprom.lose_power();
+  blank();
+}
+
+void RsM8194h::reset_card() {
+  blank_module();
+  const auto clear = [&](std::size_t first, std::size_t count) {
+    std::fill_n(state_.image.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
+  };
+  clear(kFirstBvarSlot, kBvars);
+  clear(kFirstVarSlot, kVars);
+}
+
+void RsM8194h::load_initial() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    apply_basic(state_.units[a], state_.motors[a], state_.initial_table[a]);
+    state_.units[a].external.mode = motion::ExternalDrive::Mode::off;
+    look_again(a);
+  }
+}
+
+Addressing RsM8194h::addressing(std::uint8_t address) const {
+  if (is_deaf()) return Addressing::ignore;
+  if (address == 0) return Addressing::obey_silently;
+  return address == station_number() ? Addressing::obey_and_reply : Addressing::ignore;
+}
+
+// --- the phases of a tick --------------------------------------------------------------------------------
+
+void RsM8194h::sample_inputs(Tick tick) {
+  const bool changed = take_inputs_changed();
+  const bool waits = std::any_of(state_.units.begin(), state_.units.end(),
+                                 [](const AxisUnit& unit) { return unit.pins.raw != unit.pins.passed; });
+  if (changed || waits) {
+    pass_pins(tick);
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      look_round(a);
+      watch_external(a);
+    }
+  }
+  if (scans_frnet_at(tick)) {
+    const auto before = state_.inputs;
+    scan_frnet();
+    if (state_.inputs != before) heed_triggers(before, false);
+  }
+}
+
+void RsM8194h::step_motion(Tick tick) {
+  step_axes(tick);
+  heed_ends();
+  heed_path_end();
+  act_on_events(tick);
+  step_scans();
+}
+
+void RsM8194h::update_outputs(Tick tick) {
+  start_held();
+  // Macros first; what they leave of the tick is the FIFO's.
+  state_.steps_left = lang::run_tick(state_.execution, tick, kStepsOfATick, state_.paused, {}, *this);
+  start_queued_trigger();
+  run_fifo(state_.steps_left);
+  state_.eeprom.step(tick, state_.image);
+}
+
+/// Whether nothing at all goes on, but for FRnet and what waits to be kept.
+bool RsM8194h::rests() const {
+  if (inputs_changed() || !state_.fifo.waiting.empty() || state_.fifo.stop_wait != 0) return false;
+  if (state_.steps_left != kStepsOfATick || !state_.marks.empty()) return false;
+  if (state_.execution.is_alive() || !state_.queued_triggers.empty()) return false;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    const motion::Axis& motor = state_.motors[a];
+    const AxisUnit& unit = state_.units[a];
+    if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0) return false;
+    if (unit.sent_pulses != 0 || state_.here[a].version != motor.seen_version) return false;
+    if (unit.pins.raw != unit.pins.passed) return false;
+    if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
+    if (state_.scans[a].running) return false;
+  }
+  return state_.scanning == 0 && !state_.paths.together.engaged && state_.held_paths.empty();
+}
+
+Tick RsM8194h::next_active_tick(Tick done) const {
+  if (!rests()) return done + 1;
+  Tick next = std::max(done + 1, state_.eeprom.next_active_tick());
+  if (state_.sent != state_.outputs) next = std::min(next, next_scan(done));
+  for (int i = 0; i < kFrnetGroups * kFrnetChannels; ++i) {
+    const bool is_on = input(kFirstDi + i) != 0;
+    const bool was_on = (word_of(state_.inputs, i / kFrnetChannels) >> (i % kFrnetChannels) & 1) != 0;
+    if (is_on != was_on) return std::min(next, next_scan(done));
+  }
+  return next;
+}
+
+// --- terminals -------------------------------------------------------------------------------------------
+
+bool RsM8194h::output(int number) const {
+  if (number >= kFirstDo) return output_word(number, 1) != 0;
+  if (!powered() || number < kFirstServo) return false;
+  if (number < kFirstOut) return state_.units[static_cast<std::size_t>(number - kFirstServo)].basic.servo;
+  if (number >= kFirstDi) return false;
+  // At rest it is at the other level than its pulses: outEdge 0 is low, and low does not conduct.
+  return state_.units[static_cast<std::size_t>(number - kFirstOut)].out.level == 0;
+}
+
+std::uint32_t RsM8194h::output_word(int first, int count) const {
+  if (first < kFirstDo) return Terminals::output_word(first, count);
+  const int at = first - kFirstDo;
+  std::uint64_t words = 0;
+  for (int i = 0; i < 3 && powered(); ++i) {
+    const int group = at / kFrnetChannels + i;
+    if (group < kFrnetGroups) words |= std::uint64_t{word_of(state_.sent, group)} << (i * kFrnetChannels);
+  }
+  return static_cast<std::uint32_t>(words >> (at % kFrnetChannels) & ((std::uint64_t{1} << count) - 1));
+}
+
+std::int64_t RsM8194h::output_pulses(int number) const {
+  if (number < kFirstOut || number >= kFirstOut + kOuts) return 0;
+  return state_.units[static_cast<std::size_t>(number - kFirstOut)].out.pulses;
+}
+
+std::span<const std::string_view> RsM8194h::pulse_formats() const { return kPulseFormats; }
+
+// --- axes ------------------------------------------------------------------------------------------------
+
+std::int64_t RsM8194h::pulses_this_tick(int axis) const {
+  return powered() ? state_.units[static_cast<std::size_t>(axis)].sent_pulses : 0;
+}
+
+double RsM8194h::speed_pps(int axis) const {
+  const auto a = static_cast<std::size_t>(axis);
+  if (!powered()) return 0;
+  if (state_.paths.together.takes(a)) return state_.paths.together.speed_pps(a, now());
+  const motion::Axis& motor = state_.motors[a];
+  return motor.moving() ? motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction) : 0;
+}
+
+void RsM8194h::set_encoder(int axis, std::int64_t counts) {
+  const auto a = static_cast<std::size_t>(axis);
+  const bool is_first = !state_.units[a].has_encoder;
+  tell_encoder(state_.units[a], state_.motors[a], counts);
+  if (is_first) look_again(a);
+}
+
+std::int64_t RsM8194h::place_pulses(int axis) const {
+  return state_.motors[static_cast<std::size_t>(axis)].travel_pulses;
+}
+
+void RsM8194h::set_edges(int axis, const MachineEdges& edges) {
+  edges_[static_cast<std::size_t>(axis)] = edges;
+  look_round(static_cast<std::size_t>(axis));
+}
+
+// --- its state as bytes -----------------------------------------------------------------------------------
+
+void RsM8194h::write_own_state(StateWriter& writer) const { writer.write(state_); }
+
+std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
+  const auto restored = std::make_shared<State>();
+  restored->eeprom = state_.eeprom;
+  restored->blocks = TextBlocks(block_kinds());
+  reader.read(*restored);
+  restored->eeprom.check_restored(state_.eeprom);
+  restored->blocks.check_restored(state_.blocks);
+  return [this, restored] {
+    state_ = std::move(*restored);
+    compiled_revision_ = UINT64_MAX;
+    // What it cannot have been doing it does not go on with.
+    if (!lang::is_sound(state_.execution, *this)) lang::terminate(state_.execution);
+  };
+}
+
+std::string RsM8194h::own_difference(StateReader& a, StateReader& b) const {
+  return difference_of_saved<State>(a, b);
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

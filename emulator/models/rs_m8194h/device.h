@@ -1,0 +1,222 @@
+// RS-M8194H: four axes on a motion chip, behind a window of registers. The RS-M8194H itself speaks Modbus and
+// checks; the i-8094H beside it has the FIFO, the chip and the macros.
+//
+//   a request ──> window.cpp ──> the FIFO, or at once ──> commands.h: what each command does
+//   a tick: inputs.cpp ──> motion and its events (motion_step.cpp) ──> the FIFO (pace.cpp)
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/machine.h"
+#include "interpreter/rs_m8194h/macro.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+using lang::Took;
+
+class RsM8194h final : public Device,
+                       public RegisterBankOf<RsM8194h>,
+                       public ModbusStation,
+                       public KeptMemory,
+                       public UserProgram,
+                       public Terminals,
+                       public Axes,
+                       private lang::Machine {
+ public:
+  explicit RsM8194h(const DeviceSettings& given);
+
+  RegisterBank* register_bank() override { return this; }
+  const RegisterBank* register_bank() const override { return this; }
+  ModbusStation* modbus() override { return this; }
+  const ModbusStation* modbus() const override { return this; }
+  KeptMemory* memory() override { return this; }
+  const KeptMemory* memory() const override { return this; }
+  UserProgram* user_program() override { return this; }
+  const UserProgram* user_program() const override { return this; }
+  const Terminals* terminals() const override { return this; }
+  Axes* axes() override { return this; }
+  const Axes* axes() const override { return this; }
+
+  // --- registers ---------------------------------------------------------------------------------
+  std::span<std::uint32_t> image() override { return state_.image; }
+  std::span<const std::uint32_t> image() const override { return state_.image; }
+  bool low_word_first() const override { return state_.image[kWordOrderSlot] == 1; }
+  DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
+  void exception_answered(const RefusedRequest& request) override;
+  void register_written(const RegisterRow& row, std::size_t slot) override;
+  void mention_unmodelled(const RegisterRow& row) const override {
+    Device::mention_unmodelled(row.name, row.unmodelled);
+  }
+  Addressing addressing(std::uint8_t address) const override;
+
+  // --- time --------------------------------------------------------------------------------------
+  void sample_inputs(Tick tick) override;
+  void step_motion(Tick tick) override;
+  void update_outputs(Tick tick) override;
+  Tick next_active_tick(Tick done) const override;
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
+  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
+  bool same_state(const Device& other) const override {
+    return state_ == static_cast<const RsM8194h&>(other).state_;
+  }
+
+  // --- terminals and axes ------------------------------------------------------------------------
+  bool output(int terminal) const override;
+  std::uint32_t output_word(int first, int count) const override;
+  std::int64_t output_pulses(int terminal) const override;
+  std::int64_t pulses_this_tick(int axis) const override;
+  double speed_pps(int axis) const override;
+  void set_encoder(int axis, std::int64_t counts) override;
+  bool meets_edges() const override { return true; }
+  std::int64_t place_pulses(int axis) const override;
+  void set_edges(int axis, const MachineEdges& edges) override;
+  std::string_view pulse_format() const override { return pulse_formats()[pulse_format_number()]; }
+  std::span<const std::string_view> pulse_formats() const override;
+  std::size_t pulse_format_number() const override { return state_.units[0].basic.pulse_mode; }
+
+  // --- memory ------------------------------------------------------------------------------------
+  TextBlocks* text_blocks() override { return &state_.blocks; }
+  const TextBlocks* text_blocks() const override { return &state_.blocks; }
+  std::uint64_t kept_revision() const override;
+  void load_program(std::string_view text) override;
+  std::string program_text() const override;
+  void settle_memory() override { state_.eeprom.settle(state_.image); }
+
+  // --- what commands do (commands.h) -------------------------------------------------------------
+  State& state() { return state_; }
+  const State& state() const { return state_; }
+  bool module_is_absent() const { return input(kNoModuleSwitch) != 0; }
+  bool is_deaf() const { return input(kInitSwitch) != 0; }
+
+  /// A checked command from the window: at once, or into the FIFO.
+  DeviceAnswer take(const lang::Command& command);
+  /// Into the FIFO; the room has been found.
+  void queue(const lang::Command& command);
+  /// Carries it out now, or says that it has to wait.
+  Took carry_out(const lang::Command& command) override;
+
+  Going going(std::size_t axis) const;
+  bool is_driving(std::size_t axis) const;
+  AxisMask driving() const;
+  /// A drive of single axes (drives.cpp).
+  Took drive(AxisMask axes, const Drive& what);
+  /// One axis begins, without asking for locks and waits: what it meets at its start becomes its error.
+  void start(std::size_t axis, const Drive& what);
+  /// A path; it may have to wait, be held, or be void (path_commands.cpp).
+  Took follow_path(const lang::Command& command);
+  AxisMask axes_of_path(const lang::Command& command) const;
+  /// Whether a path may begin on these axes now, given that none is running.
+  Start may_start(AxisMask axes, Starter who) const;
+  Start may_start(std::size_t axis, Starter who) const;
+  /// Sets the error bits of what keeps axes from starting.
+  void note_obstacles(AxisMask axes);
+
+  void halt(AxisMask axes, const StopRow& row);
+  void clear_stop(AxisMask axes);
+  void clear_path_stop();
+  void clear_emergency();
+  void hold(AxisMask axes);
+  void release(AxisMask axes);
+  void reset_card();
+  void load_initial();
+  void module_error();
+
+  /// After a setting or a counter has changed: what the motor watches, and what it meets.
+  void look_again(std::size_t axis);
+  bool is_active(std::size_t axis, motion::Signal signal) const;
+  /// An event of an axis that a factor may be waiting for, noted and marked.
+  void note_factor(std::size_t axis, Factor factor);
+  void mark_isr(std::size_t axis, std::uint8_t source, Tick tick);
+  void give_pulse(std::size_t axis);
+  void change_speed(std::size_t axis);
+
+  // --- macros (macros.cpp) -------------------------------------------------------------------------
+  int running_mp() const { return lang::running_mp(state_.execution); }
+  bool mp_runs() const { return state_.execution.mp.is_alive(); }
+  bool isr_runs() const { return !state_.execution.isrs.empty(); }
+  void start_mp(int number);
+  void start_isr(int number);
+  void terminate();
+  /// A message while a macro is being downloaded, or one that opens a download.
+  lang::Fault take_download(const lang::Decoded& decoded);
+  void run_fifo(int& steps);
+  /// Holding 9 was written.
+  void enable_triggers(bool on);
+
+ protected:
+  void power_up() override;
+  void power_down() override;
+  void write_own_state(StateWriter& writer) const override;
+  std::function<void()> read_own_state(StateReader& reader) override;
+  std::string own_difference(StateReader& a, StateReader& b) const override;
+  void write_memory(NvImage& image) const override;
+  void read_memory(const NvImage& image) override;
+
+ private:
+  Eeprom factory_memory() const;
+  /// Everything but what is kept, as at power-up.
+  void blank();
+  void blank_module();
+  bool is_obstructed(std::size_t axis, Obstacle obstacle) const;
+  void look_round(std::size_t axis);
+  void pass_pins(Tick tick);
+  void scan_frnet();
+  bool scans_frnet_at(Tick tick) const;
+  Tick next_scan(Tick after) const;
+  void watch_external(std::size_t axis);
+  void step_axes(Tick tick);
+  void heed_ends();
+  void heed_path_end();
+  void act_on_events(Tick tick);
+  void act_together(Tick tick);
+  void heed_factors(std::size_t axis, Tick tick);
+  void step_scans();
+  std::int64_t scan_count(std::size_t axis) const;
+  bool rests() const;
+  void start_held();
+  /// Of a command that may begin, or joins its stream; throws BadMotion for what cannot be drawn.
+  void draw(const lang::Command& command, const std::array<std::uint8_t, 3>& codes, bool joins);
+
+  // lang::Machine
+  const lang::Macro* macro(const lang::MacroName& name) const override;
+  std::int32_t variable(std::size_t number) const override;
+  void set_variable(std::size_t number, std::int32_t value) override;
+  std::uint8_t byte_variable(std::size_t number) const override;
+  std::int32_t read(const lang::Command& command) const override;
+  bool stand(std::uint32_t axes) const override;
+  bool frnet_input(std::uint32_t group, std::uint32_t channel) const override;
+  int take_isr() override;
+  void mp_ended() override;
+  void terminated() override;
+  void report(const lang::ExecutionFault& fault) override;
+
+  /// Triggers, after a scan (triggers.cpp).
+  void heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start);
+  void fire(int channel, const lang::Trigger& trigger);
+  void start_queued_trigger();
+  const lang::TriggerTable& triggers() const;
+
+  State state_;
+  // Not state: made of the blocks, and again when they have changed.
+  mutable std::array<std::vector<lang::Macro>, 2> macros_{};
+  mutable lang::TriggerTable triggers_{};
+  mutable std::uint64_t compiled_revision_ = UINT64_MAX;
+  void compile() const;
+
+  std::array<MachineEdges, kAxes> edges_{};  // not state: they are told again
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,238 @@
+// Drives of single axes: whether they begin, wait, are held or void (meetings.h), and how they begin.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
+
+#include "emulator/models/rs_m8194h/device.h"
+#include "motion/homing_tables.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+/// Bits of what a motion ends by, or is kept from beginning by.
+std::uint16_t error_of(motion::Cause cause) {
+  switch (cause) {
+    case motion::Cause::soft_limit_plus: return bit_of(ErrorBit::soft_limit_plus);
+    case motion::Cause::soft_limit_minus: return bit_of(ErrorBit::soft_limit_minus);
+    case motion::Cause::limit_plus: return bit_of(ErrorBit::limit_plus);
+    case motion::Cause::limit_minus: return bit_of(ErrorBit::limit_minus);
+    case motion::Cause::alarm: return bit_of(ErrorBit::alarm);
+    case motion::Cause::emergency: return bit_of(ErrorBit::emergency);
+    case motion::Cause::none:
+    case motion::Cause::arrived:
+    case motion::Cause::stopped:
+    case motion::Cause::comparator:
+    case motion::Cause::servo_off:
+    case motion::Cause::homing_failed: break;
+  }
+  return 0;
+}
+
+int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
+
+motion::HomingProgram homing_of(const AxisUnit& unit) {
+  motion::Rsm8194hHoming how;
+  for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
+  how.drive = law_of(unit);
+  how.home = law_at(unit, unit.homing.home_pps);
+  how.offset_pulses = unit.homing.offset_pulses;
+  how.limit_is_home = unit.homing.limit_is_home;
+  return motion::rsm8194h_homing(how);
+}
+
+/// Of an axis on a path, whose cause is that of the one that met something.
+bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
+  const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
+  switch (cause) {
+    case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
+    case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
+    case motion::Cause::alarm: return is_on(motion::Signal::alarm);
+    case motion::Cause::soft_limit_plus:
+      return motor.settings.soft_limit_plus && motor.travel_pulses >= *motor.settings.soft_limit_plus;
+    case motion::Cause::soft_limit_minus:
+      return motor.settings.soft_limit_minus && motor.travel_pulses <= *motor.settings.soft_limit_minus;
+    case motion::Cause::none:
+    case motion::Cause::arrived:
+    case motion::Cause::stopped:
+    case motion::Cause::comparator:
+    case motion::Cause::emergency:
+    case motion::Cause::servo_off:
+    case motion::Cause::homing_failed: break;
+  }
+  return true;
+}
+
+}  // namespace
+
+Going RsM8194h::going(std::size_t axis) const {
+  const motion::Axis& motor = state_.motors[axis];
+  if (motor.homing.active()) return Going::homing;
+  if (state_.paths.together.takes(axis)) return Going::path;
+  return motor.moving() ? Going::single : Going::idle;
+}
+
+bool RsM8194h::is_driving(std::size_t axis) const { return going(axis) != Going::idle; }
+
+AxisMask RsM8194h::driving() const {
+  AxisMask mask = 0;
+  for (std::size_t a = 0; a < kAxes; ++a) mask |= is_driving(a) ? mask_of(a) : AxisMask{0};
+  return mask;
+}
+
+bool RsM8194h::is_active(std::size_t axis, motion::Signal signal) const {
+  return (state_.here[axis].at(state_.motors[axis].travel_pulses, state_.motors[axis].signals) &
+          motion::bit(signal)) != 0;
+}
+
+bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle) const {
+  const AxisUnit& unit = state_.units[axis];
+  switch (obstacle) {
+    case Obstacle::emergency_state: return state_.emergency_state;
+    case Obstacle::lock: return unit.locked;
+    case Obstacle::path_lock: return unit.path_locked;
+    case Obstacle::emergency_input: return is_active(axis, motion::Signal::emergency);
+    case Obstacle::alarm: return is_active(axis, motion::Signal::alarm);
+    case Obstacle::hold: return unit.held;
+  }
+  return false;
+}
+
+Start RsM8194h::may_start(std::size_t axis, Starter who) const {
+  const bool by_command = who == Starter::command;
+  Start held = Start::starts;
+  for (const ObstacleRow& row : kObstacleRows) {
+    const Start outcome = by_command ? row.command : row.external;
+    if (outcome == Start::starts || !is_obstructed(axis, row.obstacle)) continue;
+    if (outcome == Start::is_void) return outcome;
+    held = outcome;
+  }
+  const GoingRow& row = kGoingRows[static_cast<std::size_t>(going(axis))];
+  const Start outcome = by_command ? row.command : row.external;
+  return outcome == Start::starts ? held : outcome;
+}
+
+Start RsM8194h::may_start(AxisMask axes, Starter who) const {
+  Start worst = Start::starts;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    const Start mine = may_start(a, who);
+    if (mine == Start::is_void) return mine;
+    if (mine == Start::waits || worst == Start::starts) worst = mine;
+  }
+  return worst;
+}
+
+void RsM8194h::note_obstacles(AxisMask axes) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    for (const ObstacleRow& row : kObstacleRows) {
+      if (row.sets_error && is_obstructed(a, row.obstacle)) state_.units[a].error_code |= bit_of(row.error);
+    }
+  }
+}
+
+Took RsM8194h::drive(AxisMask axes, const Drive& what) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(axes, a) && may_start(a, Starter::command) == Start::waits) return Took::waits;
+  }
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    switch (may_start(a, Starter::command)) {
+      case Start::starts: start(a, what); break;
+      case Start::is_void: note_obstacles(mask_of(a)); break;
+      case Start::is_held:
+        // The later one replaces what was held of this axis.
+        state_.units[a].held_drive = what;
+        if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
+          state_.held_paths.clear();
+        }
+        break;
+      case Start::waits: break;
+    }
+  }
+  return Took::done;
+}
+
+void RsM8194h::start(std::size_t axis, const Drive& what) {
+  AxisUnit& unit = state_.units[axis];
+  motion::Axis& motor = state_.motors[axis];
+  Paths& paths = state_.paths;
+  if (paths.open && !paths.together.engaged && has(paths.axes, axis)) paths.open = false;
+  // What a command finds at its pins is what they are now.
+  motor.signals = state_.here[axis].at(motor.travel_pulses, motor.signals);
+  std::int64_t distance = what.value;
+  if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);
+  if (what.what != Drive::What::home && distance == 0) return;
+  if (what.what == Drive::What::endless)
+    unit.speed.drive_pps = static_cast<std::uint32_t>(std::abs(distance));
+  const int way = distance < 0 ? -1 : +1;
+  motion::Cause refused = motion::Cause::none;
+  if (what.what == Drive::What::home) {
+    refused = motor.home(homing_of(unit), now());
+  } else if (const auto beyond = soft_limit_by_encoder(unit, motor, way); beyond != motion::Cause::none) {
+    refused = beyond;
+  } else if (what.what == Drive::What::endless) {
+    refused = motor.run(way, law_of(unit), now());
+  } else {
+    refused = motor.move(distance, law_of(unit), now());
+  }
+  if (refused != motion::Cause::none) {
+    // Homing that cannot begin has found its index on already.
+    unit.error_code |= refused == motion::Cause::homing_failed ? bit_of(ErrorBit::home) : error_of(refused);
+    return;
+  }
+  unit.error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+  if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
+    scan.running = true;
+    scan.begin = scan_count(axis);
+    scan.triggered = 0;
+  }
+}
+
+void RsM8194h::start_held() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = state_.units[a];
+    if (unit.held_drive.what == Drive::What::none || unit.held) continue;
+    const Start outcome = may_start(a, Starter::command);
+    if (outcome == Start::waits) continue;
+    const Drive what = std::exchange(unit.held_drive, Drive{});
+    if (outcome == Start::starts) {
+      start(a, what);
+    } else {
+      note_obstacles(mask_of(a));
+    }
+  }
+  if (state_.held_paths.empty()) return;
+  const lang::Command path = state_.held_paths.front();
+  const Start outcome = may_start(axes_of_path(path), Starter::command);
+  if (outcome == Start::is_held || outcome == Start::waits) return;
+  state_.held_paths.clear();
+  follow_path(path);
+}
+
+/// What ended in this tick leaves its cause in the error code.
+void RsM8194h::heed_ends() {
+  const bool was_on_path = state_.paths.runs != Paths::Runs::nothing;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    const motion::Axis& motor = state_.motors[a];
+    AxisUnit& unit = state_.units[a];
+    if ((motor.events & motion::bit(motion::Event::homed)) != 0) note_factor(a, Factor::homed);
+    if ((motor.events & motion::bit(motion::Event::ended)) == 0) continue;
+    motion::Cause cause = motor.cause;
+    if (cause == motion::Cause::homing_failed) {
+      cause = motor.homing.ended_by;
+      constexpr std::uint8_t kIndexPhase = 20;
+      const auto row = static_cast<std::size_t>(motor.homing.ended_in);
+      const bool by_index = cause == motion::Cause::homing_failed && motor.homing.ended_in >= 0 &&
+                            motor.homing.program.phases[row].code == kIndexPhase;
+      if (by_index) unit.error_code |= bit_of(ErrorBit::home);
+    }
+    if (!was_on_path || !has(state_.paths.axes, a) || is_its_own(motor, cause)) {
+      unit.error_code |= error_of(cause);
+    }
+  }
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,217 @@
+// RS-M8194H: what the commands of synchronous actions, interrupts, stops and macros do (7.3, 7.5, 8, 9).
+#pragma once
+
+#include "emulator/models/rs_m8194h/setting_commands.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+/// nDRV, nLATCH, nPRESET, nOUT, nINT and the ISR of each axis, from a parameter on, for a mask of axes.
+inline void set_actions(RsM8194h& it, AxisMask axes, const Command& command, std::size_t first) {
+  for_each_axis(axes, [&](std::size_t a) {
+    motion::SyncAction& action = it.state().sync.actions[a];
+    const std::int64_t preset = action.preset_value;
+    action = {.drive = static_cast<motion::SyncAction::Drive>(command.values[first]),
+              .latch_command = command.values[first + 1] == 1,
+              .latch_encoder = command.values[first + 1] == 2,
+              .preset = static_cast<motion::SyncAction::Preset>(command.values[first + 2]),
+              .preset_value = preset,
+              .output = command.values[first + 3] == 1,
+              .interrupt = command.values[first + 4] == 1};
+    it.state().units[a].action_isr = byte_at(command, first + 5 + a);
+    it.look_again(a);
+  });
+}
+inline void set_factors(RsM8194h& it, AxisMask triggers, std::uint32_t factors) {
+  for_each_axis(triggers, [&](std::size_t a) {
+    it.state().sync.triggers[a].factors = static_cast<motion::Events>(factors & 0xFFU);
+    it.state().factor_axes[static_cast<std::size_t>(Factor::synchronous)] &=
+        static_cast<AxisMask>(~mask_of(a));
+    it.look_again(a);
+  });
+}
+inline void set_activated(RsM8194h& it, AxisMask triggers, AxisMask activated) {
+  for_each_axis(triggers, [&](std::size_t a) {
+    it.state().sync.triggers[a].activates = activated;
+    it.look_again(a);
+  });
+}
+
+inline Took sync_action(RsM8194h& it, const Command& command) {
+  const AxisMask triggers = axes_at(command, 0);
+  const AxisMask activated = axes_at(command, 1);
+  set_activated(it, triggers, activated);
+  set_actions(it, activated, command, 3);
+  set_factors(it, triggers, command.values[2]);
+  return Took::done;
+}
+inline Took clear_sync_action(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    motion::SyncTable::Trigger& trigger = it.state().sync.triggers[a];
+    for_each_axis(trigger.activates, [&](std::size_t other) {
+      it.state().sync.actions[other] = {.preset_value = it.state().sync.actions[other].preset_value};
+      it.state().units[other].action_isr = 0;
+    });
+    trigger = {};
+  });
+  for (std::size_t a = 0; a < kAxes; ++a) it.look_again(a);
+  return Took::done;
+}
+inline Took activation_factors(RsM8194h& it, const Command& command) {
+  set_factors(it, axes_at(command, 0), command.values[1]);
+  return Took::done;
+}
+inline Took activation_axis(RsM8194h& it, const Command& command) {
+  set_activated(it, axes_at(command, 0), axes_at(command, 1));
+  return Took::done;
+}
+inline Took set_action(RsM8194h& it, const Command& command) {
+  set_actions(it, axes_at(command, 0), command, 1);
+  return Took::done;
+}
+/// C+ or C-; the soft limits end (7.3.6).
+inline Took set_compare(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    AxisUnit& unit = it.state().units[a];
+    unit.compare[command.values[1] & 1U] = {.value = command.signed_value(3), .source = byte_at(command, 2)};
+    unit.basic.soft_limits = false;
+    it.look_again(a);
+  });
+  return Took::done;
+}
+inline Took set_preset(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0),
+                [&](std::size_t a) { it.state().sync.actions[a].preset_value = command.signed_value(1); });
+  return Took::done;
+}
+inline Took set_out(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    OutSettings& out = it.state().units[a].out;
+    out.level = byte_at(command, 1);
+    out.width_code = byte_at(command, 2);
+  });
+  return Took::done;
+}
+
+template <bool on>
+Took switch_interrupts(RsM8194h& it, const Command&) {
+  it.state().interrupts = on;
+  return Took::done;
+}
+inline void forget_factor(RsM8194h& it, std::size_t axis, std::size_t factor) {
+  it.state().factor_axes[factor] &= static_cast<AxisMask>(~mask_of(axis));
+}
+inline Took enable_factor(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    AxisUnit& unit = it.state().units[a];
+    const std::size_t factor = command.values[1] % kIsrFactors;
+    unit.factors |= static_cast<std::uint8_t>(1U << factor);
+    unit.isr_of[factor] = byte_at(command, 2);
+    forget_factor(it, a, factor);
+    it.look_again(a);
+  });
+  return Took::done;
+}
+inline Took disable_factor(RsM8194h& it, const Command& command) {
+  constexpr std::uint32_t kAllFactors = 10;
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    for (std::size_t factor = 0; factor < kIsrFactors; ++factor) {
+      if (command.values[1] != kAllFactors && command.values[1] != factor) continue;
+      it.state().units[a].factors &= static_cast<std::uint8_t>(~(1U << factor));
+      it.state().units[a].isr_of[factor] = 0;
+      forget_factor(it, a, factor);
+    }
+    it.look_again(a);
+  });
+  return Took::done;
+}
+
+inline Took hold(RsM8194h& it, const Command& command) {
+  it.hold(axes_at(command, 0));
+  return Took::done;
+}
+inline Took release(RsM8194h& it, const Command& command) {
+  it.release(axes_at(command, 0));
+  return Took::done;
+}
+inline Took stop_axes(RsM8194h& it, const Command& command) {
+  it.halt(axes_at(command, 0), stop_row(command.verb()));
+  return Took::done;
+}
+/// The axes of what interpolates; if nothing does, those of AXIS_ASSIGN.
+inline Took stop_path(RsM8194h& it, const Command& command) {
+  const Paths& paths = it.state().paths;
+  it.halt(paths.together.engaged ? paths.axes : mask_of_codes(paths.assigned), stop_row(command.verb()));
+  return Took::done;
+}
+inline Took emergency_stop(RsM8194h& it, const Command& command) {
+  it.halt(kAllAxes, stop_row(command.verb(), command.values[0]));
+  it.state().fifo = {};
+  it.state().emergency_state = true;
+  return Took::done;
+}
+inline Took clear_stop(RsM8194h& it, const Command& command) {
+  it.clear_stop(axes_at(command, 0));
+  return Took::done;
+}
+inline Took clear_path_stop(RsM8194h& it, const Command&) {
+  it.clear_path_stop();
+  return Took::done;
+}
+inline Took clear_emergency_stop(RsM8194h& it, const Command&) {
+  it.clear_emergency();
+  return Took::done;
+}
+inline Took stop_wait(RsM8194h& it, const Command& command) {
+  it.state().fifo.stop_wait = axes_at(command, 0);
+  return Took::done;
+}
+inline Took load_initial(RsM8194h& it, const Command&) {
+  it.load_initial();
+  return Took::done;
+}
+inline Took begin_mp(RsM8194h& it, const Command& command) {
+  it.start_mp(static_cast<int>(command.values[0]));
+  return Took::done;
+}
+inline Took call_isr(RsM8194h& it, const Command& command) {
+  it.start_isr(static_cast<int>(command.values[0]));
+  return Took::done;
+}
+inline Took terminate(RsM8194h& it, const Command&) {
+  it.terminate();
+  return Took::done;
+}
+
+// clang-format off
+inline constexpr CommandRow kEventCommands[] = {
+    {Verb::sync_action,            sync_action},
+    {Verb::clear_sync_action,      clear_sync_action},
+    {Verb::set_activation_factors, activation_factors},
+    {Verb::set_activation_axis,    activation_axis},
+    {Verb::set_action,             set_action},
+    {Verb::set_compare,            set_compare},
+    {Verb::set_preset,             set_preset},
+    {Verb::set_out,                set_out},
+    {Verb::enable_int,             switch_interrupts<true>},
+    {Verb::disable_int,            switch_interrupts<false>},
+    {Verb::intfactor_enable,       enable_factor},
+    {Verb::intfactor_disable,      disable_factor},
+    {Verb::drv_hold,               hold},
+    {Verb::drv_start,              release},
+    {Verb::stop_slowly,            stop_axes},
+    {Verb::stop_suddenly,          stop_axes},
+    {Verb::vstop_slowly,           stop_path},
+    {Verb::vstop_suddenly,         stop_path},
+    {Verb::clear_stop,             clear_stop},
+    {Verb::clear_vstop,            clear_path_stop},
+    {Verb::emergency_stop,         emergency_stop},
+    {Verb::clear_emergency_stop,   clear_emergency_stop},
+    {Verb::stop_wait,              stop_wait},
+    {Verb::load_initial,           load_initial},
+    {Verb::mp_call,                begin_mp},
+    {Verb::isr_call,               call_isr},
+    {Verb::mp_terminate,           terminate},
+};
+// clang-format on
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,202 @@
+// What comes in: pins with their filters, the bench's switches, external drives, the FRnet scan.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "emulator/models/rs_m8194h/device.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+/// Whole ticks by which a filter delays, by FLn; those below 1.024 ms do not show (3.14).
+constexpr std::array<Tick, 8> kFilterTicks{0, 0, 0, 1, 2, 4, 8, 16};
+/// The bit of FEn that filters a pin, in the order of Pin.
+constexpr std::array<std::uint8_t, kPinsOfAxis> kFilterBits{0, 0, 0, 0, 1, 4, 3, 3, 2, 2};
+
+/// The scan takes 2.88 ms (1.1): counted in units of 10 us.
+constexpr Tick kScanUnits = 288;
+constexpr Tick kTickUnits = 100;
+
+Tick filter_ticks(const AxisUnit& unit, int pin) {
+  const bool filters = (unit.basic.filtered >> kFilterBits[static_cast<std::size_t>(pin)] & 1) != 0;
+  return filters ? kFilterTicks[unit.basic.filter_time] : 0;
+}
+
+/// A pin that tells the chip something, and the setting of its active level.
+struct PinFunction {
+  Pin pin;
+  motion::Signal signal;
+};
+constexpr PinFunction kFunctions[] = {
+    {Pin::limit_plus, motion::Signal::limit_plus},
+    {Pin::limit_minus, motion::Signal::limit_minus},
+    {Pin::near_home, motion::Signal::near_home},
+    {Pin::home, motion::Signal::home},
+    {Pin::index, motion::Signal::index},
+    {Pin::in3, motion::Signal::mark},
+    {Pin::in_position, motion::Signal::in_position},
+    {Pin::alarm, motion::Signal::alarm},
+};
+
+/// Whether a pin is active while on; nothing where it is not looked at.
+std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin) {
+  switch (pin) {
+    case Pin::limit_plus: return basic.forward_limit_level == 0;
+    case Pin::limit_minus: return basic.reverse_limit_level == 0;
+    case Pin::near_home: return basic.near_home_level == 0;
+    case Pin::home: return basic.home_level == 0;
+    case Pin::index: return basic.index_level == 0;
+    case Pin::in3: return false;  // the line's level: high while off
+    case Pin::in_position: return basic.in_position_level == 0;
+    case Pin::alarm: return basic.alarm ? std::optional(basic.alarm_level == 0) : std::nullopt;
+    case Pin::external_plus:
+    case Pin::external_minus: break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void RsM8194h::pass_pins(Tick tick) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = state_.units[a];
+    for (int i = 0; i < kPinsOfAxis; ++i) {
+      const auto pin = static_cast<Pin>(i);
+      const std::int32_t level = input(terminal(a, pin));
+      // Counted inputs change with each edge.
+      const bool is_counted = pin == Pin::external_plus || pin == Pin::external_minus;
+      const bool is_on = is_counted ? (level & 1) != 0 : level != 0;
+      const std::uint16_t bit = bit_of(pin);
+      if (((unit.pins.raw & bit) != 0) != is_on) {
+        unit.pins.raw ^= bit;
+        unit.pins.since[static_cast<std::size_t>(i)] = tick;
+      }
+      const bool differs = ((unit.pins.raw ^ unit.pins.passed) & bit) != 0;
+      if (differs && tick - unit.pins.since[static_cast<std::size_t>(i)] >= filter_ticks(unit, i)) {
+        unit.pins.passed ^= bit;
+      }
+    }
+  }
+  state_.emergency_input = input(kEmergencyPin) != 0;
+}
+
+/// What the motor meets: where an input changes with the place, zones; else its level.
+void RsM8194h::look_round(std::size_t axis) {
+  const AxisUnit& unit = state_.units[axis];
+  const MachineEdges& edges = edges_[axis];
+  motion::Surroundings found;
+  for (const PinFunction& function : kFunctions) {
+    const auto active = active_while_on(unit.basic, function.pin);
+    if (!active) continue;
+    const int number = terminal(axis, function.pin);
+    const bool is_filtered = filter_ticks(unit, static_cast<int>(function.pin)) > 0;
+    if (const MachineEdges::Span* const span = is_filtered ? nullptr : edges.span_of(number)) {
+      const bool is_inside = span->level_inside == *active;
+      (is_inside ? found.add(function.signal, span->first, span->last, span->slack)
+                 : found.add_outside(function.signal, span->first, span->last, span->slack));
+    } else if (!is_filtered && edges.index.period != 0 && edges.index.input == number) {
+      const MachineEdges::Index& index = edges.index;
+      const bool is_inside = index.level_inside == *active;
+      found.index_period = index.period;
+      found.index_at = is_inside ? index.at : index.at + index.width;
+      found.index_width = is_inside ? index.width : index.period - index.width;
+    } else {
+      found.set_steady(function.signal, ((unit.pins.passed & bit_of(function.pin)) != 0) == *active);
+    }
+  }
+  found.set_steady(motion::Signal::emergency, state_.emergency_input);
+  motion::Surroundings& here = state_.here[axis];
+  found.version = here.version;
+  if (found == here) return;
+  ++found.version;
+  here = found;
+}
+
+void RsM8194h::look_again(std::size_t axis) {
+  const AxisUnit& unit = state_.units[axis];
+  Asked asked;
+  asked.events = state_.sync.triggers[axis].factors;
+  constexpr motion::Event kEvents[kIsrFactors] = {motion::Event::pulse,
+                                                  motion::Event::comparator_3,
+                                                  motion::Event::comparator_2,
+                                                  motion::Event::comparator_1,
+                                                  motion::Event::comparator_0,
+                                                  motion::Event::constant_ended,
+                                                  motion::Event::constant_started,
+                                                  motion::Event::ended};
+  for (std::size_t i = 0; i < kIsrFactors; ++i) {
+    if ((unit.factors >> i & 1) != 0) asked.events |= motion::bit(kEvents[i]);
+  }
+  // Its own stop is met at the pulse of the comparison.
+  if (has(state_.sync.triggers[axis].activates, axis)) {
+    using Action = motion::SyncAction::Drive;
+    const Action action = state_.sync.actions[axis].drive;
+    asked.stopping = state_.sync.triggers[axis].factors;
+    if (action == Action::stop_at_once) asked.stop = motion::Reaction::stop_at_once;
+    if (action == Action::slow_down) asked.stop = motion::Reaction::slow_down;
+  }
+  arm(unit, state_.motors[axis], asked);
+  look_round(axis);
+}
+
+void RsM8194h::watch_external(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Pin pin = i == 0 ? Pin::external_plus : Pin::external_minus;
+    const auto count = static_cast<std::uint32_t>(input(terminal(axis, pin)));
+    std::uint32_t edges = count - unit.external_seen[i];
+    unit.external_seen[i] = count;
+    // While off nothing but the level at the end matters.
+    if (unit.external.mode == motion::ExternalDrive::Mode::off && edges > 1) edges = 2 - (edges & 1U);
+    for (; edges > 0; --edges) {
+      // A line is high while it does not conduct; each edge turns it over.
+      const bool plus = i == 0 ? !unit.external.plus_high : unit.external.plus_high;
+      const bool minus = i == 1 ? !unit.external.minus_high : unit.external.minus_high;
+      const motion::DriveOrder order = motion::watch_inputs(unit.external, plus, minus, is_driving(axis));
+      using What = motion::DriveOrder::What;
+      if (order.what == What::slow_down) {
+        if (going(axis) == Going::single) state_.motors[axis].slow_down(now());
+        continue;
+      }
+      if (order.what == What::nothing) continue;
+      if (may_start(axis, Starter::external) != Start::starts) {
+        note_obstacles(mask_of(axis));
+        continue;
+      }
+      const bool is_run = order.what == What::run;
+      const auto speed = static_cast<std::int32_t>(std::min<std::uint32_t>(unit.external_pps, INT32_MAX));
+      const std::uint32_t drive_pps = unit.speed.drive_pps;  // the input's speed does not replace V
+      start(axis, {.what = is_run ? Drive::What::endless : Drive::What::fixed,
+                   .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)});
+      unit.speed.drive_pps = drive_pps;
+    }
+  }
+}
+
+bool RsM8194h::scans_frnet_at(Tick tick) const {
+  const Tick since = tick - state_.powered_at;
+  return since * kTickUnits / kScanUnits > (since - 1) * kTickUnits / kScanUnits;
+}
+
+Tick RsM8194h::next_scan(Tick after) const {
+  for (Tick tick = after + 1;; ++tick) {
+    if (scans_frnet_at(tick)) return tick;
+  }
+}
+
+void RsM8194h::scan_frnet() {
+  state_.sent = state_.outputs;
+  for (int group = 0; group < kFrnetGroups; ++group) {
+    std::uint16_t word = 0;
+    for (int channel = 0; channel < kFrnetChannels; ++channel) {
+      const bool is_on = input(kFirstDi + group * kFrnetChannels + channel) != 0;
+      if (is_on) word |= static_cast<std::uint16_t>(1U << channel);
+    }
+    state_.inputs[static_cast<std::size_t>(group)] = word;
+  }
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,246 @@
+// Macros: their download, their store, and what a running one asks of the device.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "base/complete_table.h"
+#include "emulator/models/rs_m8194h/commands.h"
+#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/views.h"
+#include "interpreter/rs_m8194h/listing.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+using lang::Command;
+using lang::Verb;
+
+/// An execution error that the download's codes have no number for.
+constexpr std::uint16_t kUndefinedLine = 0x0F;
+
+std::string_view blocks_of(const lang::MacroName& name) { return name.is_isr ? kIsrBlocks : kMpBlocks; }
+
+/// The lowest axis of a mask: a read names one.
+Cell cell_of_axes(const Command& command) {
+  for (int a = 0; a < static_cast<int>(kAxes); ++a) {
+    if (has(static_cast<AxisMask>(command.values[0]), static_cast<std::size_t>(a)))
+      return {.index = a, .axis = a};
+  }
+  return {};
+}
+
+template <Value (*shows)(const RsM8194h&, Cell)>
+std::int32_t read_axis(const RsM8194h& it, const Command& command) {
+  return static_cast<std::int32_t>(shows(it, cell_of_axes(command)));
+}
+/// One bit, by the second parameter.
+template <Value (*shows)(const RsM8194h&, Cell)>
+std::int32_t read_bit(const RsM8194h& it, const Command& command) {
+  return static_cast<std::int32_t>(shows(it, cell_of_axes(command)) >> command.values[1] & 1);
+}
+std::uint16_t frnet_word(const RsM8194h& it, std::uint32_t group) {
+  const auto number = static_cast<std::size_t>(group % kFrnetGroups);
+  return group < kFrnetGroups ? it.state().outputs[number] : it.state().inputs[number];
+}
+std::int32_t read_group(const RsM8194h& it, const Command& command) {
+  return frnet_word(it, command.values[0]);
+}
+std::int32_t read_channel(const RsM8194h& it, const Command& command) {
+  return frnet_word(it, command.values[0]) >> (command.values[1] % kFrnetChannels) & 1;
+}
+
+using Reads = std::int32_t (*)(const RsM8194h& it, const Command& command);
+constexpr HandlerRow<Verb, Reads> kReads[] = {
+    {Verb::get_lp, read_axis<logic_position>},
+    {Verb::get_ep, read_axis<encoder_position>},
+    {Verb::abs_get_position, read_axis<absolute_position>},
+    {Verb::get_di, read_bit<di_all>},
+    {Verb::get_di_all, read_axis<di_all>},
+    {Verb::get_di_signal, read_bit<di_signal>},
+    {Verb::get_di_signal_all, read_axis<di_signal>},
+    {Verb::get_home_search_state, read_axis<home_state>},
+    {Verb::get_error, read_axis<error_state>},
+    {Verb::get_error_code, read_axis<error_code>},
+    {Verb::frnet_in, read_group},
+    {Verb::frnet_read, read_channel},
+    {Verb::get_latch, read_axis<latch>},
+};
+constexpr CompleteTable<Verb, Reads> kReadTable(lang::kReadVerbs, kReads);
+
+}  // namespace
+
+// --- download
+// ------------------------------------------------------------------------------------------------
+
+lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
+  const std::uint16_t code = decoded.command.code;
+  if (state_.rsm == lang::State::ready) {
+    if (mp_runs()) return lang::Fault::macro_runs;
+    const bool is_isr = decoded.command.verb() == Verb::isr_create;
+    state_.download = {.name = {is_isr, static_cast<int>(decoded.command.values[0])}};
+    state_.rsm = is_isr ? lang::State::isr_download : lang::State::mp_download;
+    return lang::Fault::none;
+  }
+  if (decoded.fault != lang::Fault::none) {
+    lang::refuse(state_.download, code, decoded.fault);
+    return decoded.fault;
+  }
+  if (!decoded.command.row().closes()) return lang::add(state_.download, decoded.command);
+  const lang::MacroName name = state_.download.name;
+  const lang::Closed closed = lang::close(state_.download);
+  state_.downloaded = lang::status_of(state_.download, state_.downloaded);
+  state_.rsm = lang::State::ready;
+  state_.download = kNoDownload;
+  if (closed.macro) {
+    lang::replaced(state_.execution, name, *this);
+    state_.blocks.put(blocks_of(name), std::to_string(name.number),
+                      SharedText(lang::text_of(name, *closed.macro)));
+  }
+  return closed.fault;
+}
+
+// --- store
+// ---------------------------------------------------------------------------------------------------
+
+void RsM8194h::compile() const {
+  if (compiled_revision_ == state_.blocks.revision()) return;
+  compiled_revision_ = state_.blocks.revision();
+  macros_[0].assign(lang::kMpCount + 1, {});
+  macros_[1].assign(lang::kIsrCount + 1, {});
+  triggers_ = {};
+  for (const auto& [kind, entries] : state_.blocks.all()) {
+    if (kind == kInitialBlocks) continue;
+    for (const auto& [name, text] : entries) {
+      lang::ParsedListing parsed = lang::parse_listing(text.text());
+      for (lang::ListedMacro& each : parsed.listing.macros) {
+        macros_[each.name.is_isr ? 1 : 0][static_cast<std::size_t>(each.name.number)] = std::move(each.macro);
+      }
+      for (const lang::ListedTrigger& each : parsed.listing.triggers) {
+        triggers_[static_cast<std::size_t>(each.channel)] = each.trigger;
+      }
+    }
+  }
+}
+
+const lang::Macro* RsM8194h::macro(const lang::MacroName& name) const {
+  compile();
+  const lang::Macro& found = macros_[name.is_isr ? 1 : 0][static_cast<std::size_t>(name.number)];
+  return found.lines.empty() ? nullptr : &found;
+}
+
+const lang::TriggerTable& RsM8194h::triggers() const {
+  compile();
+  return triggers_;
+}
+
+void RsM8194h::load_program(std::string_view text) {
+  const lang::ParsedListing parsed = lang::parse_listing(text);
+  if (!parsed.errors.empty()) throw ProgramError(parsed.errors.front().line, parsed.errors.front().message);
+  for (const lang::ListedMacro& each : parsed.listing.macros) {
+    lang::replaced(state_.execution, each.name, *this);
+    state_.blocks.put(blocks_of(each.name), std::to_string(each.name.number),
+                      SharedText(lang::text_of(each.name, each.macro)));
+  }
+  for (const lang::ListedTrigger& each : parsed.listing.triggers) {
+    state_.blocks.put(kTriggerBlocks, lang::text_of_channel(each.channel),
+                      SharedText(lang::text_of(each.channel, each.trigger)));
+  }
+  if (!parsed.listing.triggers.empty()) heed_triggers(state_.inputs, true);
+}
+
+std::string RsM8194h::program_text() const {
+  compile();
+  lang::Listing listing;
+  for (const bool is_isr : {false, true}) {
+    const auto& macros = macros_[is_isr ? 1 : 0];
+    for (std::size_t number = 1; number < macros.size(); ++number) {
+      if (macros[number].lines.empty()) continue;
+      listing.macros.push_back({{is_isr, static_cast<int>(number)}, macros[number]});
+    }
+  }
+  for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
+    const lang::Trigger& trigger = triggers_[static_cast<std::size_t>(channel)];
+    if (trigger.condition != lang::TriggerCondition::none) listing.triggers.push_back({channel, trigger});
+  }
+  return lang::text_of(listing);
+}
+
+// --- running
+// -------------------------------------------------------------------------------------------------
+
+void RsM8194h::start_mp(int number) {
+  state_.rint &= static_cast<std::uint8_t>(~(bit_of(Rint::mp_completed) | bit_of(Rint::module)));
+  lang::start_mp(state_.execution, number, now() + 1, *this);
+}
+
+void RsM8194h::start_isr(int number) {
+  state_.marks.push_back({.tick = now(),
+                          .axis = kAxes - 1,
+                          .source = IsrMark::kCalled,
+                          .number = static_cast<std::uint8_t>(number)});
+}
+
+void RsM8194h::terminate() {
+  lang::terminate(state_.execution);
+  terminated();
+}
+
+void RsM8194h::terminated() {
+  state_.marks.clear();
+  state_.paused = false;
+}
+
+void RsM8194h::mp_ended() { state_.rint |= bit_of(Rint::mp_completed); }
+
+std::int32_t RsM8194h::variable(std::size_t number) const {
+  return static_cast<std::int32_t>(state_.image[kFirstVarSlot + number]);
+}
+void RsM8194h::set_variable(std::size_t number, std::int32_t value) {
+  state_.image[kFirstVarSlot + number] = static_cast<std::uint32_t>(value);
+}
+std::uint8_t RsM8194h::byte_variable(std::size_t number) const {
+  return static_cast<std::uint8_t>(state_.image[kFirstBvarSlot + number]);
+}
+std::int32_t RsM8194h::read(const Command& command) const {
+  return kReadTable[command.verb()](*this, command);
+}
+bool RsM8194h::stand(std::uint32_t axes) const { return (driving() & axes) == 0; }
+bool RsM8194h::frnet_input(std::uint32_t group, std::uint32_t channel) const {
+  return (frnet_word(*this, group) >> (channel % kFrnetChannels) & 1) != 0;
+}
+
+/// By what is bound, and enabled, as the ISR begins; what is not spends its mark.
+int RsM8194h::take_isr() {
+  while (!state_.marks.empty() && state_.marks.front().tick < now()) {
+    const IsrMark mark = state_.marks.front();
+    state_.marks.erase(state_.marks.begin());
+    const AxisUnit& unit = state_.units[mark.axis];
+    int number = 0;
+    if (mark.source == IsrMark::kCalled) {
+      number = mark.number;
+    } else if (!state_.interrupts) {
+      continue;
+    } else if (mark.source == IsrMark::kSynchronous) {
+      number = state_.sync.actions[mark.axis].interrupt ? unit.action_isr : 0;
+    } else if ((unit.factors >> mark.source & 1) != 0) {
+      number = unit.isr_of[mark.source];
+    }
+    if (number >= 1 && number <= lang::kIsrCount && macro({true, number}) != nullptr) return number;
+  }
+  return 0;
+}
+
+void RsM8194h::report(const lang::ExecutionFault& fault) {
+  const std::uint8_t error = lang::row_of(fault.fault).download_error;
+  const auto number = static_cast<std::uint16_t>(fault.macro.number);
+  state_.execution_fault = {fault.macro.is_isr ? std::uint16_t{0} : number,
+                            fault.macro.is_isr ? number : std::uint16_t{0},
+                            lang::real_time_code(lang::verb_of(fault.code)), fault.line,
+                            error != 0 ? std::uint16_t{error} : kUndefinedLine};
+  module_error();
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,111 @@
+#include "emulator/models/rs_m8194h/memory.h"
+
+#include <array>
+#include <charconv>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/device/memory/register_memory.h"
+#include "emulator/models/rs_m8194h/device.h"
+#include "interpreter/rs_m8194h/listing.h"
+#include "interpreter/rs_m8194h/text.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+/// 512 lines of the longest command are less.
+constexpr std::size_t kLongestMacro = 100'000;
+constexpr std::size_t kLongestLine = 200;
+constexpr std::size_t kLongestTable = 4'000;
+
+std::string why_not_number(const std::string& name, int most) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool is_number = error == std::errc{} && end == name.data() + name.size() && number >= 1 &&
+                         number <= most && std::to_string(number) == name;
+  return is_number ? "" : "is not a number of a macro; expected 1 to " + std::to_string(most);
+}
+std::string why_not_mp(const std::string& name) { return why_not_number(name, lang::kMpCount); }
+std::string why_not_isr(const std::string& name) { return why_not_number(name, lang::kIsrCount); }
+std::string why_not_channel(const std::string& name) {
+  for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
+    if (lang::text_of_channel(channel) == name) return "";
+  }
+  return "is not an input; expected 8.0 to 15.15";
+}
+std::string why_not_axis(const std::string& name) {
+  for (const std::string_view axis : kAxisNames) {
+    if (axis == name) return "";
+  }
+  return "is not an axis; expected X, Y, Z or U";
+}
+std::string why_not_listing(const std::string& text) {
+  const lang::ParsedListing parsed = lang::parse_listing(text);
+  return parsed.errors.empty() ? "" : "line " + to_string(parsed.errors.front());
+}
+std::string why_not_settings(const std::string& text) {
+  std::string_view rest = text;
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    const lang::ParsedCommand parsed = lang::parse_command(rest.substr(0, end));
+    if (!parsed.command || !parsed.command->row().use.initial) {
+      return "line " + std::to_string(line) + ": is not a setting of the Initial Table";
+    }
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  return "";
+}
+
+constexpr BlockKind kKinds[] = {
+    {.name = kInitialBlocks,
+     .most = kAxes,
+     .longest = kLongestTable,
+     .why_not_called = why_not_axis,
+     .why_not_text = why_not_settings},
+    {.name = kIsrBlocks,
+     .most = lang::kIsrCount,
+     .longest = kLongestMacro,
+     .why_not_called = why_not_isr,
+     .why_not_text = why_not_listing},
+    {.name = kMpBlocks,
+     .most = lang::kMpCount,
+     .longest = kLongestMacro,
+     .why_not_called = why_not_mp,
+     .why_not_text = why_not_listing},
+    {.name = kTriggerBlocks,
+     .most = lang::kTriggerCount,
+     .longest = kLongestLine,
+     .why_not_called = why_not_channel,
+     .why_not_text = why_not_listing},
+};
+
+}  // namespace
+
+std::span<const BlockKind> block_kinds() { return kKinds; }
+
+Eeprom RsM8194h::factory_memory() const {
+  std::vector<std::uint32_t> factory;
+  const auto is_kept = std::make_unique<bool[]>(kSlotCount);
+  const auto at_once = std::make_unique<bool[]>(kSlotCount);
+  for (const RegisterRow& row : kRegisters) {
+    for (int i = 0; i < row.count && !row.is_view; ++i) {
+      is_kept[factory.size()] = row.persistent;
+      at_once[factory.size()] = row.needs_no_time;
+      factory.push_back(static_cast<std::uint32_t>(row.factory));
+    }
+  }
+  return Eeprom(factory, {is_kept.get(), kSlotCount}, {at_once.get(), kSlotCount});
+}
+
+std::uint64_t RsM8194h::kept_revision() const { return state_.eeprom.revision() + state_.blocks.revision(); }
+
+void RsM8194h::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+
+void RsM8194h::read_memory(const NvImage& image) {
+  const auto values = read_registers(*this, image, Device::model().firmwares.back());
+  for (std::size_t slot = 0; slot < values.size(); ++slot) state_.eeprom.put(slot, values[slot]);
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

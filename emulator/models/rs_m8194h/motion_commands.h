@@ -1,0 +1,198 @@
+// RS-M8194H: what the commands of counters, outputs, homing, single axes and paths do (4 to 7.2, 7.4).
+#pragma once
+
+#include "emulator/models/rs_m8194h/setting_commands.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+/// A counter of the axes in the first parameter.
+template <void (*set)(AxisUnit& axis, motion::Axis& motor, std::int32_t value)>
+Took set_counter(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    set(it.state().units[a], it.state().motors[a], command.signed_value(1));
+    it.look_again(a);
+  });
+  return Took::done;
+}
+
+inline Took frnet_out(RsM8194h& it, const Command& command) {
+  it.state().outputs[command.values[0] % kFrnetGroups] = static_cast<std::uint16_t>(command.values[1]);
+  return Took::done;
+}
+inline Took frnet_write(RsM8194h& it, const Command& command) {
+  std::uint16_t& word = it.state().outputs[command.values[0] % kFrnetGroups];
+  const auto bit = static_cast<std::uint16_t>(1U << (command.values[1] % kFrnetChannels));
+  word = static_cast<std::uint16_t>(command.values[2] != 0 ? word | bit : word & ~bit);
+  return Took::done;
+}
+
+/// A number of the speed settings; it counts from the next drive on.
+template <auto member>
+Took set_speed(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    auto& number = it.state().units[a].speed.*member;
+    number = static_cast<std::remove_reference_t<decltype(number)>>(command.values[1]);
+  });
+  return Took::done;
+}
+/// V, also of what runs.
+inline Took set_drive_speed(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    it.state().units[a].speed.drive_pps = command.values[1];
+    it.change_speed(a);
+  });
+  return Took::done;
+}
+/// The same of the path, which has no axes.
+template <auto member>
+Took set_vector(RsM8194h& it, const Command& command) {
+  auto& number = it.state().paths.vector.*member;
+  number = static_cast<std::remove_reference_t<decltype(number)>>(command.values[0]);
+  return Took::done;
+}
+
+inline Took home_speed(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0),
+                [&](std::size_t a) { it.state().units[a].homing.home_pps = command.values[1]; });
+  return Took::done;
+}
+inline Took home_limit(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0),
+                [&](std::size_t a) { it.state().units[a].homing.limit_is_home = command.values[1] == 1; });
+  return Took::done;
+}
+inline Took home_mode(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    HomeSettings& homing = it.state().units[a].homing;
+    for (std::size_t i = 0; i < homing.steps.size(); ++i) homing.steps[i] = byte_at(command, 1 + i);
+    homing.offset_pulses = command.values[5];
+  });
+  return Took::done;
+}
+
+template <Drive::What what>
+Took drive(RsM8194h& it, const Command& command) {
+  const std::int32_t value = what == Drive::What::home ? 0 : command.signed_value(1);
+  return it.drive(axes_at(command, 0), {.what = what, .value = value});
+}
+
+/// SET_PULSE: another total of the running move, counted in its own direction (7.1.10, A-53).
+inline Took set_pulse(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    motion::Axis& motor = it.state().motors[a];
+    if (it.going(a) != Going::single || motor.task != motion::Task::move) return;
+    const std::int64_t given = command.signed_value(1);
+    const bool is_against = given != 0 && (given < 0) != (motor.drive.direction < 0);
+    motor.change_distance(is_against ? 0 : std::abs(given), true, it.now());
+  });
+  return Took::done;
+}
+
+inline Took axis_assign(RsM8194h& it, const Command& command) {
+  for (std::size_t i = 0; i < 3; ++i) it.state().paths.assigned[i] = byte_at(command, i);
+  return Took::done;
+}
+
+inline Took path(RsM8194h& it, const Command& command) { return it.follow_path(command); }
+
+/// An INITIAL: for all CONTINUE of its kind; it waits while a stream runs (7.4.2, 7.4.5, 7.4.8).
+template <Stream stream>
+Took initial(RsM8194h& it, const Command& command) {
+  Paths& paths = it.state().paths;
+  if (paths.together.engaged && paths.runs == Paths::Runs::stream) return Took::waits;
+  constexpr std::size_t kAxesNamed = stream == Stream::line_3d ? 3 : 2;
+  constexpr std::size_t kFirstSpeed = stream == Stream::mix_2d ? 3 : kAxesNamed;
+  StreamSettings settings{.given = true};
+  for (std::size_t i = 0; i < kAxesNamed; ++i) settings.axes[i] = byte_at(command, i);
+  settings.constant = stream == Stream::mix_2d && command.values[2] == 0;
+  settings.start_pps = command.values[kFirstSpeed];
+  settings.drive_pps = command.values[kFirstSpeed + 1];
+  settings.acceleration = command.values[kFirstSpeed + 2];
+  paths.streams[static_cast<std::size_t>(stream)] = settings;
+  paths.open = false;
+  it.state().rint &= static_cast<std::uint8_t>(~(bit_of(Rint::stream) | bit_of(Rint::module)));
+  return Took::done;
+}
+
+/// 7.4.12: the setting is used up by the next scan. It takes C+, so the soft limits end.
+inline Took line_scan(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    it.state().scans[a] = {.set = true, .type = byte_at(command, 1), .pitch = command.signed_value(4)};
+    AxisUnit& unit = it.state().units[a];
+    unit.out.level = byte_at(command, 2);
+    unit.out.width_code = byte_at(command, 3);
+    unit.basic.soft_limits = false;
+    it.look_again(a);
+  });
+  return Took::done;
+}
+inline Took line_scan_start(RsM8194h& it, const Command& command) {
+  const AxisMask axes = axes_at(command, 0);
+  if (it.drive(axes, {.what = Drive::What::scan, .value = command.signed_value(2)}) == Took::waits) {
+    return Took::waits;
+  }
+  it.state().rint &= static_cast<std::uint8_t>(~bit_of(Rint::line_scan));
+  it.state().scanning = axes;
+  return Took::done;
+}
+
+// clang-format off
+inline constexpr CommandRow kMotionCommands[] = {
+    {Verb::set_lp,                set_counter<set_logic_position>},
+    {Verb::set_ep,                set_counter<set_encoder_position>},
+    {Verb::abs_set_position,      set_counter<set_absolute_position>},
+    {Verb::frnet_out,             frnet_out},
+    {Verb::frnet_write,           frnet_write},
+    {Verb::set_hv,                home_speed},
+    {Verb::home_limit,            home_limit},
+    {Verb::set_home_mode,         home_mode},
+    {Verb::home_start,            drive<Drive::What::home>},
+    {Verb::normal_speed,          set_speed<&SpeedSettings::mode>},
+    {Verb::set_sv,                set_speed<&SpeedSettings::start_pps>},
+    {Verb::set_v,                 set_drive_speed},
+    {Verb::change_vel_on_fly,     set_drive_speed},
+    {Verb::set_a,                 set_speed<&SpeedSettings::acceleration>},
+    {Verb::set_d,                 set_speed<&SpeedSettings::deceleration>},
+    {Verb::set_k,                 set_speed<&SpeedSettings::jerk_up>},
+    {Verb::set_l,                 set_speed<&SpeedSettings::jerk_down>},
+    {Verb::set_ao,                set_speed<&SpeedSettings::offset_pulses>},
+    {Verb::fixed_move,            drive<Drive::What::fixed>},
+    {Verb::set_pulse,             set_pulse},
+    {Verb::abs_fixed_move,        drive<Drive::What::absolute>},
+    {Verb::continue_move,         drive<Drive::What::endless>},
+    {Verb::axis_assign,           axis_assign},
+    {Verb::vector_speed,          set_vector<&SpeedSettings::mode>},
+    {Verb::set_vsv,               set_vector<&SpeedSettings::start_pps>},
+    {Verb::set_vv,                set_vector<&SpeedSettings::drive_pps>},
+    {Verb::set_va,                set_vector<&SpeedSettings::acceleration>},
+    {Verb::set_vd,                set_vector<&SpeedSettings::deceleration>},
+    {Verb::set_vk,                set_vector<&SpeedSettings::jerk_up>},
+    {Verb::set_vl,                set_vector<&SpeedSettings::jerk_down>},
+    {Verb::set_vao,               set_vector<&SpeedSettings::offset_pulses>},
+    {Verb::line_2d,               path},
+    {Verb::line_3d,               path},
+    {Verb::arc_cw,                path},
+    {Verb::arc_ccw,               path},
+    {Verb::circle_cw,             path},
+    {Verb::circle_ccw,            path},
+    {Verb::abs_line_2d,           path},
+    {Verb::abs_line_3d,           path},
+    {Verb::abs_arc_cw,            path},
+    {Verb::abs_arc_ccw,           path},
+    {Verb::rectangle,             path},
+    {Verb::line_2d_initial,       initial<Stream::line_2d>},
+    {Verb::line_2d_continue,      path},
+    {Verb::abs_line_2d_continue,  path},
+    {Verb::line_3d_initial,       initial<Stream::line_3d>},
+    {Verb::line_3d_continue,      path},
+    {Verb::abs_line_3d_continue,  path},
+    {Verb::mix_2d_initial,        initial<Stream::mix_2d>},
+    {Verb::mix_2d_continue,       path},
+    {Verb::abs_mix_2d_continue,   path},
+    {Verb::helix_3d,              path},
+    {Verb::line_scan,             line_scan},
+    {Verb::line_scan_start,       line_scan_start},
+};
+// clang-format on
+
+}  // namespace understudy::emulator::models::rs_m8194h

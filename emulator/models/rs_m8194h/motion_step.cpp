@@ -1,0 +1,235 @@
+// A tick of the motion chip: the motors, then what their events bring about.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "emulator/device/machine_ahead.h"
+#include "emulator/models/rs_m8194h/device.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+/// The events that are factors of interrupts, in the order of nINT (7.3.12).
+constexpr std::array<motion::Event, kIsrFactors> kFactorEvents{motion::Event::pulse,
+                                                               motion::Event::comparator_3,
+                                                               motion::Event::comparator_2,
+                                                               motion::Event::comparator_1,
+                                                               motion::Event::comparator_0,
+                                                               motion::Event::constant_ended,
+                                                               motion::Event::constant_started,
+                                                               motion::Event::ended};
+
+/// Triggers nearer than 10 us to the last one are left out: 100 of them fit into a tick (7.4.12).
+constexpr std::int64_t kMostTriggersOfATick = 100;
+
+bool starts_something(motion::SyncAction::Drive drive) {
+  using Action = motion::SyncAction::Drive;
+  return drive == Action::fixed_plus || drive == Action::fixed_minus || drive == Action::endless_plus ||
+         drive == Action::endless_minus;
+}
+
+}  // namespace
+
+void RsM8194h::step_axes(Tick tick) {
+  std::array<std::int64_t, kAxes> pulses{};
+  motion::Coordinated& together = state_.paths.together;
+  const bool was_engaged = together.engaged;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    motion::Axis& motor = state_.motors[a];
+    if (together.takes(a)) continue;
+    if (motor.moving() && motor.drive.direction != 0 && !motor.slowing) {
+      const motion::Cause beyond =
+          soft_limit_by_encoder(state_.units[a], motor, static_cast<int>(motor.drive.direction));
+      if (beyond != motion::Cause::none) motor.slow_down(tick - 1, beyond);
+    }
+    pulses[a] = motor.step(tick, state_.here[a]);
+  }
+  if (was_engaged) together.step(tick, state_.motors, state_.here, pulses);
+  for (std::size_t a = 0; a < kAxes; ++a) state_.units[a].sent_pulses = pulses[a];
+}
+
+/// A path that has ended in this tick.
+void RsM8194h::heed_path_end() {
+  Paths& paths = state_.paths;
+  if (paths.together.engaged || paths.runs == Paths::Runs::nothing) return;
+  const bool starved =
+      paths.runs == Paths::Runs::stream && paths.open && paths.together.cause == motion::Cause::arrived;
+  if (starved) state_.rint |= bit_of(Rint::stream);
+  paths.open = starved;
+  paths.runs = Paths::Runs::nothing;
+}
+
+void RsM8194h::note_factor(std::size_t axis, Factor factor) {
+  state_.factor_axes[static_cast<std::size_t>(factor)] |= mask_of(axis);
+}
+
+void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
+  const auto is_same = [&](const IsrMark& mark) { return mark.axis == axis && mark.source == source; };
+  if (std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
+  const IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
+  state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made), made);
+}
+
+void RsM8194h::heed_factors(std::size_t axis, Tick tick) {
+  const AxisUnit& unit = state_.units[axis];
+  for (std::size_t i = 0; i < kIsrFactors; ++i) {
+    const bool is_asked = (unit.factors >> i & 1) != 0;
+    if (!is_asked || (state_.motors[axis].events & motion::bit(kFactorEvents[i])) == 0) continue;
+    note_factor(axis, static_cast<Factor>(i));
+    if (state_.interrupts) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
+  }
+}
+
+void RsM8194h::act_on_events(Tick tick) {
+  bool any_fires = false;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (state_.motors[a].events == 0) continue;
+    heed_factors(a, tick);
+    any_fires = any_fires || (state_.motors[a].events & state_.sync.triggers[a].factors) != 0;
+  }
+  if (any_fires) act_together(tick);
+}
+
+/// Synchronous actions (7.3): the kernel latches, presets and drives; what is the firmware's is done here.
+void RsM8194h::act_together(Tick tick) {
+  motion::SyncTable acting = state_.sync;
+  std::array<bool, kAxes> slows_path{};
+  std::array<bool, kAxes> stops_path{};
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    using Action = motion::SyncAction::Drive;
+    motion::SyncAction& action = acting.actions[a];
+    acting.speeds[a] = law_of(state_.units[a]);
+    // Latches and presets are of the moment of the event; EP counts the pulses where there is no encoder.
+    action.latch_command = action.latch_encoder = true;
+    const bool on_path = state_.paths.together.takes(a);
+    slows_path[a] = on_path && action.drive == Action::slow_down;
+    stops_path[a] = on_path && action.drive == Action::stop_at_once;
+    const bool is_void = starts_something(action.drive) && may_start(a, Starter::external) != Start::starts;
+    if (is_void || on_path) action.drive = Action::none;
+  }
+  const motion::SyncOutcome outcome = motion::act(acting, state_.motors, tick);
+  state_.sync.distance_pulses = acting.distance_pulses;
+
+  AxisMask acted = 0;
+  for (std::size_t t = 0; t < kAxes; ++t) {
+    if (outcome.fired[t] != 0) acted |= state_.sync.triggers[t].activates;
+  }
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(acted, a)) continue;
+    AxisUnit& unit = state_.units[a];
+    const motion::SyncAction& action = state_.sync.actions[a];
+    const motion::SyncTable::Latch& latch = acting.latches[a];
+    const std::int64_t encoder = unit.has_encoder ? latch.encoder_pulses : latch.travel_pulses;
+    if (action.latch_command || action.latch_encoder) {
+      unit.latched = static_cast<std::int32_t>(action.latch_encoder ? unit.encoder.at(encoder)
+                                                                    : unit.logic.at(latch.travel_pulses));
+    }
+    const auto preset = static_cast<std::int32_t>(action.preset_value);
+    if (has(outcome.presets_command, a)) unit.logic.set(preset, latch.travel_pulses);
+    if (has(outcome.presets_encoder, a)) unit.encoder.set(preset, encoder);
+    if (action.preset == motion::SyncAction::Preset::speed && preset > 0) {
+      unit.speed.drive_pps = static_cast<std::uint32_t>(preset);
+      if (!starts_something(action.drive)) change_speed(a);
+    }
+    if (slows_path[a]) state_.paths.together.slow_down(tick);
+    if (stops_path[a]) state_.paths.together.stop(state_.motors);
+    if (slows_path[a] || stops_path[a]) state_.paths.open = false;
+    if (has(outcome.outputs, a)) give_pulse(a);
+    if (has(outcome.interrupts, a)) {
+      note_factor(a, Factor::synchronous);
+      if (state_.interrupts) mark_isr(a, IsrMark::kSynchronous, tick);
+    }
+    look_again(a);
+  }
+}
+
+/// V has changed: a T-shaped drive goes on at the new one, an S-shaped one keeps its own (7.1).
+void RsM8194h::change_speed(std::size_t axis) {
+  const AxisUnit& unit = state_.units[axis];
+  if (going(axis) != Going::single || kNormalShapes[unit.speed.mode].s_curve) return;
+  motion::Axis& motor = state_.motors[axis];
+  // The ramps are those of the drive.
+  motion::SpeedLaw law = motor.law;
+  const double wanted = law_of(unit).top_speed_u_s;
+  law.start_speed_u_s = std::min(law.start_speed_u_s, wanted);
+  law.top_speed_u_s = wanted;
+  motor.change_speed(law, now());
+}
+
+void RsM8194h::give_pulse(std::size_t axis) {
+  // SET_OUT knows X and Y (7.3.9).
+  if (axis < static_cast<std::size_t>(kOuts)) ++state_.units[axis].out.pulses;
+}
+
+/// Of the counter that LINE_SCAN's Type names.
+std::int64_t RsM8194h::scan_count(std::size_t axis) const {
+  const AxisUnit& unit = state_.units[axis];
+  const motion::Axis& motor = state_.motors[axis];
+  return state_.scans[axis].type >= 2 ? encoder_count(unit, motor) : logic_count(unit, motor);
+}
+
+void RsM8194h::step_scans() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    LineScan& scan = state_.scans[a];
+    if (!scan.running) continue;
+    const std::int64_t count = scan_count(a);
+    const std::int64_t spacing = std::abs(std::int64_t{scan.pitch}) + 1;
+    const std::int64_t passed = std::abs(count - scan.begin) / spacing;
+    if (passed > scan.triggered) {
+      const std::int64_t given = std::min(passed - scan.triggered, kMostTriggersOfATick);
+      if (a < static_cast<std::size_t>(kOuts)) state_.units[a].out.pulses += given;
+      scan.triggered = passed;
+    }
+    if (!is_driving(a)) scan = LineScan{};
+  }
+  if (state_.scanning != 0 && (driving() & state_.scanning) == 0) {
+    state_.scanning = 0;
+    state_.rint |= bit_of(Rint::line_scan);
+  }
+}
+
+// --- many ticks at once ------------------------------------------------------------------------------------
+
+Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  const bool is_simple = !inputs_changed() && state_.marks.empty() && state_.scanning == 0 &&
+                         !state_.paths.together.engaged && state_.steps_left == kStepsOfATick;
+  if (!is_simple || state_.execution.is_alive() || !state_.queued_triggers.empty()) return done + 1;
+  Tick last = std::min(most, state_.eeprom.next_active_tick() - 1);
+  if (state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);
+  for (std::size_t a = 0; a < kAxes && last > done; ++a) {
+    const AxisUnit& unit = state_.units[a];
+    if (unit.has_encoder || unit.pins.raw != unit.pins.passed) return done + 1;
+    if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
+    const motion::Axis& motor = state_.motors[a];
+    const PulseRoom room = ahead.room(static_cast<int>(a));
+    last =
+        motor.quiet_until(done + 1, last, state_.here[a],
+                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
+  }
+  // The FRnet inputs may differ from what the last scan has found.
+  for (int i = 0; i < kFrnetGroups * kFrnetChannels && last > done; ++i) {
+    const auto word = state_.inputs[static_cast<std::size_t>(i / kFrnetChannels)];
+    if ((input(kFirstDi + i) != 0) != ((word >> (i % kFrnetChannels) & 1) != 0)) {
+      last = std::min(last, next_scan(done) - 1);
+      break;
+    }
+  }
+  // What waits in the FIFO waits for an axis to stand.
+  if (!state_.held_paths.empty() && driving() == 0) return done + 1;
+  if (!state_.fifo.waiting.empty() && driving() == 0) return done + 1;
+  return last + 1;
+}
+
+void RsM8194h::cross_to(Tick, Tick tick, const MachineAhead&, std::span<std::int64_t> pulses) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    motion::Axis& motor = state_.motors[a];
+    pulses[a] += motor.cross_to(tick - 1);
+    state_.units[a].sent_pulses = motor.step(tick, state_.here[a]);
+    pulses[a] += state_.units[a].sent_pulses;
+  }
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

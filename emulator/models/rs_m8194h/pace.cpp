@@ -1,0 +1,33 @@
+// The FIFO: commands in their order, as many as a tick has room for.
+#include "emulator/models/rs_m8194h/commands.h"
+#include "emulator/models/rs_m8194h/device.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+int blocks_left(const Fifo& fifo) {
+  int free = kFifoBlocks;
+  for (const lang::Command& command : fifo.waiting) free -= blocks_of(command);
+  return free;
+}
+
+void RsM8194h::run_fifo(int& steps) {
+  Fifo& fifo = state_.fifo;
+  for (;;) {
+    // While a macro lives, or a trigger has paused everything, nothing begins.
+    if (state_.execution.is_alive() || state_.paused) return;
+    if (fifo.stop_wait != 0) {
+      if ((driving() & fifo.stop_wait) != 0) return;
+      fifo.stop_wait = 0;
+    }
+    if (fifo.waiting.empty() || steps <= 0) return;
+    // A copy: what it does may empty the FIFO.
+    const lang::Command command = fifo.waiting.front();
+    if (carry_out(command) == Took::waits) return;
+    if (!fifo.waiting.empty()) fifo.waiting.erase(fifo.waiting.begin());
+    --steps;
+  }
+}
+
+Took RsM8194h::carry_out(const lang::Command& command) { return action_of(command.verb())(*this, command); }
+
+}  // namespace understudy::emulator::models::rs_m8194h

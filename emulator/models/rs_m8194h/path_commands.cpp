@@ -1,0 +1,353 @@
+// Interpolation: lines, arcs, streams, rectangle, helix (7.2, 7.4). What a command draws is a row; the path
+// itself is motion's.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+#include "emulator/models/rs_m8194h/device.h"
+#include "motion/bad_motion.h"
+#include "motion/elementary.h"
+#include "motion/path.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+using lang::Verb;
+using motion::Path;
+using motion::Point;
+using motion::Turn;
+
+enum class Draws : std::uint8_t { line, arc, circle, mixed, rectangle, helix };
+
+struct PathRow {
+  Verb verb;
+  Paths::Runs runs;
+  Draws draws;
+  int dimensions;
+  bool absolute;
+  Turn turn;      // of arcs and circles
+  Stream stream;  // of streams
+};
+constexpr auto kCw = Turn::clockwise;
+constexpr auto kCcw = Turn::counter_clockwise;
+constexpr PathRow kPathRows[] = {
+    {Verb::line_2d, Paths::Runs::single, Draws::line, 2, false, kCw, {}},
+    {Verb::line_3d, Paths::Runs::single, Draws::line, 3, false, kCw, {}},
+    {Verb::arc_cw, Paths::Runs::single, Draws::arc, 2, false, kCw, {}},
+    {Verb::arc_ccw, Paths::Runs::single, Draws::arc, 2, false, kCcw, {}},
+    {Verb::circle_cw, Paths::Runs::single, Draws::circle, 2, false, kCw, {}},
+    {Verb::circle_ccw, Paths::Runs::single, Draws::circle, 2, false, kCcw, {}},
+    {Verb::abs_line_2d, Paths::Runs::single, Draws::line, 2, true, kCw, {}},
+    {Verb::abs_line_3d, Paths::Runs::single, Draws::line, 3, true, kCw, {}},
+    {Verb::abs_arc_cw, Paths::Runs::single, Draws::arc, 2, true, kCw, {}},
+    {Verb::abs_arc_ccw, Paths::Runs::single, Draws::arc, 2, true, kCcw, {}},
+    {Verb::line_2d_continue, Paths::Runs::stream, Draws::line, 2, false, kCw, Stream::line_2d},
+    {Verb::abs_line_2d_continue, Paths::Runs::stream, Draws::line, 2, true, kCw, Stream::line_2d},
+    {Verb::line_3d_continue, Paths::Runs::stream, Draws::line, 3, false, kCw, Stream::line_3d},
+    {Verb::abs_line_3d_continue, Paths::Runs::stream, Draws::line, 3, true, kCw, Stream::line_3d},
+    {Verb::mix_2d_continue, Paths::Runs::stream, Draws::mixed, 2, false, kCw, Stream::mix_2d},
+    {Verb::abs_mix_2d_continue, Paths::Runs::stream, Draws::mixed, 2, true, kCw, Stream::mix_2d},
+    {Verb::rectangle, Paths::Runs::rectangle, Draws::rectangle, 2, false, kCw, {}},
+    {Verb::helix_3d, Paths::Runs::helix, Draws::helix, 3, false, kCw, {}},
+};
+
+const PathRow& row_of_path(Verb verb) {
+  return *std::find_if(std::begin(kPathRows), std::end(kPathRows),
+                       [&](const PathRow& row) { return row.verb == verb; });
+}
+
+/// VECTOR_SPEED (7.2.2).
+constexpr std::array<Shape, 12> kVectorShapes{{
+    {.constant = true},
+    {},
+    {.s_curve = true},
+    {.unlike_ramps = true},
+    {.s_curve = true, .unlike_ramps = true},
+    {},
+    {.unlike_ramps = true},
+    {.constant = true},
+    {},
+    {.s_curve = true},
+    {.unlike_ramps = true},
+    {.s_curve = true, .unlike_ramps = true},
+}};
+/// MAX_V of interpolation (3.4), by the number of axes.
+constexpr std::uint32_t kHighest[] = {2'828'854, 2'309'468};
+
+/// nType of MIX_2D_CONTINUE.
+struct MixRow {
+  Draws draws;
+  Turn turn;
+};
+constexpr MixRow kMixRows[] = {
+    {Draws::line, kCw}, {Draws::arc, kCw}, {Draws::arc, kCcw}, {Draws::circle, kCw}, {Draws::circle, kCcw}};
+
+std::array<std::uint8_t, 3> codes_at(const lang::Command& command, std::size_t count) {
+  std::array<std::uint8_t, 3> codes{};
+  for (std::size_t i = 0; i < count; ++i) codes[i] = static_cast<std::uint8_t>(command.values[i]);
+  return codes;
+}
+
+bool is_one_each(const std::array<std::uint8_t, 3>& codes, int dimensions) {
+  int axes = 0;
+  AxisMask seen = 0;
+  for (int i = 0; i < dimensions; ++i) {
+    const std::uint8_t code = codes[static_cast<std::size_t>(i)];
+    if (axis_of_code(code) < 0 || (seen & code) != 0) return false;
+    seen |= code;
+    ++axes;
+  }
+  return axes == dimensions;
+}
+
+constexpr motion::ArcOptions kArcOptions{.plane = {0, 1}, .off_circle = motion::OffCircle::quadrant};
+
+/// The eight tangent points, Sp0 to Sp7, and the centre of the corner behind each odd one (the drawing of
+/// 7.4.1 is lost: counter-clockwise from the beginning of the lower side).
+struct RectanglePlan {
+  std::array<std::array<double, 2>, 8> points;
+  std::array<std::array<double, 2>, 4> centres;  // of the corners 1-2, 3-4, 5-6, 7-0
+};
+RectanglePlan rectangle_plan(double length, double width, double radius) {
+  const double right = length - radius;
+  const double top = width - radius;
+  return {.points = {{{radius, 0},
+                      {right, 0},
+                      {length, radius},
+                      {length, top},
+                      {right, width},
+                      {radius, width},
+                      {0, top},
+                      {0, radius}}},
+          .centres = {{{right, radius}, {right, top}, {radius, top}, {radius, radius}}}};
+}
+
+}  // namespace
+
+/// What follow_path() needs to draw.
+struct PathDrawing {
+  motion::PathRun run;
+  std::array<double, 4> end{};
+  double length = 0;
+
+  Point at() const { return {end[0], end[1], end[2], end[3]}; }
+  void add(const Path& path, Tick now) {
+    run.append(path, {.rule = motion::Joint::Rule::join}, now);
+    length += path.length_u;
+    for (Eigen::Index i = 0; i < motion::kPathAxes; ++i) end[static_cast<std::size_t>(i)] = path.end[i];
+  }
+};
+
+AxisMask RsM8194h::axes_of_path(const lang::Command& command) const {
+  const PathRow& row = row_of_path(command.verb());
+  std::array<std::uint8_t, 3> codes = state_.paths.assigned;
+  if (row.runs == Paths::Runs::stream)
+    codes = state_.paths.streams[static_cast<std::size_t>(row.stream)].axes;
+  if (row.runs == Paths::Runs::rectangle) codes = codes_at(command, 2);
+  if (row.runs == Paths::Runs::helix) codes = codes_at(command, 3);
+  if (row.dimensions == 2) codes[2] = 0;
+  return mask_of_codes(codes);
+}
+
+void RsM8194h::module_error() { state_.rint |= bit_of(Rint::module); }
+
+Took RsM8194h::follow_path(const lang::Command& command) {
+  const PathRow& row = row_of_path(command.verb());
+  Paths& paths = state_.paths;
+  const bool is_stream = row.runs == Paths::Runs::stream;
+  const StreamSettings& settings = paths.streams[static_cast<std::size_t>(row.stream)];
+  std::array<std::uint8_t, 3> codes = paths.assigned;
+  if (is_stream) codes = settings.axes;
+  if (row.runs == Paths::Runs::rectangle) codes = codes_at(command, 2);
+  if (row.runs == Paths::Runs::helix) codes = codes_at(command, 3);
+  if ((is_stream && !settings.given) || !is_one_each(codes, row.dimensions)) {
+    module_error();
+    return Took::done;
+  }
+  const bool joins = is_stream && paths.together.engaged && paths.runs == Paths::Runs::stream &&
+                     paths.stream == row.stream && paths.open;
+  if (joins && (paths.together.run.queued() >= 2 || paths.together.slowing_for != motion::Cause::none)) {
+    return Took::waits;
+  }
+  const AxisMask axes = axes_of_path(command);
+  if (!joins) {
+    const Start outcome = may_start(axes, Starter::command);
+    if (outcome == Start::is_void) {
+      note_obstacles(axes);
+      return Took::done;
+    }
+    // There is one path at a time, whatever its axes.
+    if (outcome == Start::waits || paths.together.engaged) return Took::waits;
+    if (outcome == Start::is_held) {
+      for (std::size_t a = 0; a < kAxes; ++a) {
+        if (has(axes, a)) state_.units[a].held_drive = {};
+      }
+      state_.held_paths.assign(1, command);
+      return Took::done;
+    }
+  }
+  try {
+    draw(command, codes, joins);
+  } catch (const motion::BadMotion&) {
+    module_error();  // no such arc, for example
+  }
+  return Took::done;
+}
+
+void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t, 3>& codes, bool joins) {
+  const PathRow& row = row_of_path(command.verb());
+  Paths& paths = state_.paths;
+  const bool is_stream = row.runs == Paths::Runs::stream;
+  const auto first_axis = static_cast<std::size_t>(axis_of_code(codes[0]));
+  const SpeedRange range = speed_range(state_.units[first_axis].basic.max_v, kHighest[row.dimensions - 2]);
+  const auto number = [&](std::size_t i) { return static_cast<double>(command.signed_value(i)); };
+  const Tick now_tick = now();
+
+  PathDrawing drawing;
+  if (joins) {
+    drawing.run = paths.together.run;
+    drawing.end = paths.end;
+  }
+  const Point begin = drawing.at();
+  // The place of a coordinate that a command gives, in pulses from where the run began.
+  const auto place = [&](std::size_t coordinate, double value) {
+    if (!row.absolute) return begin[static_cast<Eigen::Index>(coordinate)] + value;
+    const auto a = static_cast<std::size_t>(axis_of_code(codes[coordinate]));
+    const double here = begin[static_cast<Eigen::Index>(coordinate)];
+    const std::int64_t travel =
+        joins ? paths.together.travel_at(coordinate, here) : state_.motors[a].travel_pulses;
+    return here + value - static_cast<double>(static_cast<std::int32_t>(state_.units[a].absolute.at(travel)));
+  };
+  const auto point = [&](std::size_t first_value) {
+    Point made = begin;
+    for (int i = 0; i < row.dimensions; ++i) {
+      made[i] = place(static_cast<std::size_t>(i), number(first_value + static_cast<std::size_t>(i)));
+    }
+    return made;
+  };
+
+  SpeedSettings speed = paths.vector;
+  Shape shape = kVectorShapes[paths.vector.mode];
+  bool is_last = true;
+  Draws draws = row.draws;
+  Turn turn = row.turn;
+  std::size_t first_value = 0;
+  if (is_stream) {
+    const StreamSettings& settings = paths.streams[static_cast<std::size_t>(row.stream)];
+    is_last = command.values[0] == 1;
+    first_value = 1;
+    if (draws == Draws::mixed) {
+      const MixRow& mix = kMixRows[command.values[1] - 1];
+      draws = mix.draws;
+      turn = mix.turn;
+      first_value = draws == Draws::line ? 4 : 2;
+    }
+    speed = {.start_pps = settings.start_pps,
+             .drive_pps = settings.drive_pps,
+             .acceleration = settings.acceleration,
+             .offset_pulses = 0};
+    shape = {.constant = settings.constant};
+  }
+  double speed_factor = 1;
+  switch (draws) {
+    case Draws::line: drawing.add(motion::line(begin, point(first_value)), now_tick); break;
+    case Draws::arc:
+      shape.s_curve = false;
+      drawing.add(motion::arc_by_centre(begin, point(first_value), point(first_value + 2), turn, kArcOptions),
+                  now_tick);
+      break;
+    case Draws::circle:
+      shape.s_curve = false;
+      drawing.add(motion::arc_by_centre(begin, point(first_value), begin, turn, kArcOptions), now_tick);
+      break;
+    case Draws::rectangle: {
+      const bool is_clockwise = command.values[4] == 1;
+      const RectanglePlan plan = rectangle_plan(number(5), number(6), number(7));
+      const auto at = [&](std::size_t i) {
+        const std::size_t from = command.values[3];
+        return Point{plan.points[i][0] - plan.points[from][0], plan.points[i][1] - plan.points[from][1], 0,
+                     0};
+      };
+      std::size_t here = command.values[3];
+      for (int i = 0; i < 8; ++i) {
+        const std::size_t next = (here + (is_clockwise ? 7 : 1)) % 8;
+        const std::size_t earlier = is_clockwise ? next : here;
+        if (earlier % 2 == 0) {
+          drawing.add(motion::line(drawing.at(), at(next)), now_tick);
+        } else {
+          const auto& centre = plan.centres[earlier / 2];
+          const auto& origin = plan.points[command.values[3]];
+          drawing.add(
+              motion::arc_by_centre(drawing.at(), {centre[0] - origin[0], centre[1] - origin[1], 0, 0},
+                                    at(next), is_clockwise ? kCw : kCcw, kArcOptions),
+              now_tick);
+        }
+        here = next;
+      }
+      speed = {.start_pps = command.values[8],
+               .drive_pps = command.values[9],
+               .acceleration = command.values[10],
+               .deceleration = command.values[11],
+               .offset_pulses = 0};
+      shape = {.constant = command.values[2] == 0, .unlike_ramps = true};
+      break;
+    }
+    case Draws::helix: {
+      const double turns = number(7);
+      if (turns == 0) return;
+      const bool is_clockwise = (command.values[3] == 0) != (turns < 0);
+      const double sweep = std::abs(turns) * 2 * motion::kPi * (is_clockwise ? -1 : +1);
+      const Point centre{number(5), number(6), 0, 0};
+      const Point rise{0, 0, number(8) * std::abs(turns), 0};
+      drawing.add(motion::arc_by_sweep(begin, centre, sweep, rise, kArcOptions), now_tick);
+      const double circle = std::abs(sweep) * std::sqrt(centre[0] * centre[0] + centre[1] * centre[1]);
+      // VV is the speed of the circle.
+      speed_factor = drawing.length / circle;
+      speed = {.drive_pps = command.values[4], .offset_pulses = 0};
+      shape = {.constant = true};
+      break;
+    }
+    case Draws::mixed: break;
+  }
+
+  if (joins) {
+    paths.together.run = drawing.run;
+    paths.end = drawing.end;
+  } else {
+    if (drawing.length == 0) return;  // no pulse, and neither beginning nor end
+    motion::SpeedLaw law = law_of(speed, speed.drive_pps, range, shape, false);
+    law.top_speed_u_s *= speed_factor;
+    law.start_speed_u_s *= speed_factor;
+    motion::Coordinated made;
+    for (int i = 0; i < row.dimensions; ++i) {
+      made.axis_of[static_cast<std::size_t>(i)] = axis_of_code(codes[static_cast<std::size_t>(i)]);
+    }
+    made.run = drawing.run;
+    made.run.set_speed(law, now_tick);
+    made.run.set_open(!is_last, now_tick);
+    for (const std::int8_t a : made.axis_of) {
+      if (a < 0) continue;
+      motion::Axis& motor = state_.motors[static_cast<std::size_t>(a)];
+      motor.signals = state_.here[static_cast<std::size_t>(a)].at(motor.travel_pulses, motor.signals);
+    }
+    if (made.begin(Point::Zero(), state_.motors, now_tick) != motion::Cause::none) return;
+    paths.together = made;
+    paths.end = drawing.end;
+    paths.axes = axes_of_path(command);
+    paths.runs = row.runs;
+    paths.stream = row.stream;
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      if (has(paths.axes, a)) state_.units[a].error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+    }
+    if (is_stream) state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
+  }
+  paths.open = is_stream && !is_last;
+  if (joins && is_last) paths.together.run.set_open(false, now_tick);
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,116 @@
+// RS-M8194H: what the commands of section 3 do. A setting is a row: what it changes of the basic settings, of
+// the axes in force or, with an INITIAL axis code, of the Initial Table.
+#pragma once
+
+#include "base/complete_table.h"
+#include "emulator/models/rs_m8194h/commands.h"
+#include "emulator/models/rs_m8194h/memory.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+using lang::Command;
+using lang::Verb;
+using CommandRow = HandlerRow<Verb, CommandAction>;
+
+inline AxisMask axes_at(const Command& command, std::size_t i) {
+  return static_cast<AxisMask>(command.values[i] & kAllAxes);
+}
+
+/// Calls `visit(number)` for each axis of a mask.
+void for_each_axis(AxisMask axes, auto visit) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(axes, a)) visit(a);
+  }
+}
+
+/// A setting of section 3, with its axes in the first parameter: what it changes is a row (memory.h).
+inline Took set_basic(RsM8194h& it, const Command& command) {
+  const bool is_initial = (command.values[0] & lang::kInitial) != 0;
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    if (is_initial) {
+      apply_setting(it.state().initial_table[a], command);
+      return;
+    }
+    BasicSettings settings = it.state().units[a].basic;
+    apply_setting(settings, command);
+    apply_basic(it.state().units[a], it.state().motors[a], settings);
+    it.look_again(a);
+  });
+  if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table);
+  return Took::done;
+}
+
+template <motion::ExternalDrive::Mode mode>
+Took set_external(RsM8194h& it, const Command& command) {
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    AxisUnit& unit = it.state().units[a];
+    const motion::ExternalDrive before = unit.external;
+    unit.external = {.mode = mode,
+                     .pulses = mode == motion::ExternalDrive::Mode::off ? 0 : std::int64_t{command.values[1]},
+                     .plus_high = before.plus_high,
+                     .minus_high = before.minus_high};
+    unit.external_pps = command.values[1];
+  });
+  return Took::done;
+}
+
+inline Took write_byte_variable(RsM8194h& it, const Command& command) {
+  it.state().image[kFirstBvarSlot + lang::byte_variable_number(command.values[0])] = byte_at(command, 1);
+  return Took::done;
+}
+inline Took write_variable(RsM8194h& it, const Command& command) {
+  it.state().image[kFirstVarSlot + lang::variable_number(command.values[0])] = command.values[1];
+  return Took::done;
+}
+inline Took write_memory(RsM8194h& it, const Command& command) {
+  const std::size_t number = command.values[0];
+  const std::size_t slot = kFirstMdSlot + number;
+  const bool is_real = number >= static_cast<std::size_t>(lang::kFirstRealMemory);
+  it.state().image[slot] = command.values[is_real ? 2 : 1];
+  it.state().eeprom.write(slot, it.state().image[slot], 0, it.now());
+  return Took::done;
+}
+
+inline Took reset_card(RsM8194h& it, const Command&) {
+  it.reset_card();
+  return Took::done;
+}
+inline Took clear_buffer(RsM8194h& it, const Command&) {
+  // A STOP_WAIT that has begun is not in the buffer any more, and goes on.
+  it.state().fifo.waiting.clear();
+  return Took::done;
+}
+
+// clang-format off
+inline constexpr CommandRow kSettingCommands[] = {
+    {Verb::reset_card,        reset_card},
+    {Verb::clear_card_buffer, clear_buffer},
+    {Verb::set_pulse_mode,    set_basic},
+    {Verb::set_max_v,         set_basic},
+    {Verb::set_hlmt,          set_basic},
+    {Verb::limitstop_mode,    set_basic},
+    {Verb::set_nhome,         set_basic},
+    {Verb::set_home_edge,     set_basic},
+    {Verb::set_slmt,          set_basic},
+    {Verb::clear_slmt,        set_basic},
+    {Verb::set_encoder,       set_basic},
+    {Verb::servo_on,          set_basic},
+    {Verb::servo_off,         set_basic},
+    {Verb::set_alarm,         set_basic},
+    {Verb::set_inpos,         set_basic},
+    {Verb::set_filter,        set_basic},
+    {Verb::vring_enable,      set_basic},
+    {Verb::vring_disable,     set_basic},
+    {Verb::avtri_enable,      set_basic},
+    {Verb::avtri_disable,     set_basic},
+    {Verb::exd_mp,            set_external<motion::ExternalDrive::Mode::multiply>},
+    {Verb::exd_fp,            set_external<motion::ExternalDrive::Mode::fixed>},
+    {Verb::exd_cp,            set_external<motion::ExternalDrive::Mode::continuous>},
+    {Verb::exd_disable,       set_external<motion::ExternalDrive::Mode::off>},
+    {Verb::write_byte_var,    write_byte_variable},
+    {Verb::write_var,         write_variable},
+    {Verb::write_md,          write_memory},
+};
+// clang-format on
+
+}  // namespace understudy::emulator::models::rs_m8194h

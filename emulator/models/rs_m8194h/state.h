@@ -1,0 +1,133 @@
+// RS-M8194H: its whole state, as a value.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "base/state/fields.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/eeprom_fields.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
+#include "emulator/models/rs_m8194h/paths.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/triggers.h"
+#include "interpreter/rs_m8194h/window.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
+#include "motion/synchronous.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace lang = interpreter::rs_m8194h;
+
+inline constexpr int kFifoBlocks = 30;
+/// What the module carries out in a tick, macro lines and commands together.
+inline constexpr int kStepsOfATick = 8;
+
+/// Commands that wait for their turn, and the STOP_WAIT that has begun and left it.
+struct Fifo {
+  std::vector<lang::Command> waiting{};
+  AxisMask stop_wait = 0;
+
+  bool operator==(const Fifo&) const = default;
+};
+
+inline int blocks_of(const lang::Command& command) { return command.row().fifo_blocks(); }
+int blocks_left(const Fifo& fifo);
+
+/// Equal triggers along an axis (7.4.12).
+struct LineScan {
+  bool set = false;
+  std::uint8_t type = 0;
+  std::int32_t pitch = 0;
+  bool running = false;
+  std::int64_t begin = 0;      // count where it began
+  std::int64_t triggered = 0;  // places passed
+
+  bool operator==(const LineScan&) const = default;
+};
+
+/// An interrupt that waits for its ISR.
+struct IsrMark {
+  static constexpr std::uint8_t kSynchronous = 8;
+  static constexpr std::uint8_t kCalled = 9;  // MP_ISR_CALL
+
+  Tick tick = 0;
+  std::uint8_t axis = 0;
+  std::uint8_t source = 0;  // nINT 0 to 7, or one of the above
+  std::uint8_t number = 0;  // of a call
+
+  auto operator<=>(const IsrMark&) const = default;
+};
+
+/// Bits of RINT_STATE (12.1.8).
+enum class Rint : std::uint8_t {
+  line_scan,
+  mp_completed,
+  user,
+  stream,
+  reserved_4,
+  reserved_5,
+  axes,
+  module
+};
+constexpr std::uint8_t bit_of(Rint bit) {
+  return static_cast<std::uint8_t>(1U << static_cast<unsigned>(bit));
+}
+
+/// None is being downloaded: a name all the same, as each download has one.
+inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
+
+/// Which macro, which command, which line, which error: inputs 115 to 119.
+using MacroReport = std::array<std::uint16_t, 5>;
+
+struct State {
+  std::array<motion::Axis, kAxes> motors{};
+  std::array<motion::Surroundings, kAxes> here{};
+  std::array<AxisUnit, kAxes> units{};
+  motion::SyncTable sync{};
+  Paths paths{};
+  std::array<LineScan, kAxes> scans{};
+  AxisMask scanning = 0;  // axes that LINE_SCAN_START has named
+  Fifo fifo{};
+  std::vector<lang::Command> held_paths{};  // one at most: an interpolation that waits for DRV_START
+  // The RS-M8194H's own.
+  lang::State rsm = lang::State::ready;
+  std::uint16_t illegal_reason = 0;
+  lang::Download download = kNoDownload;  // while `rsm` says so
+  lang::DownloadStatus downloaded{};
+  // The module's.
+  bool emergency_state = false;
+  bool emergency_input = false;
+  std::uint8_t rint = 0;    // without bit 6, which follows the error codes
+  bool interrupts = false;  // ENABLE_INT
+  std::array<AxisMask, kFactors> factor_axes{};
+  std::vector<IsrMark> marks{};
+  lang::Execution execution{};
+  MacroReport execution_fault{};
+  bool paused = false;                                        // by a trigger
+  std::vector<std::uint8_t> queued_triggers{};                // channels whose MP waits for its turn
+  std::array<AxisMask, lang::kTriggerCount> trigger_holds{};  // axes that a level of a channel holds
+  std::array<std::uint16_t, kFrnetGroups> outputs{};          // as set,
+  std::array<std::uint16_t, kFrnetGroups> sent{};             // as the last scan has sent them,
+  std::array<std::uint16_t, kFrnetGroups> inputs{};           // as it has found them
+  Tick powered_at = 0;
+  int steps_left = 0;  // of this tick
+  // Non-volatile.
+  std::array<BasicSettings, kAxes> initial_table{};
+  TextBlocks blocks{};  // macros, triggers and the Initial Table, as text
+  Eeprom eeprom{};
+  std::vector<std::uint32_t> image{};
+
+  bool operator==(const State&) const = default;
+};
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,90 @@
+// What the state of an RS-M8194H consists of (base/state/fields.h), in the order of the bytes.
+#pragma once
+
+#include <tuple>
+
+#include "base/state/state_bytes.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/state_fields.h"
+
+namespace understudy {
+
+template <>
+struct StateOf<interpreter::rs_m8194h::State> {
+  static constexpr auto last = interpreter::rs_m8194h::State::isr_download;
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::Fifo> {
+  using Value = emulator::models::rs_m8194h::Fifo;
+  static constexpr auto fields =
+      std::tuple{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
+  static void check(const Value& fifo) {
+    demand_state(emulator::models::rs_m8194h::blocks_left(fifo) >= 0, "the FIFO holds more than it can");
+  }
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::LineScan> {
+  using Value = emulator::models::rs_m8194h::LineScan;
+  static constexpr auto fields =
+      std::tuple{field("set", &Value::set),     field("type", &Value::type),
+                 field("pitch", &Value::pitch), field("running", &Value::running),
+                 field("begin", &Value::begin), field("triggered", &Value::triggered)};
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::IsrMark> {
+  using Value = emulator::models::rs_m8194h::IsrMark;
+  static constexpr auto fields = std::tuple{field("tick", &Value::tick), field("axis", &Value::axis),
+                                            field("source", &Value::source), field("number", &Value::number)};
+  static void check(const Value& mark) {
+    demand_state(mark.axis < emulator::models::rs_m8194h::kAxes && mark.source <= Value::kCalled,
+                 "an interrupt has no such source");
+  }
+};
+
+template <>
+struct StateOf<emulator::models::rs_m8194h::State> {
+  using Value = emulator::models::rs_m8194h::State;
+  static constexpr auto fields = std::tuple{field("motors", &Value::motors),
+                                            field("here", &Value::here),
+                                            field("units", &Value::units),
+                                            field("sync", &Value::sync),
+                                            field("paths", &Value::paths),
+                                            field("scans", &Value::scans),
+                                            field("scanning", &Value::scanning),
+                                            field("fifo", &Value::fifo),
+                                            field("held_paths", &Value::held_paths),
+                                            field("rsm", &Value::rsm),
+                                            field("illegal_reason", &Value::illegal_reason),
+                                            field("download", &Value::download),
+                                            field("downloaded", &Value::downloaded),
+                                            field("emergency_state", &Value::emergency_state),
+                                            field("emergency_input", &Value::emergency_input),
+                                            field("rint", &Value::rint),
+                                            field("interrupts", &Value::interrupts),
+                                            field("factor_axes", &Value::factor_axes),
+                                            field("marks", &Value::marks),
+                                            field("execution", &Value::execution),
+                                            field("execution_fault", &Value::execution_fault),
+                                            field("paused", &Value::paused),
+                                            field("queued_triggers", &Value::queued_triggers),
+                                            field("trigger_holds", &Value::trigger_holds),
+                                            field("outputs", &Value::outputs),
+                                            field("sent", &Value::sent),
+                                            field("inputs", &Value::inputs),
+                                            field("powered_at", &Value::powered_at),
+                                            field("steps_left", &Value::steps_left),
+                                            field("initial_table", &Value::initial_table),
+                                            field("blocks", &Value::blocks),
+                                            field("eeprom", &Value::eeprom),
+                                            field("image", &Value::image)};
+  static void check(const Value& state) {
+    demand_state(state.held_paths.size() <= 1, "more than one path is held");
+    demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");
+    demand_reach(state.powered_at);
+  }
+};
+
+}  // namespace understudy

@@ -1,0 +1,89 @@
+// Stops, locks and holds, and what takes them away (7.5): by the rows of meetings.h.
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/models/rs_m8194h/device.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+void RsM8194h::halt(AxisMask axes, const StopRow& row) {
+  Paths& paths = state_.paths;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    AxisUnit& unit = state_.units[a];
+    motion::Axis& motor = state_.motors[a];
+    const Going going_now = going(a);
+    const Halt halt = row.halts[static_cast<std::size_t>(going_now)];
+    if (halt != Halt::goes_on && going_now == Going::path) {
+      if (halt == Halt::slows) {
+        paths.together.slow_down(now());
+      } else {
+        paths.together.stop(state_.motors);
+      }
+      paths.open = false;
+    } else if (halt == Halt::slows) {
+      motor.slow_down(now());
+    } else if (halt == Halt::stops) {
+      motor.stop();
+    }
+    if (paths.open && !paths.together.engaged && has(paths.axes, a)) paths.open = false;
+    unit.locked = unit.locked || row.locks;
+    unit.path_locked = unit.path_locked || row.locks_path;
+    if (row.drops_held_drive) {
+      unit.held_drive = {};
+      if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
+        state_.held_paths.clear();
+      }
+    }
+    if (row.drops_hold) unit.held = false;
+    unit.error_code |= bit_of(row.error);
+  }
+}
+
+void RsM8194h::clear_stop(AxisMask axes) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(axes, a)) continue;
+    AxisUnit& unit = state_.units[a];
+    unit.locked = false;
+    unit.error_code =
+        error_left(unit.error_code, {.other_lock = unit.path_locked,
+                                     .emergency_state = state_.emergency_state,
+                                     .alarm_is_active = is_active(a, motion::Signal::alarm),
+                                     .emergency_input = is_active(a, motion::Signal::emergency)});
+  }
+}
+
+void RsM8194h::clear_path_stop() {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    AxisUnit& unit = state_.units[a];
+    if (!unit.path_locked) continue;
+    unit.path_locked = false;
+    unit.error_code =
+        error_left(unit.error_code, {.other_lock = unit.locked,
+                                     .emergency_state = state_.emergency_state,
+                                     .alarm_is_active = is_active(a, motion::Signal::alarm),
+                                     .emergency_input = is_active(a, motion::Signal::emergency)});
+  }
+}
+
+void RsM8194h::clear_emergency() {
+  state_.emergency_state = false;
+  for (AxisUnit& unit : state_.units) {
+    unit.error_code &= static_cast<std::uint16_t>(~bit_of(ErrorBit::soft_emergency));
+  }
+}
+
+void RsM8194h::hold(AxisMask axes) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(axes, a)) state_.units[a].held = true;
+  }
+}
+
+void RsM8194h::release(AxisMask axes) {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(axes, a)) state_.units[a].held = false;
+  }
+  start_held();
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,114 @@
+// Triggers: FRnet inputs that start macros and events without a host (10, 5.4).
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/models/rs_m8194h/device.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+bool is_on(const std::array<std::uint16_t, kFrnetGroups>& words, int channel) {
+  return (words[static_cast<std::size_t>(channel / kFrnetChannels)] >> (channel % kFrnetChannels) & 1) != 0;
+}
+
+/// `at_start`: the levels are there already, and nothing has changed.
+bool fires(lang::TriggerCondition condition, bool was, bool is, bool at_start) {
+  switch (condition) {
+    case lang::TriggerCondition::none: return false;
+    case lang::TriggerCondition::on: return is && (at_start || !was);
+    case lang::TriggerCondition::off: return !is && (at_start || was);
+    case lang::TriggerCondition::off_to_on: return is && !was;
+    case lang::TriggerCondition::on_to_off: return !is && was;
+    case lang::TriggerCondition::change: return is != was;
+  }
+  return false;
+}
+
+bool is_level(lang::TriggerCondition condition) {
+  return condition == lang::TriggerCondition::on || condition == lang::TriggerCondition::off;
+}
+
+}  // namespace
+
+void RsM8194h::enable_triggers(bool on) {
+  if (on) {
+    heed_triggers(state_.inputs, true);
+  } else {
+    state_.queued_triggers.clear();
+  }
+}
+
+void RsM8194h::heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
+  if (state_.image[kEventSlot] == 0) return;
+  for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
+    const lang::Trigger trigger = triggers()[static_cast<std::size_t>(channel)];
+    const bool was = is_on(before, channel);
+    const bool is = is_on(state_.inputs, channel);
+    if (fires(trigger.condition, was, is, at_start)) {
+      fire(channel, trigger);
+      continue;
+    }
+    // A level that held an axis lets it go when it ends, the last one if several did.
+    AxisMask& held = state_.trigger_holds[static_cast<std::size_t>(channel)];
+    if (held == 0 || was == is) continue;
+    const AxisMask let_go = held;
+    held = 0;
+    AxisMask still = 0;
+    for (const AxisMask other : state_.trigger_holds) still |= other;
+    release(static_cast<AxisMask>(let_go & ~still));
+  }
+}
+
+void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
+  switch (trigger.event) {
+    case lang::TriggerEvent::none: break;
+    case lang::TriggerEvent::call_mp: {
+      const auto number = static_cast<std::uint8_t>(channel);
+      auto& queue = state_.queued_triggers;
+      if (std::find(queue.begin(), queue.end(), number) == queue.end()) queue.push_back(number);
+      break;
+    }
+    case lang::TriggerEvent::hold:
+      hold(trigger.argument);
+      if (is_level(trigger.condition)) {
+        state_.trigger_holds[static_cast<std::size_t>(channel)] = trigger.argument;
+      }
+      break;
+    case lang::TriggerEvent::abort_command:
+      if (!state_.fifo.waiting.empty() && state_.fifo.stop_wait == 0 && !state_.execution.is_alive()) {
+        state_.fifo.waiting.erase(state_.fifo.waiting.begin());
+      }
+      state_.fifo.stop_wait = 0;
+      lang::drop_wait(state_.execution, *this);
+      if (state_.paths.together.engaged) {
+        state_.paths.together.slow_down(now());
+        state_.paths.open = false;
+      }
+      for (std::size_t a = 0; a < kAxes; ++a) {
+        if (!state_.paths.together.takes(a)) state_.motors[a].slow_down(now());
+      }
+      break;
+    case lang::TriggerEvent::abort_macro: terminate(); break;
+    case lang::TriggerEvent::pause: state_.paused = true; break;
+    case lang::TriggerEvent::clear_stop:
+      clear_stop(kAllAxes);
+      clear_path_stop();
+      state_.paused = false;
+      break;
+  }
+}
+
+/// Nothing starts in a download or in the emergency state.
+void RsM8194h::start_queued_trigger() {
+  auto& queue = state_.queued_triggers;
+  const bool may =
+      state_.rsm == lang::State::ready && !state_.emergency_state && !mp_runs() && !state_.paused;
+  if (queue.empty() || !may) return;
+  const lang::Trigger& trigger = triggers()[queue.front()];
+  queue.erase(queue.begin());
+  if (trigger.event == lang::TriggerEvent::call_mp) start_mp(trigger.argument);
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,157 @@
+#include "emulator/models/rs_m8194h/views.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "emulator/models/rs_m8194h/device.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+constexpr std::uint32_t kModuleId = 0x44;
+
+std::size_t axis_number(Cell cell) { return static_cast<std::size_t>(cell.axis); }
+Value bit_of_word(std::uint32_t word, int number) { return word >> number & 1U; }
+const AxisUnit& unit_of(const RsM8194h& it, Cell cell) { return it.state().units[axis_number(cell)]; }
+const motion::Axis& motor_of(const RsM8194h& it, Cell cell) { return it.state().motors[axis_number(cell)]; }
+std::size_t group_of(int number) { return static_cast<std::size_t>(number); }
+
+std::uint16_t all_of(const RsM8194h& it, Cell cell) {
+  return di_all_word(unit_of(it, cell), it.state().emergency_input, it.is_driving(axis_number(cell)));
+}
+
+/// A command of the table that a plain write stands for.
+lang::Command counter_command(lang::Verb verb, Cell cell, Value value) {
+  lang::Command command{.code = lang::real_time_code(verb)};
+  command.values[0] = mask_of(axis_number(cell));
+  command.values[1] = static_cast<std::uint32_t>(value);
+  return command;
+}
+
+}  // namespace
+
+Value do_word(const RsM8194h& it, Cell cell) { return it.state().outputs[group_of(cell.index)]; }
+Value di_word(const RsM8194h& it, Cell cell) { return it.state().inputs[group_of(cell.index)]; }
+Value do_bit(const RsM8194h& it, Cell cell) {
+  return bit_of_word(it.state().outputs[group_of(cell.argument)], cell.index);
+}
+Value di_bit(const RsM8194h& it, Cell cell) {
+  return bit_of_word(it.state().inputs[group_of(cell.argument - 8)], cell.index);
+}
+void write_do_word(RsM8194h& it, Cell cell, Value value) {
+  it.state().outputs[group_of(cell.index)] = static_cast<std::uint16_t>(value);
+}
+void write_do_bit(RsM8194h& it, Cell cell, Value value) {
+  std::uint16_t& word = it.state().outputs[group_of(cell.argument)];
+  const auto bit = static_cast<std::uint16_t>(1U << cell.index);
+  word = static_cast<std::uint16_t>(value != 0 ? word | bit : word & ~bit);
+}
+
+Value di_all(const RsM8194h& it, Cell cell) { return all_of(it, cell); }
+Value di_all_bit(const RsM8194h& it, Cell cell) { return bit_of_word(all_of(it, cell), cell.argument); }
+Value error_code(const RsM8194h& it, Cell cell) { return unit_of(it, cell).error_code; }
+Value error_bit(const RsM8194h& it, Cell cell) {
+  return bit_of_word(unit_of(it, cell).error_code, cell.argument);
+}
+Value di_signal(const RsM8194h& it, Cell cell) { return di_signal_word(unit_of(it, cell)); }
+Value di_signal_bit(const RsM8194h& it, Cell cell) {
+  return bit_of_word(di_signal_word(unit_of(it, cell)), cell.argument);
+}
+Value logic_position(const RsM8194h& it, Cell cell) {
+  return logic_count(unit_of(it, cell), motor_of(it, cell));
+}
+Value encoder_position(const RsM8194h& it, Cell cell) {
+  return encoder_count(unit_of(it, cell), motor_of(it, cell));
+}
+Value absolute_position(const RsM8194h& it, Cell cell) {
+  return absolute_count(unit_of(it, cell), motor_of(it, cell));
+}
+Value current_velocity(const RsM8194h& it, Cell cell) {
+  return static_cast<Value>(std::abs(it.speed_pps(cell.axis)) + 0.5);
+}
+Value current_acceleration(const RsM8194h& it, Cell cell) {
+  const motion::Coordinated& together = it.state().paths.together;
+  const std::size_t axis = axis_number(cell);
+  double size = 0;
+  if (together.takes(axis)) {
+    // Its share of the acceleration along the path.
+    const motion::Sample along = together.run.sample(it.now());
+    const double share =
+        along.speed_u_s > 0 ? std::abs(together.speed_pps(axis, it.now())) / along.speed_u_s : 0;
+    size = std::abs(along.acceleration_u_s2) * share;
+  } else if (it.is_driving(axis)) {
+    size = std::abs(motor_of(it, cell).sample(it.now()).acceleration_u_s2);
+  }
+  return static_cast<Value>(size < INT32_MAX ? size + 0.5 : INT32_MAX);
+}
+Value stop_status(const RsM8194h& it, Cell cell) { return it.is_driving(axis_number(cell)) ? 0 : 1; }
+Value latch(const RsM8194h& it, Cell cell) { return unit_of(it, cell).latched; }
+Value home_state(const RsM8194h& it, Cell cell) {
+  const motion::Homing& homing = motor_of(it, cell).homing;
+  return homing.active() ? homing.row().code : 0;
+}
+Value servo_is_on(const RsM8194h& it, Cell cell) { return unit_of(it, cell).basic.servo ? 1 : 0; }
+
+void queue_logic_position(RsM8194h& it, Cell cell, Value value) {
+  it.queue(counter_command(lang::Verb::set_lp, cell, value));
+}
+void queue_encoder_position(RsM8194h& it, Cell cell, Value value) {
+  it.queue(counter_command(lang::Verb::set_ep, cell, value));
+}
+void queue_absolute_position(RsM8194h& it, Cell cell, Value value) {
+  it.queue(counter_command(lang::Verb::abs_set_position, cell, value));
+}
+
+Value running_mp(const RsM8194h& it, Cell) { return it.running_mp(); }
+Value emergency_state(const RsM8194h& it, Cell) { return it.state().emergency_state ? 1 : 0; }
+Value error_state(const RsM8194h& it, Cell) {
+  for (const AxisUnit& unit : it.state().units) {
+    if (unit.error_code != 0) return 1;
+  }
+  return 0;
+}
+Value free_blocks(const RsM8194h& it, Cell) { return blocks_left(it.state().fifo); }
+Value rint_word(const RsM8194h& it, Cell cell) {
+  return it.state().rint | (error_state(it, cell) != 0 ? bit_of(Rint::axes) : 0);
+}
+Value rint_bit(const RsM8194h& it, Cell cell) {
+  return bit_of_word(static_cast<std::uint32_t>(rint_word(it, cell)), cell.argument);
+}
+Value module_id(const RsM8194h& it, Cell) { return it.module_is_absent() ? 0 : kModuleId; }
+Value rsm_firmware(const RsM8194h& it, Cell) { return it.firmware() >= 300 ? 0x03000000 : 0x02000000; }
+Value module_firmware(const RsM8194h& it, Cell) {
+  if (it.module_is_absent()) return 0;
+  return it.firmware() >= 300 ? 0x02210300 : 0x02210201;
+}
+Value interpolation_ready(const RsM8194h& it, Cell) {
+  if (it.module_is_absent()) return 0;
+  const Paths& paths = it.state().paths;
+  if (!paths.together.engaged) return 1;
+  // A stream takes one segment ahead.
+  return paths.runs == Paths::Runs::stream && paths.open && paths.together.run.queued() < 2 ? 1 : 0;
+}
+Value driving_axes(const RsM8194h& it, Cell) { return it.driving(); }
+Value rsm_state(const RsM8194h& it, Cell) { return static_cast<Value>(it.state().rsm); }
+Value module_state(const RsM8194h& it, Cell) {
+  // The numbering of 4.16.2; states that are passed within a tick do not show.
+  constexpr Value kDownloading = 3;
+  constexpr Value kRunsMp = 5;
+  constexpr Value kRunsIsr = 7;
+  if (it.state().rsm != lang::State::ready) return kDownloading;
+  return it.isr_runs() ? kRunsIsr : it.mp_runs() ? kRunsMp : 0;
+}
+Value illegal_reason(const RsM8194h& it, Cell) { return it.state().illegal_reason; }
+Value download_field(const RsM8194h& it, Cell cell) {
+  const lang::DownloadStatus& shown = it.state().downloaded;
+  const std::uint16_t fields[] = {shown.mp, shown.isr, shown.command, shown.line, shown.error};
+  return fields[cell.argument];
+}
+Value execution_field(const RsM8194h& it, Cell cell) {
+  return it.state().execution_fault[static_cast<std::size_t>(cell.argument)];
+}
+Value factor_axes(const RsM8194h& it, Cell cell) {
+  return it.state().factor_axes[static_cast<std::size_t>(cell.argument)];
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,64 @@
+// RS-M8194H: what its registers show of the state, and what writing them does (registers.h names them).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/row.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+class RsM8194h;
+
+// --- FRnet: words by Cell::index, bits of the group that is the row's argument
+Value do_word(const RsM8194h& it, Cell cell);
+Value di_word(const RsM8194h& it, Cell cell);
+Value do_bit(const RsM8194h& it, Cell cell);
+Value di_bit(const RsM8194h& it, Cell cell);
+void write_do_word(RsM8194h& it, Cell cell, Value value);
+void write_do_bit(RsM8194h& it, Cell cell, Value value);
+
+// --- of each axis; single bits by the row's argument
+Value di_all(const RsM8194h& it, Cell cell);
+Value di_all_bit(const RsM8194h& it, Cell cell);
+Value error_code(const RsM8194h& it, Cell cell);
+Value error_bit(const RsM8194h& it, Cell cell);
+Value di_signal(const RsM8194h& it, Cell cell);
+Value di_signal_bit(const RsM8194h& it, Cell cell);
+Value logic_position(const RsM8194h& it, Cell cell);
+Value encoder_position(const RsM8194h& it, Cell cell);
+Value absolute_position(const RsM8194h& it, Cell cell);
+Value current_velocity(const RsM8194h& it, Cell cell);
+Value current_acceleration(const RsM8194h& it, Cell cell);
+Value stop_status(const RsM8194h& it, Cell cell);
+Value latch(const RsM8194h& it, Cell cell);
+Value home_state(const RsM8194h& it, Cell cell);
+Value servo_is_on(const RsM8194h& it, Cell cell);
+void queue_logic_position(RsM8194h& it, Cell cell, Value value);
+void queue_encoder_position(RsM8194h& it, Cell cell, Value value);
+void queue_absolute_position(RsM8194h& it, Cell cell, Value value);
+
+// --- of the whole
+Value running_mp(const RsM8194h& it, Cell cell);
+Value emergency_state(const RsM8194h& it, Cell cell);
+Value error_state(const RsM8194h& it, Cell cell);
+Value free_blocks(const RsM8194h& it, Cell cell);
+Value rint_word(const RsM8194h& it, Cell cell);
+Value rint_bit(const RsM8194h& it, Cell cell);
+Value module_id(const RsM8194h& it, Cell cell);
+Value rsm_firmware(const RsM8194h& it, Cell cell);
+Value module_firmware(const RsM8194h& it, Cell cell);
+Value interpolation_ready(const RsM8194h& it, Cell cell);
+Value driving_axes(const RsM8194h& it, Cell cell);
+Value rsm_state(const RsM8194h& it, Cell cell);
+Value module_state(const RsM8194h& it, Cell cell);
+Value illegal_reason(const RsM8194h& it, Cell cell);
+Value download_field(const RsM8194h& it, Cell cell);   // the row's argument: which of the five
+Value execution_field(const RsM8194h& it, Cell cell);  // likewise
+Value factor_axes(const RsM8194h& it, Cell cell);      // the row's argument: which factor
+void call_mp(RsM8194h& it, Cell cell, Value value);
+void enable_triggers(RsM8194h& it, Cell cell, Value value);
+DeviceAnswer take_message(RsM8194h& it, Cell cell, std::span<const std::uint16_t> words);
+
+}  // namespace understudy::emulator::models::rs_m8194h

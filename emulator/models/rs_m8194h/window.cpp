@@ -1,0 +1,148 @@
+// Requests: what is admitted, what a message to the window becomes, and what of an exception is kept.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "emulator/models/rs_m8194h/commands.h"
+#include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/views.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/window.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+DeviceAnswer answer_of(lang::Fault fault) {
+  const lang::FaultRow& row = lang::row_of(fault);
+  const Refusal refusal = row.exception == 0   ? Refusal::none
+                          : row.exception == 2 ? Refusal::no_register
+                          : row.exception == 4 ? Refusal::failure
+                          : row.exception == 6 ? Refusal::busy
+                                               : Refusal::bad_value;
+  return {refusal, row.reason_4_16_2};
+}
+
+lang::Fault fault_of(Cause cause) {
+  switch (cause) {
+    case Cause::none: return lang::Fault::none;
+    case Cause::unknown_function: return lang::Fault::function_code;
+    case Cause::cut_pair: return lang::Fault::half_of_pair;
+    case Cause::bad_count:
+    case Cause::bad_length: return lang::Fault::register_count;
+    case Cause::no_register:
+    case Cause::read_only:
+    case Cause::write_only:
+    case Cause::cut_message: return lang::Fault::address;
+    case Cause::out_of_range:
+    case Cause::bad_bit:
+    case Cause::bad_message: return lang::Fault::parameter;
+    case Cause::busy: return lang::Fault::fifo_full;
+    case Cause::failure: return lang::Fault::no_module;
+  }
+  return lang::Fault::none;
+}
+
+struct Addresses {
+  Table table;
+  std::uint16_t first;
+  std::uint16_t last;
+};
+
+/// What the RS-M8194H has by itself: all else needs the module.
+constexpr Addresses kOwn[] = {{Table::input, 81, 87},   {Table::input, 100, 100}, {Table::input, 102, 102},
+                              {Table::input, 110, 119}, {Table::holding, 10, 81}, {Table::holding, 122, 127}};
+/// Writes that go through the FIFO, as the commands that they stand for.
+constexpr std::uint16_t kFirstQueued = 82;
+constexpr std::uint16_t kLastQueued = 105;
+constexpr std::uint16_t kCallMp = 8;
+
+bool is_own(Table table, std::size_t address) {
+  for (const Addresses& own : kOwn) {
+    if (own.table == table && address >= own.first && address <= own.last) return true;
+  }
+  return false;
+}
+
+/// Commands that a good write of the tables becomes.
+int commands_of(const RegisterRequest& request) {
+  if (!request.is_write() || request.table != Table::holding || request.first >= kWindow) return 0;
+  int commands = 0;
+  for (std::size_t i = 0; i < request.count; ++i) {
+    const std::size_t address = request.first + i;
+    const bool is_counter =
+        address >= kFirstQueued && address <= kLastQueued && (address - kFirstQueued) % 2 == 0;
+    commands += is_counter || address == kCallMp ? 1 : 0;
+  }
+  return commands;
+}
+
+bool calls_mp(const RegisterRequest& request) {
+  return request.first <= kCallMp && kCallMp < request.first + request.count;
+}
+
+}  // namespace
+
+DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) const {
+  if (module_is_absent()) {
+    for (std::size_t i = 0; i < request.count; ++i) {
+      if (!is_own(request.table, request.first + i)) return answer_of(lang::Fault::no_module);
+    }
+  }
+  const int commands = commands_of(request);
+  if (commands == 0) return Refusal::none;
+  if (state_.rsm != lang::State::ready) return answer_of(lang::Fault::real_time_in_macro);
+  if (checked != Checked::everything) return Refusal::none;
+  if (calls_mp(request) && mp_runs()) return answer_of(lang::Fault::macro_runs);
+  return commands > blocks_left(state_.fifo) ? answer_of(lang::Fault::fifo_full) : Refusal::none;
+}
+
+void RsM8194h::exception_answered(const RefusedRequest& request) {
+  const Objection& objection = request.objection;
+  state_.illegal_reason =
+      objection.reason != 0 ? objection.reason : lang::row_of(fault_of(objection.cause)).reason_4_16_2;
+}
+
+void RsM8194h::register_written(const RegisterRow& row, std::size_t slot) {
+  if (row.persistent) state_.eeprom.write(slot, state_.image[slot], 0, now());
+}
+
+DeviceAnswer RsM8194h::take(const lang::Command& command) {
+  const lang::CommandRow& row = command.row();
+  if (row.use.refused_while_mp_runs && mp_runs()) return answer_of(lang::Fault::macro_runs);
+  if (row.use.real_time != lang::RealTime::queued) {
+    carry_out(command);
+    return Refusal::none;
+  }
+  if (blocks_of(command) > blocks_left(state_.fifo)) return answer_of(lang::Fault::fifo_full);
+  queue(command);
+  return Refusal::none;
+}
+
+void RsM8194h::queue(const lang::Command& command) {
+  const bool is_alone = state_.fifo.waiting.empty();
+  state_.fifo.waiting.push_back(command);
+  if (is_alone) run_fifo(state_.steps_left);
+}
+
+DeviceAnswer take_message(RsM8194h& it, Cell, std::span<const std::uint16_t> words) {
+  const auto order = it.low_word_first() ? lang::WordOrder::low_first : lang::WordOrder::high_first;
+  const lang::Decoded decoded = lang::decode(words, it.state().rsm, order);
+  const bool is_ready = it.state().rsm == lang::State::ready;
+  if (!is_ready ||
+      (decoded.fault == lang::Fault::none && lang::is_one_of(decoded.command.verb(), lang::kDownloadVerbs))) {
+    return answer_of(it.take_download(decoded));
+  }
+  if (decoded.fault != lang::Fault::none) return answer_of(decoded.fault);
+  return it.take(decoded.command);
+}
+
+void call_mp(RsM8194h& it, Cell, Value value) {
+  lang::Command command{.code = lang::real_time_code(lang::Verb::mp_call)};
+  command.values[0] = static_cast<std::uint32_t>(value);
+  it.queue(command);
+}
+
+void enable_triggers(RsM8194h& it, Cell, Value value) { it.enable_triggers(value != 0); }
+
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,146 @@
+// Synchronous actions, interrupt factors and ISRs, the line scan (7.3, 7.4.12): the manual's examples and
+// more.
+#include <gtest/gtest.h>
+
+#include "tests/emulator/models/rs_m8194h/one_rsm.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+namespace events_test {
+
+struct SteadyRsm : OneRsm {
+  explicit SteadyRsm(const std::string& program = "") : OneRsm({.program = program}) {
+    send({"RSM_SET_MAX_V XYZU 80000", "RSM_SET_SV XYZU 2000", "RSM_SET_V XYZU 2000"});
+    run(2);
+  }
+};
+
+TEST(RsM8194hEvents, AComparatorStartsAnotherAxis) {
+  // 7.3.1, example 2: at EP(U) >= 5000 Y moves by its preset.
+  SteadyRsm rsm;
+  rsm.send({"RSM_SYNC_ACTION U Y 1 1 0 3 0 0 0 0 0 0", "RSM_SET_COMPARE U 0 1 5000", "RSM_FIXED_MOVE U 10000",
+            "RSM_SET_PRESET Y 2000"});
+  rsm.run(2490);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 8);
+  rsm.run(20);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 10);
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 2000, 0, 10000}));
+}
+
+TEST(RsM8194hEvents, AnAxisStopsItselfAtThePulse) {
+  // 7.3.1, example 4: X stops at 5000, and its ISR moves Y.
+  SteadyRsm rsm("ISR 1\nRSM_MACRO_FIXED_MOVE Y 1000\nEND\n");
+  rsm.send({"RSM_ENABLE_INT", "RSM_SYNC_ACTION X X 1 6 0 0 0 1 1 0 0 0", "RSM_SET_COMPARE X 0 0 5000",
+            "RSM_FIXED_MOVE X 10000"});
+  rsm.run(2600);
+  EXPECT_EQ(rsm.get("LP_X"), 5000);
+  EXPECT_EQ(rsm.get("INT_SYNC"), 1);
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{5000, 1000, 0, 0}));
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
+}
+
+TEST(RsM8194hEvents, IsrsArmTheNextOne) {
+  // 7.3.12.
+  SteadyRsm rsm(
+      "ISR 1\nRSM_MACRO_FIXED_MOVE Y 1000\nRSM_MACRO_SET_COMPARE X 0 0 4000\nRSM_MACRO_INTFACTOR_ENABLE X 4 "
+      "2\nEND\n"
+      "ISR 2\nRSM_MACRO_FIXED_MOVE Z 1000\nRSM_MACRO_SET_COMPARE X 0 0 6000\nRSM_MACRO_INTFACTOR_ENABLE X 4 "
+      "3\nEND\n"
+      "ISR 3\nRSM_MACRO_FIXED_MOVE U 1000\nRSM_MACRO_INTFACTOR_DISABLE X 10\nEND\n");
+  rsm.send({"RSM_SET_COMPARE X 0 0 2000", "RSM_ENABLE_INT", "RSM_INTFACTOR_ENABLE X 4 1",
+            "RSM_FIXED_MOVE X 16000"});
+  rsm.run(1500);
+  EXPECT_EQ(rsm.get("LP_Z"), 0);
+  EXPECT_GT(rsm.get("LP_Y"), 900);
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{16000, 1000, 1000, 1000}));
+}
+
+struct FactorCase {
+  const char* command;
+  Value axes;
+};
+
+TEST(RsM8194hEvents, EnabledFactorsAreNotedForTheirAxes) {
+  SteadyRsm rsm;
+  for (int factor = 0; factor <= 7; ++factor)
+    rsm.send("RSM_INTFACTOR_ENABLE XZ " + std::to_string(factor) + " 1");
+  rsm.send({"RSM_SET_COMPARE XYZU 0 0 100", "RSM_SET_COMPARE XYZU 1 0 -100", "RSM_SET_SV XZ 100",
+            "RSM_SET_A XZ 100000"});
+  rsm.run(2);
+  rsm.send("RSM_INTFACTOR_ENABLE XZ 2 1");
+  rsm.send({"RSM_FIXED_MOVE XY 1000", "RSM_FIXED_MOVE Z -1000"});
+  rsm.run_to_rest();
+  rsm.run(2);
+  EXPECT_EQ(rsm.get("INT_PULSE"), 5);
+  EXPECT_EQ(rsm.get("INT_P_GE_C+"), 1);  // X alone has passed C+
+  EXPECT_EQ(rsm.get("INT_P_LT_C-"), 4);  // and Z C-
+  EXPECT_EQ(rsm.get("INT_C-STA"), 5);
+  EXPECT_EQ(rsm.get("INT_C-END"), 5);
+  EXPECT_EQ(rsm.get("INT_D-END"), 5);
+  rsm.send("RSM_INTFACTOR_DISABLE X 10");
+  EXPECT_EQ(rsm.get("INT_PULSE"), 4);
+  EXPECT_EQ(rsm.get("INT_D-END"), 4);
+}
+
+TEST(RsM8194hEvents, WithInterruptsOffNoIsrIsCalledLaterEither) {
+  SteadyRsm rsm("ISR 1\nRSM_MACRO_SET_VAR VAR1 1\nEND\n");
+  rsm.send({"RSM_INTFACTOR_ENABLE X 7 1", "RSM_FIXED_MOVE X 10"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("INT_D-END"), 1);
+  rsm.send("RSM_ENABLE_INT");
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("VAR1"), 0);
+  rsm.send("RSM_FIXED_MOVE X 10");
+  rsm.run_to_rest();
+  rsm.run(5);
+  EXPECT_EQ(rsm.get("VAR1"), 1);
+}
+
+TEST(RsM8194hEvents, LatchesAndPresetsAreOfTheMomentOfTheEdge) {
+  // 7.3.1's first example: IN3 latches EP and zeroes EP.
+  SteadyRsm rsm;
+  rsm.send({"RSM_SYNC_ACTION U U 64 0 2 2 1 0 0 0 0 0", "RSM_SET_PRESET U 100"});
+  rsm.pin(3, Pin::in3, true);
+  rsm.run(2);
+  rsm.send("RSM_FIXED_MOVE U 1000");
+  rsm.run(100);
+  rsm.pin(3, Pin::in3, false);  // the contact opens: the line goes high
+  rsm.run(1);
+  const Value latched = rsm.get("LATCH_U");
+  EXPECT_NEAR(static_cast<double>(latched), 200, 3);
+  EXPECT_NEAR(static_cast<double>(rsm.get("EP_U")), 101, 3);
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_U"), 1000);
+  EXPECT_EQ(rsm.get("EP_U"), 1000 - latched + 100);
+}
+
+TEST(RsM8194hEvents, LineScansTriggerAtTheirPitch) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_LINE_SCAN X 0 0 0 -39"});
+  rsm.send({"RSM_LINE_SCAN_START XY 0 -4010"});
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 0);
+  rsm.run_to_rest();
+  rsm.run(1);
+  EXPECT_EQ(rsm.get("Line_Scan_Completed"), 1);
+  EXPECT_EQ(rsm.get("LP_Y"), -4010);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 0);
+  // The setting is used up.
+  rsm.send({"RSM_LINE_SCAN_START X 0 4000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 100);
+}
+
+TEST(RsM8194hEvents, ActionsGivePulsesAtXAndYOnly) {
+  SteadyRsm rsm;
+  rsm.send({"RSM_SYNC_ACTION Z XYZU 32 0 0 0 1 0 0 0 0 0", "RSM_FIXED_MOVE Z 10"});
+  rsm.run_to_rest();
+  rsm.run(2);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 1);
+  EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut + 1), 1);
+}
+
+}  // namespace events_test
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,194 @@
+// Lines, arcs, streams, rectangles, helices: where they end, how long they take, how far from the path
+// (7.2, 7.4).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/emulator/models/rs_m8194h/one_rsm.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+namespace paths_test {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Constant vector speed of 10000 PPS in X and Y.
+struct ConstantRsm : OneRsm {
+  explicit ConstantRsm(const std::string& axes = "X Y 0", int mode = 0) {
+    send("RSM_AXIS_ASSIGN " + axes);
+    send("RSM_VECTOR_SPEED " + std::to_string(mode));
+    send({"RSM_SET_MAX_V XYZU 80000", "RSM_SET_VSV 10000", "RSM_SET_VV 10000"});
+    run(3);
+  }
+};
+
+struct Way {
+  const char* command;
+  double length;
+  Value x, y;
+};
+const Way kWays[] = {
+    {"RSM_LINE_2D 12000 -5000", 13000, 12000, -5000},
+    {"RSM_ARC_CW -5000 -5000 -10000 -10000", 7071.0678 * kPi, -10000, -10000},
+    {"RSM_ARC_CCW -5000 -5000 -10000 -10000", 7071.0678 * kPi, -10000, -10000},
+    {"RSM_ARC_CW 5000 0 5000 5000", 5000 * kPi / 2, 5000, 5000},
+    {"RSM_ARC_CCW 5000 0 5000 5000", 5000 * kPi * 1.5, 5000, 5000},
+    {"RSM_CIRCLE_CW 0 10000", 20000 * kPi, 0, 0},
+    {"RSM_CIRCLE_CCW 10000 0", 20000 * kPi, 0, 0},
+};
+
+TEST(RsM8194hPaths, EndWhereTheyShouldInTheTimeOfTheirLength) {
+  for (const Way& way : kWays) {
+    ConstantRsm rsm;
+    rsm.send(way.command);
+    EXPECT_EQ(rsm.get("InterpolationRdyFlag"), 0);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), 3);
+    EXPECT_EQ(rsm.run_to_rest(), static_cast<Tick>(std::ceil(way.length / 10 - 1e-6)) + 1) << way.command;
+    EXPECT_EQ(rsm.get("LP_X"), way.x) << way.command;
+    EXPECT_EQ(rsm.get("LP_Y"), way.y) << way.command;
+    EXPECT_EQ(rsm.get("InterpolationRdyFlag"), 1);
+  }
+}
+
+TEST(RsM8194hPaths, AbsoluteFormsGoByTheAbsoluteCounters) {
+  ConstantRsm rsm;
+  rsm.send({"RSM_ABS_SET_POSITION X 1000", "RSM_ABS_SET_POSITION Y -1000", "RSM_SET_LP XY 7",
+            "RSM_ABS_LINE_2D 4000 3000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 3007);
+  EXPECT_EQ(rsm.get("LP_Y"), 4007);
+  rsm.send("RSM_ABS_ARC_CCW 4000 4000 4000 5000");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("ABS_X"), 4000);
+  EXPECT_EQ(rsm.get("ABS_Y"), 5000);
+}
+
+TEST(RsM8194hPaths, AnyAxesMayBeAssigned) {
+  ConstantRsm rsm("U Y X", 7);
+  rsm.send("RSM_LINE_3D 6000 -3000 2000");
+  EXPECT_EQ(rsm.run_to_rest(), 701);
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{2000, -3000, 0, 6000}));
+}
+
+TEST(RsM8194hPaths, StayWithinHalfAPulseOfACircle) {
+  ConstantRsm rsm;
+  rsm.send("RSM_CIRCLE_CW 3000 4000");
+  int ticks = 0;
+  while (rsm.get("DRIVING_AXIS") != 0) {
+    rsm.run(1);
+    const double dx = static_cast<double>(rsm.get("LP_X")) - 3000;
+    const double dy = static_cast<double>(rsm.get("LP_Y")) - 4000;
+    ASSERT_NEAR(std::sqrt(dx * dx + dy * dy), 5000, 0.71);
+    ++ticks;
+  }
+  EXPECT_GT(ticks, 3000);
+}
+
+TEST(RsM8194hPaths, AnEndOffTheCircleIsReachedInItsQuadrant) {
+  ConstantRsm rsm;
+  rsm.send("RSM_ARC_CW 10000 0 11000 9000");  // 7.2.2: radius 10000, the end at 9055
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 11000);
+  EXPECT_NEAR(static_cast<double>(rsm.get("LP_Y")), std::sqrt(1e8 - 1e6), 1);
+}
+
+TEST(RsM8194hPaths, WhatCannotBeDrawnIsVoid) {
+  for (const char* command :
+       {"RSM_ARC_CW 0 0 100 100", "RSM_LINE_3D 1 2 3", "RSM_LINE_2D_CONTINUE 0 100 100"}) {
+    ConstantRsm rsm;
+    rsm.send(command);
+    rsm.run(5);
+    EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, 0})) << command;
+    EXPECT_EQ(rsm.get("Module_Error"), 1) << command;
+    rsm.send("RSM_LINE_2D 100 0");
+    rsm.run_to_rest();
+    EXPECT_EQ(rsm.get("LP_X"), 100);
+  }
+}
+
+TEST(RsM8194hPaths, AFedStreamNeverSlowsBeforeItsLastSegment) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_LINE_2D_INITIAL X Y 300 18000 500000"});
+  constexpr int kSegments = 2000;
+  int sent = 0;
+  Value least_after_ramp = 100000;
+  while (sent < kSegments || rsm.get("DRIVING_AXIS") != 0) {
+    // The ways of a stair: right angles all along.
+    while (sent < kSegments && rsm.get("FREE_BUFFER_SIZE") > 0) {
+      ++sent;
+      const std::string last = sent == kSegments ? "1" : "0";
+      rsm.send("RSM_LINE_2D_CONTINUE " + last + (sent % 2 == 0 ? " 100 0" : " 0 100"));
+    }
+    rsm.run(1);
+    const Value speed = rsm.get("CV_X") + rsm.get("CV_Y");
+    if (rsm.now() > 60 && sent < kSegments) least_after_ramp = std::min(least_after_ramp, speed);
+    ASSERT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0);
+    ASSERT_LT(rsm.now(), 100000);
+  }
+  EXPECT_EQ(rsm.get("LP_X"), 100 * kSegments / 2);
+  EXPECT_EQ(rsm.get("LP_Y"), 100 * kSegments / 2);
+  EXPECT_GE(least_after_ramp, 17990);
+  EXPECT_LE(least_after_ramp, 18000);
+}
+
+TEST(RsM8194hPaths, AStarvedStreamEndsAndGoesOnFromItsStartSpeed) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_LINE_2D_INITIAL X Y 1000 10000 100000",
+            "RSM_LINE_2D_CONTINUE 0 3000 4000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 3000);
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 1);
+  EXPECT_EQ(rsm.get("InterpolationRdyFlag"), 1);
+  rsm.send("RSM_LINE_2D_CONTINUE 1 3000 4000");
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0);
+  // Both ramps: (10000^2 - 1000^2) / 200000 pulses in 90 ms each.
+  EXPECT_EQ(rsm.run_to_rest(), static_cast<Tick>(std::ceil(180 + (5000 - 990) / 10.0)) + 1);
+  EXPECT_EQ(rsm.get("LP_Y"), 8000);
+  EXPECT_EQ(rsm.get("Continuous_Inp_Interrupt"), 0);
+}
+
+TEST(RsM8194hPaths, MixedSegmentsFollowEachOther) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XY 80000", "RSM_MIX_2D_INITIAL X Y 0 10000 10000 100000",
+            "RSM_MIX_2D_CONTINUE 0 1 0 0 1000 0", "RSM_MIX_2D_CONTINUE 0 3 0 500 0 1000",
+            "RSM_ABS_MIX_2D_CONTINUE 0 1 0 0 0 1000", "RSM_MIX_2D_CONTINUE 1 5 0 -500 0 0"});
+  const double length = 1000 + 500 * kPi + 1000 + 1000 * kPi;
+  EXPECT_EQ(rsm.run_to_rest(), static_cast<Tick>(std::ceil(length / 10)) + 1);
+  EXPECT_EQ(rsm.get("LP_X"), 0);
+  EXPECT_EQ(rsm.get("LP_Y"), 1000);
+}
+
+TEST(RsM8194hPaths, RectanglesCloseFromEachOfTheirPoints) {
+  // 7.4.1: 20000 by 10000 with corners of 1000.
+  const double length = 2 * (18000 + 8000) + 2 * kPi * 1000;
+  for (int point = 0; point < 8; ++point) {
+    for (int direction = 0; direction < 2; ++direction) {
+      OneRsm rsm;
+      rsm.send("RSM_SET_MAX_V XY 80000");
+      rsm.send("RSM_RECTANGLE X Y 0 " + std::to_string(point) + " " + std::to_string(direction) +
+               " 20000 10000 1000 10000 10000 5000 5000");
+      Value least_x = 0, most_x = 0, least_y = 0, most_y = 0;
+      const Tick begin = rsm.now();
+      do {
+        rsm.run(1);
+        least_x = std::min(least_x, rsm.get("LP_X"));
+        most_x = std::max(most_x, rsm.get("LP_X"));
+        least_y = std::min(least_y, rsm.get("LP_Y"));
+        most_y = std::max(most_y, rsm.get("LP_Y"));
+      } while (rsm.get("DRIVING_AXIS") != 0);
+      EXPECT_EQ(rsm.now() - begin, static_cast<Tick>(std::ceil(length / 10)) + 1);
+      EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, 0}));
+      EXPECT_NEAR(static_cast<double>(most_x - least_x), 20000, 1) << point;
+      EXPECT_NEAR(static_cast<double>(most_y - least_y), 10000, 1) << point;
+    }
+  }
+}
+
+TEST(RsM8194hPaths, HelicesTurnAtTheSpeedOfTheirCircle) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XYZU 80000", "RSM_HELIX_3D Y Z U 1 10000 0 5000 3 -2000"});
+  EXPECT_NEAR(static_cast<double>(rsm.run_to_rest()), 3 * 2 * kPi * 5000 / 10 + 1, 1);
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{0, 0, 0, -6000}));
+}
+
+}  // namespace paths_test
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,125 @@
+// What survives the power, what the Initial Table does, and that a state is whole (8, 3.19, 4.3.1).
+#include <gtest/gtest.h>
+
+#include "emulator/device/memory/kept_memory.h"
+#include "tests/emulator/models/rs_m8194h/one_rsm.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+namespace rs_m8194h_memory_test {
+
+TEST(RsM8194hMemory, TheInitialTableCountsFromTheNextLoadOn) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V INITIAL_XY 50000", "RSM_SET_ALARM INITIAL_Y 1 1",
+            "RSM_SET_SLMT INITIAL_U 1000 -1000 1", "RSM_SERVO_ON INITIAL_Z"});
+  EXPECT_EQ(rsm.state().units[0].basic, BasicSettings{});
+  EXPECT_EQ(rsm.get("Servo Z"), 0);
+  rsm.send("RSM_LOAD_INITIAL");
+  EXPECT_EQ(rsm.state().units[0].basic.max_v, 50000u);
+  EXPECT_EQ(rsm.get("Servo Z"), 1);
+  EXPECT_EQ(rsm.get("DI_ALL_Y"), 0x03F0);
+  rsm.send({"RSM_SET_MAX_V X 60000", "RSM_RESET_CARD"});
+  EXPECT_EQ(rsm.state().units[0].basic.max_v, 50000u);
+  rsm.device().switch_power(false);
+  rsm.device().switch_power(true);
+  EXPECT_EQ(rsm.state().units[1].basic.max_v, 50000u);
+  EXPECT_TRUE(rsm.state().units[3].basic.soft_limits);
+  EXPECT_EQ(rsm.state().units[3].basic.reverse_soft_limit, -1000);
+}
+
+TEST(RsM8194hMemory, KeepsWhatTheManualSaysAndLosesTheRest) {
+  OneRsm rsm({.program = "MP 5\nRSM_MACRO_SET_VAR VAR1 3\nEND\nTRIGGER 8.4 on MP5\n"});
+  rsm.set("MD3", -5);
+  rsm.send("RSM_WRITE_MD 1500 0 321.65");
+  rsm.set("VAR3", 9);
+  rsm.set("bVAR3", 9);
+  rsm.set("FRNET_EVENT", 1);
+  rsm.set("WORD_ORDER", 1);
+  rsm.send({"RSM_SET_LP X 5"});
+  rsm.run(5);
+  const NvImage image = rsm.device().memory()->nv_image();
+  EXPECT_EQ(parse_nv_image(to_json(image)), image);
+  rsm.device().switch_power(false);
+  rsm.device().switch_power(true);
+  EXPECT_EQ(rsm.get("MD3"), -5);
+  EXPECT_EQ(rsm.get("MD1500"), value_of_real(321.65F));
+  EXPECT_EQ(rsm.get("FRNET_EVENT"), 1);
+  for (const char* name : {"VAR3", "bVAR3", "WORD_ORDER", "LP_X"}) EXPECT_EQ(rsm.get(name), 0) << name;
+  EXPECT_EQ(rsm.device().user_program()->program_text(),
+            "MP 5\n  RSM_MACRO_SET_VAR VAR1 3\nEND\n\nTRIGGER 8.4 on MP5\n");
+
+  // Into another box, by its image.
+  DeviceSettings settings;
+  settings.name = "other";
+  settings.nv = image;
+  const auto other = make_device(rs_m8194h::model(), settings);
+  EXPECT_EQ(other->user_program()->program_text(), rsm.device().user_program()->program_text());
+  EXPECT_TRUE(holds_the_same(other->memory()->nv_image(), rsm.device().memory()->nv_image()));
+}
+
+TEST(RsM8194hMemory, TheFactorysIsEmpty) {
+  OneRsm rsm;
+  const NvImage image = rsm.device().memory()->nv_image();
+  EXPECT_TRUE(image.registers.empty());
+  EXPECT_TRUE(image.reals.empty());
+  EXPECT_TRUE(image.blocks.empty());
+}
+
+/// Something of everything, for a state that has it all.
+std::string_view busy_course(int step) {
+  constexpr std::string_view kCommands[] = {"RSM_CONTINUE_MOVE Z 3000",
+                                            "RSM_MIX_2D_INITIAL X Y 1 1000 10000 50000",
+                                            "RSM_MIX_2D_CONTINUE 0 1 0 0 3000 0",
+                                            "RSM_MIX_2D_CONTINUE 0 3 0 500 0 1000",
+                                            "RSM_INTFACTOR_ENABLE Z 0 1",
+                                            "RSM_ENABLE_INT",
+                                            "RSM_SYNC_ACTION Z U 1 3 1 0 0 0 0 0 0 0",
+                                            "RSM_SET_COMPARE Z 0 0 500",
+                                            "RSM_MP_CALL 1",
+                                            "RSM_MIX_2D_CONTINUE 1 1 0 0 -3000 0",
+                                            "RSM_DRV_HOLD U"};
+  return kCommands[static_cast<std::size_t>(step) % std::size(kCommands)];
+}
+
+TEST(RsM8194hMemory, AStateGoesOnAsIfNothingHadHappened) {
+  const std::string program =
+      "MP 1\nRSM_MACRO_FOR 50\nRSM_MACRO_TIMER 7\nRSM_MACRO_VAR_CALCULATE VAR1 + 1 "
+      "VAR1\nRSM_MACRO_NEXT\nEND\n"
+      "ISR 1\nRSM_MACRO_VAR_CALCULATE VAR2 + 1 VAR2\nEND\n";
+  OneRsm rsm({.program = program});
+  for (int step = 0; step < 40; ++step) {
+    (void)rsm.exception(busy_course(step));
+    rsm.run(23);
+    OneRsm twin({.program = program});
+    const std::vector<std::byte> saved = rsm.device().save_state();
+    twin.device().restore_state(saved);
+    ASSERT_TRUE(twin.device().same_state(rsm.device()));
+    ASSERT_EQ(twin.device().save_state(), saved);
+    ASSERT_EQ(twin.device().state_difference(saved, twin.device().save_state()), "");
+  }
+}
+
+TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
+  // The same course, watched tick by tick and not at all.
+  OneRsm stepped;
+  OneRsm crossed;
+  const auto both = [&](std::string_view command) {
+    EXPECT_EQ(stepped.exception(command), crossed.exception(command));
+  };
+  const std::string_view commands[] = {
+      "RSM_SET_SV XYZ 1000",     "RSM_SET_V XYZ 9000",        "RSM_SET_A XYZ 3000", "RSM_FIXED_MOVE X 70000",
+      "RSM_FIXED_MOVE X -20000", "RSM_CONTINUE_MOVE Y -5000", "RSM_STOP_SLOWLY Y",  "RSM_SET_LP X 4"};
+  for (const std::string_view command : commands) {
+    both(command);
+    for (int i = 0; i < 1700; ++i) stepped.run(1);
+    crossed.run(1700);
+    ASSERT_EQ(stepped.device().state_difference(stepped.device().save_state(), crossed.device().save_state()),
+              "")
+        << command;
+  }
+  stepped.run(10000);
+  crossed.run(10000);
+  EXPECT_EQ(stepped.positions(), crossed.positions());
+}
+
+}  // namespace rs_m8194h_memory_test
+}  // namespace understudy::emulator::models::rs_m8194h

@@ -1,0 +1,240 @@
+// Moves of single axes: durations by the closed forms of the chip's laws, counters, limits (3, 4, 7.1).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/emulator/models/rs_m8194h/one_rsm.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+namespace single_axis_test {
+
+std::string number(double value) { return std::to_string(static_cast<long long>(value)); }
+
+/// Ticks from the command to the tick in which the move is over.
+Tick ticks_of(double seconds) { return static_cast<Tick>(std::ceil(seconds * 1000 - 1e-6)) + 1; }
+
+/// Trapezoid with its own deceleration, and AO pulses crept at SV.
+double trapezoid_s(double distance, double sv, double v, double a, double d, double ao) {
+  const double up = (v * v - sv * sv) / (2 * a);
+  const double down = (v * v - sv * sv) / (2 * d);
+  return (v - sv) / a + (v - sv) / d + (distance - ao - up - down) / v + ao / sv;
+}
+double s_curve_s(double distance, double sv, double v, double k, double l, double ao) {
+  const double up_s = 2 * std::sqrt((v - sv) / k);
+  const double down_s = 2 * std::sqrt((v - sv) / l);
+  const double ramps = (v + sv) / 2 * (up_s + down_s);
+  return up_s + down_s + (distance - ao - ramps) / v + ao / sv;
+}
+
+struct Move {
+  int mode;
+  double distance, sv, v, a, d, ao;  // a and d: K and L where the mode is an S-curve
+};
+constexpr Move kMoves[] = {
+    {0, 20000, 1000, 10000, 20000, 0, 0},      {0, 20000, 1000, 10000, 20000, 0, 8},
+    {0, 5000, 500, 2000, 4000, 0, 20},         {2, 20000, 1000, 10000, 20000, 40000, 0},
+    {2, 20000, 1000, 10000, 40000, 15000, 30}, {1, 30000, 1000, 10000, 50000, 0, 0},
+    {1, 30000, 1000, 10000, 50000, 0, 8},      {3, 40000, 1000, 10000, 50000, 80000, 0},
+    {3, 40000, 500, 8000, 60000, 30000, 16},
+};
+
+TEST(RsM8194hAxis, MovesTakeTheTimesOfTheClosedForms) {
+  for (const Move& move : kMoves) {
+    for (const char* axis : {"X", "Y", "Z", "U"}) {
+      OneRsm rsm;
+      const std::string name(axis);
+      const bool is_s = move.mode == 1 || move.mode == 3;
+      rsm.send("RSM_NORMAL_SPEED " + name + " " + number(move.mode));
+      rsm.send("RSM_SET_SV " + name + " " + number(move.sv));
+      rsm.send("RSM_SET_V " + name + " " + number(move.v));
+      rsm.send((is_s ? "RSM_SET_K " : "RSM_SET_A ") + name + " " + number(move.a));
+      if (move.d > 0) rsm.send((is_s ? "RSM_SET_L " : "RSM_SET_D ") + name + " " + number(move.d));
+      rsm.send("RSM_SET_AO " + name + " " + number(move.ao));
+      rsm.run(1);
+      rsm.send("RSM_FIXED_MOVE " + name + " " + number(move.distance));
+      const double d = move.d > 0 ? move.d : move.a;
+      const double seconds = is_s ? s_curve_s(move.distance, move.sv, move.v, move.a, d, move.ao)
+                                  : trapezoid_s(move.distance, move.sv, move.v, move.a, d, move.ao);
+      EXPECT_EQ(rsm.run_to_rest(), ticks_of(seconds))
+          << move.mode << " " << move.distance << " AO " << move.ao;
+      EXPECT_EQ(rsm.get("LP_" + name), move.distance);
+      EXPECT_EQ(rsm.get("EP_" + name), move.distance);
+      EXPECT_EQ(rsm.get("ABS_" + name), move.distance);
+    }
+  }
+}
+
+TEST(RsM8194hAxis, TheManualsFirstExampleRunsAtItsConstantSpeed) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_MAX_V XYZU 20000", "RSM_NORMAL_SPEED XYZU 0", "RSM_SET_V XYZU 2000",
+            "RSM_SET_A XYZU 1000", "RSM_SET_SV XYZU 2000", "RSM_SET_AO XYZU 9"});
+  rsm.run(2);
+  rsm.send("RSM_FIXED_MOVE XYZU 10000");
+  rsm.run(1000);
+  for (const char* axis : {"X", "Y", "Z", "U"}) EXPECT_EQ(rsm.get(std::string("CV_") + axis), 2000);
+  EXPECT_EQ(rsm.run_to_rest(), 4001);
+  EXPECT_EQ(rsm.positions(), (std::vector<Value>{10000, 10000, 10000, 10000}));
+}
+
+struct Quantised {
+  int max_v;
+  int asked;
+  int runs_at;
+};
+/// In whole counts of MAX_V / 8000, one at least; MAX_V itself 8000 to 4,000,000 (3.4).
+constexpr Quantised kQuantised[] = {{8000, 1234, 1234},    {16000, 1235, 1234},   {200000, 1240, 1225},
+                                    {200000, 3, 25},       {4000000, 1700, 1500}, {5000, 7999, 7999},
+                                    {9000000, 4500, 4500}, {20000, 50000, 20000}, {8000, 0, 1}};
+
+TEST(RsM8194hAxis, SpeedsAreWholeCountsOfTheLastMaxV) {
+  for (const Quantised& row : kQuantised) {
+    OneRsm rsm;
+    // V first: it is stored as sent, and the range is applied when the drive starts.
+    rsm.send("RSM_SET_V X " + std::to_string(row.asked));
+    rsm.send("RSM_SET_SV X 4000000");
+    rsm.send("RSM_SET_MAX_V X " + std::to_string(row.max_v));
+    rsm.send("RSM_FIXED_MOVE X 2000000");
+    rsm.run(50);
+    EXPECT_EQ(rsm.get("CV_X"), row.runs_at) << row.max_v << " " << row.asked;
+  }
+}
+
+TEST(RsM8194hAxis, CountersAreSetApart) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_FIXED_MOVE X 100"});
+  rsm.run_to_rest();
+  rsm.send({"RSM_SET_LP X -7"});
+  EXPECT_EQ(rsm.get("LP_X"), -7);
+  EXPECT_EQ(rsm.get("ABS_X"), 100);
+  EXPECT_EQ(rsm.get("EP_X"), 100);
+  rsm.send({"RSM_SET_EP X 2000000000", "RSM_ABS_SET_POSITION X 5000"});
+  EXPECT_EQ(rsm.get("EP_X"), 2000000000);
+  rsm.send("RSM_ABS_FIXED_MOVE X 4990");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), -17);
+  EXPECT_EQ(rsm.get("ABS_X"), 4990);
+}
+
+TEST(RsM8194hAxis, RingsGoRoundAtTheirTop) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_VRING_ENABLE X 9999", "RSM_SET_LP X 9999",
+            "RSM_SET_EP X 9999", "RSM_FIXED_MOVE X 1"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 0);
+  EXPECT_EQ(rsm.get("EP_X"), 0);
+  EXPECT_EQ(rsm.get("ABS_X"), 1);
+  rsm.send("RSM_FIXED_MOVE X -1");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 9999);
+  EXPECT_EQ(rsm.get("EP_X"), 9999);
+}
+
+TEST(RsM8194hAxis, SoftLimitsStopAndOnlyTheWayBackIsFree) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_SLMT X 500 -300 0", "RSM_FIXED_MOVE X 2000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 501);  // the pulse beyond it triggers
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 1);
+  rsm.send("RSM_FIXED_MOVE X 10");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), 501);
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 1);
+  rsm.send("RSM_FIXED_MOVE X -1000");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), -301);
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 2);
+  rsm.send("RSM_CLEAR_STOP X");
+  EXPECT_EQ(rsm.get("ERROR_CODE_X"), 0);
+  rsm.send({"RSM_CLEAR_SLMT X", "RSM_FIXED_MOVE X -1000"});
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), -1301);
+}
+
+TEST(RsM8194hAxis, LimitSwitchesStopInTheWayThatIsSet) {
+  for (const bool slows : {false, true}) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 10000", "RSM_SET_A X 20000", "RSM_CONTINUE_MOVE X 10000"});
+    if (slows) rsm.send("RSM_LIMITSTOP_MODE X 1");
+    rsm.run(1000);
+    const Value before = rsm.get("LP_X");
+    rsm.pin(0, Pin::limit_minus, true);  // behind it
+    rsm.run(10);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1);
+    rsm.pin(0, Pin::limit_plus, true);
+    const Tick stopped = rsm.run_to_rest();
+    // (10000^2 - 1000^2) / (2 * 20000) pulses in 450 ms.
+    EXPECT_NEAR(static_cast<double>(rsm.get("LP_X") - before), 100 + (slows ? 2475 : 0), 12);
+    EXPECT_NEAR(static_cast<double>(stopped), slows ? 451 : 1, 1);
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), 4);
+  }
+}
+
+TEST(RsM8194hAxis, NewTotalsAndSpeedsActOnTheWay) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_SV X 1000", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X -5000"});
+  rsm.run(1000);
+  rsm.send("RSM_SET_PULSE X -2000");
+  rsm.run_to_rest();
+  EXPECT_EQ(rsm.get("LP_X"), -2000);
+  rsm.send("RSM_FIXED_MOVE X 5000");
+  rsm.run(1001);
+  rsm.send("RSM_SET_PULSE X 500");  // passed already
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+  EXPECT_EQ(rsm.get("LP_X"), -1000);
+  rsm.send({"RSM_CONTINUE_MOVE X -2000", "RSM_SET_A X 10000"});
+  rsm.run(2000);
+  EXPECT_EQ(rsm.get("CV_X"), 2000);
+  rsm.send("RSM_SET_V X 4000");
+  rsm.run(1500);
+  EXPECT_EQ(rsm.get("CV_X"), 4000);
+}
+
+TEST(RsM8194hAxis, ExternalDrivesFollowTheirEdges) {
+  struct Case {
+    const char* command;
+    int plus_edges;
+    int minus_edges;
+    Value lp;
+  };
+  // MP: EXP- low; a rising edge of EXP+ is the contact opening. FP: falling edges.
+  constexpr Case kCases[] = {{"RSM_EXD_FP X 5", 1, 0, 5},
+                             {"RSM_EXD_FP X 5", 2, 0, 5},
+                             {"RSM_EXD_FP X 7", 0, 1, -7},
+                             {"RSM_EXD_MP X 3", 1, 1, -3},
+                             {"RSM_EXD_MP X 3", 1, 0, 0}};
+  for (const Case& row : kCases) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", row.command});
+    rsm.device().set_input(terminal(0, Pin::external_minus), row.minus_edges);
+    rsm.run(20);
+    rsm.device().set_input(terminal(0, Pin::external_plus), row.plus_edges);
+    rsm.run(50);
+    EXPECT_EQ(rsm.get("LP_X"), row.lp) << row.command << " " << row.plus_edges << " " << row.minus_edges;
+  }
+}
+
+TEST(RsM8194hAxis, AContinuousExternalDriveRunsWhileItsInputIsLow) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_SV X 100", "RSM_SET_A X 1000000", "RSM_SET_V X 500", "RSM_EXD_CP X 2000"});
+  rsm.device().set_input(terminal(0, Pin::external_minus), 1);
+  rsm.run(100);
+  EXPECT_EQ(rsm.get("CV_X"), 2000);
+  EXPECT_LT(rsm.get("LP_X"), -150);
+  rsm.device().set_input(terminal(0, Pin::external_minus), 2);
+  rsm.run(10);
+  EXPECT_EQ(rsm.get("DRIVING_AXIS"), 0);
+}
+
+TEST(RsM8194hAxis, InPositionIsPartOfADrive) {
+  OneRsm rsm;
+  rsm.send({"RSM_SET_V X 1000", "RSM_SET_SV X 1000", "RSM_SET_INPOS X 1 0", "RSM_FIXED_MOVE X 10"});
+  rsm.run(200);
+  EXPECT_EQ(rsm.get("LP_X"), 10);
+  EXPECT_EQ(rsm.get("STOP_X"), 0);
+  rsm.pin(0, Pin::in_position, true);
+  rsm.run(2);
+  EXPECT_EQ(rsm.get("STOP_X"), 1);
+}
+
+}  // namespace single_axis_test
+}  // namespace understudy::emulator::models::rs_m8194h
