@@ -273,6 +273,11 @@ bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, const Mac
   return true;
 }
 
+bool is_frnet_input(std::uint32_t awaited) {
+  const std::uint32_t group = awaited >> 8U & 0xFFU;
+  return group >= 8 && group <= 15 && (awaited & 0xFFU) <= 15 && awaited >> 16U <= 1;
+}
+
 Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,
                   Machine& machine) {
   return LineRun(execution, run, now_ms, options, machine).run();
