@@ -11,7 +11,7 @@
 namespace understudy::emulator::models {
 
 ModelList all_models() {
-  static const std::array<const Model*, 4> models{&simple2_r3::model(), &slim::model(), &rs_m8194h::model(),
+  static const std::array<const Model*, 4> models{&rs_m8194h::model(), &simple2_r3::model(), &slim::model(),
                                                   &super_40nc::model()};
   return models;
 }

@@ -88,7 +88,7 @@ class LineRun {
 
   Ran read(const Command& command) {
     Command resolved = command;
-    if (resolve(resolved, machine_) != Fault::none) return fail(command, Fault::operand);
+    if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
     return_register() = {machine_.read(resolved), true};
     return go_on();
   }
@@ -158,7 +158,7 @@ class LineRun {
       if (time_ms < 0 && options_.negative_time_is_error) return fail(command, Fault::operand);
       resolved.values[3] = static_cast<std::uint32_t>(std::max(time_ms, 0));
     }
-    if (resolve(resolved, machine_) != Fault::none) return fail(command, Fault::operand);
+    if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
     if (run_.is_isr && options_.isr_never_waits) return go_on();
     const std::int64_t until_ms =
         resolved.values[3] == 0 ? kNever : now_ms_ + std::int64_t{resolved.values[3]};
@@ -190,7 +190,7 @@ class LineRun {
 
   Ran carry_out(const Command& command) {
     Command resolved = command;
-    if (resolve(resolved, machine_) != Fault::none) return fail(command, Fault::operand);
+    if (resolve(resolved, machine_, options_.command) != Fault::none) return fail(command, Fault::operand);
     const bool waits = machine_.carry_out(resolved) == Took::waits;
     if (waits && !(run_.is_isr && options_.isr_never_waits)) {
       hold(run_, Hold::machine);
@@ -271,6 +271,11 @@ bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, const Mac
     }
   }
   return true;
+}
+
+bool is_frnet_input(std::uint32_t awaited) {
+  const std::uint32_t group = awaited >> 8U & 0xFFU;
+  return group >= 8 && group <= 15 && (awaited & 0xFFU) <= 15 && awaited >> 16U <= 1;
 }
 
 Ran run_next_line(Execution& execution, Run& run, std::int64_t now_ms, const RunOptions& options,

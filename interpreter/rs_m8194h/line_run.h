@@ -16,6 +16,9 @@ void hold(Run& run, Hold what, std::int64_t until_ms = 0, std::uint32_t awaited 
 /// Whether what a run waits for has come. A drive that waits is asked for anew by its line.
 bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, const Machine& machine);
 
+/// Whether `awaited` can be what FRNET_WAIT waits for.
+bool is_frnet_input(std::uint32_t awaited);
+
 /// What a line did to its run.
 enum class Ran : std::uint8_t {
   on,

@@ -17,7 +17,7 @@ std::int32_t value_of(std::uint32_t operand, const Machine& machine) {
   return static_cast<std::int32_t>(operand);
 }
 
-Fault resolve(Command& command, const Machine& machine) {
+Fault resolve(Command& command, const Machine& machine, const CommandOptions& options) {
   const CommandRow& row = command.row();
   const Command as_stored = command;
   bool has_any = false;
@@ -40,7 +40,7 @@ Fault resolve(Command& command, const Machine& machine) {
   if (!has_any) return Fault::none;
   Command plain = command;
   plain.code = real_time_code(command.verb());  // in which nothing is a reference
-  return bad_parameter(plain) ? Fault::parameter : Fault::none;
+  return bad_parameter(plain, options) ? Fault::parameter : Fault::none;
 }
 
 }  // namespace understudy::interpreter::rs_m8194h

@@ -1,6 +1,7 @@
 // References of a macro line, replaced by what they stand for.
 #pragma once
 
+#include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/machine.h"
@@ -8,7 +9,7 @@
 namespace understudy::interpreter::rs_m8194h {
 
 /// Fault::parameter if one of them is then out of its range. Speeds below 0 become 0.
-Fault resolve(Command& command, const Machine& machine);
+Fault resolve(Command& command, const Machine& machine, const CommandOptions& options = {});
 
 /// The value of an operand: a constant or a variable.
 std::int32_t value_of(std::uint32_t operand, const Machine& machine);

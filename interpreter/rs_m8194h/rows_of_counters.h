@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/parameters.h"
@@ -153,7 +154,7 @@ inline constexpr auto kCounters = std::to_array<CommandRow>({
      kMacro,
      1,
      {byte("bDiGroup", 8, 15), unsigned_range("dwChannel", 0, 15),
-      unsigned_range("dwDiInput", 0, 1, "0 off, 1 on"), unsigned_range("dwTimeout", 0, kMost)},
+      unsigned_range("dwDiInput", 0, 1, "0 off, 1 on"), unsigned_range("dwTimeout", 0, UINT32_MAX)},
      "5.3",
      "waits for an FRnet DI; timeout in ms, 0 without"},
 });

@@ -267,7 +267,7 @@ inline constexpr auto kPaths = std::to_array<CommandRow>({
      1,
      {axes_up_to("axis", 2), byte("Type", 0, 3, "0 even/LP, 1 uneven/LP, 2 even/EP, 3 uneven/EP"),
       byte("outEdge", 0, 1, "0 low, 1 high"),
-      byte("PulseWidth", 0, 7, "10 20 100 200 1000 2000 10000 20000 us"), any_long("Pitch")},
+      byte("PulseWidth", 0, 7, "10 20 100 200 1000 2000 10000 20000 us"), position("Pitch")},
      "7.4.12",
      "trigger outputs at a pitch"},
     {Verb::line_scan_start,

@@ -83,15 +83,22 @@ bool is_sound_level(const Run& run, const Level& level, const Machine& machine) 
   if (macro == nullptr || level.line > macro->size()) return false;
   Blocks blocks = blocks_behind({macro->lines.begin(), macro->lines.begin() + level.line});
   std::erase_if(blocks, [](const Block& block) { return block.opener != Verb::for_; });
-  return std::ranges::equal(blocks, level.loops, {}, &Block::line, &Loop::line);
+  return std::ranges::equal(blocks, level.loops, {}, &Block::line, &Loop::line) &&
+         std::ranges::all_of(level.loops, [](const Loop& loop) { return loop.left > 0; });
+}
+
+bool is_sound_hold(const Run& run, const Machine& machine) {
+  if (!run.is_alive()) return run.hold == Hold::nothing;
+  const bool is_in_last_line = run.hold == Hold::timer || run.hold == Hold::axes || run.hold == Hold::frnet;
+  if (!is_in_last_line && is_at_end(run, machine)) return false;
+  if (run.hold == Hold::axes) return run.awaited <= kAllAxes;
+  return run.hold != Hold::frnet || is_frnet_input(run.awaited);
 }
 
 bool is_sound_run(const Run& run, const Machine& machine) {
   const std::size_t deepest = run.is_isr ? 1 : static_cast<std::size_t>(kDeepest);
-  if (run.levels.size() > deepest) return false;
-  const bool is_in_last_line = run.hold == Hold::timer || run.hold == Hold::axes || run.hold == Hold::frnet;
-  if (run.is_alive() && !is_in_last_line && is_at_end(run, machine)) return false;
-  return std::ranges::all_of(run.levels,
+  return run.levels.size() <= deepest && is_sound_hold(run, machine) &&
+         std::ranges::all_of(run.levels,
                              [&](const Level& level) { return is_sound_level(run, level, machine); });
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/machine.h"
 #include "interpreter/rs_m8194h/macro.h"
 
@@ -18,6 +19,7 @@ inline constexpr std::int64_t kNever = INT64_MAX;
 
 /// What the manual leaves open about running.
 struct RunOptions {
+  CommandOptions command = {};
   /// An MP goes on while an ISR waits, or is suspended.
   bool mp_runs_beside_isr = false;
   /// An ISR interrupts another one, or comes after it.

@@ -199,14 +199,17 @@ bool fits(std::int64_t value, Width width) {
 
 // --- lines -------------------------------------------------------------------------------------
 
-std::vector<std::string> known_names() {
-  std::vector<std::string> names;
-  for (const CommandRow& row : kCommands) {
-    for (const std::string_view name : {row.real_time_name, row.macro_name}) {
-      if (!name.empty()) names.emplace_back(name);
+const std::vector<std::string>& known_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const CommandRow& row : kCommands) {
+      for (const std::string_view name : {row.real_time_name, row.macro_name}) {
+        if (!name.empty()) names.emplace_back(name);
+      }
     }
-  }
-  return names;
+    return names;
+  }();
+  return kNames;
 }
 
 std::optional<std::uint16_t> code_of(std::string_view name) {

@@ -30,7 +30,8 @@ std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
 RsM8194h::RsM8194h(const DeviceSettings& given)
     : Device(rs_m8194h::model(), given),
       RegisterBankOf(*this, *rs_m8194h::model().registers, given.firmware),
-      KeptMemory(rs_m8194h::model().name, given.firmware) {
+      KeptMemory(rs_m8194h::model().name, given.firmware),
+      options_(rs_m8194h::language_options(given)) {
   state_.blocks = TextBlocks(block_kinds());
   state_.eeprom = factory_memory();
   blank();
@@ -102,7 +103,7 @@ void RsM8194h::blank() {
 void RsM8194h::power_up() {
   blank();
   state_.powered_at = now();
-  state_.steps_left = kStepsOfATick;
+  state_.steps_left = options_.steps_a_tick;
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
     for (int i = 0; i < 2; ++i) {
@@ -181,7 +182,8 @@ void RsM8194h::step_motion(Tick tick) {
 void RsM8194h::update_outputs(Tick tick) {
   start_held();
   // Macros first; what they leave of the tick is the FIFO's.
-  state_.steps_left = lang::run_tick(state_.execution, tick, kStepsOfATick, state_.paused, {}, *this);
+  state_.steps_left =
+      lang::run_tick(state_.execution, tick, options_.steps_a_tick, state_.paused, options_.run, *this);
   start_queued_trigger();
   run_fifo(state_.steps_left);
   state_.eeprom.step(tick, state_.image);
@@ -190,7 +192,7 @@ void RsM8194h::update_outputs(Tick tick) {
 /// Whether nothing at all goes on, but for FRnet and what waits to be kept.
 bool RsM8194h::rests() const {
   if (inputs_changed() || !state_.fifo.waiting.empty() || state_.fifo.stop_wait != 0) return false;
-  if (state_.steps_left != kStepsOfATick || !state_.marks.empty()) return false;
+  if (state_.steps_left != options_.steps_a_tick || !state_.marks.empty()) return false;
   if (state_.execution.is_alive() || !state_.queued_triggers.empty()) return false;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const motion::Axis& motor = state_.motors[a];

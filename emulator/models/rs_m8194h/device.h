@@ -18,10 +18,12 @@
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/machine.h"
 #include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/macro_store.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -144,6 +146,7 @@ class RsM8194h final : public Device,
   void change_speed(std::size_t axis);
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
+  const LanguageOptions& language_options() const { return options_; }
   int running_mp() const { return lang::running_mp(state_.execution); }
   bool mp_runs() const { return state_.execution.mp.is_alive(); }
   bool isr_runs() const { return !state_.execution.isrs.empty(); }
@@ -211,10 +214,12 @@ class RsM8194h final : public Device,
 
   State state_;
   // Not state: made of the blocks, and again when they have changed.
-  mutable std::array<std::vector<lang::Macro>, 2> macros_{};
+  mutable lang::MacroStore macros_;
   mutable lang::TriggerTable triggers_{};
   mutable std::uint64_t compiled_revision_ = UINT64_MAX;
   void compile() const;
+  int isr_of(const IsrMark& mark) const;
+  const LanguageOptions options_;
 
   std::array<MachineEdges, kAxes> edges_{};  // not state: they are told again
 };

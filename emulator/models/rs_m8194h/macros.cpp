@@ -2,11 +2,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "base/complete_table.h"
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/views.h"
 #include "interpreter/rs_m8194h/listing.h"
@@ -17,9 +18,6 @@ namespace {
 
 using lang::Command;
 using lang::Verb;
-
-/// An execution error that the download's codes have no number for.
-constexpr std::uint16_t kUndefinedLine = 0x0F;
 
 std::string_view blocks_of(const lang::MacroName& name) { return name.is_isr ? kIsrBlocks : kMpBlocks; }
 
@@ -72,8 +70,7 @@ constexpr CompleteTable<Verb, Reads> kReadTable(lang::kReadVerbs, kReads);
 
 }  // namespace
 
-// --- download
-// ------------------------------------------------------------------------------------------------
+// --- download ---------------------------------------------------------------------------------------------
 
 lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   const std::uint16_t code = decoded.command.code;
@@ -85,13 +82,13 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
     return lang::Fault::none;
   }
   if (decoded.fault != lang::Fault::none) {
-    lang::refuse(state_.download, code, decoded.fault);
+    lang::refuse(state_.download, code, decoded.fault, options_.download);
     return decoded.fault;
   }
-  if (!decoded.command.row().closes()) return lang::add(state_.download, decoded.command);
+  if (!decoded.command.row().closes()) return lang::add(state_.download, decoded.command, options_.download);
   const lang::MacroName name = state_.download.name;
   const lang::Closed closed = lang::close(state_.download);
-  state_.downloaded = lang::status_of(state_.download, state_.downloaded);
+  state_.downloaded = lang::status_of(state_.download, state_.downloaded, options_.download);
   state_.rsm = lang::State::ready;
   state_.download = kNoDownload;
   if (closed.macro) {
@@ -102,33 +99,31 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   return closed.fault;
 }
 
-// --- store
-// ---------------------------------------------------------------------------------------------------
+// --- store ---------------------------------------------------------------------------------------------
 
 void RsM8194h::compile() const {
   if (compiled_revision_ == state_.blocks.revision()) return;
   compiled_revision_ = state_.blocks.revision();
-  macros_[0].assign(lang::kMpCount + 1, {});
-  macros_[1].assign(lang::kIsrCount + 1, {});
+  std::vector<lang::MacroStore::Stored> stored;
   triggers_ = {};
   for (const auto& [kind, entries] : state_.blocks.all()) {
-    if (kind == kInitialBlocks) continue;
     for (const auto& [name, text] : entries) {
-      lang::ParsedListing parsed = lang::parse_listing(text.text());
-      for (lang::ListedMacro& each : parsed.listing.macros) {
-        macros_[each.name.is_isr ? 1 : 0][static_cast<std::size_t>(each.name.number)] = std::move(each.macro);
-      }
-      for (const lang::ListedTrigger& each : parsed.listing.triggers) {
-        triggers_[static_cast<std::size_t>(each.channel)] = each.trigger;
+      if (kind == kMpBlocks || kind == kIsrBlocks) {
+        stored.push_back({{kind == kIsrBlocks, std::stoi(name)}, text});
+      } else if (kind == kTriggerBlocks) {
+        for (const lang::ListedTrigger& each : lang::parse_listing(text.text()).listing.triggers) {
+          triggers_[static_cast<std::size_t>(each.channel)] = each.trigger;
+        }
       }
     }
   }
+  macros_.update(stored);
 }
 
 const lang::Macro* RsM8194h::macro(const lang::MacroName& name) const {
   compile();
-  const lang::Macro& found = macros_[name.is_isr ? 1 : 0][static_cast<std::size_t>(name.number)];
-  return found.lines.empty() ? nullptr : &found;
+  const lang::Macro* found = macros_.find(name);
+  return found == nullptr || found->lines.empty() ? nullptr : found;
 }
 
 const lang::TriggerTable& RsM8194h::triggers() const {
@@ -137,8 +132,8 @@ const lang::TriggerTable& RsM8194h::triggers() const {
 }
 
 void RsM8194h::load_program(std::string_view text) {
-  const lang::ParsedListing parsed = lang::parse_listing(text);
-  if (!parsed.errors.empty()) throw ProgramError(parsed.errors.front().line, parsed.errors.front().message);
+  const lang::ParsedListing parsed = lang::parse_listing(text, options_.command, options_.download);
+  if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
   for (const lang::ListedMacro& each : parsed.listing.macros) {
     lang::replaced(state_.execution, each.name, *this);
     state_.blocks.put(blocks_of(each.name), std::to_string(each.name.number),
@@ -155,10 +150,9 @@ std::string RsM8194h::program_text() const {
   compile();
   lang::Listing listing;
   for (const bool is_isr : {false, true}) {
-    const auto& macros = macros_[is_isr ? 1 : 0];
-    for (std::size_t number = 1; number < macros.size(); ++number) {
-      if (macros[number].lines.empty()) continue;
-      listing.macros.push_back({{is_isr, static_cast<int>(number)}, macros[number]});
+    for (int number = 1; number <= lang::count_of(is_isr); ++number) {
+      const lang::MacroName name{is_isr, number};
+      if (const lang::Macro* found = macro(name)) listing.macros.push_back({name, *found});
     }
   }
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
@@ -168,8 +162,7 @@ std::string RsM8194h::program_text() const {
   return lang::text_of(listing);
 }
 
-// --- running
-// -------------------------------------------------------------------------------------------------
+// --- running ---------------------------------------------------------------------------------------------
 
 void RsM8194h::start_mp(int number) {
   state_.rint &= static_cast<std::uint8_t>(~(bit_of(Rint::mp_completed) | bit_of(Rint::module)));
@@ -212,34 +205,33 @@ bool RsM8194h::frnet_input(std::uint32_t group, std::uint32_t channel) const {
   return (frnet_word(*this, group) >> (channel % kFrnetChannels) & 1) != 0;
 }
 
-/// By what is bound, and enabled, as the ISR begins; what is not spends its mark.
+/// What a mark calls, by what is bound and enabled now; 0: nothing.
+int RsM8194h::isr_of(const IsrMark& mark) const {
+  const AxisUnit& unit = state_.units[mark.axis];
+  if (mark.source == IsrMark::kCalled) return mark.number;
+  if (!state_.interrupts) return 0;
+  if (mark.source == IsrMark::kSynchronous) {
+    return state_.sync.actions[mark.axis].interrupt ? unit.action_isr : 0;
+  }
+  return (unit.factors >> mark.source & 1) != 0 ? unit.isr_of[mark.source] : 0;
+}
+
+/// Marks that call nothing are spent.
 int RsM8194h::take_isr() {
-  while (!state_.marks.empty() && state_.marks.front().tick < now()) {
+  while (!state_.marks.empty() && state_.marks.front().tick + options_.isr_delay_ticks <= now()) {
     const IsrMark mark = state_.marks.front();
     state_.marks.erase(state_.marks.begin());
-    const AxisUnit& unit = state_.units[mark.axis];
-    int number = 0;
-    if (mark.source == IsrMark::kCalled) {
-      number = mark.number;
-    } else if (!state_.interrupts) {
-      continue;
-    } else if (mark.source == IsrMark::kSynchronous) {
-      number = state_.sync.actions[mark.axis].interrupt ? unit.action_isr : 0;
-    } else if ((unit.factors >> mark.source & 1) != 0) {
-      number = unit.isr_of[mark.source];
-    }
+    const int number = options_.isrs_are_bound_at_the_event ? mark.number : isr_of(mark);
     if (number >= 1 && number <= lang::kIsrCount && macro({true, number}) != nullptr) return number;
   }
   return 0;
 }
 
 void RsM8194h::report(const lang::ExecutionFault& fault) {
-  const std::uint8_t error = lang::row_of(fault.fault).download_error;
   const auto number = static_cast<std::uint16_t>(fault.macro.number);
-  state_.execution_fault = {fault.macro.is_isr ? std::uint16_t{0} : number,
-                            fault.macro.is_isr ? number : std::uint16_t{0},
-                            lang::real_time_code(lang::verb_of(fault.code)), fault.line,
-                            error != 0 ? std::uint16_t{error} : kUndefinedLine};
+  state_.execution_fault = {
+      fault.macro.is_isr ? std::uint16_t{0} : number, fault.macro.is_isr ? number : std::uint16_t{0},
+      lang::real_time_code(lang::verb_of(fault.code)), fault.line, lang::row_of(fault.fault).download_error};
   module_error();
 }
 

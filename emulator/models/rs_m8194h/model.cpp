@@ -1,15 +1,15 @@
 #include "emulator/models/rs_m8194h/model.h"
 
 #include <array>
-#include <string>
-#include <vector>
+#include <memory>
+#include <string_view>
 
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/models/rs_m8194h/choices.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/terminals.h"
-#include "interpreter/rs_m8194h/commands.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -18,12 +18,13 @@ namespace {
 // 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
-constexpr std::array<std::string_view, 6> kGaps{
+constexpr std::array<std::string_view, 7> kGaps{
     "Noise filters below 1.024 ms do not delay, and the filter of the EMG input is not modelled.",
     "The width of pulses at OUT_X and OUT_Y is stored; the pulses are counted, and have no length.",
     "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
     "What is spoken at the switch's position Init is not documented: the box is deaf there.",
     "The IP settings from holding 20 on store, and do nothing.",
+    "A stream takes one segment a millisecond at most: shorter ones starve it.",
     "A trigger's Pause holds macros and the FIFO, not motion.",
 };
 
@@ -39,52 +40,6 @@ constexpr std::string_view kStateRegisters[] = {
     "DRIVING_AXIS",     "LP_X",           "LP_Y",      "LP_Z",        "LP_U", "ERROR_STATE",
     "FREE_BUFFER_SIZE", "MP_Call_number", "RSM_STATE", "I8094H_STATE"};
 
-struct Instructions {
-  std::vector<std::string> texts;
-  std::vector<InstructionRow> rows;
-};
-
-std::string parameters_of(const lang::CommandRow& row) {
-  std::string text;
-  for (std::size_t i = 0; i < row.parameter_count(); ++i) {
-    text += (i == 0 ? "" : ", ") + std::string(row.parameters[i].name);
-  }
-  return text;
-}
-
-/// All 229 codes: classes and cost in the last column.
-Instructions make_instructions() {
-  Instructions made;
-  // Rows point into the texts: there is room for all of them from the start.
-  constexpr std::size_t kMost = 2 * 2 * lang::kFunctionCount;
-  made.texts.reserve(kMost);
-  const auto keep = [&](std::string text) -> std::string_view {
-    return made.texts.emplace_back(std::move(text));
-  };
-  for (const lang::CommandRow& row : lang::kCommands) {
-    const std::string_view parameters = keep(parameters_of(row));
-    if (!row.real_time_name.empty()) {
-      std::string where = row.use.initial ? "RTC IT" : "RTC";
-      if (row.fifo_blocks() > 0) where += ", " + std::to_string(row.fifo_blocks()) + " blocks";
-      made.rows.push_back({.opcode = lang::real_time_code(row.verb),
-                           .mnemonic = row.real_time_name,
-                           .data1 = parameters,
-                           .data2 = keep(std::move(where)),
-                           .meaning = row.meaning});
-    }
-    if (!row.macro_name.empty()) {
-      std::string where = row.use.in_mp && row.use.in_isr ? "MP ISR" : row.use.in_mp ? "MP" : "ISR";
-      if (row.macro_lines() > 0) where += ", " + std::to_string(row.macro_lines()) + " lines";
-      made.rows.push_back({.opcode = lang::macro_code(row.verb),
-                           .mnemonic = row.macro_name,
-                           .data1 = parameters,
-                           .data2 = keep(std::move(where)),
-                           .meaning = row.meaning});
-    }
-  }
-  return made;
-}
-
 }  // namespace
 
 const Model& model() {
@@ -93,13 +48,12 @@ const Model& model() {
                                                            .halves = MapPolicy::Halves::come_whole,
                                                            .read_halves = MapPolicy::ReadHalves::come_whole,
                                                            .low_word_first = false});
-  static const Instructions instructions = make_instructions();
   static const Model model{
       .name = "rs-m8194h",
       .title = "4-axis motion controller with macros, Modbus RTU",
       .firmwares = kFirmwares,
       .registers = &registers,
-      .instructions = instructions.rows,
+      .language = &language(),
       .choices = kChoices,
       .terminals = terminal_tables().rows,
       .terminal_groups = terminal_tables().groups,

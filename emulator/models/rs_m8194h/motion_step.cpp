@@ -68,8 +68,10 @@ void RsM8194h::note_factor(std::size_t axis, Factor factor) {
 
 void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   const auto is_same = [&](const IsrMark& mark) { return mark.axis == axis && mark.source == source; };
-  if (std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
-  const IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
+  const bool is_lost = !options_.isr_requests_are_counted || state_.marks.size() >= kMostMarks;
+  if (is_lost && std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
+  IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
+  if (options_.isrs_are_bound_at_the_event) made.number = static_cast<std::uint8_t>(isr_of(made));
   state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made), made);
 }
 
@@ -195,7 +197,7 @@ void RsM8194h::step_scans() {
 
 Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
   const bool is_simple = !inputs_changed() && state_.marks.empty() && state_.scanning == 0 &&
-                         !state_.paths.together.engaged && state_.steps_left == kStepsOfATick;
+                         !state_.paths.together.engaged && state_.steps_left == options_.steps_a_tick;
   if (!is_simple || state_.execution.is_alive() || !state_.queued_triggers.empty()) return done + 1;
   Tick last = std::min(most, state_.eeprom.next_active_tick() - 1);
   if (state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);

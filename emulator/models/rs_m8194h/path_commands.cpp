@@ -267,7 +267,8 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
       break;
     case Draws::rectangle: {
       const bool is_clockwise = command.values[4] == 1;
-      const RectanglePlan plan = rectangle_plan(number(5), number(6), number(7));
+      const RectanglePlan plan =
+          rectangle_plan(number(5), number(6), std::min({number(7), number(5) / 2, number(6) / 2}));
       const auto at = [&](std::size_t i) {
         const std::size_t from = command.values[3];
         return Point{plan.points[i][0] - plan.points[from][0], plan.points[i][1] - plan.points[from][1], 0,

@@ -30,7 +30,6 @@ namespace lang = interpreter::rs_m8194h;
 
 inline constexpr int kFifoBlocks = 30;
 /// What the module carries out in a tick, macro lines and commands together.
-inline constexpr int kStepsOfATick = 8;
 
 /// Commands that wait for their turn, and the STOP_WAIT that has begun and left it.
 struct Fifo {
@@ -55,6 +54,9 @@ struct LineScan {
   bool operator==(const LineScan&) const = default;
 };
 
+/// Where interrupts are counted, no more of them wait.
+inline constexpr std::size_t kMostMarks = 256;
+
 /// An interrupt that waits for its ISR.
 struct IsrMark {
   static constexpr std::uint8_t kSynchronous = 8;
@@ -63,7 +65,7 @@ struct IsrMark {
   Tick tick = 0;
   std::uint8_t axis = 0;
   std::uint8_t source = 0;  // nINT 0 to 7, or one of the above
-  std::uint8_t number = 0;  // of a call
+  std::uint8_t number = 0;  // of a call, or as bound at the event
 
   auto operator<=>(const IsrMark&) const = default;
 };

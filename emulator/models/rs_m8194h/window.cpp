@@ -127,7 +127,7 @@ void RsM8194h::queue(const lang::Command& command) {
 
 DeviceAnswer take_message(RsM8194h& it, Cell, std::span<const std::uint16_t> words) {
   const auto order = it.low_word_first() ? lang::WordOrder::low_first : lang::WordOrder::high_first;
-  const lang::Decoded decoded = lang::decode(words, it.state().rsm, order);
+  const lang::Decoded decoded = lang::decode(words, it.state().rsm, order, it.language_options().command);
   const bool is_ready = it.state().rsm == lang::State::ready;
   if (!is_ready ||
       (decoded.fault == lang::Fault::none && lang::is_one_of(decoded.command.verb(), lang::kDownloadVerbs))) {

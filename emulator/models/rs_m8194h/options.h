@@ -1,0 +1,29 @@
+// RS-M8194H: the options of choices.h as the code asks for them. What every tick and every line of a macro
+// asks for is asked once, when the device is made.
+#pragma once
+
+#include <string_view>
+
+#include "emulator/device/model.h"
+#include "emulator/models/rs_m8194h/choices.h"
+#include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/run.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+consteval Option option(std::string_view id, std::string_view name) { return option_of(kChoices, id, name); }
+
+/// What of them commands, downloads and macros ask for.
+struct LanguageOptions {
+  interpreter::rs_m8194h::CommandOptions command = {};
+  interpreter::rs_m8194h::DownloadOptions download = {};
+  interpreter::rs_m8194h::RunOptions run = {};
+  int steps_a_tick = 8;
+  int isr_delay_ticks = 1;
+  bool isr_requests_are_counted = false;
+  bool isrs_are_bound_at_the_event = false;
+};
+LanguageOptions language_options(const DeviceSettings& settings);
+
+}  // namespace understudy::emulator::models::rs_m8194h
