@@ -156,10 +156,13 @@ class Scan {
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
     const bool may_count = options_.counts_beyond_preset ? present < INT32_MAX : present < preset;
-    if (is_on && !was_on && !plc_.is_first_scan && may_count) {
-      put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    const bool counts = is_on && !was_on && !plc_.is_first_scan && may_count;
+    if (counts) put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    if (options_.counter_contact == Options::CounterContact::compares) {
+      put(step.a, present >= preset ? 1 : 0, step.flags);
+    } else if (counts && present >= preset) {
+      put(step.a, 1, step.flags);
     }
-    put(step.a, present >= preset ? 1 : 0, step.flags);
   }
 
   PlcState& plc_;
