@@ -19,6 +19,9 @@ void StepPrograms::fail(Area area, Code code) {
 
 void StepPrograms::take(Event event, Area area) {
   const Reaction reaction = reaction_of(event, state(area).phase);
+  // A pause that is due when its motion is over is called off.
+  const bool runs_on = event == Event::start && reaction == Reaction::nothing;
+  if (runs_on && !machine_.is_held_in_reset(area)) set_contact(area, true);
   switch (reaction) {
     case Reaction::nothing:
     case Reaction::pause_later:

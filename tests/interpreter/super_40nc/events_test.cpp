@@ -101,6 +101,16 @@ TEST(Super40ncEvents, ContactOffLetsAMotionEnd) {
   }
 }
 
+TEST(Super40ncEvents, AStartCallsOffAPauseThatIsDue) {
+  Running running = in_phase(Area::c, Phase::moving);
+  running.machine.special.erase(8000);
+  running.tick();
+  running.start(Area::c);  // STR
+  running.machine.left = {};
+  running.tick();
+  EXPECT_TRUE(running.machine.contact(y(9)));
+}
+
 TEST(Super40ncEvents, APausedWaitStandsAndGoesOn) {
   for (const Event event : {Event::contact_off, Event::hold}) {
     Running running("AREA X\nTMR K10\nSET Y1\nEND\n");
