@@ -60,8 +60,8 @@ std::string fields_of(const RegisterRow& row) {
   return text;
 }
 
-std::string kept_text(const RegisterRow& row) {
-  if (row.needs_no_time) return "at once";
+std::string kept_text(const RegisterRow& row, bool for_people) {
+  if (row.needs_no_time && for_people) return "at once";
   return row.persistent ? "1" : "0";
 }
 
@@ -90,7 +90,7 @@ Sheet registers(const Model& model, SheetFormat format) {
           {std::string(to_string(row.table)), hex4(address_of(row, index)), RegisterMap::name_of(row, index),
            std::string(to_string(row.access)), width_of(row), is_signed(row.type) ? "1" : "0",
            row.ranged ? value_text(row.min, row.type) : "", row.ranged ? value_text(row.max, row.type) : "",
-           std::string(row.unit), kept_text(row), value_text(row.factory, row.type)});
+           std::string(row.unit), kept_text(row, for_people), value_text(row.factory, row.type)});
       auto& cells = sheet.rows.back();
       if (for_people) {
         cells.push_back(row.since == 0 ? "" : version_text(row.since));

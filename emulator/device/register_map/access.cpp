@@ -87,7 +87,7 @@ auto with_room_for(std::size_t words, Act act) {
 Objection judge(Change& change, const MapPolicy& policy) {
   // Half a value cannot be judged.
   if (!complete(change) && policy.halves == MapPolicy::Halves::may_be_written_alone) return {};
-  if (in_range(change)) return {};
+  if (policy.out_of_range == MapPolicy::OutOfRange::stored || in_range(change)) return {};
   if (policy.out_of_range == MapPolicy::OutOfRange::refused) {
     return objection(Refusal::bad_value, Cause::out_of_range, change.place.address());
   }

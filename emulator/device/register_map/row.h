@@ -335,7 +335,8 @@ struct MapPolicy {
     may_be_read_alone,
     come_whole
   } read_halves = ReadHalves::may_be_read_alone;
-  enum class OutOfRange : std::uint8_t { refused, clamped } out_of_range = OutOfRange::refused;
+  /// `stored`: as it comes, and limited where it is used: the range is what the manual says.
+  enum class OutOfRange : std::uint8_t { refused, clamped, stored } out_of_range = OutOfRange::refused;
   /// What a request with a value out of range leaves behind: nothing, or the registers before that one.
   enum class Partly : std::uint8_t { never, up_to_the_refused } partly = Partly::never;
   /// Whether the registers of one request take effect once all of them are stored, or each in its turn.

@@ -1,0 +1,394 @@
+// What moves the axes of a SUPER-40NC by hand: jog, HOME and ZERO, and what comes of it.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/device.h"
+#include "motion/homing_tables.h"
+#include "motion/ramp.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// How the chip is told to run (PRMD), and that it is to start with a ramp (PRCMD).
+constexpr int kModePositioning = 0x41;
+constexpr int kModeContinuous = 0x00;
+constexpr int kModeHome = 0x10;
+constexpr int kModeNegative = 0x08;  // added for the negative way
+constexpr int kStartWithRamp = 0x53;
+
+Code code_of(motion::Cause why) {
+  switch (why) {
+    case motion::Cause::limit_plus: return Code::limit_positive;
+    case motion::Cause::limit_minus: return Code::limit_negative;
+    case motion::Cause::soft_limit_plus: return Code::soft_limit_positive;
+    case motion::Cause::soft_limit_minus: return Code::soft_limit_negative;
+    case motion::Cause::alarm: return Code::alarm;
+    case motion::Cause::comparator: return Code::comparator;
+    case motion::Cause::homing_failed: return Code::home_failed;
+    case motion::Cause::none:
+    case motion::Cause::arrived:
+    case motion::Cause::stopped:
+    case motion::Cause::emergency:
+    case motion::Cause::servo_off: break;
+  }
+  return Code::none;
+}
+
+std::int32_t in_32_bits(double number) {
+  return static_cast<std::int32_t>(std::llround(std::clamp(number, -2147483648.0, 2147483647.0)));
+}
+
+std::int64_t pulses_of(const motion::UnitScale& scale, std::int64_t lu) {
+  return scale.to_pulses(lu).value_or(0);
+}
+
+}  // namespace
+
+// ---- numbers
+
+std::int64_t Super40nc::work_lu(int number) const {
+  const AxisState& its = axis(number);
+  return registers().scale(number).to_units(machine_pulses(number)).value_or(0) + its.offset_lu;
+}
+
+void Super40nc::set_work_lu(int number, std::int64_t position) {
+  AxisState& its = axis(number);
+  its.offset_lu += position - work_lu(number);
+  its.stands_on_target = false;
+}
+
+std::int32_t Super40nc::counter(int number, int which) const {
+  const AxisState& its = axis(number);
+  if (which == 0) return static_cast<std::int32_t>(machine_pulses(number));
+  return its.counts[static_cast<std::size_t>(which - 1)];
+}
+
+void Super40nc::set_counter(int number, int which, std::int32_t pulses) {
+  AxisState& its = axis(number);
+  if (which > 0) {
+    its.counts[static_cast<std::size_t>(which - 1)] = pulses;
+    return;
+  }
+  its.command.set(pulses, chip(number).travel_pulses);
+  its.stands_on_target = false;
+  heed_axis(number, 0);
+}
+
+std::int64_t Super40nc::braking_pulses(int number) const {
+  const motion::Axis& motor = chip(number);
+  if (motor.task != motion::Task::move) return 0;
+  const motion::RampLaw& down = motor.law.slow_down_reckoned_by.value_or(motor.law.down);
+  return std::llround(motion::ramp_distance(down, motor.law.start_speed_u_s, motor.law.top_speed_u_s));
+}
+
+// ---- errors
+
+void Super40nc::report(Code code, int step, int other_step) {
+  if (code == Code::none || (state_.error.code != Code::none && state_.error.tick == now())) return;
+  state_.error = {.code = code, .step = step, .other_step = other_step, .tick = now()};
+}
+
+void Super40nc::fail(int number, Code code) {
+  axis(number).has_error = true;
+  report(code);
+}
+
+// ---- starts
+
+Grant Super40nc::ask(int number, Request request) {
+  const Grant given = grant(axis(number).holder, request);
+  if (given == Grant::refused) report(Code::axis_taken);
+  return given;
+}
+
+motion::AxisSettings Super40nc::motor_settings(int number) const {
+  const Settings its = registers();
+  const AxisState& state = axis(number);
+  const auto reaction = [&](Kept kept) {
+    return its.is_on(kept, number) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+  };
+  motion::AxisSettings made = chip(number).settings;
+  made.needs_servo = false;
+  made.at_limit_plus = made.at_limit_minus = reaction(kept_x(1));
+  made.at_alarm = reaction(kept_x(3));
+  made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
+  constexpr Value kSoftLimit = 6;
+  constexpr Value kRamp = 2;
+  struct Side {
+    Kept source, method, action, value;
+    std::optional<std::int64_t> motion::AxisSettings::*limit;
+  };
+  static constexpr Side kSides[] = {
+      {kept_x(31), kept_x(32), kept_x(33), kept_d(8144), &motion::AxisSettings::soft_limit_plus},
+      {kept_x(35), kept_x(36), kept_x(37), kept_d(8145), &motion::AxisSettings::soft_limit_minus}};
+  for (const Side& side : kSides) {
+    const Value action = its.of(side.action, number);
+    const bool is_limit = its.of(side.method, number) == kSoftLimit && its.of(side.source, number) == 0 &&
+                          (action == 1 || action == kRamp);
+    if (!is_limit) continue;
+    made.*side.limit = its.raw(side.value, number) - state.command.offset;
+    made.at_soft_limit = action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+  }
+  return made;
+}
+
+/// What is taken from the parameters when a motion starts.
+void Super40nc::prepare(int number) {
+  const Settings its = registers();
+  AxisState& state = axis(number);
+  motion::AxisSettings settings = motor_settings(number);
+  const bool has_backlash = its.of(kept_x(57), number) == 1;
+  settings.backlash_pulses = has_backlash ? its.of(kept_x(56), number) : 0;
+  const auto creep_rpm = static_cast<double>(its.of(kept_x(80), number));
+  settings.backlash_speed_pps = std::min(its.pps(number, creep_rpm), its.top_pps(number));
+  chip(number).set(settings);
+  state.masked = its.is_on(kept_x(17), number);
+  // What has come in this tick counts; the DOG's edge is left for the latch.
+  motion::Axis& motor = chip(number);
+  const motion::Signals mark = motion::bit(motion::Signal::mark);
+  const motion::Signals seen = here(number).at(motor.travel_pulses, motor.signals);
+  motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
+  // A host may have written the high half alone, by the manual's wrong example: the low one counts.
+  const std::int32_t direction = its.raw(kept_x(0), number) & 0xFFFF;
+  const bool inverted = direction == 3 || direction == 6;
+  if (inverted != chip(number).inverted) {
+    chip(number).inverted = inverted;
+    look_round(number);
+  }
+}
+
+void Super40nc::begun(int number, motion::Cause why_not, Holder holder) {
+  AxisState& state = axis(number);
+  if (why_not != motion::Cause::none) {
+    fail(number, code_of(why_not));
+    return;
+  }
+  clear_error();
+  state.holder = holder;
+  state.has_ended = state.has_error = false;
+  state.stands_on_target = false;
+}
+
+void Super40nc::start_jog(int number, int way) {
+  AxisState& state = axis(number);
+  const Settings its = registers();
+  const Grant given = ask(number, Request::jog);
+  const std::array<Kept, 3> speeds{kept_x(94), kept_x(95), kept_x(96)};
+  const Kept chosen = speeds[static_cast<std::size_t>(its.of(kept_d(8022)))];
+  const motion::SpeedLaw law = its.law(number, static_cast<double>(its.of(chosen, number)));
+  if (given == Grant::same_or_no) {
+    if (chip(number).last_direction != way) {
+      report(Code::axis_taken);
+      return;
+    }
+    chip(number).resume(law, now());
+    state.asked_by_contact = true;
+    return;
+  }
+  if (given != Grant::starts) return;
+  prepare(number);
+  begun(number, chip(number).run(way, law, before_motion()), Holder::jog);
+  state.asked_by_contact = state.holder == Holder::jog;
+  if (state.asked_by_contact) mirror_start(number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
+}
+
+void Super40nc::start_home(int number, int order) {
+  if (ask(number, Request::home_or_zero) != Grant::starts) return;
+  const Settings its = registers();
+  AxisState& state = axis(number);
+  const auto rpm = [&](Kept kept) { return static_cast<double>(its.of(kept, number)); };
+  const int mode = static_cast<int>(its.of(kept_x(21), number));
+  const int way = its.is_on(kept_x(81), number) ? -1 : +1;
+  state.homed = false;
+  state.order = static_cast<std::int8_t>(order);
+  const bool has_limit = its.of(way > 0 ? kept_d(8118) : kept_d(8119), number) != 0;
+  if (motion::super40nc_homes_by_limit(mode) && !has_limit) {
+    home_ended(number, false, Code::home_failed);
+    let_go(number);
+    return;
+  }
+  prepare(number);
+  const motion::SpeedLaw fast = its.law(number, rpm(kept_x(79)));
+  const motion::HomingProgram program =
+      motion::super40nc_homing({.mode = mode,
+                                .way = way,
+                                .fast = fast,
+                                .creep = its.law(number, rpm(kept_x(80))),
+                                .index_count = static_cast<std::int32_t>(its.of(kept_x(22), number) + 1),
+                                .leave_pulses = its.of(kept_x(93), number),
+                                .offset_pulses = pulses_of(its.scale(number), its.of(kept_x(83), number))});
+  if (chip(number).home(program, before_motion()) != motion::Cause::none) {
+    home_ended(number, false, Code::home_failed);
+    let_go(number);
+    return;
+  }
+  begun(number, motion::Cause::none, Holder::home);
+  mirror_start(number, kModeHome + (way < 0 ? kModeNegative : 0), 0, fast);
+}
+
+void Super40nc::start_zero(int number, int order) {
+  if (ask(number, Request::home_or_zero) != Grant::starts) return;
+  const Settings its = registers();
+  AxisState& state = axis(number);
+  state.zeroed = false;
+  prepare(number);
+  const std::int64_t distance = pulses_of(its.scale(number), -state.offset_lu) - machine_pulses(number);
+  const motion::SpeedLaw law = its.law(number, static_cast<double>(its.of(kept_x(77), number)));
+  begun(number, chip(number).move(distance, law, before_motion()), Holder::zero);
+  if (state.holder != Holder::zero) {
+    state_.zeroing_by_key.has_failed = state_.zeroing_by_key.has_failed || order != 0;
+    return;
+  }
+  state.order = static_cast<std::int8_t>(order);
+  mirror_start(number, kModePositioning, distance, law);
+  if (distance != 0) return;
+  let_go(number);
+  state.zeroed = state.has_ended = true;
+}
+
+void Super40nc::set_zero(int number) {
+  AxisState& state = axis(number);
+  if (state.moves()) {
+    report(Code::axis_taken);
+    return;
+  }
+  state.offset_lu = 0;
+  set_counter(number, 0, 0);
+  set_counter(number, 1, 0);
+}
+
+// ---- ends
+
+void Super40nc::let_go(int number) {
+  AxisState& state = axis(number);
+  state.holder = Holder::nobody;
+  state.asked_by_contact = state.asked_by_plc = false;
+  state.wheel = WheelSource::none;
+  state.order = 0;
+}
+
+void Super40nc::stop_axis(int number, Code code) {
+  AxisState& state = axis(number);
+  if (state.holder == Holder::nobody) return;
+  const Holder held = state.holder;
+  chip(number).stop();
+  chip(number).homing.phase = -1;
+  // It is over now: the tick has nothing to tell of it.
+  chip(number).events_between =
+      static_cast<motion::Events>(chip(number).events_between & ~motion::bit(motion::Event::ended));
+  state.has_ended = true;
+  if (held == Holder::home) {
+    home_ended(number, false, code);
+  } else if (held == Holder::zero && state.order != 0) {
+    state_.zeroing_by_key.has_failed = true;
+  }
+  let_go(number);
+}
+
+/// `code`: why it has failed; none: it was given up.
+void Super40nc::home_ended(int number, bool found, Code code) {
+  AxisState& state = axis(number);
+  const Settings its = registers();
+  if (!found) {
+    if (code != Code::none) fail(number, code);
+    if (state.order != 0) state_.homing_by_key.has_failed = true;
+    return;
+  }
+  state.homed = true;
+  const std::int32_t cleared = its.raw(kept_x(28), number);
+  const std::int64_t home_lu = its.of(kept_x(82), number);
+  const motion::UnitScale scale = its.scale(number);
+  if ((cleared & 1) != 0) {
+    set_counter(number, 0, static_cast<std::int32_t>(pulses_of(scale, home_lu)));
+    state.offset_lu = 0;
+  } else {
+    set_work_lu(number, home_lu);
+  }
+  for (int which = 1; which < static_cast<int>(kCounters); ++which) {
+    if ((cleared >> which & 1) != 0) set_counter(number, which, 0);
+  }
+}
+
+/// The motor has come to rest by itself.
+void Super40nc::ended(int number) {
+  AxisState& state = axis(number);
+  const motion::Axis& motor = chip(number);
+  const Holder held = state.holder;
+  const motion::Cause why = motor.cause;
+  state.has_ended = true;
+  if (held == Holder::nobody) return;
+  if (held == Holder::home) {
+    const bool found = (motor.events & motion::bit(motion::Event::homed)) != 0;
+    const bool given_up = motor.homing.ended_by == motion::Cause::stopped;
+    home_ended(number, found, given_up ? Code::none : Code::home_failed);
+    let_go(number);
+    return;
+  }
+  const Code code = code_of(why);
+  if (code != Code::none) fail(number, code);
+  if (held == Holder::zero) {
+    state.zeroed = why == motion::Cause::arrived;
+    if (!state.zeroed && state.order != 0) state_.zeroing_by_key.has_failed = true;
+  }
+  const WheelSource wheel = state.wheel;
+  const std::int32_t edges = state.wheel_edges;
+  let_go(number);
+  // At a limit the wheel turns in vain, and back.
+  if (held != Holder::wheel || why == motion::Cause::alarm || code == Code::none) return;
+  if (chip(number).follow({}) != motion::Cause::none) return;
+  state.holder = Holder::wheel;
+  state.wheel = wheel;
+  state.wheel_edges = edges;
+  follow_ratio(number);
+}
+
+// ---- what a start leaves in the chip's registers
+
+void Super40nc::mirror_start(int number, int mode, std::int64_t distance_pulses,
+                             const motion::SpeedLaw& law) {
+  const Settings its = registers();
+  AxisState& state = axis(number);
+  const double top = std::max(law.top_speed_u_s, 1.0);
+  const double step = multiplier_of(top);
+  state.step_pps = step;
+  const auto rate = [&](const motion::RampLaw& ramp) {
+    constexpr double kClock = 19'660'800;
+    if (!(ramp.acceleration_u_s2 > 0)) return 0;
+    return in_32_bits(std::clamp(std::round(step * kClock / (4 * ramp.acceleration_u_s2)) - 1, 1.0, 65535.0));
+  };
+  const double creep_pps = its.pps(number, static_cast<double>(its.of(kept_x(80), number)));
+  struct Shown {
+    int offset;  // from PRCMD
+    std::int32_t value;
+  };
+  const Shown shown[] = {{0, kStartWithRamp},
+                         {1, static_cast<std::int32_t>(distance_pulses)},
+                         {2, in_32_bits(law.start_speed_u_s / step)},
+                         {3, in_32_bits(law.top_speed_u_s / step)},
+                         {4, rate(law.up)},
+                         {5, rate(law.down)},
+                         {6, in_32_bits(300 / step) - 1},
+                         {7, 0},
+                         {8, mode},
+                         {9, 0},
+                         {10, its.raw(kept_x(68), number)},
+                         {11, its.raw(kept_x(69), number)}};
+  static constexpr Kept kFirst = kept_d(8120);
+  static constexpr Kept kFirstWorking = kept_d(8151);  // RMV, behind which the rest follows
+  const auto show = [&](Kept first, int offset, std::int32_t value) {
+    const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + number);
+    state_.image[slot] = static_cast<std::uint32_t>(value);
+  };
+  for (const Shown& each : shown) {
+    show(kFirst, each.offset, each.value);
+    if (each.offset > 0) show(kFirstWorking, each.offset - 1, each.value);
+  }
+  show(kept_d(8132), 0, in_32_bits(creep_pps / step));
+  show(kept_d(8150), 0, 0);
+  show(kept_d(8162), 0, its.raw(kept_d(8148), number));
+  show(kept_d(8163), 0, 0);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

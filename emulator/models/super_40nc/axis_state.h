@@ -1,0 +1,55 @@
+// An axis of a SUPER-40NC, as a value: the chip's motor and counters, who holds it, and what the controller
+// remembers of its motions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/ownership.h"
+#include "motion/counter.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+/// Where the hand-wheel is turned on.
+enum class WheelSource : std::uint8_t { none, mpg_line, contact_1, contact_10, contact_100, selector };
+
+inline constexpr std::size_t kCounters = 4;
+
+struct AxisState {
+  std::int64_t sent_pulses = 0;      // in the last tick, in the motor's sense
+  std::int64_t followed_pulses = 0;  // of the travel, in the last tick
+  // COUNTER1 goes by the travel; the others count as D9x23 to D9x25 say.
+  motion::Counter command{.range = motion::Counter::Range::bits28};
+  std::array<std::int32_t, kCounters - 1> counts{};
+  std::array<std::int32_t, kCounters> latched{};
+  std::int32_t index_count = 0;  // C signals of the last home
+  bool latch_was_on = false;
+  std::int64_t offset_lu = 0;  // of the work coordinate against the machine's
+  std::int64_t encoder_counts = 0;
+  std::int64_t backlash_seen = 0;  // of the motor's
+
+  Holder holder = Holder::nobody;
+  bool asked_by_contact = false;  // the jog, by M8x03 or M8x04
+  bool asked_by_plc = false;      // the same by PJG or MJG
+  bool masked = false;            // of the motion that runs: pulses do not come out
+  bool homed = false;
+  bool zeroed = false;
+  bool has_ended = false;  // a motion, since the last start
+  bool has_error = false;
+  std::int8_t order = 0;  // of the panel's HOME or ZERO key that started it; 0: none
+  double step_pps = 1;    // of the chip's speeds, by the last start
+
+  // Relative targets go on from the last one while the axis stands on it.
+  bool stands_on_target = false;
+  std::int64_t target_lu = 0;
+
+  WheelSource wheel = WheelSource::none;
+  std::int32_t wheel_lu = 0;     // a count, of an MPG line
+  std::int32_t wheel_edges = 0;  // that do not make a count yet
+
+  bool operator==(const AxisState&) const = default;
+
+  bool moves() const { return holder != Holder::nobody && holder != Holder::rest; }
+};
+
+}  // namespace understudy::emulator::models::super_40nc

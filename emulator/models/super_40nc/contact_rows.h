@@ -1,0 +1,127 @@
+// SUPER-40NC: inputs X and contacts Y, S, T, C, M, in the manual's order.
+#pragma once
+
+#include "emulator/models/super_40nc/row_words.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+inline constexpr int kInputCount = 48;
+inline constexpr int kOutputCount = 32;
+
+// clang-format off
+inline constexpr auto kElementRows = section("接點元件編號一覽表", {
+    discrete(0, "X{}").times(kInputCount, 1, 0),
+    coil(0, "Y{}").times(kOutputCount, 1, 0),
+    coil(200, "S{}").times(80, 1, 0),
+    coil(280, "S{}").times(48, 1, 80).kept_at_once(),
+    coil(600, "T{}").times(56, 1, 0),
+    coil(656, "T{}").times(8, 1, 56).kept_at_once(),
+    coil(800, "C{}").times(16, 1, 0),
+    coil(816, "C{}").times(16, 1, 16).kept_at_once(),
+    relays(0, 399),
+    relays(400, 511).kept_at_once(),
+});
+
+inline constexpr auto kGeneralContactRows = section("M8 特殊接點的功用(一般用途)", {
+    relay(8000).does<write_command>(8000),  // C: 1 START, 0 PAUSE
+    relay(8001).does<write_command>(8001),  // C: single step
+    relay(8002).does<write_command>(8002),  // emergency stop
+    relay(8003, R).always(1),               // ON
+    relay(8004).does<write_command>(8004),  // motion inhibited
+    relay(8005).does<write_command>(8005),  // M code finished
+    relay(8006).does<write_command>(8006),  // C: pause
+    relay(8007),                            // C: single, continuous
+    relay(8008).does<write_command>(8008),  // D9 to the factory's values
+    relays(8009, 8011),
+    relays(8012, 8019),
+    relays(8020, 8021),
+    relay(8022).shows<read_pausing>().does<write_nothing>(),
+    relay(8023).shows<read_file_changed>().does<write_nothing>(),
+    relays(8024, 8099),
+});
+
+// Names of the chip's signals are the manual's (M8x20 SSCM to M8x58 PFM0).
+inline constexpr auto kAxisContactRows = section("M8x 特殊接點的功用(XYZU 軸用)", {
+    axis_relay(8100).does<write_command>(8100),  // START, PAUSE
+    axis_relay(8101).does<write_command>(8101),  // single step
+    axis_relay(8102).does<write_command>(8102),  // RESET
+    axis_relay(8103).does<write_command>(8103),  // +JOG
+    axis_relay(8104).does<write_command>(8104),  // -JOG
+    axis_relay(8105).does<write_command>(8105),  // HOME
+    axis_relay(8106).does<write_command>(8106),  // ZERO
+    axis_relay(8107).does<write_command>(8107),  // ZERO SET
+    axis_relay(8108).does<write_command>(8108),  // MPG*1
+    axis_relay(8109).does<write_command>(8109),  // MPG*10
+    axis_relay(8110).does<write_command>(8110),  // MPG*100
+    axis_relays(8111, 8119, 0), axis_relays(8111, 8119, 1), axis_relays(8111, 8119, 2), axis_relays(8111, 8119, 3),
+    axis_relay(8120, R).shows<read_status>(SSCM),
+    axis_relay(8121, R).shows<read_status>(SRUN),
+    axis_relay(8122, R).shows<read_status>(SENI),
+    axis_relay(8123, R).from_factory(1).shows<read_status>(SEND),
+    axis_relay(8124, R).shows<read_status>(SERR),
+    axis_relay(8125, R).always(0),  // SINT
+    axis_relay(8126, R).always(0),  // SSC0
+    axis_relay(8127, R).always(0),  // SSC1
+    axis_relay(8128, R).shows<read_status>(SCP1),
+    axis_relay(8129, R).shows<read_status>(SCP2),
+    axis_relay(8130, R).shows<read_status>(SCP3),
+    axis_relay(8131, R).shows<read_status>(SCP4),
+    axis_relay(8132, R).shows<read_status>(SCP5),
+    axis_relay(8133, R).always(0),  // SEOR
+    axis_relay(8134, R).always(0),  // SPRF
+    axis_relay(8135, R).always(0),  // SPDF
+    axis_relay(8136, R).shows<read_status>(SFU),
+    axis_relay(8137, R).shows<read_status>(SFD),
+    axis_relay(8138, R).shows<read_status>(SFC),
+    axis_relay(8139, R).shows<read_status>(SALM),
+    axis_relay(8140, R).shows<read_status>(SPEL),
+    axis_relay(8141, R).shows<read_status>(SMEL),
+    axis_relay(8142, R).shows<read_status>(SORG),
+    axis_relay(8143, R).always(0),  // SSD
+    axis_relay(8144, R).shows<read_status>(SDIR),
+    axis_relay(8145, R).always(0),  // SSTA
+    axis_relay(8146, R).always(0),  // SSTP
+    axis_relay(8147, R).shows<read_status>(SEMG),
+    axis_relay(8148, R).always(0),  // SPCS
+    axis_relay(8149, R).always(0),  // SERC
+    axis_relay(8150, R).shows<read_status>(SEZ),
+    axis_relay(8151, R).always(0),  // SDRP
+    axis_relay(8152, R).always(0),  // SCLR
+    axis_relay(8153, R).always(0),  // SLTC
+    axis_relay(8154, R).always(0),  // SDIN
+    axis_relay(8155, R).shows<read_status>(SINP),
+    axis_relay(8156, R).always(0),  // PFC0
+    axis_relay(8157, R).always(0),  // PFC1
+    axis_relay(8158, R).always(0),  // PFM0
+    axis_relays(8159, 8191, 0), axis_relays(8159, 8191, 1), axis_relays(8159, 8191, 2), axis_relays(8159, 8191, 3),
+    axis_relay(8192, R).shows<read_status>(SRDY),
+    axis_relays(8193, 8194, 0), axis_relays(8193, 8194, 1), axis_relays(8193, 8194, 2), axis_relays(8193, 8194, 3),
+    axis_relay(8195, R).shows<read_status>(HOME_DONE),
+    axis_relay(8196, R).shows<read_status>(ZERO_DONE),
+    axis_relay(8197, R).shows<read_status>(HOME_RUNS),
+    axis_relay(8198, R).shows<read_status>(ZERO_RUNS),
+    axis_relay(8199, R).shows<read_status>(WHEEL_RUNS),
+});
+
+inline constexpr auto kPanelContactRows = section("M85x 人機對應接點", {
+    relay(8500),
+    relay(8501).does<write_command>(8501),
+    relay(8502),
+    relays(8503, 8507),
+    relays(8508, 8510).does<write_command>(8508),
+    relays(8511, 8512),
+    relays(8513, 8514).does<write_command>(8513),
+    relays(8515, 8518),
+    relays(8519, 8524).does<write_command>(8519),
+    relays(8525, 8559),
+    relays(8560, 8597).does<write_command>(8560),
+    relays(8598, 8599),
+});
+
+inline constexpr auto kKeptPanelContactRows = section("M86x 人機對應接點", {
+    relay(8600).kept_at_once(),  // single, continuous
+    relays(8601, 8699).kept_at_once(),
+});
+// clang-format on
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,188 @@
+#include "emulator/models/super_40nc/device.h"
+
+#include <algorithm>
+
+#include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/model.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// Of the signals, the time of each.
+struct FinishSignal {
+  Kept output;
+  Kept time;
+  int axis = 0;
+};
+constexpr std::array<FinishSignal, kSignalCount> kSignals{{{kept_y(0), kept_x(91), 0},
+                                                           {kept_y(1), kept_x(91), 1},
+                                                           {kept_y(2), kept_x(91), 2},
+                                                           {kept_y(3), kept_x(91), 3},
+                                                           {kept_y(4), kept_x(92), 0},
+                                                           {kept_y(5), kept_x(92), 1},
+                                                           {kept_y(6), kept_x(92), 2},
+                                                           {kept_y(7), kept_x(92), 3},
+                                                           {kept_y(8), kept_d(9028), 0},
+                                                           {kept_y(9), kept_d(9029), 0}}};
+
+}  // namespace
+
+Super40nc::Super40nc(const DeviceSettings& given)
+    : Device(super_40nc::model(), given),
+      RegisterBankOf(*this, *Device::model().registers, given.firmware),
+      KeptMemory(Device::model().name, given.firmware) {
+  state_.eeprom = factory_memory();
+  state_.blocks = TextBlocks(block_kinds());
+  set_input(kRunSwitch, 1);
+}
+
+Addressing Super40nc::addressing(std::uint8_t address) const {
+  // D9000 is the number; 0 is one as well, and answers.
+  if (address == static_cast<std::uint8_t>(registers().raw(kept_d(9000)))) return Addressing::obey_and_reply;
+  return address == 0 ? Addressing::obey_silently : Addressing::ignore;
+}
+
+void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) { ++state_.receive_errors[port]; }
+
+// ---- the tick
+
+void Super40nc::look_at_inputs() {
+  for (int i = 0; i < kInputCount; ++i) {
+    state_.image[kept_at(Table::discrete, 0).slot + static_cast<std::size_t>(i)] =
+        static_cast<std::uint32_t>(input(i));
+  }
+  for (int i = 0; i < kAnalogInCount; ++i) {
+    state_.analog[static_cast<std::size_t>(i)] = input(kFirstAnalogIn + i);
+  }
+  state_.emergency = input(kEmergencyTerminal) != 0;
+  const bool runs = input(kRunSwitch) != 0;
+  if (runs != state_.run_switch) {
+    state_.run_switch = runs;
+    state_.logo_at = runs && !state_.logo_over ? now() + state_.logo_ms : kNever;
+  }
+  for (int number = 0; number < kAxisCount; ++number) look_round(number);
+}
+
+void Super40nc::sample_inputs(Tick) {
+  if (!take_inputs_changed()) return;
+  const bool was_emergency = state_.emergency;
+  look_at_inputs();
+  if (was_emergency != state_.emergency) state_.touched = true;
+}
+
+void Super40nc::run_interpreters(Tick) {
+  if (!state_.touched) return;
+  state_.shows_file_changed = state_.file_changed;
+  read_keys();
+  obey_contacts();
+  see_contacts();
+  // M8023 is ON for one scan.
+  state_.touched = state_.touched || state_.shows_file_changed;
+  state_.file_changed = false;
+}
+
+void Super40nc::step_motion(Tick tick) {
+  const auto turned = static_cast<std::int32_t>(static_cast<std::uint32_t>(input(kWheelTerminal)) -
+                                                static_cast<std::uint32_t>(state_.wheel_edges));
+  state_.wheel_edges = input(kWheelTerminal);
+  if (turned != 0) {
+    if (!is_on(8004)) feed_wheel(turned);
+  }
+  for (int number = 0; number < kAxisCount; ++number) {
+    AxisState& state = axis(number);
+    motion::Axis& motor = chip(number);
+    const std::int64_t travel_before = motor.travel_pulses;
+    const std::int8_t phase_before = motor.homing.phase;
+    const std::int64_t sent = motor.step(tick, here(number));
+    state.sent_pulses = state.masked ? 0 : sent;
+    state.followed_pulses = motor.travel_pulses - travel_before;
+    count_index(number, phase_before);
+    std::int64_t& encoder_seen = state_.encoders_seen[static_cast<std::size_t>(number)];
+    count(number, travel_before, encoder_seen, turned);
+    encoder_seen = state.encoder_counts;
+    latch(number);
+    if ((chip(number).events & motion::bit(motion::Event::ended)) == 0) continue;
+    ended(number);
+    state_.touched = true;
+  }
+}
+
+void Super40nc::show_finished(std::size_t signal) {
+  const FinishSignal& its = kSignals[signal];
+  state_.signal_until[signal] = now() + 1 + registers().of(its.time, its.axis);
+}
+
+void Super40nc::update_outputs(Tick tick) {
+  for (std::size_t i = 0; i < kSignalCount; ++i) {
+    const FinishSignal& signal = kSignals[i];
+    if (registers().of(signal.time, signal.axis) == 0) continue;
+    state_.image[signal.output.slot] = tick < state_.signal_until[i] ? 1 : 0;
+  }
+  if (tick >= state_.logo_at && !state_.logo_over) {
+    set_contact(8502, true);
+    state_.logo_over = true;
+    state_.logo_at = kNever;
+  }
+}
+
+Tick Super40nc::next_active_tick(Tick done) const {
+  if (state_.touched || inputs_changed()) return done + 1;
+  Tick next = state_.logo_at;
+  for (int number = 0; number < kAxisCount; ++number) {
+    const AxisState& state = axis(number);
+    const motion::Axis& motor = chip(number);
+    if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0 ||
+        state.sent_pulses != 0 || state.followed_pulses != 0 || here(number).version != motor.seen_version) {
+      return done + 1;
+    }
+  }
+  for (std::size_t i = 0; i < kSignalCount; ++i) {
+    const bool is_on = state_.image[kSignals[i].output.slot] != 0;
+    const bool is_system = registers().of(kSignals[i].time, kSignals[i].axis) != 0;
+    if (is_system && is_on) next = std::min(next, std::max(done + 1, state_.signal_until[i]));
+  }
+  return next;
+}
+
+bool Super40nc::same_state(const Device& other) const {
+  const auto* that = dynamic_cast<const Super40nc*>(&other);
+  return that != nullptr && that->now() == now() && that->state_ == state_;
+}
+
+// ---- terminals and axes
+
+bool Super40nc::output(int terminal) const {
+  const int number = terminal - kFirstOutput;
+  return powered() && number >= 0 && number < kOutputCount &&
+         state_.image[kept_y(0).slot + static_cast<std::size_t>(number)] != 0;
+}
+
+std::int32_t Super40nc::analog_level(int terminal) const {
+  const int number = terminal - kFirstAnalogOut;
+  if (!powered() || number < 0 || number >= kAnalogOutCount) return 0;
+  const Value steps = registers().of(number == 0 ? kept_d(8003) : kept_d(8004));
+  return static_cast<std::int32_t>((steps * kMostMillivolts + kVoltageSteps / 2) / kVoltageSteps);
+}
+
+std::int64_t Super40nc::pulses_this_tick(int number) const { return axis(number).sent_pulses; }
+
+double Super40nc::speed_pps(int number) const {
+  const AxisState& its = axis(number);
+  if (its.masked) return 0;
+  const double speed = commanded_pps(number);
+  return (chip(number).inverted ? -speed : speed) + 0.0;  // 0 has no sign
+}
+
+double Super40nc::commanded_pps(int number) const {
+  const motion::Axis& motor = chip(number);
+  if (!motor.moving()) return 0;
+  if (motor.task == motion::Task::following) {
+    return static_cast<double>(axis(number).followed_pulses) * motion::kTicksPerSecond;
+  }
+  return motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction);
+}
+
+void Super40nc::set_encoder(int number, std::int64_t counts) { axis(number).encoder_counts = counts; }
+
+}  // namespace understudy::emulator::models::super_40nc

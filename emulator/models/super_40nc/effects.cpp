@@ -1,0 +1,100 @@
+#include "emulator/models/super_40nc/effects.h"
+
+#include <algorithm>
+
+#include "emulator/models/super_40nc/device.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+Value read_status(const Super40nc& device, Cell cell) {
+  return device.status(cell.index, static_cast<AxisStatus>(cell.argument)) ? 1 : 0;
+}
+
+Value read_analog(const Super40nc& device, Cell cell) {
+  return device.state().analog[static_cast<std::size_t>(cell.index)];
+}
+
+Value read_error(const Super40nc& device, Cell cell) {
+  const ErrorReport& error = device.state().error;
+  switch (cell.argument) {
+    case 0: return static_cast<Value>(error.code);
+    case 1: return error.step;
+    default: return error.other_step;
+  }
+}
+
+Value read_receive_errors(const Super40nc& device, Cell cell) {
+  return static_cast<std::int32_t>(device.state().receive_errors[static_cast<std::size_t>(cell.argument)]);
+}
+
+Value read_work_position(const Super40nc& device, Cell cell) {
+  return static_cast<std::int32_t>(device.work_lu(cell.index));
+}
+
+Value read_counter(const Super40nc& device, Cell cell) { return device.counter(cell.index, cell.argument); }
+Value read_operation(const Super40nc& device, Cell cell) { return device.operation_of(cell.index); }
+
+Value read_latch(const Super40nc& device, Cell cell) {
+  return device.axis(cell.index).latched[static_cast<std::size_t>(cell.argument)];
+}
+
+Value read_remainder(const Super40nc& device, Cell cell) {
+  return static_cast<std::int32_t>(device.chip(cell.index).remaining_pulses());
+}
+
+Value read_chip_speed(const Super40nc& device, Cell cell) { return device.chip_speed(cell.index); }
+
+Value read_index_count(const Super40nc& device, Cell cell) { return device.axis(cell.index).index_count; }
+
+Value read_braking_distance(const Super40nc& device, Cell cell) {
+  return static_cast<std::int32_t>(device.braking_pulses(cell.index));
+}
+
+Value read_pointer(const Super40nc&, Cell) { return 0; }
+Value read_pausing(const Super40nc&, Cell) { return 0; }
+Value read_file_changed(const Super40nc& device, Cell) { return device.state().shows_file_changed ? 1 : 0; }
+
+void write_command(Super40nc& device, Cell cell, Value level) {
+  const bool is_of_axes = cell.argument >= 8100 && cell.argument < 8500;
+  const int contact = cell.argument + cell.index * (is_of_axes ? 100 : 1);
+  device.state().contacts.write(contact, level != 0);
+}
+
+void write_pointer(Super40nc&, Cell, Value) {}
+void write_nothing(Super40nc&, Cell, Value) {}
+
+void select_file(Super40nc& device, Cell, Value number) {
+  device.change_file(static_cast<std::int32_t>(number));
+}
+
+void select_file_by_alias(Super40nc& device, Cell, Value number) {
+  device.put(kept_d(9001), static_cast<std::int32_t>(number));
+  device.change_file(static_cast<std::int32_t>(number));
+}
+
+void select_recipe(Super40nc& device, Cell, Value number) {
+  device.change_recipe(static_cast<std::int32_t>(number));
+}
+
+void lay_out_files(Super40nc& device, Cell, Value) { device.show_capacities(); }
+
+void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
+  const auto limited = static_cast<std::int32_t>(std::clamp<Value>(thousandths, 0, kVoltageSteps));
+  device.put(cell.argument == 0 ? kept_d(8003) : kept_d(8004), limited);
+}
+
+void change_override(Super40nc&, Cell, Value) {}
+
+void select_wheel(Super40nc& device, Cell, Value) { device.state().wheel_selected = true; }
+
+void change_axis(Super40nc& device, Cell cell, Value) { device.heed_axis(cell.index, cell.argument); }
+
+void set_work_position(Super40nc& device, Cell cell, Value position) {
+  device.set_work_lu(cell.index, position);
+}
+
+void set_counter(Super40nc& device, Cell cell, Value pulses) {
+  device.set_counter(cell.index, cell.argument, static_cast<std::int32_t>(pulses));
+}
+
+}  // namespace understudy::emulator::models::super_40nc

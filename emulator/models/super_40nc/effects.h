@@ -1,0 +1,76 @@
+// What SUPER-40NC's contacts and registers do beyond storing, for its tables of rows.
+#pragma once
+
+#include "emulator/device/register_map/row.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+class Super40nc;
+
+/// The chip's flags of an axis, by the manual's names (《M8x 特殊接點的功用(XYZU 軸用)》), and the
+/// controller's.
+enum AxisStatus : int {
+  SSCM,  // a motion runs
+  SRUN,  // pulses come
+  SENI,  // a motion has ended
+  SEND,  // no motion runs
+  SERR,  // it was stopped by an error
+  SCP1,  // comparators
+  SCP2,
+  SCP3,
+  SCP4,
+  SCP5,
+  SFU,  // speeds up
+  SFD,  // slows down
+  SFC,  // constant speed
+  SALM,
+  SPEL,
+  SMEL,
+  SORG,
+  SDIR,
+  SEMG,
+  SEZ,
+  SINP,
+  SRDY,
+  HOME_DONE,
+  ZERO_DONE,
+  HOME_RUNS,
+  ZERO_RUNS,
+  WHEEL_RUNS,
+};
+
+// Readers. A cell's index is the axis, where there is one.
+Value read_status(const Super40nc& device, Cell cell);
+Value read_analog(const Super40nc& device, Cell cell);          // index: VR1 to VR3
+Value read_error(const Super40nc& device, Cell cell);           // argument: code, step, other step
+Value read_receive_errors(const Super40nc& device, Cell cell);  // argument: the port
+Value read_work_position(const Super40nc& device, Cell cell);
+Value read_counter(const Super40nc& device, Cell cell);  // argument: 0 to 3
+Value read_operation(const Super40nc& device, Cell cell);
+Value read_latch(const Super40nc& device, Cell cell);  // argument: 0 to 3
+Value read_remainder(const Super40nc& device, Cell cell);
+Value read_chip_speed(const Super40nc& device, Cell cell);
+Value read_index_count(const Super40nc& device, Cell cell);
+Value read_braking_distance(const Super40nc& device, Cell cell);
+
+Value read_pointer(const Super40nc& device, Cell cell);  // argument: 0 of C, 1 of an axis
+Value read_pausing(const Super40nc& device, Cell);
+Value read_file_changed(const Super40nc& device, Cell);
+
+// Effects.
+void write_command(Super40nc& device, Cell cell,
+                   Value level);  // argument: the M, of X or the first of several
+void write_pointer(Super40nc& device, Cell cell, Value step);  // argument: 0 of C, 1 of an axis
+void write_nothing(Super40nc& device, Cell, Value);
+void select_file(Super40nc& device, Cell, Value number);
+void select_file_by_alias(Super40nc& device, Cell, Value number);
+void select_recipe(Super40nc& device, Cell, Value number);
+void lay_out_files(Super40nc& device, Cell, Value lines);
+void limit_voltage(Super40nc& device, Cell cell, Value thousandths);  // argument: Vout1, Vout2
+void change_override(Super40nc& device, Cell, Value percent);
+void select_wheel(Super40nc& device, Cell, Value);
+void change_axis(Super40nc& device, Cell cell, Value);  // argument: of D9x00 + that; 0: of a D8x
+void set_work_position(Super40nc& device, Cell cell, Value position);
+void set_counter(Super40nc& device, Cell cell, Value pulses);
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,143 @@
+#include "emulator/models/super_40nc/files.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "emulator/models/super_40nc/device.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+constexpr std::size_t kRecipeRegisters = kLastOfRecipe - kFirstOfRecipe + 1;
+constexpr std::size_t kLongestLine = 17;  // "D500 -2147483648\n"
+
+std::string why_not_recipe_name(const std::string& name) {
+  const bool is_number = name.size() == 2 && name.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? "" : "is not a recipe; expected 00 to 99";
+}
+
+struct RecipeLine {
+  std::size_t place = 0;
+  std::int32_t value = 0;
+};
+
+template <typename Number>
+bool parse(std::string_view text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [parsed, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && parsed == end;
+}
+
+std::optional<RecipeLine> parse_line(std::string_view line) {
+  const std::size_t space = line.find(' ');
+  if (line.empty() || line[0] != 'D' || space == std::string_view::npos) return std::nullopt;
+  int number = 0;
+  RecipeLine parsed;
+  if (!parse(line.substr(1, space - 1), number) || !parse(line.substr(space + 1), parsed.value) ||
+      number < kFirstOfRecipe || number > kLastOfRecipe) {
+    return std::nullopt;
+  }
+  parsed.place = static_cast<std::size_t>(number - kFirstOfRecipe);
+  return parsed;
+}
+
+/// Calls visit(line, its number from 1) until that returns false.
+template <typename Visit>
+void for_each_line(std::string_view text, Visit visit) {
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (!visit(text.substr(0, end), number)) return;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+std::string why_not_recipe(const std::string& text) {
+  std::string complaint;
+  for_each_line(text, [&](std::string_view line, int number) {
+    if (!parse_line(line)) {
+      complaint =
+          "line " + std::to_string(number) + ": is not a register of a recipe; expected such as D500 12";
+    }
+    return complaint.empty();
+  });
+  return complaint;
+}
+
+constexpr std::array<BlockKind, 1> kBlocks{{{.name = kRecipes,
+                                             .most = kRecipeCount,
+                                             .longest = kRecipeRegisters * kLongestLine,
+                                             .why_not_called = why_not_recipe_name,
+                                             .why_not_text = why_not_recipe}}};
+
+}  // namespace
+
+std::span<const BlockKind> block_kinds() { return kBlocks; }
+
+std::string recipe_name(std::int32_t number) { return std::to_string(100 + number).substr(1); }
+
+std::string recipe_text(std::span<const std::uint32_t> values) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] == 0) continue;
+    text += "D" + std::to_string(kFirstOfRecipe + static_cast<int>(i)) + " " +
+            std::to_string(static_cast<std::int32_t>(values[i])) + "\n";
+  }
+  return text;
+}
+
+void read_recipe(std::string_view text, std::span<std::uint32_t> values) {
+  std::fill(values.begin(), values.end(), 0U);
+  for_each_line(text, [&](std::string_view line, int) {
+    if (const auto parsed = parse_line(line))
+      values[parsed->place] = static_cast<std::uint32_t>(parsed->value);
+    return true;
+  });
+}
+
+void Super40nc::change_recipe(std::int32_t number) {
+  if (number < 0 || number >= kRecipeCount) {
+    put(kept_d(9002), state_.recipe);
+    report(Code::no_such_file);
+    return;
+  }
+  if (number == state_.recipe) return;
+  const std::span values = std::span(state_.image).subspan(kept_d(kFirstOfRecipe).slot, kRecipeRegisters);
+  const std::string text = recipe_text(values);
+  if (text.empty()) {
+    state_.blocks.erase(kRecipes, recipe_name(state_.recipe));
+  } else {
+    state_.blocks.put(kRecipes, recipe_name(state_.recipe), SharedText(text));
+  }
+  const SharedText* const stored = state_.blocks.find(kRecipes, recipe_name(number));
+  std::array<std::uint32_t, kRecipeRegisters> fresh{};
+  if (stored != nullptr) read_recipe(stored->text(), fresh);
+  for (std::size_t i = 0; i < fresh.size(); ++i) {
+    put({.slot = kept_d(kFirstOfRecipe).slot + i}, static_cast<std::int32_t>(fresh[i]));
+  }
+  state_.recipe = number;
+  state_.file_changed = state_.touched = true;
+}
+
+void Super40nc::change_file(std::int32_t number) {
+  if (number < 0 || number >= registers().raw(kept_d(9043))) {
+    put(kept_d(9001), state_.file);
+    report(Code::no_such_file);
+    return;
+  }
+  if (number == state_.file) return;
+  state_.file = number;
+  state_.file_changed = state_.touched = true;
+}
+
+void Super40nc::show_capacities() {
+  constexpr std::int32_t kAllSteps = 30000;
+  constexpr std::int32_t kStepsOfC = 1500;
+  const auto lines = static_cast<std::int32_t>(registers().of(kept_d(9045)));
+  put(kept_d(9042), std::min(lines, kStepsOfC));
+  put(kept_d(9043), kAllSteps / lines);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

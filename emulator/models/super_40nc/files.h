@@ -1,0 +1,29 @@
+// SUPER-40NC's flash: path files by D9001 and recipes by D9002, each a text (《D9
+// 參數暫存器的功用(一般用)》).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "emulator/device/memory/text_blocks.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+inline constexpr std::string_view kRecipes = "recipes";
+inline constexpr int kRecipeCount = 100;
+// D9002's own sentence; other pages of the manual say D800 or D900 to D999.
+inline constexpr int kFirstOfRecipe = 500;
+inline constexpr int kLastOfRecipe = 999;
+
+std::span<const BlockKind> block_kinds();
+
+/// "00" to "99".
+std::string recipe_name(std::int32_t number);
+/// The registers from D500 on that are not 0, a line each: "D500 12".
+std::string recipe_text(std::span<const std::uint32_t> values);
+/// The reverse, of a text that block_kinds() takes.
+void read_recipe(std::string_view text, std::span<std::uint32_t> values);
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,119 @@
+// What a scan does with the panel's keys: they switch command contacts, and the main page's HOME and ZERO
+// begin with the axes of the first order.
+#include "emulator/models/super_40nc/keys.h"
+
+#include <algorithm>
+
+#include "emulator/models/super_40nc/device.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+constexpr int kOrders = 4;
+
+bool has_digit(std::int32_t mask, int digits, int digit) {
+  std::int64_t rest = mask < 0 ? 0 : mask;
+  for (int i = digits; i > digit; --i) rest /= 10;
+  return rest % 10 != 0;
+}
+
+/// M8x03 or M8x04.
+int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4); }
+
+}  // namespace
+
+bool Super40nc::is_locked(const Key& key) const {
+  const Settings its = registers();
+  return key.axis < 0 ? has_digit(its.raw(kept_d(9025)), kMainLockDigits, key.lock)
+                      : has_digit(its.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
+}
+
+/// A jog key writes its contact in each scan while it is down, and clears it when it is let go.
+void Super40nc::read_jog_keys() {
+  for (int number = 0; number < kAxisCount; ++number) {
+    const int sense = registers().is_on(kept_x(97), number) ? -1 : +1;
+    for (const int way : {+1, -1}) {
+      bool is_down = false;
+      bool was_down = false;
+      for (const Key& key : kKeys) {
+        if (key.does != KeyDoes::jog || key.axis != number || key.way * sense != way || is_locked(key)) {
+          continue;
+        }
+        is_down = is_down || is_on(key.contact);
+        was_down = was_down || state_.contacts.was_seen_on(key.contact);
+      }
+      const int target = jog_contact(number, way);
+      if (is_down || was_down) set_contact(target, is_down);
+      if (is_down) state_.contacts.write(target, true);
+    }
+  }
+}
+
+void Super40nc::read_keys() {
+  read_jog_keys();
+  const auto press = [&](int contact) {
+    set_contact(contact, true);
+    state_.contacts.press(contact);
+  };
+  for (const Key& key : kKeys) {
+    if (key.does == KeyDoes::jog || !rises(key.contact) || is_locked(key)) continue;
+    const int axis_contacts = 8100 + 100 * key.axis;
+    switch (key.does) {
+      case KeyDoes::jog: break;
+      case KeyDoes::home: press(axis_contacts + 5); break;
+      case KeyDoes::zero: press(axis_contacts + 6); break;
+      case KeyDoes::oset: press(axis_contacts + 7); break;
+      case KeyDoes::start: press(axis_contacts); break;
+      case KeyDoes::start_c: press(8000); break;
+      case KeyDoes::pause_c: press(8006); break;
+      case KeyDoes::set_zero:
+        for (int number = 0; number < kAxisCount; ++number) {
+          if (registers().raw(kept_x(74), number) == 1) press(8107 + 100 * number);
+        }
+        break;
+      // These have no contact of their own: obey_contacts() asks for them.
+      case KeyDoes::stop:
+      case KeyDoes::stop_c:
+      case KeyDoes::pause:
+      case KeyDoes::home_by_order:
+      case KeyDoes::zero_by_order: break;
+    }
+  }
+}
+
+bool Super40nc::is_pressed(KeyDoes what, int number) const {
+  return std::any_of(kKeys.begin(), kKeys.end(), [&](const Key& key) {
+    return key.does == what && key.axis == number && rises(key.contact) && !is_locked(key);
+  });
+}
+
+/// Axes of one order start together; the next order when all of them are done.
+void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
+                             void (Super40nc::*start)(int, int)) {
+  const auto is_under_way = [&](const AxisState& its) { return its.holder == holder && its.order != 0; };
+  while (key.runs && std::none_of(state_.axes.begin(), state_.axes.end(), is_under_way)) {
+    if (key.has_failed || key.order == kOrders) {
+      key = {};
+      return;
+    }
+    ++key.order;
+    for (int number = 0; number < kAxisCount; ++number) {
+      if (registers().raw(order_of_axis, number) == key.order && !is_inhibited(number)) {
+        (this->*start)(number, key.order);
+      }
+    }
+  }
+}
+
+void Super40nc::obey_order_keys() {
+  const auto press = [&](OrderKey& key, KeyDoes what) {
+    if (!key.runs && is_pressed(what, -1)) key = {.runs = true};
+  };
+  press(state_.homing_by_key, KeyDoes::home_by_order);
+  press(state_.zeroing_by_key, KeyDoes::zero_by_order);
+  follow_order(state_.homing_by_key, Holder::home, kept_x(99), &Super40nc::start_home);
+  follow_order(state_.zeroing_by_key, Holder::zero, kept_x(84), &Super40nc::start_zero);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,73 @@
+// The panel's keys (《M85x 人機對應接點》): a contact each, what it does, and the digit that locks it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace understudy::emulator::models::super_40nc {
+
+enum class KeyDoes : std::uint8_t {
+  home_by_order,  // X50
+  zero_by_order,  // X51
+  set_zero,       // where X60 allows it
+  pause_c,
+  start_c,
+  stop_c,
+  jog,  // as long as it is down; X52 swaps the directions
+  home,
+  zero,
+  oset,
+  start,
+  stop,
+  pause,
+};
+
+struct Key {
+  int contact = 0;
+  KeyDoes does = KeyDoes::jog;
+  int axis = -1;  // -1: of the main page, which D9025 locks; else of the axis' page, by D9x98
+  int way = 0;    // of a jog
+  int lock = 0;   // the digit from the left, from 1
+};
+
+inline constexpr int kMainLockDigits = 6;
+inline constexpr int kAxisLockDigits = 9;
+
+/// Keys that are storage, such as those that turn pages, are not here.
+inline constexpr auto kKeys = [] {
+  constexpr int kMain = 6 + 5;
+  constexpr int kJogAliases = 6;
+  constexpr int kOfAxes = 4 * 8;
+  std::array<Key, kMain + kJogAliases + kOfAxes> keys;
+  std::size_t next = 0;
+  const auto add = [&](const Key& key) { keys[next++] = key; };
+  // The older names of five of them (《命令範例》 has the jog keys' as well) act alike.
+  for (const auto& [contact, older, does, lock] :
+       {std::array{8592, 0, static_cast<int>(KeyDoes::home_by_order), 1},
+        std::array{8593, 8513, static_cast<int>(KeyDoes::zero_by_order), 2},
+        std::array{8594, 8514, static_cast<int>(KeyDoes::set_zero), 3},
+        std::array{8597, 8510, static_cast<int>(KeyDoes::pause_c), 4},
+        std::array{8595, 8508, static_cast<int>(KeyDoes::start_c), 5},
+        std::array{8596, 8509, static_cast<int>(KeyDoes::stop_c), 6}}) {
+    const Key key{.contact = contact, .does = static_cast<KeyDoes>(does), .lock = lock};
+    add(key);
+    if (older == 0) continue;
+    add({.contact = older, .does = key.does, .lock = lock});
+  }
+  for (int axis = 0; axis < 4; ++axis) {
+    add({.contact = 8560 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = +1, .lock = 2});
+    add({.contact = 8561 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = -1, .lock = 3});
+    add({.contact = 8568 + axis, .does = KeyDoes::home, .axis = axis, .lock = 4});
+    add({.contact = 8572 + axis, .does = KeyDoes::zero, .axis = axis, .lock = 5});
+    add({.contact = 8576 + axis, .does = KeyDoes::oset, .axis = axis, .lock = 6});
+    add({.contact = 8588 + axis, .does = KeyDoes::pause, .axis = axis, .lock = 7});
+    add({.contact = 8580 + axis, .does = KeyDoes::start, .axis = axis, .lock = 8});
+    add({.contact = 8584 + axis, .does = KeyDoes::stop, .axis = axis, .lock = 9});
+    if (axis == 3) continue;  // no older jog keys of U
+    add({.contact = 8519 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = +1, .lock = 2});
+    add({.contact = 8520 + 2 * axis, .does = KeyDoes::jog, .axis = axis, .way = -1, .lock = 3});
+  }
+  return keys;
+}();
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,112 @@
+// What a SUPER-40NC keeps: latched contacts and registers at once, recipes; what power-up finds, and M8008.
+#include "emulator/device/memory/register_memory.h"
+
+#include <algorithm>
+
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/files.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// Calls visit(slot, row) for every register that has one.
+template <typename Visit>
+void for_each_kept_slot(Visit visit) {
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    for (int i = 0; i < row.count && !row.is_view; ++i) visit(next++, row);
+  }
+}
+
+bool is_parameter(const RegisterRow& row) {
+  return row.table == Table::holding && row.address >= data_address(9000);
+}
+
+}  // namespace
+
+Eeprom Super40nc::factory_memory() const {
+  std::array<std::uint32_t, kSlotCount> factory{};
+  std::array<bool, kSlotCount> is_kept{};
+  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
+    factory[slot] = static_cast<std::uint32_t>(row.factory);
+    is_kept[slot] = row.persistent;
+  });
+  return Eeprom(factory, is_kept, is_kept);
+}
+
+void Super40nc::put(Kept kept, std::int32_t value, int of_axis) {
+  const std::size_t slot = kept.slot + static_cast<std::size_t>(of_axis);
+  state_.image[slot] = static_cast<std::uint32_t>(value);
+  state_.eeprom.write(slot, state_.image[slot], 0, now());
+}
+
+void Super40nc::set_contact(int number, bool on) {
+  const std::size_t slot = relay_slot(number);
+  state_.image[slot] = on ? 1 : 0;
+}
+
+void Super40nc::register_written(const RegisterRow& row, std::size_t slot) {
+  if (row.persistent) state_.eeprom.write(slot, state_.image[slot], 0, now());
+}
+
+void Super40nc::mention_unmodelled(const RegisterRow& row) const {
+  const std::string name = RegisterMap::name_of(row, 0);
+  Device::mention_unmodelled(name, row.unmodelled);
+}
+
+void Super40nc::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+
+void Super40nc::read_memory(const NvImage& image) {
+  const auto values = read_registers(*this, image, Device::model().firmwares.back());
+  for (std::size_t slot = 0; slot < values.size(); ++slot) state_.eeprom.put(slot, values[slot]);
+}
+
+void Super40nc::blank_state() {
+  State blank;
+  blank.eeprom = std::move(state_.eeprom);
+  blank.blocks = std::move(state_.blocks);
+  for (std::size_t i = 0; i < blank.axes.size(); ++i) {
+    blank.axes[i].encoder_counts = state_.axes[i].encoder_counts;
+    blank.encoders_seen[i] = state_.axes[i].encoder_counts;
+  }
+  state_ = std::move(blank);
+}
+
+void Super40nc::power_down() {
+  state_.eeprom.lose_power();
+  blank_state();
+}
+
+void Super40nc::power_up() {
+  blank_state();
+  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
+    state_.image[slot] =
+        row.persistent ? state_.eeprom.kept()[slot] : static_cast<std::uint32_t>(row.factory);
+  });
+  const Settings its = registers();
+  put(kept_d(8006), its.raw(kept_d(9004)));
+  put(kept_d(8007), its.raw(kept_d(9016)));
+  state_.file = its.raw(kept_d(9001));
+  state_.recipe = its.raw(kept_d(9002));
+  state_.logo_ms = static_cast<std::int32_t>(its.of(kept_d(9007)));
+  state_.wheel_edges = input(kWheelTerminal);
+  for (int number = 0; number < kAxisCount; ++number) {
+    state_.rpm_at_power_up[static_cast<std::size_t>(number)] =
+        static_cast<std::int32_t>(its.of(kept_x(78), number));
+  }
+  heed_all();
+  look_at_inputs();
+}
+
+/// M8008. Another file and another recipe are changed to as if they were written.
+void Super40nc::reset_parameters() {
+  for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
+    if (is_parameter(row)) put({.slot = slot}, static_cast<std::int32_t>(row.factory));
+  });
+  change_file(0);
+  change_recipe(0);
+  heed_all();
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,121 @@
+#include "emulator/models/super_40nc/model.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/parameters.h"
+#include "interpreter/super_40nc/instructions.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+namespace language = interpreter::super_40nc;
+
+constexpr std::array<Firmware, 1> kFirmwares{100};
+
+constexpr std::array<std::string_view, 6> kGaps{
+    "Programs: the PLC and the five step programs do not run yet, and no listing is taken.",
+    "Path files by D9001 are only numbers so far.",
+    "Comparators show whether they are met, but only soft limits (comparators 1 and 2, method 6) stop an "
+    "axis.",
+    "Backlash at every start (D9x57 = 2) is none.",
+    "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
+    "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",
+};
+
+constexpr std::array<int, 1> kBauds{19200};
+constexpr pty::LineSettings kLine{.data_bits = 8, .parity = pty::Parity::even, .stop_bits = 1};
+constexpr std::array<PortRow, 2> kPorts{
+    PortRow{.kind = PortRow::Kind::rs232, .name = "RS232", .bauds = kBauds, .settings = kLine},
+    PortRow{.kind = PortRow::Kind::rs485, .name = "RS485", .bauds = kBauds, .settings = kLine}};
+constexpr std::array<std::uint8_t, 7> kFunctions{0x01, 0x02, 0x03, 0x05, 0x06, 0x0F, 0x10};
+constexpr int kCharacterBits = 11;
+
+constexpr MapPolicy kPolicy{.read_only = MapPolicy::ReadOnly::ignores_writes,
+                            .out_of_range = MapPolicy::OutOfRange::stored};
+
+constexpr std::array<std::string_view, 12> kStateRegisters{"D8117", "D8217", "D8317", "D8417",
+                                                           "M8120", "M8220", "M8320", "M8420",
+                                                           "M8000", "D8000", "D8094", "D8095"};
+
+constexpr SectionRow kSections[] = {
+    {"接點元件編號一覽表", "list of contacts"},
+    {"暫存器元件編號一覽表", "list of registers"},
+    {"M8 特殊接點的功用(一般用途)", "special contacts M8, general"},
+    {"M8x 特殊接點的功用(XYZU 軸用)", "special contacts M8x, of the axes"},
+    {"M85x 人機對應接點", "contacts M85x of the panel"},
+    {"M86x 人機對應接點", "contacts M86x of the panel"},
+    {"D8 特殊暫存器的功用(一般用途)", "special registers D8, general"},
+    {"D8x 特殊暫存器的功用(XYZU 軸用)", "special registers D8x, of the axes"},
+    {"D9 參數暫存器的功用(一般用)", "parameters D9, general"},
+    {"D9x 參數暫存器的功用(XYZU 軸用)", "parameters D9x, of the axes"},
+};
+
+/// "PCXYZU": the areas where it does something, as the manual's lists have them.
+std::string areas_of(const language::InstructionRow& row) {
+  const auto acts_in = [&](language::Area area) {
+    return language::has(row.areas, area) && !language::has(row.void_in, area);
+  };
+  std::string text = acts_in(language::Area::plc) ? "P" : "";
+  for (const language::AreaRow& area : language::kAreas) {
+    if (area.area != language::Area::plc && acts_in(area.area)) text += area.letter;
+  }
+  return text;
+}
+
+struct Instructions {
+  std::vector<std::string> places;
+  std::vector<InstructionRow> rows;
+};
+
+Instructions make_instructions() {
+  Instructions made;
+  made.places.reserve(language::kInstructions.size());  // rows point into it
+  int number = 0;
+  for (const language::InstructionRow& row : language::kInstructions) {
+    const bool is_named_only = row.group == language::Group::undocumented;
+    made.places.push_back(is_named_only ? std::string()
+                                        : areas_of(row) + " " + std::to_string(row.steps) +
+                                              (row.steps == 1 ? " step" : " steps"));
+    made.rows.push_back({.opcode = number++,
+                         .mnemonic = row.mnemonic,
+                         .data1 = row.section,
+                         .data2 = made.places.back(),
+                         .meaning = row.meaning});
+  }
+  return made;
+}
+
+}  // namespace
+
+const Model& model() {
+  static const RegisterMap registers(kRegisters, kPolicy);
+  static const Instructions instructions = make_instructions();
+  static const Model model{
+      .name = "super-40nc",
+      .title = "4-axis motion controller with a PLC, Modbus RTU on RS232 and RS485",
+      .firmwares = kFirmwares,
+      .registers = &registers,
+      .named_parameters = named_parameters(),
+      .instructions = instructions.rows,
+      .choices = {},
+      .sections = kSections,
+      .terminals = terminals(),
+      .axes = kAxes,
+      .state_registers = kStateRegisters,
+      .gaps = kGaps,
+      .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 15, "D9000"}},
+      .rtu = RtuRules{.end_silence = std::chrono::nanoseconds(3'500'000'000LL * kCharacterBits / kBauds[0]),
+                      .functions = kFunctions},
+      .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
+        return std::make_unique<Super40nc>(settings);
+      },
+  };
+  return model;
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,72 @@
+// Who gets an axis (5.7 of the specification is ours: the manual only says that a DRV waits for the one
+// before it, that VDRV 0 ends any motion, and what stops programs). Who moves an axis keeps it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace understudy::emulator::models::super_40nc {
+
+/// By what an axis is held.
+enum class Holder : std::uint8_t {
+  nobody,
+  jog,
+  home,   // to the machine's zero
+  zero,   // to the work's
+  move,   // of a program or the PLC, with an end
+  rest,   // of a move that a pause holds
+  vdrv,   // turns at a speed
+  wheel,  // follows the hand-wheel
+};
+inline constexpr std::size_t kHolders = 8;
+
+/// What asks for it.
+enum class Request : std::uint8_t {
+  jog,
+  home_or_zero,
+  wheel,     // by contact or D8020
+  line,      // of a step program: LIN, an arc, DRV, HOM, MRK
+  mpg_line,  // MPG
+  plc_drv,
+  vdrv,    // not 0
+  vdrv_0,  // ends any motion
+  stop,    // STP, M8x02, M8002
+};
+inline constexpr std::size_t kRequests = 9;
+
+enum class Grant : std::uint8_t {
+  nothing,  // there is nothing to do
+  starts,
+  same_or_no,  // of the same kind it goes on (a jog in the same direction, the same source of the wheel);
+               // else as refused
+  refused,     // void, and D8094 says so
+  waits,
+  new_speed,  // of what turns
+  stops,      // by a ramp, or at once, as the request has it
+};
+
+using OwnershipRow = std::array<Grant, kRequests>;
+
+// clang-format off
+inline constexpr std::array<OwnershipRow, kHolders> kOwnership = [] {
+  using enum Grant;
+  return std::array<OwnershipRow, kHolders>{{
+      // jog        home, zero wheel       line     MPG line    PLC DRV  VDRV       VDRV 0   STP, M8x02, M8002
+      {starts,     starts,    starts,     starts,  starts,     starts,  starts,    nothing, nothing},  // nobody
+      {same_or_no, refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // jog
+      {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // home
+      {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // zero
+      {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // move
+      {refused,    refused,   refused,    waits,   waits,      refused, waits,     stops,   stops},    // rest
+      {refused,    refused,   refused,    refused, refused,    refused, new_speed, stops,   stops},    // VDRV
+      {refused,    refused,   same_or_no, refused, same_or_no, refused, refused,   stops,   stops},    // wheel
+  }};
+}();
+// clang-format on
+
+constexpr Grant grant(Holder holder, Request request) {
+  return kOwnership[static_cast<std::size_t>(holder)][static_cast<std::size_t>(request)];
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,94 @@
+// SUPER-40NC: every contact and register, and where its value is kept.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/contact_rows.h"
+#include "emulator/models/super_40nc/data_rows.h"
+#include "emulator/models/super_40nc/parameter_rows.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+template <std::size_t... N>
+consteval auto join(const std::array<RegisterRow, N>&... sections) {
+  std::array<RegisterRow, (N + ...)> all{};
+  std::size_t next = 0;
+  const auto add = [&](const auto& rows) {
+    for (const RegisterRow& row : rows) all[next++] = row;
+  };
+  (add(sections), ...);
+  return all;
+}
+
+inline constexpr auto kRegisters =
+    join(kElementRows, kGeneralContactRows, kAxisContactRows, kPanelContactRows, kKeptPanelContactRows,
+         kDataRows, kGeneralSpecialRows, kAxisSpecialRows, kGeneralParameterRows, kAxisParameterRows);
+
+inline constexpr std::size_t kSlotCount = [] {
+  std::size_t count = 0;
+  for (const RegisterRow& row : kRegisters) count += row.is_view ? 0 : static_cast<std::size_t>(row.count);
+  return count;
+}();
+
+/// A register as the code uses it: where its value is kept, and within what it is limited.
+struct Kept {
+  std::size_t slot = 0;
+  Value min = INT32_MIN;
+  Value max = INT32_MAX;
+  bool on_axes = false;  // the first of one for each axis, whose values are neighbours
+};
+
+consteval Kept kept_at(Table table, int address) {
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    const int beyond = address - row.address;
+    const bool is_in =
+        row.table == table && beyond >= 0 && beyond % row.stride == 0 && beyond / row.stride < row.count;
+    if (is_in && row.is_view) throw "a view of other state";
+    if (is_in) {
+      Kept found{.slot = next + static_cast<std::size_t>(beyond / row.stride)};
+      if (row.ranged) {
+        found.min = row.min;
+        found.max = row.max;
+      }
+      found.on_axes = row.count == kAxisCount && row.number_step == 100 && beyond == 0;
+      return found;
+    }
+    if (!row.is_view) next += static_cast<std::size_t>(row.count);
+  }
+  throw "no such register";
+}
+
+/// Where the special contacts M8000 to M8699 are kept; views of other state are not.
+inline constexpr int kFirstSpecialContact = 8000;
+inline constexpr std::size_t kNotKept = SIZE_MAX;
+inline constexpr auto kSpecialContactSlots = [] {
+  std::array<std::size_t, 700> slots{};
+  slots.fill(kNotKept);
+  std::size_t next = 0;
+  for (const RegisterRow& row : kRegisters) {
+    for (int i = 0; i < row.count && row.table == Table::coil; ++i) {
+      const int number = row.address + i * row.stride + 6000 - kFirstSpecialContact;
+      if (number >= 0 && !row.is_view) {
+        slots[static_cast<std::size_t>(number)] = next + static_cast<std::size_t>(i);
+      }
+    }
+    if (!row.is_view) next += static_cast<std::size_t>(row.count);
+  }
+  return slots;
+}();
+constexpr std::size_t relay_slot(int special) {
+  return kSpecialContactSlots[static_cast<std::size_t>(special - kFirstSpecialContact)];
+}
+
+/// By number; a compile error where there is none.
+consteval Kept kept_d(int number) { return kept_at(Table::holding, data_address(number)); }
+consteval Kept kept_m(int number) { return kept_at(Table::coil, relay_address(number)); }
+consteval Kept kept_y(int number) { return kept_at(Table::coil, number); }
+/// D9x00 + number, of the first axis.
+consteval Kept kept_x(int number) { return kept_d(9100 + number); }
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,45 @@
+#include "emulator/models/super_40nc/settings.h"
+
+#include <cmath>
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+constexpr double kMostSteps = 65535;
+constexpr double kStepsAtOne = 300;  // the magnification is 300 / (PRMG + 1)
+
+motion::RampLaw ramp_by(double slope_u_s2, double section_u_s) {
+  return section_u_s > 0 ? motion::RampLaw::by_sections(slope_u_s2, section_u_s)
+                         : motion::RampLaw::by_slope(slope_u_s2);
+}
+
+}  // namespace
+
+double multiplier_of(double top_pps) {
+  constexpr double kLeast = 3;
+  constexpr double kMost = 4096;
+  return kStepsAtOne / std::clamp(std::floor(kStepsAtOne * kMostSteps / top_pps), kLeast, kMost);
+}
+
+motion::SpeedLaw law_by(double start_u_s, double top_u_s, double target_u_s, double up_ms, double down_ms,
+                        double up_section_u_s, double down_section_u_s) {
+  const auto slope = [&](double duration_ms) { return target_u_s * 1000.0 / duration_ms; };
+  motion::SpeedLaw law{.start_speed_u_s = std::min(start_u_s, top_u_s),
+                       .top_speed_u_s = top_u_s,
+                       .up = ramp_by(slope(up_ms), up_section_u_s),
+                       .down = ramp_by(slope(down_ms), down_section_u_s)};
+  if (down_ms > 2 * up_ms) law.slow_down_reckoned_by = ramp_by(slope(2 * up_ms), down_section_u_s);
+  return law;
+}
+
+motion::SpeedLaw Settings::law(int axis, double rpm) const {
+  const double top = std::min(pps(axis, std::max(rpm, 1.0)), top_pps(axis));
+  const double multiplier = multiplier_of(top);
+  const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
+  return law_by(pps(axis, number(kept_x(76))), top, pps(axis, static_cast<double>(of(kept_d(9011)))),
+                number(kept_x(66)), number(kept_x(67)), number(kept_x(68)) * multiplier,
+                number(kept_x(69)) * multiplier);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,51 @@
+// SUPER-40NC's settings as they are used: registers limited to their ranges, and the laws of speed that
+// follow from them (《X6.》, 《X12./X13.》, 《C22.》, 《X2./X3.》, 《X4./X5.》).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/registers.h"
+#include "motion/move.h"
+#include "motion/unit_scale.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+using Image = std::array<std::uint32_t, kSlotCount>;
+
+class Settings {
+ public:
+  explicit Settings(const Image& image) : image_(image) {}
+
+  /// As it is stored.
+  std::int32_t raw(Kept kept, int axis = 0) const {
+    return static_cast<std::int32_t>(image_[kept.slot + static_cast<std::size_t>(axis)]);
+  }
+  /// Limited as it is used.
+  Value of(Kept kept, int axis = 0) const { return std::clamp<Value>(raw(kept, axis), kept.min, kept.max); }
+  bool is_on(Kept kept, int axis = 0) const { return raw(kept, axis) != 0; }
+
+  motion::UnitScale scale(int axis) const {
+    return {.multiplier = of(kept_x(71), axis), .divider = of(kept_x(72), axis)};
+  }
+  double pps(int axis, double rpm) const { return rpm * static_cast<double>(of(kept_x(70), axis)) / 60.0; }
+  /// No motion of the axis is faster.
+  double top_pps(int axis) const { return pps(axis, static_cast<double>(of(kept_x(75), axis))); }
+  /// Of DRV, homing and all that is moved by hand. Below 1 rpm it is 1.
+  motion::SpeedLaw law(int axis, double rpm) const;
+
+ private:
+  const Image& image_;
+};
+
+/// The chip counts a speed in steps of so many pps, the finest that reach up to it.
+double multiplier_of(double top_pps);
+
+/// Up to the top speed in `up_ms` from 0 to the speed that C22 gives, and down in `down_ms`, with rounded
+/// ends of so many steps of the multiplier. A ramp down that lasts more than twice as long as the one up is
+/// begun too late, and cut off at the target.
+motion::SpeedLaw law_by(double start_u_s, double top_u_s, double target_u_s, double up_ms, double down_ms,
+                        double up_section_u_s, double down_section_u_s);
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,90 @@
+// What the axes of a SUPER-40NC meet: switches along their way, the drive's alarm, the encoder's index.
+#include "emulator/models/super_40nc/device.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+void Super40nc::look_round(int number) {
+  const Settings its = registers();
+  const auto limit_level = [&](Kept logic) -> std::optional<bool> {  // of an active one; none: not in use
+    const Value how = its.of(logic, number);
+    return how == 0 ? std::nullopt : std::optional(how == 1);
+  };
+  struct Function {
+    int input;
+    motion::Signal signal;
+    std::optional<bool> active_level;
+  };
+  const bool dog_level = !its.is_on(kept_x(2), number);
+  const Function functions[] = {
+      {limit_plus_input(number), motion::Signal::limit_plus, limit_level(kept_d(8118))},
+      {limit_minus_input(number), motion::Signal::limit_minus, limit_level(kept_d(8119))},
+      {dog_input(number), motion::Signal::home, dog_level},
+      {dog_input(number), motion::Signal::mark, dog_level},  // for latches
+      {pin_of(number, kIndexPin), motion::Signal::index, true},
+      {pin_of(number, kAlarmPin), motion::Signal::alarm, true}};
+  const MachineEdges& told = edges_[static_cast<std::size_t>(number)];
+  const MachineEdges edges = chip(number).inverted ? told.reversed() : told;
+  motion::Surroundings seen;
+  for (const Function& function : functions) {
+    if (!function.active_level) continue;
+    if (const MachineEdges::Span* const span = edges.span_of(function.input)) {
+      const bool is_inside = span->level_inside == *function.active_level;
+      (is_inside ? seen.add(function.signal, span->first, span->last, span->slack)
+                 : seen.add_outside(function.signal, span->first, span->last, span->slack));
+    } else if (edges.index.period != 0 && edges.index.input == function.input) {
+      seen.index_period = edges.index.period;
+      seen.index_at = edges.index.at;
+      seen.index_width = edges.index.width;
+    } else {
+      seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
+    }
+  }
+  seen.version = here(number).version;
+  if (seen == here(number)) return;
+  ++seen.version;
+  here(number) = seen;
+}
+
+void Super40nc::set_edges(int number, const MachineEdges& edges) {
+  edges_[static_cast<std::size_t>(number)] = edges;
+  look_round(number);
+}
+
+std::int64_t Super40nc::place_pulses(int number) const {
+  const motion::Axis& motor = chip(number);
+  return motor.inverted ? -motor.travel_pulses : motor.travel_pulses;
+}
+
+void Super40nc::heed_axis(int number, int parameter) {
+  const Settings its = registers();
+  const auto limit_pulses = [&](Kept kept) {
+    constexpr std::int64_t kRange = std::int64_t{1} << 28;  // the chip's numbers wrap
+    const std::int64_t pulses = its.scale(number).to_pulses(its.of(kept, number)).value_or(0);
+    const std::int64_t wrapped = ((pulses + kRange / 2) % kRange + kRange) % kRange - kRange / 2;
+    return static_cast<std::int32_t>(wrapped);
+  };
+  switch (parameter) {
+    case 63: put(kept_d(8118), its.raw(kept_x(63), number), number); break;
+    case 64: put(kept_d(8119), its.raw(kept_x(64), number), number); break;
+    case 71:
+    case 72:
+    case 85:
+    case 86:
+      if (parameter != 86) put(kept_d(8144), limit_pulses(kept_x(85)), number);
+      if (parameter != 85) put(kept_d(8145), limit_pulses(kept_x(86)), number);
+      if (parameter <= 72) axis(number).stands_on_target = false;
+      break;
+    default: break;
+  }
+  const motion::AxisSettings wanted = motor_settings(number);
+  if (wanted != chip(number).settings) chip(number).set(wanted);
+  look_round(number);
+}
+
+void Super40nc::heed_all() {
+  for (int number = 0; number < kAxisCount; ++number) {
+    for (const int parameter : {63, 64, 71}) heed_axis(number, parameter);
+  }
+}
+
+}  // namespace understudy::emulator::models::super_40nc

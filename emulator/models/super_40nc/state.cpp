@@ -1,0 +1,72 @@
+// SUPER-40NC's state as bytes, and back.
+#include <memory>
+#include <string>
+
+#include "base/state/difference.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/state_fields.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+std::string register_at_slot(std::size_t slot) {
+  for (const RegisterRow& row : kRegisters) {
+    if (row.is_view) continue;
+    const auto count = static_cast<std::size_t>(row.count);
+    if (slot < count) return RegisterMap::name_of(row, static_cast<int>(slot));
+    slot -= count;
+  }
+  return std::to_string(slot);
+}
+
+namespace {
+
+/// What sums of pulses and lengths can come to.
+constexpr std::int64_t kFar = std::int64_t{1} << 60;
+
+}  // namespace
+
+}  // namespace understudy::emulator::models::super_40nc
+
+namespace understudy {
+
+using namespace emulator::models::super_40nc;
+
+void StateOf<AxisState>::check(const AxisState& axis) {
+  for (const std::int64_t number : {axis.sent_pulses, axis.followed_pulses, axis.offset_lu,
+                                    axis.encoder_counts, axis.backlash_seen, axis.target_lu}) {
+    demand_within(number, -kFar, kFar);
+  }
+  demand_within(axis.order, 0, 4);
+  demand_state(axis.step_pps >= 300.0 / 4096 && axis.step_pps <= 100, "no step of the chip's speeds");
+}
+
+void StateOf<State>::check(const State& state) {
+  for (const Tick tick : state.signal_until) demand_reach(tick);
+  demand_within(state.logo_ms, 0, 10'000);
+  demand_within(state.file, 0, 30'000);
+  demand_within(state.recipe, 0, kRecipeCount - 1);
+  demand_within(state.homing_by_key.order, 0, 4);
+  demand_within(state.zeroing_by_key.order, 0, 4);
+  for (const std::int64_t counts : state.encoders_seen) demand_within(counts, -kFar, kFar);
+}
+
+}  // namespace understudy
+
+namespace understudy::emulator::models::super_40nc {
+
+void Super40nc::write_own_state(StateWriter& writer) const { writer.write(state_); }
+
+std::function<void()> Super40nc::read_own_state(StateReader& reader) {
+  const auto restored = std::make_shared<State>();
+  reader.read(*restored);
+  restored->eeprom.check_restored(state_.eeprom);
+  restored->blocks.check_restored(state_.blocks);
+  return [this, restored] { state_ = *restored; };
+}
+
+std::string Super40nc::own_difference(StateReader& a, StateReader& b) const {
+  return difference_of_saved<State>(a, b);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,122 @@
+// What the state of a SUPER-40NC consists of (base/state/fields.h), in the order of the bytes.
+#pragma once
+
+#include <string>
+#include <tuple>
+
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+#include "emulator/device/memory/eeprom_fields.h"
+#include "emulator/models/super_40nc/device.h"
+#include "motion/state_fields.h"
+
+namespace understudy {
+
+namespace emulator::models::super_40nc {
+/// Which register a slot of the image belongs to: "D9100", "M8000".
+std::string register_at_slot(std::size_t slot);
+}  // namespace emulator::models::super_40nc
+
+template <>
+struct StateOf<emulator::models::super_40nc::Holder> {
+  static constexpr auto last = emulator::models::super_40nc::Holder::wheel;
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::WheelSource> {
+  static constexpr auto last = emulator::models::super_40nc::WheelSource::selector;
+};
+
+template <>
+struct StateOf<interpreter::super_40nc::Code> {
+  static constexpr auto last = interpreter::super_40nc::Code::comparator;
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::Contacts> {
+  using Value = emulator::models::super_40nc::Contacts;
+  static constexpr auto fields = std::tuple{field("flags", &Value::flags)};
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::ErrorReport> {
+  using Value = emulator::models::super_40nc::ErrorReport;
+  static constexpr auto fields =
+      std::tuple{field("code", &Value::code), field("step", &Value::step),
+                 field("other_step", &Value::other_step), field("tick", &Value::tick)};
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::OrderKey> {
+  using Value = emulator::models::super_40nc::OrderKey;
+  static constexpr auto fields = std::tuple{field("runs", &Value::runs), field("order", &Value::order),
+                                            field("has_failed", &Value::has_failed)};
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::AxisState> {
+  using Value = emulator::models::super_40nc::AxisState;
+  static constexpr auto fields = std::tuple{field("sent_pulses", &Value::sent_pulses),
+                                            field("followed_pulses", &Value::followed_pulses),
+                                            field("command", &Value::command),
+                                            field("counts", &Value::counts),
+                                            field("latched", &Value::latched),
+                                            field("index_count", &Value::index_count),
+                                            field("latch_was_on", &Value::latch_was_on),
+                                            field("offset_lu", &Value::offset_lu),
+                                            field("encoder_counts", &Value::encoder_counts),
+                                            field("backlash_seen", &Value::backlash_seen),
+                                            field("holder", &Value::holder),
+                                            field("asked_by_contact", &Value::asked_by_contact),
+                                            field("asked_by_plc", &Value::asked_by_plc),
+                                            field("masked", &Value::masked),
+                                            field("homed", &Value::homed),
+                                            field("zeroed", &Value::zeroed),
+                                            field("has_ended", &Value::has_ended),
+                                            field("has_error", &Value::has_error),
+                                            field("order", &Value::order),
+                                            field("step_pps", &Value::step_pps),
+                                            field("stands_on_target", &Value::stands_on_target),
+                                            field("target_lu", &Value::target_lu),
+                                            field("wheel", &Value::wheel),
+                                            field("wheel_lu", &Value::wheel_lu),
+                                            field("wheel_edges", &Value::wheel_edges)};
+  static void check(const Value& value);
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::State> {
+  using Value = emulator::models::super_40nc::State;
+  static constexpr auto fields =
+      std::tuple{field("image", &Value::image, emulator::models::super_40nc::register_at_slot),
+                 field("chips", &Value::chips),
+                 field("here", &Value::here),
+                 field("axes", &Value::axes),
+                 field("contacts", &Value::contacts),
+                 field("error", &Value::error),
+                 field("touched", &Value::touched),
+                 field("run_switch", &Value::run_switch),
+                 field("emergency", &Value::emergency),
+                 field("emergency_obeyed", &Value::emergency_obeyed),
+                 field("wheel_selected", &Value::wheel_selected),
+                 field("analog", &Value::analog),
+                 field("wheel_edges", &Value::wheel_edges),
+                 field("signal_until", &Value::signal_until),
+                 field("receive_errors", &Value::receive_errors),
+                 field("homing_by_key", &Value::homing_by_key),
+                 field("zeroing_by_key", &Value::zeroing_by_key),
+                 field("logo_at", &Value::logo_at),
+                 field("logo_over", &Value::logo_over),
+                 field("file_changed", &Value::file_changed),
+                 field("shows_file_changed", &Value::shows_file_changed),
+                 field("file", &Value::file),
+                 field("recipe", &Value::recipe),
+                 field("rpm_at_power_up", &Value::rpm_at_power_up),
+                 field("logo_ms", &Value::logo_ms),
+                 field("encoders_seen", &Value::encoders_seen),
+                 field("eeprom", &Value::eeprom),
+                 field("blocks", &Value::blocks)};
+  static void check(const Value& value);
+};
+
+}  // namespace understudy

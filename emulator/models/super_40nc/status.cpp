@@ -1,0 +1,220 @@
+// What a SUPER-40NC shows of its axes, and how its counters count (《M8x 特殊接點的功用(XYZU 軸用)》,
+// 《D8x 特殊暫存器的功用(XYZU 軸用)》).
+#include <cmath>
+
+#include "emulator/models/super_40nc/device.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// D8x64, by the chip's numbers.
+enum Operation : std::int32_t {
+  kStopped = 0,
+  kBacklash = 7,
+  kByWheel = 8,
+  kAtFa = 9,
+  kAtFl = 10,
+  kSpeedingUp = 11,
+  kAtFh = 12,
+  kSlowingDown = 13,
+};
+
+/// Where counters count from, as D9x23 to D9x25 number them.
+struct CountedThisTick {
+  std::int64_t pulses = 0;
+  std::int64_t backlash = 0;
+  std::int64_t encoder = 0;
+  std::int64_t wheel = 0;
+};
+
+bool is_bit(std::int32_t mask, int bit) { return (mask >> bit & 1) != 0; }
+
+std::int32_t wrapped(std::int64_t number) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(number));
+}
+
+}  // namespace
+
+bool Super40nc::status(int number, AxisStatus what) const {
+  const AxisState& its = axis(number);
+  const motion::Axis& motor = chip(number);
+  const std::int32_t operation = operation_of(number);
+  switch (what) {
+    case SSCM: return its.holder != Holder::nobody;
+    case SRUN: return operation == kByWheel ? its.followed_pulses != 0 : operation != kStopped;
+    case SENI: return its.has_ended && its.holder == Holder::nobody;
+    case SEND: return its.holder == Holder::nobody;
+    case SERR: return its.has_error;
+    case SCP1: return comparator_holds(number, 0);
+    case SCP2: return comparator_holds(number, 1);
+    case SCP3: return comparator_holds(number, 2);
+    case SCP4: return comparator_holds(number, 3);
+    case SCP5: return comparator_holds(number, 4);
+    case SFU: return operation == kSpeedingUp;
+    case SFD: return operation == kSlowingDown;
+    case SFC: return operation == kAtFa || operation == kAtFl || operation == kAtFh || operation == kBacklash;
+    case SALM: return has_signal(number, motion::Signal::alarm);
+    case SPEL: return has_signal(number, motion::Signal::limit_plus);
+    case SMEL: return has_signal(number, motion::Signal::limit_minus);
+    case SORG: return has_signal(number, motion::Signal::home);
+    case SDIR: return motor.last_direction < 0;
+    case SEMG: return state_.emergency;
+    case SEZ: return has_signal(number, motion::Signal::index);
+    case SINP: return input(pin_of(number, kInPositionPin)) != 0;
+    case SRDY: return input(pin_of(number, kReadyPin)) != 0;
+    case HOME_DONE: return its.homed;
+    case ZERO_DONE: return its.zeroed;
+    case HOME_RUNS: return its.holder == Holder::home;
+    case ZERO_RUNS: return its.holder == Holder::zero;
+    case WHEEL_RUNS: return its.holder == Holder::wheel;
+  }
+  return false;
+}
+
+std::int32_t Super40nc::operation_of(int number) const {
+  const AxisState& its = axis(number);
+  const motion::Axis& motor = chip(number);
+  if (!motor.moving() || !its.moves()) return kStopped;
+  if (motor.task == motion::Task::following) return kByWheel;
+  if (motor.in_backlash) return kBacklash;
+  const motion::Sample sample = motor.sample(now());
+  if (!(sample.speed_u_s > 0)) return kStopped;
+  if (sample.acceleration_u_s2 > 0) return kSpeedingUp;
+  if (sample.acceleration_u_s2 < 0) return kSlowingDown;
+  constexpr int kCreep = 1;  // of a homing's speeds
+  if (motor.homing.active() && motor.homing.row().speed == kCreep) return kAtFa;
+  return sample.speed_u_s > motor.law.start_speed_u_s ? kAtFh : kAtFl;
+}
+
+std::int32_t Super40nc::chip_speed(int number) const {
+  return wrapped(std::llround(std::abs(commanded_pps(number)) / axis(number).step_pps));
+}
+
+// ---- comparators
+
+bool Super40nc::comparator_holds(int number, int which) const {
+  struct Comparator {
+    Kept source, method, value;
+  };
+  static constexpr Comparator kComparators[] = {{kept_x(31), kept_x(32), kept_d(8144)},
+                                                {kept_x(35), kept_x(36), kept_d(8145)},
+                                                {kept_x(39), kept_x(40), kept_d(8146)},
+                                                {kept_x(43), kept_x(44), kept_d(8147)},
+                                                {kept_x(46), kept_x(47), kept_d(8148)}};
+  const Comparator& its = kComparators[which];
+  const Settings settings = registers();
+  const std::int32_t value = settings.raw(its.value, number);
+  std::int64_t present = 0;
+  switch (settings.of(its.source, number)) {
+    case 0: present = counter(number, 0); break;
+    case 1: present = counter(number, 1); break;
+    case 2: present = std::abs(std::int64_t{counter(number, 2)}); break;
+    case 3: present = counter(number, 3); break;
+    case 4: present = chip(number).remaining_pulses(); break;
+    case 5: present = chip_speed(number); break;
+    default: break;
+  }
+  const int way = chip(number).last_direction;
+  switch (settings.of(its.method, number)) {
+    case 1: return present == value;
+    case 2: return present == value && way > 0;
+    case 3: return present == value && way < 0;
+    case 4: return value > present;
+    case 5: return value < present;
+    case 6: return which == 0 ? present > value : which == 1 && present < value;  // soft limits
+    default: return false;
+  }
+}
+
+// ---- counters
+
+/// After a tick, or many of them.
+void Super40nc::count(int number, std::int64_t travel_before, std::int64_t encoder_before,
+                      std::int64_t wheel_counts) {
+  AxisState& state = axis(number);
+  const Settings its = registers();
+  const std::int64_t extra = chip(number).backlash_sent - state.backlash_seen;
+  state.backlash_seen = chip(number).backlash_sent;
+  std::int64_t encoder = state.encoder_counts - encoder_before;
+  if (its.is_on(kept_x(13), number)) encoder = -encoder;
+  if (its.is_on(kept_x(19), number)) encoder = 0;
+  const CountedThisTick now_counted{.pulses = chip(number).travel_pulses - travel_before,
+                                    .backlash = extra,
+                                    .encoder = encoder,
+                                    .wheel = wheel_counts};
+  const std::int32_t with_backlash = its.raw(kept_x(29), number);
+  if (extra != 0 && is_bit(with_backlash, 0)) {
+    state.command.set(machine_pulses(number) + extra, chip(number).travel_pulses);
+    heed_axis(number, 0);
+  }
+  const auto pulses_for = [&](int counter) {
+    return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
+  };
+  const std::int32_t stopped = its.raw(kept_x(30), number);
+  const auto add = [&](int counter, std::int64_t counts) {
+    if (is_bit(stopped, counter - 1)) return;
+    std::int32_t& its_count = state.counts[static_cast<std::size_t>(counter - 1)];
+    its_count = wrapped(its_count + counts);
+  };
+  switch (its.of(kept_x(23), number)) {
+    case 0: add(1, now_counted.encoder); break;
+    case 1: add(1, pulses_for(1)); break;
+    default: add(1, now_counted.wheel); break;
+  }
+  switch (its.of(kept_x(24), number)) {
+    case 0: add(2, pulses_for(2) - now_counted.encoder); break;
+    case 1: add(2, pulses_for(2) - now_counted.wheel); break;
+    default: add(2, now_counted.encoder - now_counted.wheel); break;
+  }
+  constexpr std::size_t kDeviation = 1;
+  state.counts[kDeviation] = static_cast<std::int16_t>(state.counts[kDeviation]);  // 16 bits on the chip
+  if (its.is_on(kept_x(26), number) && !state.moves()) return;
+  switch (its.of(kept_x(25), number)) {
+    case 0: add(3, pulses_for(3)); break;
+    case 1: add(3, now_counted.encoder); break;
+    case 2: add(3, now_counted.wheel); break;
+    default: break;  // a fixed frequency, which stands
+  }
+}
+
+/// D8x71: edges of C in the row of the search that counts them.
+void Super40nc::count_index(int number, std::int8_t phase_before) {
+  const motion::Homing& homing = chip(number).homing;
+  if (phase_before < 0) return;
+  const motion::HomingPhase& row = homing.program.phases[static_cast<std::size_t>(phase_before)];
+  if (row.until != motion::Signal::index) return;
+  const bool is_over = homing.phase != phase_before;
+  const bool has_met = !is_over || homing.reference_known;
+  if (has_met) axis(number).index_count = is_over ? row.count : homing.counted;
+}
+
+/// D9x50: at the DOG's edge, to the pulse, or when a comparator becomes true, at the end of the tick.
+void Super40nc::latch(int number) {
+  AxisState& state = axis(number);
+  const Settings its = registers();
+  const Value by = its.of(kept_x(50), number);
+  const bool is_on = by == 2 ? comparator_holds(number, 3) : by == 3 && comparator_holds(number, 4);
+  const bool has_dog = (chip(number).events & motion::bit(motion::Event::mark_on)) != 0;
+  const bool comes = by == 1 ? has_dog : is_on && !state.latch_was_on;
+  state.latch_was_on = is_on;
+  if (!comes || its.is_on(kept_x(52), number)) return;
+  const auto edge = static_cast<std::size_t>(motion::Event::mark_on);
+  const std::int64_t travel =
+      by == 1 ? chip(number).travel_at(chip(number).event_at[edge]) : chip(number).travel_pulses;
+  state.latched[0] = wrapped(state.command.at(travel));
+  for (int which = 1; which < static_cast<int>(kCounters); ++which) {
+    state.latched[static_cast<std::size_t>(which)] = counter(number, which);
+  }
+  if (its.is_on(kept_x(51), number)) state.latched[2] = chip_speed(number);
+  const std::int32_t cleared = its.raw(kept_x(55), number);
+  if (is_bit(cleared, 0)) {
+    state.command.set(0, travel);
+    heed_axis(number, 0);
+  }
+  for (int which = 1; which < static_cast<int>(kCounters); ++which) {
+    if (is_bit(cleared, which)) set_counter(number, which, 0);
+  }
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,75 @@
+// The hand-wheel of a SUPER-40NC: one for all axes, each of which decodes and weighs its counts by its own
+// parameters (《X40.》 to 《X44.》).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "emulator/models/super_40nc/device.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+std::int64_t Super40nc::wheel_lu_per_count(int number) const {
+  const Settings its = registers();
+  if (its.is_on(kept_x(20), number)) return 0;
+  switch (axis(number).wheel) {
+    case WheelSource::none: return 0;
+    case WheelSource::mpg_line: return axis(number).wheel_lu;
+    case WheelSource::contact_1: return its.of(kept_x(87), number);
+    case WheelSource::contact_10: return its.of(kept_x(88), number);
+    case WheelSource::contact_100: return its.of(kept_x(89), number);
+    case WheelSource::selector: break;
+  }
+  switch (its.raw(kept_d(8021))) {
+    case 0: return its.of(kept_x(87), number);
+    case 1: return its.of(kept_x(88), number);
+    case 2: return its.of(kept_x(89), number);
+    default: return 0;
+  }
+}
+
+/// As the parameters are now; what a division has left over stays.
+void Super40nc::follow_ratio(int number) {
+  motion::Follower& follower = chip(number).follower;
+  const Settings its = registers();
+  const motion::UnitScale scale = its.scale(number);
+  const int sense = its.is_on(kept_x(16), number) ? -1 : +1;
+  constexpr std::int64_t kMost = INT32_MAX;
+  follower.numerator =
+      std::clamp<std::int64_t>(wheel_lu_per_count(number) * scale.multiplier, -kMost, kMost) * sense;
+  if (follower.denominator != scale.divider) follower.left_over = 0;
+  follower.denominator = scale.divider;
+  follower.top_speed_pps = std::max<std::int64_t>(1, std::llround(std::min(its.top_pps(number), 2e9)));
+}
+
+void Super40nc::start_wheel(int number, WheelSource source) {
+  AxisState& state = axis(number);
+  const Grant given = ask(number, Request::wheel);
+  if (given == Grant::same_or_no && state.wheel != source) report(Code::axis_taken);
+  if (given != Grant::starts) return;
+  prepare(number);
+  begun(number, chip(number).follow({}), Holder::wheel);
+  if (state.holder != Holder::wheel) return;
+  state.wheel = source;
+  state.wheel_edges = 0;
+  follow_ratio(number);
+  constexpr int kModeWheel = 0x01;
+  mirror_start(number, kModeWheel, 0, {});
+}
+
+/// Each axis decodes the edges as its own parameter says.
+void Super40nc::feed_wheel(std::int32_t edges) {
+  for (int number = 0; number < kAxisCount; ++number) {
+    AxisState& state = axis(number);
+    if (state.holder != Holder::wheel) continue;
+    follow_ratio(number);
+    static constexpr std::array<std::int32_t, 4> kEdgesOfACount{4, 2, 1, 1};
+    const std::int32_t each = kEdgesOfACount[static_cast<std::size_t>(registers().of(kept_x(15), number))];
+    const std::int64_t sum = std::int64_t{state.wheel_edges} + edges;
+    const std::int64_t counts = (sum - ((sum % each) + each) % each) / each;
+    state.wheel_edges = static_cast<std::int32_t>(sum - counts * each);
+    if (counts != 0) chip(number).feed(counts);
+  }
+}
+
+}  // namespace understudy::emulator::models::super_40nc

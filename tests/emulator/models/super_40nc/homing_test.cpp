@@ -1,0 +1,207 @@
+// SUPER-40NC's 13 ways home (《X20.》), to the pulse. The DOG lies from 50,000 to 70,000, the limit at
+// 100,000, a C signal at every multiple of 4,000; from 500 rpm the axis slows down within 833 pulses.
+#include <gtest/gtest.h>
+
+#include "tests/emulator/models/super_40nc/one_super40nc.h"
+
+namespace understudy::emulator::models::super_40nc {
+namespace homing_test {
+
+constexpr int kBraking = 833;
+
+Given machine(int way, int stands_at = 0) {
+  world::PlantSetup plant;
+  plant.home = way > 0 ? world::PulseSpan{50000, 70000} : world::PulseSpan{-70000, -50000};
+  plant.upper_limit = 99000;
+  plant.lower_limit = -99000;
+  plant.index = world::IndexSetup{.at = 0, .width = 1, .period = 4000};
+  plant.position_pulses = stands_at;
+  return {.plant = {{0, plant}}};
+}
+
+/// So that D8140 tells where it came to: it keeps its pulses.
+void prepare(OneSuper40nc& one, int mode, int way) {
+  one.set("D9121", mode);
+  one.set("D9181", way > 0 ? 0 : 1);
+  one.set("D9128", 0);
+  one.set("D9182", 1234);
+}
+
+struct Case {
+  int mode;
+  int end;
+  int tolerance;  // where it ends by a ramp
+};
+constexpr Case kCases[] = {
+    {0, 50000 + kBraking, 1}, {1, 50000, 0},  {2, 52000, 0}, {3, 52000 + kBraking, 1}, {4, 48000, 0},
+    {5, 48000 - kBraking, 1}, {6, 98999, 0},  {7, 96000, 0}, {8, 96000 - kBraking, 1}, {9, 50000, 0},
+    {10, 52000, 0},           {11, 48000, 0}, {12, 96000, 0}};
+
+TEST(Super40ncHoming, EndsWhereTheModeSays) {
+  for (const Case& each : kCases) {
+    for (const int way : {+1, -1}) {
+      OneSuper40nc one(machine(way));
+      prepare(one, each.mode, way);
+      one.set("M8105", 1);
+      one.run(2);
+      EXPECT_TRUE(one.on("M8197")) << each.mode;
+      EXPECT_FALSE(one.on("M8195"));
+      one.run_while("M8197");
+      EXPECT_TRUE(one.on("M8195")) << each.mode;
+      EXPECT_NEAR(static_cast<double>(one.get("D8140")), way * each.end, each.tolerance)
+          << "mode " << each.mode << " way " << way;
+      EXPECT_EQ(one.get("D8117"), 1234);
+      EXPECT_EQ(one.get("D8094"), 0);
+    }
+  }
+}
+
+TEST(Super40ncHoming, LeavesTheDogFirst) {
+  for (const Case& each : {kCases[1], kCases[4], kCases[9], kCases[11]}) {
+    for (const int from : {50000, 55000, 70000}) {
+      OneSuper40nc one(machine(+1, from));
+      prepare(one, each.mode, +1);
+      one.press("M8105");
+      one.run_while("M8197");
+      EXPECT_TRUE(one.on("M8195"));
+      EXPECT_EQ(one.get("D8140"), each.end - from) << each.mode << " " << from;
+    }
+  }
+}
+
+/// The manual's first example (《X32.》): the third C signal behind the reversal, and an offset.
+TEST(Super40ncHoming, WorkedExampleEndsAtItsPlace) {
+  Given given = machine(+1);
+  given.plant[0].lower_limit.reset();
+  OneSuper40nc one(given);
+  prepare(one, 4, +1);
+  one.set("D9122", 2);
+  one.set("D9183", -200000);
+  one.press("M8105");
+  one.run_while("M8197");
+  EXPECT_EQ(one.get("D8140"), -160000);
+  EXPECT_EQ(one.get("D8171"), 3);
+  EXPECT_TRUE(one.on("M8195"));
+}
+
+TEST(Super40ncHoming, SetsItsCounters) {
+  OneSuper40nc one(machine(-1));
+  one.set("D9121", 1);
+  one.set("D9181", 1);
+  one.set("D9182", -100000);
+  one.set("D9171", 2);
+  one.set("D8117", 55);
+  one.set("D8143", 5);
+  one.press("M8105");
+  one.run_while("M8197");
+  EXPECT_EQ(one.get("D8117"), -100000);
+  EXPECT_EQ(one.get("D8140"), -200000);
+  EXPECT_EQ(one.get("D8143"), 0);
+}
+
+TEST(Super40ncHoming, ALatchTakesTheDogsEdge) {
+  OneSuper40nc one(machine(+1));
+  prepare(one, 0, +1);
+  one.press("M8105");
+  one.run_while("M8197");
+  EXPECT_EQ(one.get("D8165"), 50000);
+}
+
+void expect_failure(OneSuper40nc& one, Value code) {
+  one.run_while("M8197");
+  EXPECT_FALSE(one.on("M8195"));
+  EXPECT_FALSE(one.on("M8197"));
+  EXPECT_EQ(one.on("M8124"), code != 0);
+  EXPECT_EQ(one.get("D8094"), code);
+}
+
+TEST(Super40ncHoming, FailsAtTheLimit) {
+  for (const int mode : {0, 1, 2, 3, 4, 5, 9, 10, 11}) {
+    Given given = machine(+1);
+    given.plant[0].home.reset();
+    OneSuper40nc one(given);
+    prepare(one, mode, +1);
+    one.press("M8105");
+    expect_failure(one, 15);
+    EXPECT_EQ(one.get("D8140"), 99000) << mode;
+  }
+}
+
+TEST(Super40ncHoming, FailsOnAShortPlate) {
+  for (const auto& [mode, code] :
+       {std::pair{0, 0}, std::pair{1, 15}, std::pair{4, 15}, std::pair{5, 15}, std::pair{11, 15}}) {
+    Given given = machine(+1);
+    given.plant[0].home = world::PulseSpan{50000, 50100};
+    OneSuper40nc one(given);
+    prepare(one, mode, +1);
+    one.press("M8105");
+    one.run_while("M8197");
+    EXPECT_EQ(one.on("M8195"), code == 0) << mode;
+    EXPECT_EQ(one.get("D8094"), code) << mode;
+  }
+}
+
+TEST(Super40ncHoming, NeedsTheLimitThatItLooksFor) {
+  for (const int mode : {6, 7, 8, 12}) {
+    OneSuper40nc one(machine(+1));
+    prepare(one, mode, +1);
+    one.set("D9163", 0);
+    one.press("M8105");
+    expect_failure(one, 15);
+    EXPECT_EQ(one.get("D8140"), 0);
+  }
+}
+
+TEST(Super40ncHoming, FailsOrIsGivenUpByWhatStopsIt) {
+  for (const auto& [contact, code] : {std::pair{"M8102", 0}, std::pair{"M8584", 0}, std::pair{"M8002", 19}}) {
+    OneSuper40nc one(machine(+1));
+    prepare(one, 4, +1);
+    one.press("M8105");
+    one.run(200);
+    one.set(contact, 1);
+    one.run(1);
+    expect_failure(one, code);
+  }
+  OneSuper40nc one(machine(+1));
+  prepare(one, 4, +1);
+  one.press("M8105");
+  one.run(200);
+  one.input("ALM_X", 1);
+  one.run(1);
+  expect_failure(one, 15);
+}
+
+TEST(Super40ncHoming, OrdersWaitForEachOther) {
+  Given given = machine(+1);
+  given.plant[1] = given.plant[2] = given.plant[0];
+  OneSuper40nc one(given);
+  one.set("D9199", 2);
+  one.set("D9299", 4);
+  one.set("D9399", 2);
+  one.press("M8592");
+  EXPECT_TRUE(one.on("M8197") && one.on("M8397"));
+  EXPECT_FALSE(one.on("M8297"));
+  one.run_while("M8197");
+  one.run(2);
+  EXPECT_TRUE(one.on("M8297"));
+  one.run_while("M8297");
+  for (const char* done : {"M8195", "M8295", "M8395"}) EXPECT_TRUE(one.on(done)) << done;
+  EXPECT_FALSE(one.on("M8495"));
+}
+
+TEST(Super40ncHoming, NoFurtherOrderFollowsAFailure) {
+  Given given = machine(+1);
+  given.plant[1] = given.plant[0];
+  given.plant[0].home.reset();
+  OneSuper40nc one(given);
+  one.set("D9199", 1);
+  one.set("D9299", 2);
+  one.press("M8592");
+  one.run_while("M8197");
+  one.run(100);
+  EXPECT_FALSE(one.on("M8297"));
+  EXPECT_FALSE(one.on("M8295"));
+}
+
+}  // namespace homing_test
+}  // namespace understudy::emulator::models::super_40nc
