@@ -18,6 +18,16 @@ constexpr int kModeHome = 0x10;
 constexpr int kModeNegative = 0x08;  // added for the negative way
 constexpr int kStartWithRamp = 0x53;
 
+std::int32_t in_32_bits(double number) {
+  return static_cast<std::int32_t>(std::llround(std::clamp(number, -2147483648.0, 2147483647.0)));
+}
+
+std::int64_t pulses_of(const motion::UnitScale& scale, std::int64_t lu) {
+  return scale.to_pulses(lu).value_or(0);
+}
+
+}  // namespace
+
 Code code_of(motion::Cause why) {
   switch (why) {
     case motion::Cause::limit_plus: return Code::limit_positive;
@@ -35,16 +45,6 @@ Code code_of(motion::Cause why) {
   }
   return Code::none;
 }
-
-std::int32_t in_32_bits(double number) {
-  return static_cast<std::int32_t>(std::llround(std::clamp(number, -2147483648.0, 2147483647.0)));
-}
-
-std::int64_t pulses_of(const motion::UnitScale& scale, std::int64_t lu) {
-  return scale.to_pulses(lu).value_or(0);
-}
-
-}  // namespace
 
 // ---- numbers
 
@@ -92,7 +92,7 @@ void Super40nc::report(Code code, int step, int other_step) {
 
 void Super40nc::fail(int number, Code code) {
   axis(number).has_error = true;
-  report(code);
+  report(code, line_step(axis(number).mover));
 }
 
 // ---- starts
@@ -171,7 +171,8 @@ void Super40nc::begun(int number, motion::Cause why_not, Holder holder) {
   state.stands_on_target = false;
 }
 
-void Super40nc::start_jog(int number, int way) {
+/// Returns whether it runs for who asks.
+bool Super40nc::start_jog(int number, int way, bool AxisState::*asked_by) {
   AxisState& state = axis(number);
   const Settings its = registers();
   const Grant given = ask(number, Request::jog);
@@ -181,17 +182,27 @@ void Super40nc::start_jog(int number, int way) {
   if (given == Grant::same_or_no) {
     if (chip(number).last_direction != way) {
       report(Code::axis_taken);
-      return;
+      return false;
     }
     chip(number).resume(law, now());
-    state.asked_by_contact = true;
-    return;
+    state.*asked_by = true;
+    return true;
   }
-  if (given != Grant::starts) return;
+  if (given != Grant::starts) return false;
   prepare(number);
   begun(number, chip(number).run(way, law, before_motion()), Holder::jog);
-  state.asked_by_contact = state.holder == Holder::jog;
-  if (state.asked_by_contact) mirror_start(number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
+  if (state.holder != Holder::jog) return false;
+  state.*asked_by = true;
+  mirror_start(number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
+  return true;
+}
+
+/// By a ramp, when nobody asks for it any more.
+void Super40nc::release_jog(int number, bool AxisState::*asked_by) {
+  AxisState& state = axis(number);
+  if (state.holder != Holder::jog || !(state.*asked_by)) return;
+  state.*asked_by = false;
+  if (!state.asked_by_contact && !state.asked_by_plc) chip(number).slow_down(now());
 }
 
 void Super40nc::start_home(int number, int order) {
@@ -267,17 +278,21 @@ void Super40nc::let_go(int number) {
   state.asked_by_contact = state.asked_by_plc = false;
   state.wheel = WheelSource::none;
   state.order = 0;
+  state.mover = state.stop_awaited_by = Mover::hand;
+  state.awaited = state.shows_finish = state.is_held = false;
+  const bool looked_for_mark = state.rest.kind == RestKind::mark;
+  state.rest = {};
+  if (looked_for_mark) look_round(number);
 }
 
 void Super40nc::stop_axis(int number, Code code) {
   AxisState& state = axis(number);
   if (state.holder == Holder::nobody) return;
+  if (is_on_path(number)) return stop_path();
   const Holder held = state.holder;
   chip(number).stop();
   chip(number).homing.phase = -1;
-  // It is over now: the tick has nothing to tell of it.
-  chip(number).events_between =
-      static_cast<motion::Events>(chip(number).events_between & ~motion::bit(motion::Event::ended));
+  forget_end(number);
   state.has_ended = true;
   if (held == Holder::home) {
     home_ended(number, false, code);
@@ -318,30 +333,32 @@ void Super40nc::ended(int number) {
   const Holder held = state.holder;
   const motion::Cause why = motor.cause;
   state.has_ended = true;
-  if (held == Holder::nobody) return;
+  if (held == Holder::nobody || held == Holder::rest) return;
+  const bool has_found = (motor.events & motion::bit(motion::Event::homed)) != 0;
+  const bool is_stopped = why == motion::Cause::stopped || motor.homing.ended_by == motion::Cause::stopped;
+  if (state.is_held && is_stopped && !has_found) return rest_axis(number);
+  if (held == Holder::wheel) return wheel_ended(number);
+
+  const Mover mover = state.mover;
+  const bool is_awaited = state.awaited;
+  Code code = code_of(why);
   if (held == Holder::home) {
-    const bool found = (motor.events & motion::bit(motion::Event::homed)) != 0;
-    const bool given_up = motor.homing.ended_by == motion::Cause::stopped;
-    home_ended(number, found, given_up ? Code::none : Code::home_failed);
-    let_go(number);
-    return;
+    if (!has_found && !is_stopped) code = Code::home_failed;
+    home_ended(number, has_found, code);
+  } else if (code != Code::none) {
+    fail(number, code);
   }
-  const Code code = code_of(why);
-  if (code != Code::none) fail(number, code);
   if (held == Holder::zero) {
     state.zeroed = why == motion::Cause::arrived;
     if (!state.zeroed && state.order != 0) state_.zeroing_by_key.has_failed = true;
   }
-  const WheelSource wheel = state.wheel;
-  const std::int32_t edges = state.wheel_edges;
+  const bool has_arrived = held == Holder::move && code == Code::none && (has_found || !is_stopped);
+  const bool is_at_target = has_arrived && state.rest.kind == RestKind::move;
+  const bool shows_finish = has_arrived && state.shows_finish;
   let_go(number);
-  // At a limit the wheel turns in vain, and back.
-  if (held != Holder::wheel || why == motion::Cause::alarm || code == Code::none) return;
-  if (chip(number).follow({}) != motion::Cause::none) return;
-  state.holder = Holder::wheel;
-  state.wheel = wheel;
-  state.wheel_edges = edges;
-  follow_ratio(number);
+  state.stands_on_target = is_at_target;
+  if (shows_finish) show_finished(static_cast<std::size_t>(number));
+  if (code != Code::none && mover < Mover::plc) program_broken(mover, number, is_awaited);
 }
 
 // ---- what a start leaves in the chip's registers

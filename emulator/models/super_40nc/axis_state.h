@@ -13,6 +13,23 @@ namespace understudy::emulator::models::super_40nc {
 /// Where the hand-wheel is turned on.
 enum class WheelSource : std::uint8_t { none, mpg_line, contact_1, contact_10, contact_100, selector };
 
+/// Who moves an axis: a step program or the PLC, in the order of their areas, or somebody by hand.
+enum class Mover : std::uint8_t { c, x, y, z, u, plc, hand };
+
+/// What a program's motion is, as far as it is to go on behind a pause.
+enum class RestKind : std::uint8_t { none, move, path, mark, turning, home };
+struct Rest {
+  RestKind kind = RestKind::none;
+  std::int64_t travel = 0;    // of the chip: where it is to come to
+  std::int64_t distance = 0;  // MRK: to the target, and behind it
+  std::int64_t search = 0;
+  bool searches = false;
+  bool marks_positive = false;
+  std::int32_t rpm = 0;  // MRK, VDRV
+
+  bool operator==(const Rest&) const = default;
+};
+
 inline constexpr std::size_t kCounters = 4;
 
 struct AxisState {
@@ -30,8 +47,15 @@ struct AxisState {
 
   Holder holder = Holder::nobody;
   bool asked_by_contact = false;  // the jog, by M8x03 or M8x04
-  bool asked_by_plc = false;      // the same by PJG or MJG
-  bool masked = false;            // of the motion that runs: pulses do not come out
+  Mover mover = Mover::hand;
+  bool awaited = false;                 // by the mover's line
+  Mover stop_awaited_by = Mover::hand;  // of VDRV 0: whose line; hand: of none
+  bool shows_finish = false;            // Y0 to Y3 when it arrives
+  bool is_held = false;                 // by a pause
+  Rest rest;
+  std::int8_t plc_jog_way = 0;  // that the PLC asked for in its last scan
+  bool asked_by_plc = false;    // the same by PJG or MJG
+  bool masked = false;          // of the motion that runs: pulses do not come out
   bool homed = false;
   bool zeroed = false;
   bool has_ended = false;  // a motion, since the last start

@@ -4,6 +4,8 @@
 
 namespace understudy::emulator::models::super_40nc {
 
+namespace language = interpreter::super_40nc;
+
 namespace {
 
 /// M8x00 + number.
@@ -47,44 +49,49 @@ bool Super40nc::is_held_in_reset(int number) const {
 bool Super40nc::is_inhibited(int number) const { return is_held_in_reset(number) || is_on(8004); }
 
 void Super40nc::obey_stops() {
+  using language::Area;
+  using language::Event;
   if (is_stopped_by_emergency()) {
     const Code code = is_on(8002) ? Code::emergency_stop : Code::emergency_input;
     const bool is_new = code == Code::emergency_stop ? rises(8002) : !state_.emergency_obeyed;
     if (is_new) report(code);
     for (int number = 0; number < kAxisCount; ++number) {
-      if (!axis(number).moves()) continue;
+      if (axis(number).holder == Holder::nobody) continue;
       stop_axis(number, code);
       if (code == Code::emergency_input) axis(number).has_error = true;
     }
     state_.homing_by_key = state_.zeroing_by_key = {};
-    set_contact(8000, false);
+    for (const language::AreaRow& row : language::kAreas) {
+      if (row.area != Area::plc) tell(Event::emergency, row.area);
+    }
   }
   state_.emergency_obeyed = state_.emergency;
   for (int number = 0; number < kAxisCount; ++number) {
-    if (!is_held_in_reset(number)) continue;
-    stop_axis(number);
-    if (is_on(of_axis(number, kReset))) axis(number).has_error = false;
-    set_contact(of_axis(number, 0), false);
+    const bool is_reset = is_on(of_axis(number, kReset));
+    if (is_reset) axis(number).has_error = false;
+    if (is_reset) tell(Event::reset, language::area_of_axis(number));
+    if (is_pressed(KeyDoes::stop, number)) tell(Event::stop, language::area_of_axis(number));
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
     for (int number = 0; number < kAxisCount; ++number) {
       if (axis(number).order != 0) stop_axis(number);
     }
     state_.homing_by_key = state_.zeroing_by_key = {};
+    tell(Event::stop, Area::c);
+  }
+  if (rises(8006)) tell(Event::hold, Area::c);
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (is_pressed(KeyDoes::pause, number)) tell(Event::hold, language::area_of_axis(number));
   }
 }
 
 void Super40nc::obey_jogs(int number) {
-  AxisState& state = axis(number);
   for (const int way : {+1, -1}) {
     const int contact = of_axis(number, way > 0 ? kJogPlus : kJogMinus);
-    if (rises(contact) && is_on(contact) && !is_inhibited(number)) start_jog(number, way);
+    if (rises(contact) && !is_inhibited(number)) start_jog(number, way, &AxisState::asked_by_contact);
   }
-  if (state.holder != Holder::jog || !state.asked_by_contact) return;
   const int contact = of_axis(number, chip(number).last_direction > 0 ? kJogPlus : kJogMinus);
-  if (is_on(contact)) return;
-  state.asked_by_contact = false;
-  if (!state.asked_by_plc) chip(number).slow_down(now());
+  if (!is_on(contact)) release_jog(number, &AxisState::asked_by_contact);
 }
 
 void Super40nc::obey_wheel() {
@@ -108,6 +115,7 @@ void Super40nc::obey_wheel() {
 
 void Super40nc::obey_contacts() {
   obey_stops();
+  if (rises(8501) && state_.run_switch && !state_.plc.runs) plc_to_run();
   if (rises(8008)) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {
     if (rises(of_axis(number, kZeroSet))) set_zero(number);

@@ -4,6 +4,7 @@
 
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/model.h"
+#include "emulator/models/super_40nc/program_machine.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -60,6 +61,7 @@ void Super40nc::look_at_inputs() {
   if (runs != state_.run_switch) {
     state_.run_switch = runs;
     state_.logo_at = runs && !state_.logo_over ? now() + state_.logo_ms : kNever;
+    runs ? plc_to_run() : plc_to_stop();
   }
   for (int number = 0; number < kAxisCount; ++number) look_round(number);
 }
@@ -71,15 +73,31 @@ void Super40nc::sample_inputs(Tick) {
   if (was_emergency != state_.emergency) state_.touched = true;
 }
 
+/// PLC, keys, contacts, step programs: later writers win.
 void Super40nc::run_interpreters(Tick) {
-  if (!state_.touched) return;
-  state_.shows_file_changed = state_.file_changed;
-  read_keys();
-  obey_contacts();
-  see_contacts();
-  // M8023 is ON for one scan.
-  state_.touched = state_.touched || state_.shows_file_changed;
-  state_.file_changed = false;
+  ProgramMachine machine(*this);
+  language::StepPrograms steps(state_.steps, codes_, machine, options_);
+  if (!ladder_.is_empty()) language::scan(state_.plc, ladder_, machine, steps, options_);
+  if (state_.touched) {
+    state_.shows_file_changed = state_.file_changed;
+    read_keys();
+    obey_contacts();
+    see_contacts();
+    // M8023 is ON for one scan.
+    state_.touched = state_.touched || state_.shows_file_changed;
+    state_.file_changed = false;
+  }
+  if (programs_are_busy()) steps.run_slices();
+}
+
+bool Super40nc::programs_are_busy() const {
+  return std::any_of(language::kAreas.begin(), language::kAreas.end(), [&](const language::AreaRow& row) {
+    if (row.area == language::Area::plc) return false;
+    const language::Phase phase = state_.steps.programs[language::index_of(row.area)].phase;
+    const bool rests =
+        phase == language::Phase::idle || phase == language::Phase::paused || phase == language::Phase::held;
+    return !rests || contact(row.run_contact);
+  });
 }
 
 void Super40nc::step_motion(Tick tick) {
@@ -89,22 +107,33 @@ void Super40nc::step_motion(Tick tick) {
   if (turned != 0) {
     if (!is_on(8004)) feed_wheel(turned);
   }
+  std::array<std::int64_t, kAxisCount> travel_before{};
+  std::array<std::int64_t, kAxisCount> sent_on_path{};
+  std::array<bool, kAxisCount> was_on_path{};
   for (int number = 0; number < kAxisCount; ++number) {
+    travel_before[static_cast<std::size_t>(number)] = chip(number).travel_pulses;
+    was_on_path[static_cast<std::size_t>(number)] = is_on_path(number);
+  }
+  if (state_.path.engaged) step_path(tick, sent_on_path);
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
     AxisState& state = axis(number);
     motion::Axis& motor = chip(number);
-    const std::int64_t travel_before = motor.travel_pulses;
     const std::int8_t phase_before = motor.homing.phase;
-    const std::int64_t sent = motor.step(tick, here(number));
+    const std::int64_t sent = was_on_path[n] ? sent_on_path[n] : motor.step(tick, here(number));
     state.sent_pulses = state.masked ? 0 : sent;
-    state.followed_pulses = motor.travel_pulses - travel_before;
+    state.followed_pulses = motor.travel_pulses - travel_before[n];
     count_index(number, phase_before);
-    std::int64_t& encoder_seen = state_.encoders_seen[static_cast<std::size_t>(number)];
-    count(number, travel_before, encoder_seen, turned);
+    std::int64_t& encoder_seen = state_.encoders_seen[n];
+    count(number, travel_before[n], encoder_seen, turned);
     encoder_seen = state.encoder_counts;
     latch(number);
-    if ((chip(number).events & motion::bit(motion::Event::ended)) == 0) continue;
+    if (was_on_path[n] || (motor.events & motion::bit(motion::Event::ended)) == 0) continue;
     ended(number);
     state_.touched = true;
+  }
+  if (!state_.path.engaged && std::find(was_on_path.begin(), was_on_path.end(), true) != was_on_path.end()) {
+    path_ended();
   }
 }
 
@@ -127,7 +156,7 @@ void Super40nc::update_outputs(Tick tick) {
 }
 
 Tick Super40nc::next_active_tick(Tick done) const {
-  if (state_.touched || inputs_changed()) return done + 1;
+  if (state_.touched || inputs_changed() || !ladder_.is_empty() || programs_are_busy()) return done + 1;
   Tick next = state_.logo_at;
   for (int number = 0; number < kAxisCount; ++number) {
     const AxisState& state = axis(number);
@@ -177,6 +206,7 @@ double Super40nc::speed_pps(int number) const {
 double Super40nc::commanded_pps(int number) const {
   const motion::Axis& motor = chip(number);
   if (!motor.moving()) return 0;
+  if (is_on_path(number)) return state_.path.speed_pps(static_cast<std::size_t>(number), now());
   if (motor.task == motion::Task::following) {
     return static_cast<double>(axis(number).followed_pulses) * motion::kTicksPerSecond;
   }

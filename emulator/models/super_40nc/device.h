@@ -16,6 +16,7 @@
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/contacts.h"
 #include "emulator/models/super_40nc/keys.h"
@@ -23,7 +24,11 @@
 #include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/terminals.h"
 #include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/ladder.h"
+#include "interpreter/super_40nc/plc.h"
+#include "interpreter/super_40nc/step_programs.h"
 #include "motion/axis.h"
+#include "motion/coordinated.h"
 #include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -40,8 +45,14 @@ struct ErrorReport {
   bool operator==(const ErrorReport&) const = default;
 };
 
+/// What D8094 shows of it.
+Code code_of(motion::Cause why);
+
 /// Outputs that show for a time that something is finished (《X45.》, 《X46.》, 《C4.》, 《C5.》).
 inline constexpr std::size_t kSignalCount = 10;
+inline constexpr std::size_t kFirstEndSignal = 4;
+inline constexpr std::size_t kPathSignal = 8;
+inline constexpr std::size_t kEndOfCSignal = 9;
 
 /// The panel's HOME or ZERO key at work: axes by their order.
 struct OrderKey {
@@ -63,6 +74,12 @@ struct State {
   std::array<motion::Axis, kAxisCount> chips{};
   std::array<motion::Surroundings, kAxisCount> here{};
   std::array<AxisState, kAxisCount> axes{};
+  motion::Coordinated path;  // LIN and arcs of C
+  bool path_is_held = false;
+  std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
+  double path_limit_lu_s = 1;       // where an axis comes to its highest speed
+  interpreter::super_40nc::PlcState plc;
+  interpreter::super_40nc::StepStates steps;
   Contacts contacts;
   ErrorReport error;
   std::array<Tick, kSignalCount> signal_until{};
@@ -89,6 +106,7 @@ class Super40nc final : public Device,
                         public RegisterBankOf<Super40nc>,
                         public ModbusStation,
                         public KeptMemory,
+                        public UserProgram,
                         public Terminals,
                         public Axes {
  public:
@@ -100,6 +118,8 @@ class Super40nc final : public Device,
   const ModbusStation* modbus() const override { return this; }
   KeptMemory* memory() override { return this; }
   const KeptMemory* memory() const override { return this; }
+  UserProgram* user_program() override { return this; }
+  const UserProgram* user_program() const override { return this; }
   const Terminals* terminals() const override { return this; }
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
@@ -118,6 +138,10 @@ class Super40nc final : public Device,
   const TextBlocks* text_blocks() const override { return &state_.blocks; }
   std::uint64_t kept_revision() const override { return state_.eeprom.revision() + state_.blocks.revision(); }
   void settle_memory() override { state_.eeprom.settle(state_.image); }
+
+  /// Areas that the text does not name stay as they are. A listing that is refused shows in D8094 to D8096.
+  void load_program(std::string_view text) override;
+  std::string program_text() const override;
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
@@ -156,6 +180,8 @@ class Super40nc final : public Device,
   Settings registers() const { return Settings(state_.image); }
   /// As the device writes it: without its effect.
   void put(Kept kept, std::int32_t value, int of_axis = 0);
+  /// The memory keeps what the image has there, if it is of that kind.
+  void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
 
   /// In the work coordinate, as D8x17 shows it.
   std::int64_t work_lu(int axis) const;
@@ -171,6 +197,7 @@ class Super40nc final : public Device,
   /// D8x70, in steps of the chip.
   std::int32_t chip_speed(int axis) const;
   std::int64_t braking_pulses(int axis) const;
+  std::int64_t remaining_pulses(int axis) const;
   /// A parameter of an axis was written: D9x00 + `number`, or a D8x, 0.
   void heed_axis(int axis, int number);
   /// The parameters of all axes may have changed.
@@ -178,10 +205,65 @@ class Super40nc final : public Device,
   /// D9001, D9002: another path file or recipe.
   void change_file(std::int32_t number);
   void change_recipe(std::int32_t number);
+  /// M8022.
+  bool is_pausing() const;
+  /// D8000, D8x00; programs in the order of their areas.
+  void set_pointer(int program, std::int32_t step);
   /// D9042, D9043, by D9045.
   void show_capacities();
 
   /// As it is stored: of contacts that are not views.
+  // --- for programs: program_machine.cpp -------------------------------------------------------------
+  void report(Code code, int step = 0, int other_step = 0);
+  void clear_error() { state_.error = {}; }
+  /// The step of the line that a step program is at, as D8095 counts.
+  int line_step(Mover mover) const;
+  Grant ask(int axis, Request request);
+  std::int64_t relative_base_lu(int axis) const;
+  std::int64_t distance_to(int axis, std::int64_t target_lu) const;
+  std::int64_t search_pulses(int axis) const;
+  // Each of these returns whether it has begun; if not, its error is reported.
+  bool begin_drive(int axis, std::int64_t target_lu, std::int32_t rpm, Mover mover);
+  bool begin_mark(int axis, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
+  bool begin_turning(int axis, std::int32_t rpm, Mover mover);
+  void change_turning(int axis, std::int32_t rpm, Mover mover);
+  bool end_by_ramp(int axis, Mover mover);
+  void start_home(int axis, int order = 0);
+  void start_wheel(int axis, WheelSource source);
+  bool start_jog(int axis, int way, bool AxisState::*asked_by);
+  void release_jog(int axis, bool AxisState::*asked_by);
+  void hold_axis(int axis);
+  void go_on_axis(int axis);
+  void break_program(Mover mover, int but_for = -1);
+  void stop_all_of(Mover mover);
+  bool is_awaited_by(Mover mover) const;
+  /// At once; of a home or zero return that is given up nothing is done.
+  void stop_axis(int axis, Code code = Code::none);
+  bool is_held_in_reset(int axis) const;
+  /// M8004, or one of those above: starts by hand are lost without a code.
+  bool is_inhibited(int axis) const;
+  bool is_stopped_by_emergency() const;
+  /// Begins the signal Y0 + `signal`, or begins it anew.
+  void show_finished(std::size_t signal);
+
+  /// A LIN or an arc, in the machine's coordinate.
+  struct PathPlan {
+    motion::Path path;
+    std::array<bool, kAxisCount> takes{};
+    std::array<std::int64_t, kAxisCount> target_lu{};  // in the work coordinate
+    std::int32_t feed_lu_per_s = 0;
+    int mode = 0;  // as the chip's PRMD
+  };
+  /// What its axes get together.
+  Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
+  bool begin_path(const PathPlan& plan);
+  bool is_on_path(int axis) const { return state_.path.takes(static_cast<std::size_t>(axis)); }
+  void hold_path();
+  void go_on_path();
+  void slow_path();
+  void stop_path();
+  void heed_override();
+
   bool contact(int number) const { return state_.image[relay_slot(number)] != 0; }
   void set_contact(int number, bool on);
 
@@ -215,29 +297,18 @@ class Super40nc final : public Device,
   void obey_jogs(int axis);
   void obey_wheel();
   void see_contacts();
-  /// M8002 or CEMG: nothing may start.
-  bool is_stopped_by_emergency() const;
-  bool is_held_in_reset(int axis) const;
-  /// M8004, or one of those above: starts by hand are lost without a code.
-  bool is_inhibited(int axis) const;
 
   // --- axes.cpp: what moves them
-  void report(Code code, int step = 0, int other_step = 0);
-  void clear_error() { state_.error = {}; }
-  /// What a request gets; refusals are reported.
-  Grant ask(int axis, Request request);
   void prepare(int axis);
   /// What a scan starts moves in its own tick.
   Tick before_motion() const { return now() - 1; }
   void begun(int axis, motion::Cause why_not, Holder holder);
-  void start_jog(int axis, int way);
-  void start_home(int axis, int order = 0);
   void start_zero(int axis, int order = 0);
-  void start_wheel(int axis, WheelSource source);
   void set_zero(int axis);
-  /// At once; of a home or zero return that is given up nothing is done.
-  void stop_axis(int axis, Code code = Code::none);
   void ended(int axis);
+  void wheel_ended(int axis);
+  /// An axis that a program moves has met something, and let go.
+  void program_broken(Mover mover, int axis, bool is_awaited);
   void home_ended(int axis, bool found, Code code);
   void fail(int axis, Code code);
   void let_go(int axis);
@@ -245,18 +316,34 @@ class Super40nc final : public Device,
   void feed_wheel(std::int32_t edges);
   std::int64_t wheel_lu_per_count(int axis) const;
   void follow_ratio(int axis);
-  /// Begins the signal Y0 + `signal`, or begins it anew.
-  void show_finished(std::size_t signal);
   void count(int axis, std::int64_t travel_before, std::int64_t encoder_before, std::int64_t wheel_counts);
   void count_index(int axis, std::int8_t phase_before);
   void latch(int axis);
   motion::AxisSettings motor_settings(int axis) const;
+
+  void rest_axis(int axis);
+  /// What has ended between ticks has been dealt with.
+  void forget_end(int axis);
+  void path_ended();
+  void step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
+  double path_feed() const;
+
+  // --- programs.cpp
+  void make_programs_ready();
+  void tell(interpreter::super_40nc::Event event, interpreter::super_40nc::Area area);
+  bool programs_are_busy() const;
+  void plc_to_run();
+  void plc_to_stop();
 
   // --- signals.cpp: what they meet
   void look_at_inputs();
   void look_round(int axis);
 
   State state_;
+  // Made from the listings that the memory has: not state.
+  interpreter::super_40nc::StepCodes codes_;
+  interpreter::super_40nc::Ladder ladder_;
+  interpreter::super_40nc::Options options_;
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
 };
 

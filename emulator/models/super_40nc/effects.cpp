@@ -39,7 +39,7 @@ Value read_latch(const Super40nc& device, Cell cell) {
 }
 
 Value read_remainder(const Super40nc& device, Cell cell) {
-  return static_cast<std::int32_t>(device.chip(cell.index).remaining_pulses());
+  return static_cast<std::int32_t>(device.remaining_pulses(cell.index));
 }
 
 Value read_chip_speed(const Super40nc& device, Cell cell) { return device.chip_speed(cell.index); }
@@ -50,8 +50,11 @@ Value read_braking_distance(const Super40nc& device, Cell cell) {
   return static_cast<std::int32_t>(device.braking_pulses(cell.index));
 }
 
-Value read_pointer(const Super40nc&, Cell) { return 0; }
-Value read_pausing(const Super40nc&, Cell) { return 0; }
+Value read_pointer(const Super40nc& device, Cell cell) {
+  const auto program = static_cast<std::size_t>(cell.argument == 0 ? 0 : 1 + cell.index);
+  return device.state().steps.programs[program].step;
+}
+Value read_pausing(const Super40nc& device, Cell) { return device.is_pausing() ? 1 : 0; }
 Value read_file_changed(const Super40nc& device, Cell) { return device.state().shows_file_changed ? 1 : 0; }
 
 void write_command(Super40nc& device, Cell cell, Value level) {
@@ -60,7 +63,9 @@ void write_command(Super40nc& device, Cell cell, Value level) {
   device.state().contacts.write(contact, level != 0);
 }
 
-void write_pointer(Super40nc&, Cell, Value) {}
+void write_pointer(Super40nc& device, Cell cell, Value step) {
+  device.set_pointer(cell.argument == 0 ? 0 : 1 + cell.index, static_cast<std::int32_t>(step));
+}
 void write_nothing(Super40nc&, Cell, Value) {}
 
 void select_file(Super40nc& device, Cell, Value number) {
@@ -83,7 +88,7 @@ void limit_voltage(Super40nc& device, Cell cell, Value thousandths) {
   device.put(cell.argument == 0 ? kept_d(8003) : kept_d(8004), limited);
 }
 
-void change_override(Super40nc&, Cell, Value) {}
+void change_override(Super40nc& device, Cell, Value) { device.heed_override(); }
 
 void select_wheel(Super40nc& device, Cell, Value) { device.state().wheel_selected = true; }
 

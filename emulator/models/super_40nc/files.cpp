@@ -6,8 +6,11 @@
 #include <optional>
 
 #include "emulator/models/super_40nc/device.h"
+#include "interpreter/super_40nc/listing.h"
 
 namespace understudy::emulator::models::super_40nc {
+
+namespace language = interpreter::super_40nc;
 
 namespace {
 
@@ -66,7 +69,40 @@ std::string why_not_recipe(const std::string& text) {
   return complaint;
 }
 
-constexpr std::array<BlockKind, 1> kBlocks{{{.name = kRecipes,
+std::string why_not_program_name(const std::string& name) {
+  const bool is_area = std::any_of(language::kAreas.begin(), language::kAreas.end(),
+                                   [&](const language::AreaRow& row) { return row.name == name; });
+  return is_area ? "" : "is not an area; expected C, X, Y, Z, U or PLC";
+}
+
+std::string why_not_file_name(const std::string& name) {
+  int number = 0;
+  const bool is_number = parse(std::string_view(name), number) && std::to_string(number) == name;
+  return is_number && number >= 0 && number <= language::kGreatestFile ? ""
+                                                                       : "is not a file; expected 0 to 29999";
+}
+
+std::string why_not_listing(const std::string& text) {
+  const language::Checked checked = language::check(text);
+  if (checked.program) return "";
+  const language::Complaint& first = checked.errors.front();
+  return "line " + std::to_string(first.line) + ": " + first.message();
+}
+
+constexpr std::size_t kLongestListing = 100'000;  // of 1,500 steps
+constexpr std::size_t kMostFiles = 30'000;
+
+constexpr std::array<BlockKind, 3> kBlocks{{{.name = kPrograms,
+                                             .most = language::kAreas.size(),
+                                             .longest = kLongestListing,
+                                             .why_not_called = why_not_program_name,
+                                             .why_not_text = why_not_listing},
+                                            {.name = kFiles,
+                                             .most = kMostFiles,
+                                             .longest = kLongestListing,
+                                             .why_not_called = why_not_file_name,
+                                             .why_not_text = why_not_listing},
+                                            {.name = kRecipes,
                                              .most = kRecipeCount,
                                              .longest = kRecipeRegisters * kLongestLine,
                                              .why_not_called = why_not_recipe_name,
@@ -118,17 +154,6 @@ void Super40nc::change_recipe(std::int32_t number) {
     put({.slot = kept_d(kFirstOfRecipe).slot + i}, static_cast<std::int32_t>(fresh[i]));
   }
   state_.recipe = number;
-  state_.file_changed = state_.touched = true;
-}
-
-void Super40nc::change_file(std::int32_t number) {
-  if (number < 0 || number >= registers().raw(kept_d(9043))) {
-    put(kept_d(9001), state_.file);
-    report(Code::no_such_file);
-    return;
-  }
-  if (number == state_.file) return;
-  state_.file = number;
   state_.file_changed = state_.touched = true;
 }
 

@@ -1,4 +1,4 @@
-// SUPER-40NC's flash: path files by D9001 and recipes by D9002, each a text (《D9
+// SUPER-40NC's flash: programs, path files by D9001 and recipes by D9002, each a text (《D9
 // 參數暫存器的功用(一般用)》).
 #pragma once
 
@@ -11,6 +11,8 @@
 
 namespace understudy::emulator::models::super_40nc {
 
+inline constexpr std::string_view kPrograms = "programs";  // one for each area
+inline constexpr std::string_view kFiles = "files";        // of C, by number
 inline constexpr std::string_view kRecipes = "recipes";
 inline constexpr int kRecipeCount = 100;
 // D9002's own sentence; other pages of the manual say D800 or D900 to D999.

@@ -38,7 +38,7 @@ Eeprom Super40nc::factory_memory() const {
 void Super40nc::put(Kept kept, std::int32_t value, int of_axis) {
   const std::size_t slot = kept.slot + static_cast<std::size_t>(of_axis);
   state_.image[slot] = static_cast<std::uint32_t>(value);
-  state_.eeprom.write(slot, state_.image[slot], 0, now());
+  keep_slot(slot);
 }
 
 void Super40nc::set_contact(int number, bool on) {
@@ -96,6 +96,7 @@ void Super40nc::power_up() {
         static_cast<std::int32_t>(its.of(kept_x(78), number));
   }
   heed_all();
+  make_programs_ready();
   look_at_inputs();
 }
 

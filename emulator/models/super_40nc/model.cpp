@@ -18,13 +18,13 @@ namespace language = interpreter::super_40nc;
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
 constexpr std::array<std::string_view, 6> kGaps{
-    "Programs: the PLC and the five step programs do not run yet, and no listing is taken.",
-    "Path files by D9001 are only numbers so far.",
     "Comparators show whether they are met, but only soft limits (comparators 1 and 2, method 6) stop an "
     "axis.",
-    "Backlash at every start (D9x57 = 2) is none.",
+    "Backlash at every start (D9x57 = 2) is none; in a LIN or an arc it comes out at once.",
+    "A soft limit that stops at once on one side and by a ramp on the other has the negative side's way.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
     "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",
+    "Choices: of what the manual leaves open, a bench cannot ask for another option yet.",
 };
 
 constexpr std::array<int, 1> kBauds{19200};

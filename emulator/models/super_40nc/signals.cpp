@@ -14,10 +14,16 @@ void Super40nc::look_round(int number) {
     motion::Signal signal;
     std::optional<bool> active_level;
   };
+  // MRK looks for its mark on one of them, whatever it is as a limit.
+  const Rest& rest = axis(number).rest;
+  const auto limit_or_mark = [&](Kept logic, bool is_positive) {
+    const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == is_positive;
+    return is_mark ? std::optional(true) : limit_level(logic);
+  };
   const bool dog_level = !its.is_on(kept_x(2), number);
   const Function functions[] = {
-      {limit_plus_input(number), motion::Signal::limit_plus, limit_level(kept_d(8118))},
-      {limit_minus_input(number), motion::Signal::limit_minus, limit_level(kept_d(8119))},
+      {limit_plus_input(number), motion::Signal::limit_plus, limit_or_mark(kept_d(8118), true)},
+      {limit_minus_input(number), motion::Signal::limit_minus, limit_or_mark(kept_d(8119), false)},
       {dog_input(number), motion::Signal::home, dog_level},
       {dog_input(number), motion::Signal::mark, dog_level},  // for latches
       {pin_of(number, kIndexPin), motion::Signal::index, true},

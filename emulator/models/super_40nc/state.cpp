@@ -32,6 +32,12 @@ namespace understudy {
 
 using namespace emulator::models::super_40nc;
 
+void StateOf<Rest>::check(const Rest& rest) {
+  for (const std::int64_t pulses : {rest.travel, rest.distance, rest.search}) {
+    demand_within(pulses, -kFar, kFar);
+  }
+}
+
 void StateOf<AxisState>::check(const AxisState& axis) {
   for (const std::int64_t number : {axis.sent_pulses, axis.followed_pulses, axis.offset_lu,
                                     axis.encoder_counts, axis.backlash_seen, axis.target_lu}) {
@@ -62,7 +68,10 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   reader.read(*restored);
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
-  return [this, restored] { state_ = *restored; };
+  return [this, restored] {
+    state_ = *restored;
+    make_programs_ready();
+  };
 }
 
 std::string Super40nc::own_difference(StateReader& a, StateReader& b) const {

@@ -8,6 +8,7 @@
 #include "base/state/state_bytes.h"
 #include "emulator/device/memory/eeprom_fields.h"
 #include "emulator/models/super_40nc/device.h"
+#include "interpreter/super_40nc/state_fields.h"
 #include "motion/state_fields.h"
 
 namespace understudy {
@@ -25,6 +26,29 @@ struct StateOf<emulator::models::super_40nc::Holder> {
 template <>
 struct StateOf<emulator::models::super_40nc::WheelSource> {
   static constexpr auto last = emulator::models::super_40nc::WheelSource::selector;
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::Mover> {
+  static constexpr auto last = emulator::models::super_40nc::Mover::hand;
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::RestKind> {
+  static constexpr auto last = emulator::models::super_40nc::RestKind::home;
+};
+
+template <>
+struct StateOf<emulator::models::super_40nc::Rest> {
+  using Value = emulator::models::super_40nc::Rest;
+  static constexpr auto fields = std::tuple{field("kind", &Value::kind),
+                                            field("travel", &Value::travel),
+                                            field("distance", &Value::distance),
+                                            field("search", &Value::search),
+                                            field("searches", &Value::searches),
+                                            field("marks_positive", &Value::marks_positive),
+                                            field("rpm", &Value::rpm)};
+  static void check(const Value& value);
 };
 
 template <>
@@ -68,6 +92,13 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                             field("backlash_seen", &Value::backlash_seen),
                                             field("holder", &Value::holder),
                                             field("asked_by_contact", &Value::asked_by_contact),
+                                            field("mover", &Value::mover),
+                                            field("awaited", &Value::awaited),
+                                            field("stop_awaited_by", &Value::stop_awaited_by),
+                                            field("shows_finish", &Value::shows_finish),
+                                            field("is_held", &Value::is_held),
+                                            field("rest", &Value::rest),
+                                            field("plc_jog_way", &Value::plc_jog_way),
                                             field("asked_by_plc", &Value::asked_by_plc),
                                             field("masked", &Value::masked),
                                             field("homed", &Value::homed),
@@ -92,6 +123,12 @@ struct StateOf<emulator::models::super_40nc::State> {
                  field("chips", &Value::chips),
                  field("here", &Value::here),
                  field("axes", &Value::axes),
+                 field("path", &Value::path),
+                 field("path_is_held", &Value::path_is_held),
+                 field("path_feed_lu_s", &Value::path_feed_lu_s),
+                 field("path_limit_lu_s", &Value::path_limit_lu_s),
+                 field("plc", &Value::plc),
+                 field("steps", &Value::steps),
                  field("contacts", &Value::contacts),
                  field("error", &Value::error),
                  field("touched", &Value::touched),

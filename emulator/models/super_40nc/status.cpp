@@ -78,13 +78,20 @@ std::int32_t Super40nc::operation_of(int number) const {
   if (!motor.moving() || !its.moves()) return kStopped;
   if (motor.task == motion::Task::following) return kByWheel;
   if (motor.in_backlash) return kBacklash;
-  const motion::Sample sample = motor.sample(now());
+  const motion::Sample sample = is_on_path(number) ? state_.path.run.sample(now()) : motor.sample(now());
   if (!(sample.speed_u_s > 0)) return kStopped;
   if (sample.acceleration_u_s2 > 0) return kSpeedingUp;
   if (sample.acceleration_u_s2 < 0) return kSlowingDown;
   constexpr int kCreep = 1;  // of a homing's speeds
   if (motor.homing.active() && motor.homing.row().speed == kCreep) return kAtFa;
   return sample.speed_u_s > motor.law.start_speed_u_s ? kAtFh : kAtFl;
+}
+
+std::int64_t Super40nc::remaining_pulses(int number) const {
+  const AxisState& its = axis(number);
+  const bool has_target = its.rest.kind == RestKind::path || its.holder == Holder::rest;
+  return has_target ? std::abs(its.rest.travel - chip(number).travel_pulses)
+                    : chip(number).remaining_pulses();
 }
 
 std::int32_t Super40nc::chip_speed(int number) const {
@@ -111,7 +118,7 @@ bool Super40nc::comparator_holds(int number, int which) const {
     case 1: present = counter(number, 1); break;
     case 2: present = std::abs(std::int64_t{counter(number, 2)}); break;
     case 3: present = counter(number, 3); break;
-    case 4: present = chip(number).remaining_pulses(); break;
+    case 4: present = remaining_pulses(number); break;
     case 5: present = chip_speed(number); break;
     default: break;
   }

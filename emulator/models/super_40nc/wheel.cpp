@@ -72,4 +72,14 @@ void Super40nc::feed_wheel(std::int32_t edges) {
   }
 }
 
+/// At a limit the wheel turns in vain, and back.
+void Super40nc::wheel_ended(int number) {
+  const motion::Cause why = chip(number).cause;
+  const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus ||
+                        why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
+  if (why != motion::Cause::stopped) fail(number, code_of(why));
+  if (!is_limit || chip(number).follow({}) != motion::Cause::none) return let_go(number);
+  follow_ratio(number);
+}
+
 }  // namespace understudy::emulator::models::super_40nc

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,7 +26,17 @@ namespace understudy::emulator::models::super_40nc {
 struct Given {
   std::vector<std::pair<std::string, Value>> set{};
   std::map<int, world::PlantSetup> plant{};  // by axis
+  std::string program{};
 };
+
+/// A listing of the manual, by the name that its tests have: "S2".
+inline std::string sample(const std::string& name) {
+  std::ifstream file(std::string(PROJECT_FOLDER) + "/tests/interpreter/super_40nc/samples/" + name + ".lst");
+  EXPECT_TRUE(file) << name;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
 
 class OneSuper40nc {
  public:
@@ -98,6 +110,7 @@ class OneSuper40nc {
     world::DeviceSetup device{.model = &model(), .settings = {}};
     device.settings.name = "mill";
     device.settings.set = given.set;
+    device.settings.program = given.program;
     bench.devices.push_back(device);
     for (std::size_t port = 0; port < 2; ++port) {
       world::LineSetup line;

@@ -1,0 +1,173 @@
+// LIN and arcs of the C program: one profile along the path, with the least slope among its axes
+// (《C11./C12.》 to 《C22.》), no faster than X12 of any axis, and the feed override at once.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "emulator/models/super_40nc/device.h"
+#include "motion/path_limits.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+double pulses_per_lu(const Settings& its, int axis) { return its.scale(axis).pulses_per_unit(); }
+
+}  // namespace
+
+/// F as D8005 scales it; a feed that is not above 0 is the least there is.
+double Super40nc::path_feed() const {
+  constexpr double kPercent = 100;
+  const double feed = std::max<std::int32_t>(state_.path_feed_lu_s, 1);
+  return feed * static_cast<double>(registers().of(kept_d(8005))) / kPercent;
+}
+
+Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
+  Grant worst = Grant::starts;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!takes[static_cast<std::size_t>(number)]) continue;
+    const Grant given = grant(axis(number).holder, Request::line);
+    if (given == Grant::waits) return Grant::waits;
+    if (given == Grant::refused) worst = Grant::refused;
+  }
+  if (worst == Grant::refused) report(Code::axis_taken, line_step(Mover::c));
+  return worst;
+}
+
+bool Super40nc::begin_path(const PathPlan& plan) {
+  const Settings its = registers();
+  motion::Coordinated path;
+  // What each axis allows along its own direction, in LU a second, and how it speeds up.
+  motion::Point most;
+  most.setConstant(std::numeric_limits<double>::infinity());
+  double target_lu_s = std::numeric_limits<double>::infinity();
+  double fastest_pps = 0;
+  double fastest_ppu = 1;
+  const motion::Point direction = motion::greatest_direction(plan.path);
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    if (!plan.takes[n]) continue;
+    prepare(number);
+    const double ppu = pulses_per_lu(its, number);
+    path.axis_of[n] = static_cast<std::int8_t>(number);
+    path.scale[n] = its.scale(number);
+    most[number] = its.top_pps(number) / ppu;
+    const double share = direction[number];
+    if (share <= 0) continue;
+    target_lu_s = std::min(target_lu_s, its.pps(number, static_cast<double>(its.of(kept_d(9011)))) / ppu);
+    const double pps = share * std::max(plan.feed_lu_per_s, 1) * ppu;
+    if (pps > fastest_pps) {
+      fastest_pps = pps;
+      fastest_ppu = ppu;
+    }
+  }
+  state_.path_feed_lu_s = plan.feed_lu_per_s;
+  state_.path_limit_lu_s = motion::speed_within(plan.path, most);
+  const double top = std::max(std::min(path_feed(), state_.path_limit_lu_s), 1e-3);
+  const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
+  const auto number_of = [&](Kept kept) { return static_cast<double>(its.of(kept)); };
+  const motion::SpeedLaw law =
+      law_by(0, top, target_lu_s, number_of(kept_d(9014)), number_of(kept_d(9015)),
+             number_of(kept_d(9012)) * step_lu_s, number_of(kept_d(9013)) * step_lu_s);
+  path.run.append(plan.path, {}, before_motion());
+  path.run.set_speed(law, before_motion());
+  const motion::Cause why_not = path.begin(plan.path.begin, state_.chips, before_motion());
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    if (!plan.takes[n]) continue;
+    if (why_not != motion::Cause::none) {
+      if (chip(number).forbidden_anywhere() != motion::Cause::none) fail(number, code_of(why_not));
+      continue;
+    }
+    begun(number, motion::Cause::none, Holder::move);
+    AxisState& state = axis(number);
+    state.mover = Mover::c;
+    state.awaited = true;
+    state.target_lu = plan.target_lu[n];
+    const std::int64_t end = path.travel_at(n, plan.path.end[number]);
+    state.rest = {.kind = RestKind::path, .travel = end};
+    motion::SpeedLaw its_law = law;
+    const double share = std::max(direction[number], 1e-9) * pulses_per_lu(its, number);
+    its_law.top_speed_u_s *= share;
+    its_law.up.acceleration_u_s2 *= share;
+    its_law.down.acceleration_u_s2 *= share;
+    mirror_start(number, plan.mode, end - chip(number).travel_pulses, its_law);
+  }
+  if (why_not != motion::Cause::none) return false;
+  state_.path = path;
+  state_.path_is_held = false;
+  heed_override();
+  return true;
+}
+
+void Super40nc::heed_override() {
+  if (!state_.path.engaged) return;
+  const double feed = path_feed();
+  state_.path.run.set_override(feed > 0 ? 1 : 0, now());
+  if (feed > 0) state_.path.run.set_top_speed(std::min(feed, state_.path_limit_lu_s), now());
+}
+
+void Super40nc::hold_path() {
+  if (!state_.path.engaged) return;
+  state_.path.run.pause(now());
+  state_.path_is_held = true;
+}
+
+void Super40nc::go_on_path() {
+  if (!state_.path.engaged || !state_.path_is_held) return;
+  state_.path_is_held = false;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (is_on_path(number)) axis(number).holder = Holder::move;
+  }
+  state_.path.run.resume(now());
+}
+
+/// VDRV 0: by the ramp of the path, and over.
+void Super40nc::slow_path() { state_.path.slow_down(now()); }
+
+void Super40nc::stop_path() {
+  std::array<bool, kAxisCount> took{};
+  for (int number = 0; number < kAxisCount; ++number) {
+    took[static_cast<std::size_t>(number)] = is_on_path(number);
+  }
+  state_.path.stop(state_.chips, motion::Cause::stopped);
+  state_.path = {};
+  state_.path_is_held = false;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!took[static_cast<std::size_t>(number)]) continue;
+    forget_end(number);
+    axis(number).has_ended = true;
+    let_go(number);
+  }
+}
+
+void Super40nc::step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent) {
+  state_.path.step(tick, state_.chips, state_.here, sent);
+  if (!state_.path.engaged || !state_.path_is_held || !state_.path.run.at_rest(tick)) return;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (is_on_path(number)) axis(number).holder = Holder::rest;
+  }
+}
+
+/// It has arrived, or an axis of it has met something.
+void Super40nc::path_ended() {
+  const motion::Cause why = state_.path.cause;
+  const bool has_arrived = why == motion::Cause::arrived;
+  const Code code = code_of(why);
+  for (int number = 0; number < kAxisCount; ++number) {
+    AxisState& state = axis(number);
+    if (state.rest.kind != RestKind::path) continue;
+    forget_end(number);
+    state.has_ended = true;
+    if (code != Code::none && chip(number).cause == why) fail(number, code);
+    let_go(number);
+    state.stands_on_target = has_arrived;
+  }
+  state_.path = {};
+  state_.path_is_held = false;
+  state_.touched = true;
+  if (has_arrived) show_finished(kPathSignal);
+  if (code != Code::none) program_broken(Mover::c, -1, true);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

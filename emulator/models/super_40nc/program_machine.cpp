@@ -1,0 +1,467 @@
+#include "emulator/models/super_40nc/program_machine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/device/register_map/access.h"
+#include "interpreter/super_40nc/ownership.h"
+#include "motion/bad_motion.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+using language::Area;
+using language::Begun;
+
+namespace {
+
+constexpr int kModeLine = 0x61;
+constexpr int kModeClockwise = 0x64;
+constexpr int kModeCounterClockwise = 0x65;
+/// End points so far off the circle are taken all the same.
+constexpr double kOffCircleLu = 10;
+
+constexpr std::uint32_t cell_of_slot(Kept kept) { return static_cast<std::uint32_t>(kept.slot); }
+
+Mover mover_of(Area area) { return static_cast<Mover>(area); }
+
+bool is_set(const language::AxisValues& values, int axis) {
+  return values[static_cast<std::size_t>(axis)].has_value();
+}
+std::int32_t value_of_axis(const language::AxisValues& values, int axis) {
+  return values[static_cast<std::size_t>(axis)].value_or(0);
+}
+
+}  // namespace
+
+// ---- contacts and registers
+
+language::CellLayout ProgramMachine::layout() const {
+  return {.x = cell_of_slot(kept_at(Table::discrete, 0)),
+          .y = cell_of_slot(kept_y(0)),
+          .m = cell_of_slot(kept_m(0)),
+          .t = cell_of_slot(kept_at(Table::coil, 600)),
+          .c = cell_of_slot(kept_at(Table::coil, 800)),
+          .t_value = cell_of_slot(kept_at(Table::holding, 2000)),
+          .c_value = cell_of_slot(kept_at(Table::holding, 2500)),
+          .d = cell_of_slot(kept_d(0))};
+}
+
+void ProgramMachine::kept_cell_written(std::uint32_t cell) { device_.keep_slot(cell); }
+
+bool ProgramMachine::special_contact(int number) const {
+  if (const std::size_t slot = relay_slot(number); slot != kNotKept) return device_.state().image[slot] != 0;
+  return read_value(device_, device_.at(Table::coil, relay_address(number))) != 0;
+}
+
+bool ProgramMachine::set_special_contact(int number, bool on) {
+  const std::size_t slot = relay_slot(number);
+  if (slot == kNotKept || special_contact(number) == on) return false;
+  device_.set_contact(number, on);
+  device_.state().contacts.overwrite(number);
+  device_.keep_slot(slot);
+  device_.state().touched = true;
+  return true;
+}
+
+std::int32_t ProgramMachine::special_register(int number) const {
+  return static_cast<std::int32_t>(read_value(device_, device_.at(Table::holding, data_address(number))));
+}
+
+bool ProgramMachine::set_special_register(int number, std::int32_t value) {
+  const std::int32_t before = special_register(number);
+  const auto bits = static_cast<std::uint32_t>(value);
+  const std::array<std::uint16_t, 2> words{static_cast<std::uint16_t>(bits),
+                                           static_cast<std::uint16_t>(bits >> 16)};
+  write_words(device_, Table::holding, data_address(number), words);
+  return special_register(number) != before;
+}
+
+std::int32_t ProgramMachine::rpm_at_power_up(int axis) const {
+  return device_.state().rpm_at_power_up[static_cast<std::size_t>(axis)];
+}
+
+void ProgramMachine::report(language::Code code, int step, int other_step) {
+  device_.report(code, step, other_step);
+}
+
+// ---- step programs
+
+bool ProgramMachine::is_held_in_reset(Area area) const {
+  const int axis = language::axis_of(area);
+  return axis < 0 ? device_.is_stopped_by_emergency() : device_.is_held_in_reset(axis);
+}
+
+void ProgramMachine::program_starts(Area) { device_.clear_error(); }
+
+void ProgramMachine::program_ended(Area area) {
+  device_.show_finished(
+      area == Area::c ? kEndOfCSignal : kFirstEndSignal + static_cast<std::size_t>(language::axis_of(area)));
+}
+
+template <class Start>
+Begun ProgramMachine::begin_each(Area by, const language::AxisValues& values, Request request, Start start) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (is_set(values, axis) && grant(device_.axis(axis).holder, request) == Grant::waits)
+      return Begun::taken;
+  }
+  bool has_begun = false;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (!is_set(values, axis)) continue;
+    if (grant(device_.axis(axis).holder, request) != Grant::starts) {
+      device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
+      continue;
+    }
+    if (!start(axis, value_of_axis(values, axis))) {
+      device_.break_program(mover_of(by));
+      return Begun::refused;
+    }
+    has_begun = true;
+  }
+  if (device_.is_awaited_by(mover_of(by))) return Begun::runs;
+  return has_begun ? Begun::done : Begun::void_;
+}
+
+Begun ProgramMachine::begin(Area by, const language::Drive& drive) {
+  return begin_each(by, drive.target_lu, Request::line, [&](int axis, std::int32_t value) {
+    const std::int64_t base =
+        drive.targets == language::Targets::relative ? device_.relative_base_lu(axis) : 0;
+    const std::int32_t rpm = drive.rpm[static_cast<std::size_t>(axis)];
+    if (!device_.begin_drive(axis, base + value, rpm, mover_of(by))) return false;
+    AxisState& state = device_.axis(axis);
+    if (state.holder == Holder::move) state.awaited = drive.is_waited_for;
+    return true;
+  });
+}
+
+Begun ProgramMachine::begin(Area by, const language::MarkSearch& search) {
+  return begin_each(by, search.target_lu, Request::line, [&](int axis, std::int32_t value) {
+    const std::int64_t base =
+        search.targets == language::Targets::relative ? device_.relative_base_lu(axis) : 0;
+    const std::int32_t rpm = search.rpm[static_cast<std::size_t>(axis)];
+    const std::int64_t beyond = device_.search_pulses(axis);
+    const bool begins = beyond == 0 ? device_.begin_drive(axis, base + value, rpm, mover_of(by))
+                                    : device_.begin_mark(axis, device_.distance_to(axis, base + value),
+                                                         beyond, rpm, mover_of(by));
+    if (begins && device_.axis(axis).holder == Holder::move) device_.axis(axis).awaited = true;
+    return begins;
+  });
+}
+
+Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
+  language::AxisValues values;
+  for (std::size_t axis = 0; axis < kAxisCount; ++axis) {
+    if ((search.axes >> axis & 1U) != 0) values[axis] = 1;
+  }
+  return begin_each(by, values, Request::line, [&](int axis, std::int32_t) {
+    device_.start_home(axis);
+    AxisState& state = device_.axis(axis);
+    if (state.holder != Holder::home) return false;
+    state.mover = mover_of(by);
+    state.awaited = true;
+    return true;
+  });
+}
+
+Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const bool turns = is_set(rotation.rpm, axis) && value_of_axis(rotation.rpm, axis) != 0;
+    if (turns && grant(device_.axis(axis).holder, Request::vdrv) == Grant::waits) return Begun::taken;
+  }
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (!is_set(rotation.rpm, axis)) continue;
+    const std::int32_t rpm = value_of_axis(rotation.rpm, axis);
+    if (rpm == 0) {
+      device_.end_by_ramp(axis, mover_of(by));
+      continue;
+    }
+    const Grant given = grant(device_.axis(axis).holder, Request::vdrv);
+    if (given == Grant::new_speed) {
+      device_.change_turning(axis, rpm, mover_of(by));
+    } else if (given != Grant::starts) {
+      device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
+    } else if (!device_.begin_turning(axis, rpm, mover_of(by))) {
+      device_.break_program(mover_of(by));
+      return Begun::refused;
+    }
+  }
+  return device_.is_awaited_by(mover_of(by)) ? Begun::runs : Begun::done;
+}
+
+Begun ProgramMachine::begin(Area by, const language::WheelRatios& ratios) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const bool follows = is_set(ratios.lu_per_count, axis) && value_of_axis(ratios.lu_per_count, axis) != 0;
+    if (follows && grant(device_.axis(axis).holder, Request::mpg_line) == Grant::waits) return Begun::taken;
+  }
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (!is_set(ratios.lu_per_count, axis)) continue;
+    AxisState& state = device_.axis(axis);
+    const std::int32_t ratio = value_of_axis(ratios.lu_per_count, axis);
+    if (ratio == 0) {
+      if (state.wheel == WheelSource::mpg_line) device_.stop_axis(axis);
+      continue;
+    }
+    if (state.wheel == WheelSource::mpg_line) {
+      state.wheel_lu = ratio;
+    } else if (grant(state.holder, Request::mpg_line) == Grant::starts) {
+      device_.start_wheel(axis, WheelSource::mpg_line);
+      state.wheel_lu = ratio;
+      if (state.holder != Holder::wheel) return Begun::refused;
+    } else {
+      device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
+      continue;
+    }
+    state.mover = mover_of(by);
+  }
+  return Begun::done;
+}
+
+// ---- paths
+
+Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
+                                    const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
+                                    int mode, const Geometry& geometry) {
+  switch (device_.ask_for_path(takes)) {
+    case Grant::waits: return Begun::taken;
+    case Grant::refused: return Begun::void_;
+    case Grant::nothing:
+    case Grant::starts:
+    case Grant::same_or_no:
+    case Grant::new_speed:
+    case Grant::stops: break;
+  }
+  motion::Point from = motion::Point::Zero();
+  motion::Point to = motion::Point::Zero();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto n = static_cast<std::size_t>(axis);
+    if (!takes[n]) continue;
+    const std::int64_t offset = device_.axis(axis).offset_lu;
+    from[axis] = static_cast<double>(device_.relative_base_lu(axis) - offset);
+    to[axis] = static_cast<double>(target_lu[n] - offset);
+  }
+  const Super40nc::PathPlan plan{.path = geometry(from, to),
+                                 .takes = takes,
+                                 .target_lu = target_lu,
+                                 .feed_lu_per_s = feed,
+                                 .mode = mode};
+  if (plan.path.length_u <= 0) {
+    device_.show_finished(kPathSignal);
+    return Begun::done;
+  }
+  return device_.begin_path(plan) ? Begun::runs : Begun::refused;
+}
+
+Begun ProgramMachine::begin(Area, const language::LinearMove& move) {
+  std::array<bool, kAxisCount> takes{};
+  std::array<std::int64_t, kAxisCount> targets{};
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto n = static_cast<std::size_t>(axis);
+    takes[n] = is_set(move.target_lu, axis);
+    const bool is_relative = move.targets == language::Targets::relative;
+    targets[n] = value_of_axis(move.target_lu, axis) + (is_relative ? device_.relative_base_lu(axis) : 0);
+  }
+  return begin_on_path(
+      takes, targets, move.feed_lu_per_s, kModeLine,
+      [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
+}
+
+/// The places of an arc in its plane, whose two axes it takes.
+struct ProgramMachine::ArcFrame {
+  std::array<int, 2> axes;
+  motion::ArcOptions options;
+  std::array<bool, kAxisCount> takes{};
+  std::array<std::int64_t, kAxisCount> end_lu{};
+  std::array<std::int64_t, kAxisCount> base_lu{};
+  std::array<std::int64_t, kAxisCount> offset_lu{};
+
+  /// In the machine's coordinate.
+  motion::Point place(const std::array<double, 2>& lu) const {
+    motion::Point point = motion::Point::Zero();
+    point[axes[0]] = lu[0];
+    point[axes[1]] = lu[1];
+    return point;
+  }
+};
+
+ProgramMachine::ArcFrame ProgramMachine::frame_of(language::Plane plane, language::Targets targets,
+                                                  const language::PlanePoint& end) const {
+  ArcFrame frame;
+  frame.axes = language::axes_of(plane);
+  frame.options = {
+      .plane = {static_cast<std::int8_t>(frame.axes[0]), static_cast<std::int8_t>(frame.axes[1])},
+      .radius_tolerance_u = kOffCircleLu};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto n = static_cast<std::size_t>(frame.axes[i]);
+    frame.takes[n] = true;
+    frame.offset_lu[n] = device_.axis(frame.axes[i]).offset_lu;
+    frame.base_lu[n] = device_.relative_base_lu(frame.axes[i]);
+    frame.end_lu[n] = target_of(frame, i, targets, end[i]);
+  }
+  return frame;
+}
+
+std::int64_t ProgramMachine::target_of(const ArcFrame& frame, std::size_t i, language::Targets targets,
+                                       const std::optional<std::int32_t>& value) const {
+  const std::int64_t base = frame.base_lu[static_cast<std::size_t>(frame.axes[i])];
+  if (!value) return base;
+  return *value + (targets == language::Targets::relative ? base : 0);
+}
+
+Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
+                                const Geometry& geometry) {
+  try {
+    return begin_on_path(frame.takes, frame.end_lu, feed, mode, geometry);
+  } catch (const motion::BadMotion&) {
+    if (reports) device_.report(Code::arc_impossible, device_.line_step(Mover::c));
+    return Begun::void_;
+  }
+}
+
+/// C24 to C26 swap the sense in a plane.
+motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
+  const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
+  const bool is_swapped = device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]);
+  const bool is_clockwise = (turn == language::Turn::clockwise) != is_swapped;
+  return is_clockwise ? motion::Turn::clockwise : motion::Turn::counter_clockwise;
+}
+
+Begun ProgramMachine::begin(Area, const language::CentreArc& arc) {
+  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  const motion::Turn turn = turn_of(arc.turn, arc.plane);
+  const int mode = turn == motion::Turn::clockwise ? kModeClockwise : kModeCounterClockwise;
+  return begin_arc(frame, arc.feed_lu_per_s, mode, true,
+                   [&](const motion::Point& from, const motion::Point& to) {
+                     const motion::Point centre = from + frame.place({static_cast<double>(arc.centre_lu[0]),
+                                                                      static_cast<double>(arc.centre_lu[1])});
+                     return motion::arc_by_centre(from, centre, to, turn, frame.options);
+                   });
+}
+
+Begun ProgramMachine::begin(Area, const language::PointArc& arc) {
+  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  std::array<double, 2> through{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto n = static_cast<std::size_t>(frame.axes[i]);
+    through[i] =
+        static_cast<double>(target_of(frame, i, arc.targets, arc.through_lu[i]) - frame.offset_lu[n]);
+  }
+  return begin_arc(frame, arc.feed_lu_per_s, kModeCounterClockwise, false,
+                   [&](const motion::Point& from, const motion::Point& to) {
+                     return motion::arc_by_three_points(from, frame.place(through), to, frame.options);
+                   });
+}
+
+Begun ProgramMachine::begin(Area, const language::RadiusArc& arc) {
+  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  const motion::Turn turn = turn_of(arc.turn, arc.plane);
+  const int mode = turn == motion::Turn::clockwise ? kModeClockwise : kModeCounterClockwise;
+  const bool goes_nowhere = frame.end_lu == frame.base_lu;
+  motion::ArcOptions options = frame.options;
+  options.radius_tolerance_u = 0;
+  return begin_arc(
+      frame, arc.feed_lu_per_s, mode, !goes_nowhere, [&](const motion::Point& from, const motion::Point& to) {
+        return motion::arc_by_radius(from, to, static_cast<double>(arc.radius_lu), turn, options);
+      });
+}
+
+// ---- what runs
+
+bool ProgramMachine::is_running(Area by) const { return device_.is_awaited_by(mover_of(by)); }
+
+void ProgramMachine::hold(Area by) {
+  if (by == Area::c) device_.hold_path();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (device_.axis(axis).mover == mover_of(by) && !device_.is_on_path(axis)) device_.hold_axis(axis);
+  }
+}
+
+void ProgramMachine::go_on(Area by) {
+  if (by == Area::c) device_.go_on_path();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (device_.axis(axis).mover == mover_of(by) && !device_.is_on_path(axis)) device_.go_on_axis(axis);
+  }
+}
+
+void ProgramMachine::drop_held(Area by) {
+  if (by == Area::c && device_.state().path_is_held) device_.stop_path();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    AxisState& state = device_.axis(axis);
+    if (state.mover == mover_of(by) && state.is_held) device_.stop_axis(axis);
+  }
+}
+
+language::Areas ProgramMachine::stop(Area area) {
+  language::Areas lost = 0;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const AxisState& state = device_.axis(axis);
+    const Mover mover = state.mover;
+    const bool is_meant = area == Area::c ? mover == Mover::c : language::axis_of(area) == axis;
+    if (!is_meant || state.holder == Holder::nobody) continue;
+    const bool is_others = mover < Mover::plc && mover != mover_of(area) && state.awaited;
+    device_.stop_axis(axis);
+    if (!is_others) continue;
+    lost = static_cast<language::Areas>(lost | language::one(static_cast<Area>(mover)));
+    device_.stop_all_of(mover);
+  }
+  return lost;
+}
+
+// ---- the PLC
+
+void ProgramMachine::plc_drive(const language::Drive& drive) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (!is_set(drive.target_lu, axis) || device_.is_inhibited(axis)) continue;
+    if (device_.ask(axis, Request::plc_drv) != Grant::starts) continue;
+    const std::int64_t base =
+        drive.targets == language::Targets::relative ? device_.relative_base_lu(axis) : 0;
+    device_.begin_drive(axis, base + value_of_axis(drive.target_lu, axis),
+                        drive.rpm[static_cast<std::size_t>(axis)], Mover::plc);
+  }
+}
+
+void ProgramMachine::plc_home(const language::HomeSearch& search) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if ((search.axes >> axis & 1) != 0 && !device_.is_inhibited(axis)) device_.start_home(axis);
+  }
+}
+
+bool ProgramMachine::plc_jog(const language::Jogs& jogs) {
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    AxisState& state = device_.axis(axis);
+    const bool positive = (jogs.positive >> axis & 1) != 0;
+    const bool negative = (jogs.negative >> axis & 1) != 0;
+    const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
+    // Both at once: the one that runs goes on.
+    const int way = positive && negative ? running : positive ? +1 : negative ? -1 : 0;
+    if (running != 0 && running != way) device_.release_jog(axis, &AxisState::asked_by_plc);
+    const bool is_new = way != 0 && way != state.plc_jog_way;
+    state.plc_jog_way = static_cast<std::int8_t>(way);
+    if (!is_new || device_.is_inhibited(axis)) continue;
+    if (language::may_move(*this, Area::plc, axis)) {
+      device_.start_jog(axis, way, &AxisState::asked_by_plc);
+    } else {
+      device_.report(Code::axis_not_owned);
+    }
+  }
+  return true;
+}
+
+// ---- both
+
+bool ProgramMachine::set_positions(const language::SetPositions& positions) {
+  bool has_changed = false;
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (!is_set(positions.position_lu, axis)) continue;
+    const std::int32_t wanted = value_of_axis(positions.position_lu, axis);
+    if (positions.of_machine) {
+      const auto pulses = device_.registers().scale(axis).to_pulses(wanted).value_or(0);
+      has_changed = has_changed || pulses != device_.machine_pulses(axis);
+      device_.set_counter(axis, 0, static_cast<std::int32_t>(pulses));
+    } else if (device_.work_lu(axis) != wanted) {
+      has_changed = true;
+      device_.set_work_lu(axis, wanted);
+    }
+  }
+  return has_changed;
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,74 @@
+// A SUPER-40NC as its programs see it: contacts and registers as a host would write them, and motions by
+// value.
+#pragma once
+
+#include <functional>
+
+#include "emulator/models/super_40nc/device.h"
+#include "interpreter/super_40nc/machine.h"
+#include "motion/path.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace language = interpreter::super_40nc;
+
+class ProgramMachine final : public language::Machine {
+ public:
+  explicit ProgramMachine(Super40nc& device) : device_(device) {}
+
+  language::CellLayout layout() const override;
+  std::span<std::uint32_t> cells() override { return device_.state().image; }
+  void kept_cell_written(std::uint32_t cell) override;
+  bool special_contact(int number) const override;
+  bool set_special_contact(int number, bool on) override;
+  std::int32_t special_register(int number) const override;
+  bool set_special_register(int number, std::int32_t value) override;
+  std::int32_t rpm_at_power_up(int axis) const override;
+  void report(language::Code code, int step, int other_step) override;
+
+  bool is_held_in_reset(language::Area area) const override;
+  void program_starts(language::Area area) override;
+  void program_ended(language::Area area) override;
+  language::Begun begin(language::Area by, const language::LinearMove& move) override;
+  language::Begun begin(language::Area by, const language::CentreArc& arc) override;
+  language::Begun begin(language::Area by, const language::PointArc& arc) override;
+  language::Begun begin(language::Area by, const language::RadiusArc& arc) override;
+  language::Begun begin(language::Area by, const language::Drive& drive) override;
+  language::Begun begin(language::Area by, const language::MarkSearch& search) override;
+  language::Begun begin(language::Area by, const language::HomeSearch& search) override;
+  language::Begun begin(language::Area by, const language::Rotation& rotation) override;
+  language::Begun begin(language::Area by, const language::WheelRatios& ratios) override;
+  bool is_running(language::Area by) const override;
+  void hold(language::Area by) override;
+  void go_on(language::Area by) override;
+  void drop_held(language::Area by) override;
+  language::Areas stop(language::Area area) override;
+
+  void plc_drive(const language::Drive& drive) override;
+  void plc_home(const language::HomeSearch& search) override;
+  bool plc_jog(const language::Jogs& jogs) override;
+  bool set_positions(const language::SetPositions& positions) override;
+
+ private:
+  /// What all axes of a line get; taken if one has to wait.
+  template <class Start>
+  language::Begun begin_each(language::Area by, const language::AxisValues& values, Request request,
+                             Start start);
+
+  struct ArcFrame;
+  using Geometry = std::function<motion::Path(const motion::Point&, const motion::Point&)>;
+  language::Begun begin_on_path(const std::array<bool, kAxisCount>& takes,
+                                const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
+                                int mode, const Geometry& geometry);
+  /// `reports`: that it cannot be; else it is passed over.
+  language::Begun begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
+                            const Geometry& geometry);
+  ArcFrame frame_of(language::Plane plane, language::Targets targets, const language::PlanePoint& end) const;
+  std::int64_t target_of(const ArcFrame& frame, std::size_t i, language::Targets targets,
+                         const std::optional<std::int32_t>& value) const;
+  motion::Turn turn_of(language::Turn turn, language::Plane plane) const;
+
+  Super40nc& device_;
+};
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,236 @@
+// What programs move: DRV, MRK, HOM, VDRV and MPG of step programs, DRV, HOM, PJG and MJG of the PLC; how
+// they are held, go on and stop. Paths are in paths.cpp.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "emulator/models/super_40nc/device.h"
+#include "motion/homing_tables.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+constexpr int kModePositionMove = 0x41;
+constexpr int kModeTurning = 0x00;
+constexpr int kModeTurningBack = 0x08;
+
+int way_of(std::int64_t distance) { return distance < 0 ? -1 : +1; }
+
+}  // namespace
+
+std::int64_t Super40nc::relative_base_lu(int number) const {
+  const AxisState& state = axis(number);
+  return state.stands_on_target ? state.target_lu : work_lu(number);
+}
+
+std::int64_t Super40nc::distance_to(int number, std::int64_t target_lu) const {
+  const motion::UnitScale scale = registers().scale(number);
+  return scale.to_pulses(target_lu - axis(number).offset_lu).value_or(0) - machine_pulses(number);
+}
+
+bool Super40nc::begin_drive(int number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(number);
+  prepare(number);
+  const std::int64_t distance = distance_to(number, target_lu);
+  const motion::SpeedLaw law = registers().law(number, rpm);
+  begun(number, chip(number).move(distance, law, before_motion()), Holder::move);
+  if (state.holder != Holder::move) return false;
+  state.target_lu = target_lu;
+  mirror_start(number, kModePositionMove, distance, law);
+  if (distance == 0) {
+    let_go(number);
+    state.has_ended = state.stands_on_target = true;
+    show_finished(static_cast<std::size_t>(number));
+    return true;
+  }
+  state.mover = mover;
+  state.shows_finish = true;
+  state.rest = {.kind = RestKind::move, .travel = chip(number).travel_pulses + distance};
+  return true;
+}
+
+bool Super40nc::begin_mark(int number, std::int64_t distance, std::int64_t search, std::int32_t rpm,
+                           Mover mover) {
+  AxisState& state = axis(number);
+  const Settings its = registers();
+  state.rest = {.kind = RestKind::mark, .marks_positive = search > 0, .rpm = rpm};
+  look_round(number);
+  prepare(number);
+  const motion::SpeedLaw fast = its.law(number, rpm);
+  const motion::HomingProgram program =
+      motion::super40nc_mark({.distance_pulses = distance,
+                              .search_pulses = search,
+                              .fast = fast,
+                              .creep = its.law(number, static_cast<double>(its.of(kept_x(80), number)))});
+  begun(number, chip(number).home(program, before_motion()), Holder::move);
+  if (state.holder != Holder::move) {
+    let_go(number);
+    return false;
+  }
+  mirror_start(number, kModePositionMove, distance, fast);
+  state.mover = mover;
+  state.shows_finish = true;
+  return true;
+}
+
+bool Super40nc::begin_turning(int number, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(number);
+  prepare(number);
+  const motion::SpeedLaw law = registers().law(number, std::abs(static_cast<double>(rpm)));
+  begun(number, chip(number).run(way_of(rpm), law, before_motion()), Holder::vdrv);
+  if (state.holder != Holder::vdrv) return false;
+  state.mover = mover;
+  state.rest = {.kind = RestKind::turning, .rpm = rpm};
+  mirror_start(number, rpm < 0 ? kModeTurningBack : kModeTurning, 0, law);
+  return true;
+}
+
+void Super40nc::change_turning(int number, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(number);
+  const motion::SpeedLaw law = registers().law(number, std::abs(static_cast<double>(rpm)));
+  if (!chip(number).resume(law, now())) chip(number).change_speed(law, now());
+  state.mover = mover;
+  state.rest.rpm = way_of(state.rest.rpm) * std::abs(rpm);
+  state.stop_awaited_by = Mover::hand;
+}
+
+/// VDRV 0. Returns whether it has to come to rest first.
+bool Super40nc::end_by_ramp(int number, Mover mover) {
+  AxisState& state = axis(number);
+  if (state.holder == Holder::nobody) return false;
+  if (state.holder == Holder::rest || state.holder == Holder::wheel || is_on_path(number)) {
+    if (is_on_path(number)) {
+      slow_path();
+    } else {
+      stop_axis(number);
+      return false;
+    }
+  } else {
+    chip(number).slow_down(now());
+  }
+  state.is_held = false;
+  state.stop_awaited_by = mover;
+  return true;
+}
+
+// ---- held, and on again
+
+void Super40nc::hold_axis(int number) {
+  AxisState& state = axis(number);
+  if (state.holder == Holder::wheel || state.holder == Holder::rest) return;
+  motion::Axis& motor = chip(number);
+  if (state.rest.kind == RestKind::mark && motor.homing.active()) {
+    const motion::HomingPhase& row = motor.homing.row();
+    const bool searches = row.does == motion::HomingPhase::Does::search;
+    state.rest.travel =
+        motor.homing.began_pulses + (searches ? row.way * row.within_pulses : row.distance_pulses);
+    state.rest.searches = searches;
+  }
+  if (state.holder == Holder::home) state.rest = {.kind = RestKind::home};
+  state.is_held = true;
+  motor.slow_down(now());
+}
+
+/// It has come to rest, and waits.
+void Super40nc::rest_axis(int number) {
+  AxisState& state = axis(number);
+  if (state.rest.kind == RestKind::mark) {
+    const std::int64_t left = state.rest.travel - chip(number).travel_pulses;
+    const std::int64_t search = search_pulses(number);
+    state.rest.distance = state.rest.searches ? 0 : left;
+    state.rest.search = state.rest.searches ? left : search;
+  }
+  state.holder = Holder::rest;
+}
+
+void Super40nc::go_on_axis(int number) {
+  AxisState& state = axis(number);
+  motion::Axis& motor = chip(number);
+  if (!state.is_held) return;
+  state.is_held = false;
+  if (state.holder != Holder::rest && state.rest.kind != RestKind::home &&
+      state.rest.kind != RestKind::mark && motor.resume(motor.law, now())) {
+    return;
+  }
+  if (state.holder != Holder::rest) rest_axis(number);
+  motor.stop();
+  forget_end(number);
+  const Rest rest = state.rest;
+  const Mover mover = state.mover;
+  const bool is_awaited = state.awaited;
+  const std::int64_t target_lu = state.target_lu;
+  const motion::SpeedLaw law = motor.law;
+  state.holder = Holder::nobody;
+  switch (rest.kind) {
+    case RestKind::none:
+    case RestKind::path: break;
+    case RestKind::move: {
+      const std::int64_t distance = rest.travel - motor.travel_pulses;
+      prepare(number);
+      begun(number, motor.move(distance, law, before_motion()), Holder::move);
+      if (state.holder != Holder::move) break;
+      state.rest = rest;
+      state.target_lu = target_lu;
+      state.shows_finish = true;
+      if (distance != 0) break;
+      let_go(number);
+      state.has_ended = state.stands_on_target = true;
+      show_finished(static_cast<std::size_t>(number));
+      return;
+    }
+    case RestKind::mark:
+      if (rest.search != 0) begin_mark(number, rest.distance, rest.search, rest.rpm, mover);
+      break;
+    case RestKind::turning: begin_turning(number, rest.rpm, mover); break;
+    case RestKind::home: start_home(number); break;
+  }
+  if (state.holder == Holder::nobody) return let_go(number);
+  state.mover = mover;
+  state.awaited = is_awaited;
+}
+
+/// X16, of MRK.
+std::int64_t Super40nc::search_pulses(int number) const {
+  const Settings its = registers();
+  return its.scale(number).to_pulses(its.of(kept_x(90), number)).value_or(0);
+}
+
+/// What has ended between ticks has been dealt with.
+void Super40nc::forget_end(int number) {
+  motion::Axis& motor = chip(number);
+  motor.events_between =
+      static_cast<motion::Events>(motor.events_between & ~motion::bit(motion::Event::ended));
+}
+
+/// All axes that a program moves stop as the one that has met something.
+void Super40nc::break_program(Mover mover, int but_for) {
+  for (int number = 0; number < kAxisCount; ++number) {
+    AxisState& state = axis(number);
+    if (number == but_for || state.mover != mover || state.holder == Holder::nobody ||
+        state.holder == Holder::wheel) {
+      continue;
+    }
+    const bool ramp = registers().is_on(kept_x(1), number) && state.holder != Holder::rest;
+    state.is_held = state.awaited = state.shows_finish = false;
+    if (ramp) {
+      chip(number).slow_down(now());
+    } else {
+      stop_axis(number);
+    }
+  }
+}
+
+void Super40nc::stop_all_of(Mover mover) {
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (axis(number).mover == mover) stop_axis(number);
+  }
+}
+
+bool Super40nc::is_awaited_by(Mover mover) const {
+  return std::any_of(state_.axes.begin(), state_.axes.end(), [&](const AxisState& state) {
+    return (state.mover == mover && state.awaited) || state.stop_awaited_by == mover;
+  });
+}
+
+}  // namespace understudy::emulator::models::super_40nc

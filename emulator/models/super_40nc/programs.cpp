@@ -1,0 +1,168 @@
+// A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
+#include <string>
+
+#include "base/text/one_line.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/program_machine.h"
+#include "interpreter/super_40nc/listing.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// One area by itself, as it is kept.
+std::string text_of_area(language::Area area, const language::AreaProgram& program) {
+  language::Program alone;
+  alone.areas[language::index_of(area)] = program;
+  return language::list(alone);
+}
+
+std::optional<language::AreaProgram> stored_area(const TextBlocks& blocks, std::string_view kind,
+                                                 std::string_view name, language::Area area) {
+  const SharedText* const text = blocks.find(kind, name);
+  if (text == nullptr) return std::nullopt;
+  const language::Checked checked = language::check(text->text());
+  return checked.program ? checked.program->area(area) : std::nullopt;
+}
+
+}  // namespace
+
+void Super40nc::make_programs_ready() {
+  ProgramMachine machine(*this);
+  for (const language::AreaRow& row : language::kAreas) {
+    const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area);
+    const language::AreaProgram program = stored.value_or(language::AreaProgram{.base = row.base});
+    if (row.area == language::Area::plc) {
+      ladder_ = language::Ladder(program, machine.layout(), options_);
+    } else {
+      codes_[language::index_of(row.area)] = language::StepCode(program);
+    }
+  }
+}
+
+void Super40nc::load_program(std::string_view text) {
+  const language::Checked checked = language::check(text, options_);
+  if (!checked.program) {
+    const language::Complaint& first = checked.errors.front();
+    state_.error = {.code = first.code, .step = first.step, .other_step = first.other_step, .tick = now()};
+    throw ProgramError(first.line, first.message());
+  }
+  const bool runs = state_.plc.runs;
+  for (const language::AreaRow& row : language::kAreas) {
+    const auto& area = checked.program->area(row.area);
+    if (!area) continue;
+    if (row.area != language::Area::plc) tell(language::Event::stop, row.area);
+    if (area->lines.empty()) {
+      state_.blocks.erase(kPrograms, row.name);
+    } else {
+      state_.blocks.put(kPrograms, std::string(row.name), SharedText(text_of_area(row.area, *area)));
+    }
+  }
+  for (const auto& [number, file] : checked.program->files) {
+    state_.blocks.put(kFiles, std::to_string(number), SharedText(text_of_area(language::Area::c, file)));
+  }
+  make_programs_ready();
+  const bool has_plc = checked.program->area(language::Area::plc).has_value();
+  if (has_plc && runs) plc_to_run();
+  if (!checked.warnings.empty()) {
+    const language::Complaint& first = checked.warnings.front();
+    report(first.code, first.step, first.other_step);
+  }
+  state_.touched = true;
+}
+
+std::string Super40nc::program_text() const {
+  language::Program all;
+  for (const language::AreaRow& row : language::kAreas) {
+    all.areas[language::index_of(row.area)] = stored_area(state_.blocks, kPrograms, row.name, row.area);
+  }
+  for (const auto& [kind, entries] : state_.blocks.all()) {
+    if (kind != kFiles) continue;
+    for (const auto& [name, text] : entries) {
+      const auto file = stored_area(state_.blocks, kFiles, name, language::Area::c);
+      if (file) all.files[std::stoi(name)] = *file;
+    }
+  }
+  return language::list(all);
+}
+
+void Super40nc::tell(language::Event event, language::Area area) {
+  ProgramMachine machine(*this);
+  language::StepPrograms(state_.steps, codes_, machine, options_).take(event, area);
+}
+
+bool Super40nc::is_pausing() const {
+  const language::StepState& c = state_.steps.programs[0];
+  const bool rests = c.phase == language::Phase::paused || c.phase == language::Phase::held;
+  return rests && c.is_paused_by_key;
+}
+
+void Super40nc::set_pointer(int program, std::int32_t step) {
+  ProgramMachine machine(*this);
+  language::StepPrograms(state_.steps, codes_, machine, options_)
+      .set_step(static_cast<language::Area>(program), step);
+}
+
+/// "plc 初始": what does not run begins anew.
+void Super40nc::plc_to_run() {
+  ProgramMachine machine(*this);
+  language::run(state_.plc, ladder_, machine);
+  language::StepPrograms steps(state_.steps, codes_, machine, options_);
+  for (const language::AreaRow& row : language::kAreas) {
+    if (row.area == language::Area::plc) continue;
+    steps.take(language::Event::plc_run, row.area);
+    steps.set_step(row.area, 0);
+  }
+  clear_error();
+  for (AxisState& state : state_.axes) state.has_error = false;
+}
+
+void Super40nc::plc_to_stop() {
+  ProgramMachine machine(*this);
+  language::stop(state_.plc, machine);
+}
+
+int Super40nc::line_step(Mover mover) const {
+  if (mover >= Mover::plc) return 0;
+  const auto area = static_cast<language::Area>(mover);
+  const language::StepState& program = state_.steps.programs[language::index_of(area)];
+  return program.phase == language::Phase::idle ? 0 : language::base_of(area, options_) + program.step;
+}
+
+void Super40nc::program_broken(Mover mover, int but_for, bool is_awaited) {
+  break_program(mover, but_for);
+  const auto area = static_cast<language::Area>(mover);
+  const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
+  // A motion beside the lines resets a program that runs as well; one that is over is left alone.
+  const bool runs_on = !is_awaited && phase != language::Phase::idle;
+  tell(runs_on ? language::Event::stop : language::Event::broken, area);
+}
+
+/// Saves the C program that is in memory, and takes the one of another file.
+void Super40nc::change_file(std::int32_t number) {
+  if (number < 0 || number >= registers().raw(kept_d(9043))) {
+    put(kept_d(9001), state_.file);
+    report(Code::no_such_file);
+    return;
+  }
+  if (number == state_.file) return;
+  const std::string c(language::row_of(language::Area::c).name);
+  const auto copy = [&](std::string_view from, const std::string& from_name, std::string_view to,
+                        const std::string& to_name) {
+    const SharedText* const text = state_.blocks.find(from, from_name);
+    if (text == nullptr) {
+      state_.blocks.erase(to, to_name);
+    } else {
+      state_.blocks.put(to, to_name, *text);
+    }
+  };
+  copy(kPrograms, c, kFiles, std::to_string(state_.file));
+  copy(kFiles, std::to_string(number), kPrograms, c);
+  state_.file = number;
+  make_programs_ready();
+  tell(language::Event::file_changed, language::Area::c);
+  state_.file_changed = state_.touched = true;
+}
+
+}  // namespace understudy::emulator::models::super_40nc
