@@ -13,7 +13,7 @@ inline constexpr Confidence kProposal = Confidence::proposal;
 inline constexpr ChoiceRow kChoices[] = {
     // --- the wire ---
     {"station_rule", "人機系統參數設定", "which request addresses are answered",
-     "own_number_answers_0_is_obeyed", kLikely, "every printed frame has address 00 and a reply with 00"},
+     "own_number_answered_0_obeyed_in_silence", kLikely, "every printed frame has address 00 and a reply with 00"},
     {"station_change", "人機系統參數設定", "when a write to D9000 counts", "after_its_own_reply", kProposal,
      "the manual only warns of lost communication"},
     {"frame_gap", "人機系統參數設定", "silence between frames", "3_5_characters", kLikely,
@@ -66,7 +66,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"version_number", "D8x 特殊暫存器的功用(XYZU 軸用)", "D8099", "100", kProposal, "the manual is V100"},
     {"analog_counts", "D8x 特殊暫存器的功用(XYZU 軸用)", "full scale of VR1 to VR3", "in_counts_only",
      kProposal, "no voltage is printed"},
-    {"parameter_moment", "D9 參數暫存器的功用(一般用)", "when a parameter acts", "by_kind_column_acts",
+    {"parameter_moment", "D9 參數暫存器的功用(一般用)", "when a parameter acts", "by_kind",
      kLikely, "four say power cycle; sample M18 acts at once"},
     // --- parameters ---
     {"factory_values", "參數使用說明", "two sets of factory values", "d9_table_else_c_x_chapter", kProposal,
