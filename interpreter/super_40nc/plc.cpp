@@ -156,10 +156,13 @@ class Scan {
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
     const bool may_count = options_.counts_beyond_preset ? present < INT32_MAX : present < preset;
-    if (is_on && !was_on && !plc_.is_first_scan && may_count) {
-      put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    const bool counts = is_on && !was_on && !plc_.is_first_scan && may_count;
+    if (counts) put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    if (options_.counter_contact == Options::CounterContact::compares) {
+      put(step.a, present >= preset ? 1 : 0, step.flags);
+    } else if (counts && present >= preset) {
+      put(step.a, 1, step.flags);
     }
-    put(step.a, present >= preset ? 1 : 0, step.flags);
   }
 
   PlcState& plc_;
@@ -182,20 +185,12 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
   const Access access(machine);
   plc.runs = true;
   plc.is_first_scan = true;
-  const bool is_same_program = plc.memories.size() == ladder.memories().size();
-  if (!is_same_program) plc.memories.assign(ladder.memories().size(), 0);
+  plc.memories.assign(ladder.memory_count(), 0);
   for (const LadderStep& step : ladder.steps()) {
     const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
-    const bool has_own = step.act == Act::general && !ladder.is_empty() &&
-                         (row_of(ladder.line(step.line).op).in_plc == InPlc::rising_edge ||
-                          row_of(ladder.line(step.line).op).in_plc == InPlc::falling_edge);
-    std::uint8_t* const memory = is_edge || has_own || step.act == Act::timer || step.act == Act::counter
-                                     ? &plc.memories[step.memory]
-                                     : nullptr;
-    if (memory == nullptr) continue;
-    if (is_edge) *memory = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
-    if (has_own || step.act == Act::counter) *memory = 0;
-    if (step.act == Act::timer) *memory = machine.cells()[step.c] != 0 ? 1 : 0;  // goes on if it is still ON
+    if (is_edge) plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
+    // A timer goes on if it is still ON.
+    if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
   plc.targets = machine.special_register(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -214,7 +209,7 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
              const Options& options) {
   ++plc.scans;
   if (!plc.runs) return {};
-  if (plc.memories.size() != ladder.memories().size()) plc.memories.assign(ladder.memories().size(), 0);
+  if (plc.memories.size() != ladder.memory_count()) plc.memories.assign(ladder.memory_count(), 0);
   Scan scan(plc, ladder, machine, programs, options);
   scan.steps(ladder.steps().data());
   Scanned scanned = scan.ended();

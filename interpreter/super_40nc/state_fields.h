@@ -57,6 +57,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                             field("left_ms", &Value::left_ms),
                                             field("calls", &Value::calls),
                                             field("blocks", &Value::blocks),
+                                            field("has_modes", &Value::has_modes),
                                             field("targets", &Value::targets),
                                             field("rpm", &Value::rpm),
                                             field("waits_for_drive", &Value::waits_for_drive)};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/language_options.h"
 #include "emulator/models/super_40nc/model.h"
 #include "emulator/models/super_40nc/program_machine.h"
 
@@ -35,6 +36,7 @@ Super40nc::Super40nc(const DeviceSettings& given)
       KeptMemory(Device::model().name, given.firmware) {
   state_.eeprom = factory_memory();
   state_.blocks = TextBlocks(block_kinds());
+  options_ = language_options([this](const Option& option) { return chose(option); });
   set_input(kRunSwitch, 1);
 }
 

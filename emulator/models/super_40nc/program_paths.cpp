@@ -1,0 +1,172 @@
+// The geometry of LIN and arcs, as programs ask for it (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR
+// , CCWR 指令》).
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "emulator/models/super_40nc/program_machine.h"
+#include "motion/bad_motion.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+using language::Area;
+using language::Begun;
+
+namespace {
+
+constexpr int kModeLine = 0x61;
+constexpr int kModeClockwise = 0x64;
+constexpr int kModeCounterClockwise = 0x65;
+/// End points so far off the circle are taken all the same.
+constexpr double kOffCircleLu = 10;
+
+}  // namespace
+
+Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
+                                    const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
+                                    int mode, const Geometry& geometry) {
+  switch (device_.ask_for_path(takes)) {
+    case Grant::waits: return Begun::taken;
+    case Grant::refused: return Begun::void_;
+    case Grant::nothing:
+    case Grant::starts:
+    case Grant::same_or_no:
+    case Grant::new_speed:
+    case Grant::stops: break;
+  }
+  motion::Point from = motion::Point::Zero();
+  motion::Point to = motion::Point::Zero();
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto n = static_cast<std::size_t>(axis);
+    if (!takes[n]) continue;
+    const std::int64_t offset = device_.axis(axis).offset_lu;
+    from[axis] = static_cast<double>(device_.relative_base_lu(axis) - offset);
+    to[axis] = static_cast<double>(target_lu[n] - offset);
+  }
+  const Super40nc::PathPlan plan{.path = geometry(from, to),
+                                 .takes = takes,
+                                 .target_lu = target_lu,
+                                 .feed_lu_per_s = feed,
+                                 .mode = mode};
+  if (plan.path.length_u <= 0) {
+    device_.show_finished(kPathSignal);
+    return Begun::done;
+  }
+  return device_.begin_path(plan) ? Begun::runs : Begun::refused;
+}
+
+Begun ProgramMachine::begin(Area, const language::LinearMove& move) {
+  std::array<bool, kAxisCount> takes{};
+  std::array<std::int64_t, kAxisCount> targets{};
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    const auto n = static_cast<std::size_t>(axis);
+    takes[n] = move.target_lu[n].has_value();
+    const bool is_relative = move.targets == language::Targets::relative;
+    targets[n] = move.target_lu[n].value_or(0) + (is_relative ? device_.relative_base_lu(axis) : 0);
+  }
+  return begin_on_path(
+      takes, targets, move.feed_lu_per_s, kModeLine,
+      [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
+}
+
+/// The places of an arc in its plane, whose two axes it takes.
+struct ProgramMachine::ArcFrame {
+  std::array<int, 2> axes;
+  motion::ArcOptions options;
+  std::array<bool, kAxisCount> takes{};
+  std::array<std::int64_t, kAxisCount> end_lu{};
+  std::array<std::int64_t, kAxisCount> base_lu{};
+  std::array<std::int64_t, kAxisCount> offset_lu{};
+
+  /// In the machine's coordinate.
+  motion::Point place(const std::array<double, 2>& lu) const {
+    motion::Point point = motion::Point::Zero();
+    point[axes[0]] = lu[0];
+    point[axes[1]] = lu[1];
+    return point;
+  }
+};
+
+ProgramMachine::ArcFrame ProgramMachine::frame_of(language::Plane plane, language::Targets targets,
+                                                  const language::PlanePoint& end) const {
+  ArcFrame frame;
+  frame.axes = language::axes_of(plane);
+  frame.options = {
+      .plane = {static_cast<std::int8_t>(frame.axes[0]), static_cast<std::int8_t>(frame.axes[1])},
+      .radius_tolerance_u = kOffCircleLu};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto n = static_cast<std::size_t>(frame.axes[i]);
+    frame.takes[n] = true;
+    frame.offset_lu[n] = device_.axis(frame.axes[i]).offset_lu;
+    frame.base_lu[n] = device_.relative_base_lu(frame.axes[i]);
+    frame.end_lu[n] = target_of(frame, i, targets, end[i]);
+  }
+  return frame;
+}
+
+std::int64_t ProgramMachine::target_of(const ArcFrame& frame, std::size_t i, language::Targets targets,
+                                       const std::optional<std::int32_t>& value) const {
+  const std::int64_t base = frame.base_lu[static_cast<std::size_t>(frame.axes[i])];
+  if (!value) return base;
+  return *value + (targets == language::Targets::relative ? base : 0);
+}
+
+Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mode, bool reports,
+                                const Geometry& geometry) {
+  try {
+    return begin_on_path(frame.takes, frame.end_lu, feed, mode, geometry);
+  } catch (const motion::BadMotion&) {
+    if (reports) device_.report(Code::arc_impossible, device_.line_step(Mover::c));
+    return Begun::void_;
+  }
+}
+
+/// C24 to C26 swap the sense in a plane.
+motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
+  const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
+  const bool is_swapped = device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]);
+  const bool is_clockwise = (turn == language::Turn::clockwise) != is_swapped;
+  return is_clockwise ? motion::Turn::clockwise : motion::Turn::counter_clockwise;
+}
+
+Begun ProgramMachine::begin(Area, const language::CentreArc& arc) {
+  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  const motion::Turn turn = turn_of(arc.turn, arc.plane);
+  const int mode = turn == motion::Turn::clockwise ? kModeClockwise : kModeCounterClockwise;
+  return begin_arc(frame, arc.feed_lu_per_s, mode, true,
+                   [&](const motion::Point& from, const motion::Point& to) {
+                     const motion::Point centre = from + frame.place({static_cast<double>(arc.centre_lu[0]),
+                                                                      static_cast<double>(arc.centre_lu[1])});
+                     return motion::arc_by_centre(from, centre, to, turn, frame.options);
+                   });
+}
+
+Begun ProgramMachine::begin(Area, const language::PointArc& arc) {
+  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  std::array<double, 2> through{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto n = static_cast<std::size_t>(frame.axes[i]);
+    through[i] =
+        static_cast<double>(target_of(frame, i, arc.targets, arc.through_lu[i]) - frame.offset_lu[n]);
+  }
+  return begin_arc(frame, arc.feed_lu_per_s, kModeCounterClockwise, false,
+                   [&](const motion::Point& from, const motion::Point& to) {
+                     return motion::arc_by_three_points(from, frame.place(through), to, frame.options);
+                   });
+}
+
+Begun ProgramMachine::begin(Area, const language::RadiusArc& arc) {
+  const ArcFrame frame = frame_of(arc.plane, arc.targets, arc.end_lu);
+  const motion::Turn turn = turn_of(arc.turn, arc.plane);
+  const int mode = turn == motion::Turn::clockwise ? kModeClockwise : kModeCounterClockwise;
+  const bool goes_nowhere = frame.end_lu == frame.base_lu;
+  motion::ArcOptions options = frame.options;
+  options.radius_tolerance_u = 0;
+  return begin_arc(
+      frame, arc.feed_lu_per_s, mode, !goes_nowhere, [&](const motion::Point& from, const motion::Point& to) {
+        return motion::arc_by_radius(from, to, static_cast<double>(arc.radius_lu), turn, options);
+      });
+}
+
+}  // namespace understudy::emulator::models::super_40nc
