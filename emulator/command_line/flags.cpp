@@ -334,6 +334,11 @@ struct CommandLine {
     command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
+    command
+        ->add_option("--command", poll.commands,
+                     "A command by the model's name for it, sent before the items")
+        ->check(kNotEmpty)
+        ->allow_extra_args(false);
     command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
     command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
