@@ -94,7 +94,7 @@ TEST(WindowNames, AFileThatIsWrongSaysWhere) {
       {"command: { mil: STOP }", "steps[0].command.mil: no device is called 'mil'; the nearest is 'mill'"},
       {"command: {}", "steps[0].command: is empty; expected commands, as in `{ cell: MOVE X 1000 }`"},
       {"command: { mill: STOP }\n    via: rs485",
-       "steps[0].via: no line is called 'rs485'; expected pc or hmi"},
+       "steps[0].via: no line is called 'rs485'; expected one of pc, hmi"},
   };
   for (const auto& [step, why] : cases) {
     EXPECT_EQ(complaint_of(std::string("  - ") + step + "\n"), why) << step;
