@@ -82,7 +82,9 @@ struct CommandLine {
   void add_describe() {
     CLI::App* command = app.add_subcommand("describe", "Print a model's tables");
     command->add_option("MODEL", describe.model, "A name from `understudy models`")->required();
-    command->add_option("WHAT", describe.what, "registers, parameters, instructions, commands or choices")
+    command
+        ->add_option("WHAT", describe.what,
+                     "registers, parameters, instructions, commands, choices, ports or blocks")
         ->required();
     command->add_option("--format", describe.format, "table, csv, json or markdown")->capture_default_str();
     command->callback([this] { chosen = [this] { return describe_model(models, describe); }; });

@@ -124,7 +124,10 @@ class Workbench final : public Device,
     }
     const auto files = state.kept.blocks.all().find("files");
     if (files == state.kept.blocks.all().end()) return text;
-    for (const auto& [name, lines] : files->second) text += "FILE " + name + "\n" + lines.text() + "END\n";
+    for (const auto& [name, lines] : files->second) {
+      const bool is_ended = lines.text().empty() || lines.text().back() == '\n';
+      text += "FILE " + name + "\n" + lines.text() + (is_ended ? "END\n" : "\nEND\n");
+    }
     return text;
   }
 
