@@ -160,6 +160,7 @@ struct PollArguments {
   std::string timeout = "1s";
   std::string every;
   int times = 1;
+  std::vector<std::string> commands;  // by name, before the items
   std::vector<std::string> items;
 };
 int poll_port(ModelList models, const PollArguments& arguments);

@@ -39,9 +39,9 @@ int describe_model(ModelList models, const DescribeArguments& arguments) {
                      " is unknown; expected table, csv, json or markdown");
   const auto sheet = describe(model, arguments.what, *format);
   if (!sheet) {
-    throw UsageError(
-        quoted(arguments.what) +
-        " cannot be described; expected registers, parameters, instructions, commands or choices");
+    throw UsageError(quoted(arguments.what) +
+                     " cannot be described; expected registers, parameters, instructions, commands, choices, "
+                     "ports or blocks");
   }
   if (sheet->rows.empty() && *format == SheetFormat::table) {
     std::printf("%s has no %s\n", arguments.model.c_str(), arguments.what.c_str());

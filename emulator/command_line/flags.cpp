@@ -82,7 +82,9 @@ struct CommandLine {
   void add_describe() {
     CLI::App* command = app.add_subcommand("describe", "Print a model's tables");
     command->add_option("MODEL", describe.model, "A name from `understudy models`")->required();
-    command->add_option("WHAT", describe.what, "registers, parameters, instructions, commands or choices")
+    command
+        ->add_option("WHAT", describe.what,
+                     "registers, parameters, instructions, commands, choices, ports or blocks")
         ->required();
     command->add_option("--format", describe.format, "table, csv, json or markdown")->capture_default_str();
     command->callback([this] { chosen = [this] { return describe_model(models, describe); }; });
@@ -334,6 +336,11 @@ struct CommandLine {
     command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
+    command
+        ->add_option("--command", poll.commands,
+                     "A command by the model's name for it, sent before the items")
+        ->check(kNotEmpty)
+        ->allow_extra_args(false);
     command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
     command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();

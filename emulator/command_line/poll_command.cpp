@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/simulated_time.h"
@@ -21,7 +22,9 @@
 #include "base/text/parse_real.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/model_option.h"
+#include "emulator/device/command_window.h"
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/free_stage.h"
@@ -41,7 +44,8 @@ struct Item {
   bool low_word_first = true;
   bool write = false;
   std::int64_t value = 0;
-  std::string range;  // that the table gives a register, if it does
+  std::string range{};                   // that the table gives a register, if it does
+  std::vector<std::uint16_t> message{};  // of a command: all that is written
 };
 
 std::int64_t demand_integer(std::string_view text, const std::string& item) {
@@ -149,6 +153,19 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   return item;
 }
 
+Item command_item(ModelList models, const std::string& text, const PollArguments& arguments) {
+  if (arguments.model.empty()) throw UsageError("poll: --command: expected --model MODEL beside it");
+  const Model& model = demand_model(models, arguments.model);
+  const bool is_low_word_first = model.registers != nullptr && model.registers->policy().low_word_first;
+  try {
+    WindowMessage message = window_message(
+        model, text, {.firmware = model.firmwares.back(), .low_word_first = is_low_word_first});
+    return {.label = text, .address = message.first, .write = true, .message = std::move(message.words)};
+  } catch (const ProgramError& error) {
+    throw UsageError("poll: " + quoted(text) + ": " + in_line(error.first()));
+  }
+}
+
 struct ContextDeleter {
   void operator()(modbus_t* context) const {
     modbus_close(context);
@@ -240,6 +257,10 @@ bool read_item(modbus_t* context, const Item& item) {
 }
 
 bool write_item(modbus_t* context, const Item& item) {
+  if (!item.message.empty()) {
+    const auto size = static_cast<int>(item.message.size());
+    return modbus_write_registers(context, item.address, size, item.message.data()) == size;
+  }
   const auto bits = static_cast<std::uint32_t>(item.value);
   if (item.type == Type::bit) return modbus_write_bit(context, item.address, item.value != 0 ? 1 : 0) == 1;
   if (!is_32_bit(item.type))
@@ -269,9 +290,10 @@ void demand_fitting(const Item& item) {
 }  // namespace
 
 int poll_port(ModelList models, const PollArguments& arguments) {
-  if (arguments.items.empty())
+  if (arguments.items.empty() && arguments.commands.empty())
     throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
   std::vector<Item> items;
+  for (const std::string& text : arguments.commands) items.push_back(command_item(models, text, arguments));
   for (const std::string& text : arguments.items) {
     items.push_back(parse_item(models, text, arguments));
     demand_fitting(items.back());

@@ -8,6 +8,7 @@
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
@@ -233,6 +234,11 @@ void demand_facets(const Device& device) {
                         (model.terminals.empty() || device.terminals() != nullptr) &&
                         (model.axes.empty() || device.axes() != nullptr) &&
                         model.rtu.has_value() == (device.modbus() != nullptr) && !model.line.ports.empty();
+  const auto window = model.window == nullptr
+                          ? std::nullopt
+                          : find_register(model, model.window->register_name(), device.firmware());
+  if (model.window != nullptr && (!window || window->place.row->table != Table::holding))
+    throw std::logic_error(std::string(model.name) + ": lacks the register of its window");
   const bool takes_programs = (model.language != nullptr) == (device.user_program() != nullptr);
   if (!is_whole || !takes_programs)
     throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");

@@ -20,6 +20,7 @@
 
 namespace understudy::emulator {
 
+class CommandWindow;
 class Device;
 class ProgramLanguage;
 
@@ -187,6 +188,7 @@ struct Model {
   const RegisterMap* registers = nullptr;  // null: it has none
   std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
+  const CommandWindow* window = nullptr;  // through which commands go that have names; null: there is none
   const ProgramLanguage* language = nullptr;  // of the programs that its devices take; null: they take none
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;

@@ -31,6 +31,11 @@ inline std::string in_text(const ProgramMistake& mistake) {
   return "line " + std::to_string(mistake.line) + column + ": " + mistake.what;
 }
 
+/// "column 6: axis: 'W' is not one; ...", of a text of one line.
+inline std::string in_line(const ProgramMistake& mistake) {
+  return (mistake.column == 0 ? "" : "column " + std::to_string(mistake.column) + ": ") + mistake.what;
+}
+
 /// A program that a device cannot take: everything that is wrong with it, in the order of the text; one at
 /// least. As an exception it says the first.
 struct ProgramError : std::runtime_error {

@@ -229,5 +229,32 @@ TEST_F(ServedWorkbench, AnswersPollByTableAndType) {
       << refused.errors;
 }
 
+TEST_F(ServedWorkbench, TakesCommandsByNameFromPoll) {
+  const auto poll = [&](const Words& rest) {
+    Words words{WORKBENCH_BINARY, "poll", port(), "--baud", "115200", "--parity", "none"};
+    words.insert(words.end(), rest.begin(), rest.end());
+    return run(words);
+  };
+  const Finished moved =
+      poll({"--model", "workbench", "--command", "MOVE Y -1000", "--command", "STOP", "STATE"});
+  EXPECT_EQ(moved.exit_code, 0) << moved.errors;
+  EXPECT_EQ(moved.output, "STATE 32\n") << "two wait";
+  const std::pair<Words, const char*> wrong[] = {
+      {{"--model", "workbench", "--command", "MOVE W 5"}, "poll: 'MOVE W 5': column 6: 'W' is not an axis"},
+      {{"--model", "simple2-r3", "--command", "STOP"}, "simple2-r3 has no commands with names"},
+      {{"--command", "STOP"}, "expected --model MODEL"},
+      {{}, "nothing to read"},
+  };
+  for (const auto& [words, why] : wrong) {
+    const Finished refused = poll(words);
+    EXPECT_EQ(refused.exit_code, 2) << why;
+    EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
+  }
+  EXPECT_EQ(poll({"--model", "workbench", "--command", "STOP"}).exit_code, 0);
+  const Finished full = poll({"--model", "workbench", "--command", "STOP"});
+  EXPECT_EQ(full.exit_code, 1) << "the FIFO holds three";
+  EXPECT_NE(full.errors.find("poll: STOP: "), std::string::npos) << full.errors;
+}
+
 }  // namespace workbench_test
 }  // namespace understudy::acceptance

@@ -3,8 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <span>
+#include <utility>
 
+#include "emulator/device/device.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/program_language.h"
 
 namespace understudy::emulator {
@@ -235,6 +240,38 @@ Sheet choices(const Model& model, SheetFormat format) {
   return sheet;
 }
 
+/// "8E1": bits, parity, stop bits.
+std::string framing_text(const pty::LineSettings& settings) {
+  const char parity = settings.parity == pty::Parity::even  ? 'E'
+                      : settings.parity == pty::Parity::odd ? 'O'
+                                                            : 'N';
+  return std::to_string(settings.data_bits) + parity + std::to_string(settings.stop_bits);
+}
+
+Sheet ports(const Model& model) {
+  Sheet sheet{.columns = {"name", "kind", "bauds", "framing", "protocol"}, .rows = {}};
+  for (const PortRow& row : model.line.ports) {
+    std::string bauds;
+    for (const int baud : row.bauds) bauds += (bauds.empty() ? "" : " ") + std::to_string(baud);
+    sheet.rows.push_back({std::string(row.name), row.kind == PortRow::Kind::rs232 ? "RS232" : "RS485", bauds,
+                          framing_text(row.settings), std::string(model.line.protocol.name)});
+  }
+  return sheet;
+}
+
+/// What kinds of text a device keeps: only it knows.
+Sheet blocks(const Model& model) {
+  Sheet sheet{.columns = {"kind", "most", "longest"}, .rows = {}};
+  const std::unique_ptr<Device> device = make_device(model, DeviceSettings{});
+  const KeptMemory* const memory = std::as_const(*device).memory();
+  const TextBlocks* const kept = memory == nullptr ? nullptr : memory->text_blocks();
+  if (kept == nullptr) return sheet;
+  for (const BlockKind& kind : kept->kinds()) {
+    sheet.rows.push_back({std::string(kind.name), std::to_string(kind.most), std::to_string(kind.longest)});
+  }
+  return sheet;
+}
+
 }  // namespace
 
 std::string scenario_of_choice(const Model& model, const ChoiceRow& row) {
@@ -248,6 +285,8 @@ std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFo
   if (what == "instructions") return instructions(model);
   if (what == "commands") return commands(model, format);
   if (what == "choices") return choices(model, format);
+  if (what == "ports") return ports(model);
+  if (what == "blocks") return blocks(model);
   return std::nullopt;
 }
 

@@ -10,8 +10,9 @@
 
 namespace understudy::emulator {
 
-/// `what` is registers, parameters, instructions, commands or choices; nothing for another word. The
-/// columns of CSV, JSON and Markdown are fixed (docs/command_line.md); the table for people has more.
+/// `what` is registers, parameters, instructions, commands, choices, ports or blocks; nothing for another
+/// word. The columns of CSV, JSON and Markdown are fixed (docs/command_line.md); the table for people has
+/// more.
 std::optional<Sheet> describe(const Model& model, std::string_view what, SheetFormat format);
 
 /// The shipped scenario that tells the options of a choice apart, "scenarios/choices/MODEL/ID.yaml"; empty

@@ -26,6 +26,7 @@ namespace {
 /// Why a step cannot be played beside somebody else; null if it can.
 struct Objection {
   const char* operator()(const WriteStep&) const { return kUsesLine; }
+  const char* operator()(const CommandStep&) const { return kUsesLine; }
   const char* operator()(const ExpectStep&) const { return kUsesLine; }
   const char* operator()(const SendStep&) const { return kUsesLine; }
   const char* operator()(const TextStep&) const { return kUsesLine; }

@@ -61,6 +61,7 @@ bool names_peaks(const Steps& steps) {
 /// Whether a step lets time go on, or puts it back.
 struct MovesTime {
   bool operator()(const WriteStep&) const { return true; }
+  bool operator()(const CommandStep&) const { return true; }
   bool operator()(const ExpectStep&) const { return true; }
   bool operator()(const SendStep&) const { return true; }
   bool operator()(const TextStep&) const { return true; }
@@ -119,9 +120,9 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
   const Step& step = steps.front();
   step_ = &step;
   try {
-    const bool may_write = std::holds_alternative<WriteStep>(step.what) ||
-                           std::holds_alternative<SendStep>(step.what) ||
-                           std::holds_alternative<TextStep>(step.what);
+    const bool may_write =
+        std::holds_alternative<WriteStep>(step.what) || std::holds_alternative<CommandStep>(step.what) ||
+        std::holds_alternative<SendStep>(step.what) || std::holds_alternative<TextStep>(step.what);
     if (may_write) {
       std::vector<std::string> awaited;
       add_awaited(steps.subspan(1), awaited);

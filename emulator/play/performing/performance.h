@@ -88,6 +88,7 @@ class Performance {
 
   // performance_line.cpp: over the line
   void perform(const WriteStep& step);
+  void perform(const CommandStep& step);
   void perform(const ExpectStep& step);
   void perform(const SendStep& step);
   void perform(const TextStep& step);  // performance_text.cpp

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/command_window.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/performing/performance.h"
@@ -156,6 +157,26 @@ void Performance::perform(const WriteStep& step) {
     } else {
       demand(stage_->write(place.line, place.station, request.words.table, request.words.first, brought),
              step.answer, what);
+    }
+  }
+}
+
+void Performance::perform(const CommandStep& step) {
+  for (const CommandStep::Entry& entry : step.entries) {
+    const Place place = spoken_to(entry.device, step.via);
+    WindowMessage message;
+    std::string what;
+    stage_->with_world([&](world::World& world) {
+      const Device& device = world.device(entry.device);
+      message = window_message(device, entry.text);  // by the order of words at this moment
+      what = "command " + device.name() + ": " + entry.text + place.on_line;
+    });
+    if (step.answer.silence) {
+      demand_silence(place, message_request(place.station, message.first, message.words),
+                     *step.answer.silence, what);
+    } else {
+      demand(stage_->write_message(place.line, place.station, message.first, message.words), step.answer,
+             what);
     }
   }
 }

@@ -46,6 +46,14 @@ Answer read_answer(const world::YamlFields& step) {
   return answer;
 }
 
+/// Of a step about these devices.
+Via read_via_of(const StepsReader& reader, const world::YamlFields& step,
+                const std::vector<std::size_t>& devices) {
+  const auto field = step.find(kViaKey.key);
+  if (!field) return std::nullopt;
+  return reader.trial().line_of_all(*field, devices);
+}
+
 /// Of a step about these entries.
 template <typename Entries>
 Via read_via(const StepsReader& reader, const world::YamlFields& step, const Entries& entries) {
@@ -57,7 +65,7 @@ Via read_via(const StepsReader& reader, const world::YamlFields& step, const Ent
       field->fail(entry.target.name + " is not a register, and is read without the line; expected no `via`");
     devices.push_back(entry.target.device);
   }
-  return reader.trial().line_of_all(*field, devices);
+  return read_via_of(reader, step, devices);
 }
 
 /// "write feeder.A=1, feeder.B=2", and "via rs485", "(exception 3)" or "(no reply)" behind it.
@@ -140,6 +148,25 @@ void read_write(StepsReader& reader, const world::YamlFields& step, const world:
   sentence.add_via(step);
   const std::string text = sentence.finished(write.answer);
   reader.add(step, text, std::move(write));
+}
+
+void read_command(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
+  value.demand_map();
+  CommandStep command;
+  command.answer = read_answer(step);
+  Sentence sentence{"command"};
+  std::vector<std::size_t> devices;
+  for (const auto& [name, field] : value.entries()) {
+    devices.push_back(reader.trial().device(field, name));
+    reader.trial().demand_command(field, devices.back());
+    sentence.add(name + ": " + field.text());
+    command.entries.push_back({.device = devices.back(), .text = field.text()});
+  }
+  if (devices.empty()) value.fail("is empty; expected commands, as in `{ cell: MOVE X 1000 }`");
+  command.via = read_via_of(reader, step, devices);
+  sentence.add_via(step);
+  const std::string text = sentence.finished(command.answer);
+  reader.add(step, text, std::move(command));
 }
 
 void read_expect(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {

@@ -13,6 +13,7 @@ class StepsReader;
 
 // line_steps.cpp
 void read_write(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
+void read_command(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_expect(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 void read_send(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value);
 

@@ -12,6 +12,7 @@
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/command_window.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
@@ -209,6 +210,14 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   const Limits limits = limits_of(target);
   if (*fitting < limits.low || *fitting > limits.high) out_of(to_text(limits));
   return value.text;
+}
+
+void Trial::demand_command(const world::YamlFields& field, std::size_t device) const {
+  try {
+    window_message(world_.device(device), field.text());
+  } catch (const ProgramError& error) {
+    field.fail(in_line(error.first()));
+  }
 }
 
 world::Tolerance Trial::value_to_expect(const world::YamlFields& field, const Target& target) const {

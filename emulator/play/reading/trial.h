@@ -37,6 +37,8 @@ class Trial {
   /// A value to be written to a register. It may be out of the register's range if the write is to be refused
   /// (`is_refused`).
   std::string value_to_write(const world::YamlFields& field, const Target& target, bool is_refused) const;
+  /// A command that has a name there.
+  void demand_command(const world::YamlFields& field, std::size_t device) const;
   world::Tolerance value_to_expect(const world::YamlFields& field, const Target& target) const;
   /// Text for a device: a program, or an image of its memory.
   void demand_program(const world::YamlFields& field, std::size_t device, const std::string& text,

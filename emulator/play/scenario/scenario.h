@@ -65,6 +65,18 @@ struct ExpectStep {
   Via via{};
 };
 
+/// command: { cell: "MOVE X 1000" }: what a model calls a message through its window, in one request each;
+/// exception, reply: as for write.
+struct CommandStep {
+  struct Entry {
+    std::size_t device = 0;
+    std::string text;
+  };
+  std::vector<Entry> entries;
+  Answer answer{};
+  Via via{};
+};
+
 /// wait: { until: EXPRESSION, within: 4s, takes: 3050ms +- 2ms, poll: 20ms, via: rs485 }
 struct WaitStep {
   std::string until;
@@ -186,9 +198,9 @@ struct Step {
   std::string file;  // where it stands
   int line = 0;
   std::string text;  // what it does, on one line: "write feeder.Aaxis_SVON=1"
-  std::variant<WriteStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep, InputStep,
-               TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep, MemoryStep,
-               SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
+  std::variant<WriteStep, CommandStep, ExpectStep, WaitStep, AdvanceStep, AssertStep, SpanStep, EndSpanStep,
+               InputStep, TurnStep, InjectStep, ClearStep, PowerStep, SendStep, TextStep, ProgramStep,
+               MemoryStep, SnapshotStep, RestoreStep, ForkStep, ResetPeaksStep, SayStep>
       what;
 };
 

@@ -153,6 +153,11 @@ HostReply FreeStage::write(std::size_t line, int station, Table table, std::uint
   return ask(*hosts_[line], write_request(station, table, first, words));
 }
 
+HostReply FreeStage::write_message(std::size_t line, int station, std::uint16_t first,
+                                   std::span<const std::uint16_t> words) {
+  return ask(*hosts_[line], message_request(station, first, words));
+}
+
 HostReply FreeStage::ask(Host& host, const std::vector<std::uint8_t>& request) {
   const Tick written_before = tick_of_last_write_;
   send(host, request);

@@ -143,6 +143,12 @@ HostReply LibmodbusHost::write(int station, Table table, std::uint16_t first,
                                                           static_cast<int>(words.size()), words.data()));
 }
 
+HostReply LibmodbusHost::write_message(int station, std::uint16_t first,
+                                       std::span<const std::uint16_t> words) {
+  begin_request(station);
+  return judge(modbus_write_registers(context_.get(), first, static_cast<int>(words.size()), words.data()));
+}
+
 /// What is there, or comes before `until`; 0 if nothing does.
 std::size_t LibmodbusHost::read_some(std::vector<std::uint8_t>& bytes, serve::WallTime until) const {
   pollfd port{.fd = modbus_get_socket(context_.get()), .events = POLLIN, .revents = 0};

@@ -27,6 +27,7 @@ class LibmodbusHost {
 
   HostReply read(int station, Table table, std::uint16_t first, int count);
   HostReply write(int station, Table table, std::uint16_t first, std::span<const std::uint16_t> words);
+  HostReply write_message(int station, std::uint16_t first, std::span<const std::uint16_t> words);
   /// Raw bytes, without libmodbus; see Stage::exchange(). `sending`: how long they are on the line.
   std::vector<std::uint8_t> exchange(std::span<const std::uint8_t> bytes, std::size_t wanted,
                                      serve::WallTime sending, serve::WallTime within);

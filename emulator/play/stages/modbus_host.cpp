@@ -60,6 +60,18 @@ void put_data(std::vector<std::uint8_t>& frame, Table table, std::span<const std
   }
 }
 
+std::vector<std::uint8_t> request_of_several(int station, Table table, std::uint16_t first,
+                                             std::span<const std::uint16_t> words) {
+  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station),
+                                  demand_function(table, FunctionRow::Kind::write_several).code};
+  put_word(frame, first);
+  put_word(frame, words.size());
+  frame.push_back(static_cast<std::uint8_t>(bytes_for(table, words.size())));
+  put_data(frame, table, words);
+  pty::append_rtu_crc(frame);
+  return frame;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t first, int count) {
@@ -73,19 +85,18 @@ std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t f
 
 std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t first,
                                         std::span<const std::uint16_t> words) {
-  const bool is_single = words.size() == 1;
-  const auto kind = is_single ? FunctionRow::Kind::write_one : FunctionRow::Kind::write_several;
-  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station), demand_function(table, kind).code};
+  if (words.size() != 1) return request_of_several(station, table, first, words);
+  std::vector<std::uint8_t> frame{static_cast<std::uint8_t>(station),
+                                  demand_function(table, FunctionRow::Kind::write_one).code};
   put_word(frame, first);
-  if (is_single) {
-    put_word(frame, !is_table_of_bits(table) ? words[0] : words[0] != 0 ? kOn : 0);
-  } else {
-    put_word(frame, words.size());
-    frame.push_back(static_cast<std::uint8_t>(bytes_for(table, words.size())));
-    put_data(frame, table, words);
-  }
+  put_word(frame, !is_table_of_bits(table) ? words[0] : words[0] != 0 ? kOn : 0);
   pty::append_rtu_crc(frame);
   return frame;
+}
+
+std::vector<std::uint8_t> message_request(int station, std::uint16_t first,
+                                          std::span<const std::uint16_t> words) {
+  return request_of_several(station, Table::holding, first, words);
 }
 
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) {

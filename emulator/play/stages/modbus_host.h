@@ -14,6 +14,10 @@ std::vector<std::uint8_t> read_request(int station, Table table, std::uint16_t f
 std::vector<std::uint8_t> write_request(int station, Table table, std::uint16_t first,
                                         std::span<const std::uint16_t> words);
 
+/// Function 10, whatever the number of words.
+std::vector<std::uint8_t> message_request(int station, std::uint16_t first,
+                                          std::span<const std::uint16_t> words);
+
 /// How many bytes a host that has sent `request`, and has received `reply` so far, waits for.
 std::size_t wanted_size(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply);
 

@@ -231,6 +231,11 @@ HostReply RealStage::write(std::size_t line, int station, Table table, std::uint
   return host(line).write(station, table, first, words);
 }
 
+HostReply RealStage::write_message(std::size_t line, int station, std::uint16_t first,
+                                   std::span<const std::uint16_t> words) {
+  return host(line).write_message(station, first, words);
+}
+
 std::vector<std::uint8_t> RealStage::exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                               std::size_t wanted, SimTime within) {
   LibmodbusHost& on_line = host(line);

@@ -46,6 +46,8 @@ class RealStage final : public Stage {
   HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) override;
   HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
                   std::span<const std::uint16_t> words) override;
+  HostReply write_message(std::size_t line, int station, std::uint16_t first,
+                          std::span<const std::uint16_t> words) override;
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override;
   void say(std::size_t line, const std::string& text) override;

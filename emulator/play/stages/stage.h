@@ -46,6 +46,9 @@ class Stage {
   /// To coils or holding registers.
   virtual HostReply write(std::size_t line, int station, Table table, std::uint16_t first,
                           std::span<const std::uint16_t> words) = 0;
+  /// To holding registers that take a request as one message: by function 10, whatever their number.
+  virtual HostReply write_message(std::size_t line, int station, std::uint16_t first,
+                                  std::span<const std::uint16_t> words) = 0;
   /// Sends raw bytes; returns what comes back until there are `wanted` bytes, or `within` has passed.
   virtual std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                              std::size_t wanted, SimTime within) = 0;

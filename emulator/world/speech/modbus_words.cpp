@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "emulator/device/command_window.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/world/stations/server.h"
@@ -154,6 +155,13 @@ std::optional<WrittenValues> written(const FunctionRow& function, std::span<cons
   return WrittenValues{count, {values.begin(), values.end()}};
 }
 
+std::vector<std::uint16_t> words_in(std::span<const std::uint8_t> bytes) {
+  std::vector<std::uint16_t> words;
+  for (std::size_t at = 0; at + 1 < bytes.size(); at += 2)
+    words.push_back(static_cast<std::uint16_t>(frame_word(bytes, at)));
+  return words;
+}
+
 }  // namespace
 
 std::string hex_text(std::span<const std::uint8_t> bytes) {
@@ -203,6 +211,11 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
     return request.size() == 8 ? told("read ", frame_word(request, 4), {}) : whom + hex_text(request);
   }
   const auto values = written(*function, request);
+  if (values && device != nullptr && !is_table_of_bits(table)) {
+    if (const auto command = window_text(*device, table, first, words_in(values->bytes))) {
+      return whom + "command " + place_text(table, first, values->count) + device->name() + ": " + *command;
+    }
+  }
   return values ? told("write ", values->count, values->bytes) : whom + hex_text(request);
 }
 

@@ -1,16 +1,34 @@
 #include "emulator/world/trace/world_capture.h"
 
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 
 namespace understudy::emulator::world {
 
 namespace {
 
-std::vector<pty::CapturedLine> lines_of(World& world) {
+/// "pc", and "pc (mill PC)" where a device may stand on several lines: by which of its ports it is here.
+std::string interface_name(const WorldLine& line) {
+  std::string ports;
+  for (const auto& station : line.stations) {
+    const Device& device = station->device();
+    const auto rows = device.model().line.ports;
+    if (rows.size() < 2) continue;
+    ports += (ports.empty() ? "" : ", ") + device.name() + " " + std::string(rows[station->port()].name);
+  }
+  return line.line.name() + (ports.empty() ? "" : " (" + ports + ")");
+}
+
+std::vector<pty::CapturedLine> lines_of(World& world, bool names_ports) {
   std::vector<pty::CapturedLine> lines;
   for (std::size_t i = 0; i < world.line_count(); ++i) {
     const pty::Line& line = world.line(i).line;
-    lines.push_back({line.name(), line.options().settings.baud});
+    lines.push_back(
+        {names_ports ? interface_name(world.line(i)) : line.name(), line.options().settings.baud});
   }
   return lines;
 }
@@ -18,10 +36,10 @@ std::vector<pty::CapturedLine> lines_of(World& world) {
 }  // namespace
 
 WorldCapture::WorldCapture(World& world, const std::string& path, std::function<void(const std::string&)> log)
-    : world_(world), file_(path, std::move(log)) {}
+    : world_(world), names_ports_(path.ends_with(".pcapng")), file_(path, std::move(log)) {}
 
 void WorldCapture::begin() {
-  file_.begin(lines_of(world_));
+  file_.begin(lines_of(world_, names_ports_));
   for (std::size_t i = 0; i < world_.line_count(); ++i) {
     const WorldLine& line = world_.line(i);
     lines_.push_back(line.packets(i, [this](const pty::CapturedPacket& packet) { file_.add(packet); }));

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/state/difference.h"
@@ -22,6 +23,7 @@
 #include "tests/emulator/workbench/machine.h"
 #include "tests/emulator/workbench/memory.h"
 #include "tests/emulator/workbench/registers.h"
+#include "tests/emulator/workbench/window.h"
 
 namespace understudy::emulator::workbench {
 
@@ -122,7 +124,10 @@ class Workbench final : public Device,
     }
     const auto files = state.kept.blocks.all().find("files");
     if (files == state.kept.blocks.all().end()) return text;
-    for (const auto& [name, lines] : files->second) text += "FILE " + name + "\n" + lines.text() + "END\n";
+    for (const auto& [name, lines] : files->second) {
+      const bool is_ended = lines.text().empty() || lines.text().back() == '\n';
+      text += "FILE " + name + "\n" + lines.text() + (is_ended ? "END\n" : "\nEND\n");
+    }
     return text;
   }
 
@@ -309,7 +314,8 @@ inline DeviceAnswer take_command(Workbench& bench, Cell, std::span<const std::ui
   const bool is_good = words[0] == kMove ? words.size() == 4 && words[1] < kAxisCount : words.size() == 1;
   if (!is_good) return {Refusal::bad_value, kWrongWords};
   if (bench.state.fifo.size() >= kFifo) return {Refusal::busy, kFifoFull};
-  bench.state.fifo.emplace_back(words.begin(), words.end());
+  auto& command = bench.state.fifo.emplace_back(words.begin(), words.end());
+  if (words[0] == kMove && bench.low_word_first()) std::swap(command[2], command[3]);
   return Refusal::none;
 }
 
@@ -344,6 +350,7 @@ inline const Model& model() {
       .firmwares = kFirmwares,
       .registers = &map,
       .parameters = kParameters,
+      .window = &window(),
       .language = &language(),
       .choices = kChoices,
       .terminals = terminal_tables().rows,
