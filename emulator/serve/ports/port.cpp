@@ -6,15 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/speech/line_speech.h"
+#include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/line.h"
+#include "pty/line_observer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::serve {
 
