@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/queue.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
 #include "pty/station.h"

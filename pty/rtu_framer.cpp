@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pty/line_settings.h"
+#include "pty/receive_error.h"
 #include "pty/rtu_crc.h"
 #include "pty/station.h"
 

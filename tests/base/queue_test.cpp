@@ -94,7 +94,7 @@ TEST(Queue, IsSavedAsAVectorOfWhatIsInIt) {
   EXPECT_EQ(first_difference(other, queue), "");
   other[1] = 6;
   EXPECT_EQ(first_difference(other, queue, "input"), "input[1]: 6 against 5");
-  StateReader cut(std::span(bytes).first(6));
+  StateReader cut{std::span(bytes).first(6)};
   EXPECT_THROW(cut.read(other), StateError);
 }
 

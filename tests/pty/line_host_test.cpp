@@ -220,6 +220,43 @@ TEST(LineHost, KeepsTheOldestOutputOfAHostThatDoesNotRead) {
   }
 }
 
+/// Takes all there is, when nothing more has room.
+class Taker final : public LineObserver {
+ public:
+  explicit Taker(Line& line) : line_(line) { line_.add_observer(*this); }
+  void on_output_full() override {
+    taken.insert(taken.end(), line_.output().begin(), line_.output().end());
+    line_.take_output(line_.output().size());
+  }
+  void on_start_bit(SimTime) override {}
+  void on_character(const TimedByte&, bool) override {}
+  void on_nothing_more() override {}
+  void on_speech(const Speech&) override {}
+  std::optional<SimTime> due() const override { return std::nullopt; }
+  void run(SimTime) override {}
+
+  Bytes taken;
+
+ private:
+  Line& line_;
+};
+
+TEST(LineHost, NothingIsLostToAnObserverThatTakesIt) {
+  for (const Timing timing : {Timing::wire, Timing::instant}) {
+    LineRig rig({.settings = {}, .timing = timing, .enforce_settings = false});
+    FakeTalker talker;
+    rig.line.attach(talker);
+    Taker taker(rig.line);
+    for (int i = 0; i < 40; ++i) talker.says[i * 1s] = {Bytes(256, static_cast<std::uint8_t>(i))};
+    rig.line.run(100s);
+    EXPECT_EQ(taker.taken.size(), 8192u) << "twice what the line keeps";
+    EXPECT_EQ(rig.line.output().size(), 40u * 256 - 8192);
+    EXPECT_EQ(rig.line.output().back(), 39);
+    EXPECT_EQ(rig.line.counters().bytes_discarded, 0u);
+    rig.line.remove_observer(taker);
+  }
+}
+
 TEST(LineHost, AStationThatTalksTooFastStaysBounded) {
   LineRig rig(kTolerating);
   FakeTalker talker;

@@ -254,9 +254,10 @@ void Daemon::judge_stall() {
 /// For this much wall time at most; quiet spans are crossed in ever larger steps.
 void Daemon::work_towards(SimTime target, WallTime longest) {
   const WallTime until = wall_now() + longest;
-  for (SimTime step = kSimSlice; world_.now() < target; step = std::min(2 * step, kHorizon / 4)) {
+  for (SimTime step = kSimSlice; world_.now() < target; step *= 2) {
+    step = std::min(step, longest_step());
     world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
-    if (wall_now() >= until || hosts_are_reading()) return;
+    if (wall_now() >= until || waits_for_hosts()) return;
   }
 }
 
@@ -292,7 +293,7 @@ void Daemon::work_towards_condition() {
       return;
     }
     world_.advance_to(std::min(advance_target_, time_of(tick_at(world_.now()) + 1)));
-    if (hosts_are_reading()) return;
+    if (waits_for_hosts()) return;
   }
 }
 
@@ -301,12 +302,20 @@ bool Daemon::makes_time_go() const {
   return advance_done_ != nullptr || pacer_.speed().kind == Speed::Kind::free;
 }
 
-/// Whether time has to wait for a host that reads.
-bool Daemon::hosts_are_reading() {
+/// So that no line says more in it than it keeps.
+SimTime Daemon::longest_step() const {
+  SimTime longest = kHorizon / 4;
+  if (!makes_time_go()) return longest;
+  for (const auto& port : ports_) longest = std::min(longest, port->time_until_full().value_or(longest));
+  return longest;
+}
+
+/// Whether a host has to read, or to write, before time goes on.
+bool Daemon::waits_for_hosts() {
   if (!makes_time_go()) return false;
-  bool is_any = false;
-  for (const auto& port : ports_) is_any = port->keeps_host_reading() || is_any;
-  return is_any;
+  bool waits = false;
+  for (const auto& port : ports_) waits = port->is_waited_for() || waits;
+  return waits;
 }
 
 void Daemon::work_on_advance() {
@@ -353,7 +362,7 @@ void Daemon::wait() {
   // when it lasts, not how much simulated time it has still to cross, which may have been a long sleep.
   planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
-  if (hosts_are_reading()) wake = wall_now() + kReadingTime;
+  if (waits_for_hosts()) wake = wall_now() + kReadingTime;
   for (const auto& port : ports_) {
     const auto look = port->next_look(pacer_.standing());
     if (look && (!wake || *look < *wake)) wake = look;

@@ -114,7 +114,8 @@ class Daemon {
   void work_towards(SimTime target, WallTime longest);
   void work_on_advance();
   bool makes_time_go() const;
-  bool hosts_are_reading();
+  bool waits_for_hosts();
+  SimTime longest_step() const;
   void work_towards_condition();
   std::optional<WallTime> next_wake() const;
   void wait();

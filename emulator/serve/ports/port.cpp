@@ -6,14 +6,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/serve/loop/event_loop.h"
+#include "emulator/world/speech/line_speech.h"
+#include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/line.h"
+#include "pty/line_observer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::serve {
 
@@ -232,17 +238,26 @@ void Port::hand_over() {
   }
 }
 
-bool Port::keeps_host_reading() {
-  if (line().output().empty()) return false;
+bool Port::is_waited_for() {
+  const bool was_listening = is_listening_;
+  if (was_listening && line().output().empty()) return false;
   flush();
+  if (!was_listening && is_listening_) return true;
   return host_present() && !line().output().empty() && wall_now() < last_taken_ + kStillReads;
+}
+
+std::optional<SimTime> Port::time_until_full() const {
+  const world::WorldLine& its = world_.line(line_number_);
+  if (!host_present() || (!its.speech.may_be_unasked() && !its.line.due())) return std::nullopt;
+  return its.line.options().settings.duration_of(pty::Line::kOutputCapacity);
 }
 
 void Port::flush() {
   if (!left_behind_.empty()) pass_on_what_was_left_behind();
   hand_over();
-  const std::uint32_t interest = (line().room() > 0 && left_behind_.empty() ? EventLoop::readable : 0U) |
-                                 (line().output().empty() ? 0U : EventLoop::writable);
+  is_listening_ = line().room() > 0 && left_behind_.empty();
+  const std::uint32_t interest =
+      (is_listening_ ? EventLoop::readable : 0U) | (line().output().empty() ? 0U : EventLoop::writable);
   loop_.change_interest(terminal_.data_descriptor(), interest);
 }
 

@@ -26,9 +26,12 @@ class Port {
 
   /// Hands over what the wire has brought, and takes more bytes if the line has room.
   void flush();
-  /// Hands over what there is, and returns whether there is more for a host that was reading a moment ago:
-  /// where time goes by as fast as it can, such a host is waited for.
-  bool keeps_host_reading();
+  /// Hands over what there is. Returns whether there is more for a host that was reading a moment ago, or
+  /// room again for what a host has written: where time goes by as fast as it can, it has to wait for such a
+  /// host.
+  bool is_waited_for();
+  /// How long the line can talk to its host until it has said more than it keeps; nothing: it will not talk.
+  std::optional<SimTime> time_until_full() const;
   /// When look() should be called even if nothing is readable: a host may have gone, a frame is incomplete
   /// while the clock stands, or the pseudo-terminal was lost and could not be opened again yet.
   std::optional<WallTime> next_look(bool clock_stands);
@@ -65,6 +68,7 @@ class Port {
   WallTime second_look_{0};                // when to check again whether the host has gone; 0: no need
   bool is_watching_ = false;               // the terminal's descriptors
   WallTime next_recovery_{0};              // when to try to open a lost terminal again; 0: it is not lost
+  bool is_listening_ = true;               // the line had room when last something was handed over
   WallTime last_taken_{0};                 // when the host's side took something last
   std::unique_ptr<Overflow> overflow_;
   WallTime last_bytes_{0};  // when the host's last bytes came; 0: nothing is waited for
