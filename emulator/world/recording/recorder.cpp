@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
 #include "pty/line_observer.h"
@@ -111,7 +113,10 @@ void Recorder::on_assign(std::size_t device, std::string_view name, double value
 }
 
 void Recorder::on_program(std::size_t device, std::string_view text) {
-  take({.what = What::program, .where = device, .text = std::string(text)});
+  // It is not loaded yet.
+  const Device& of = world_.device(device);
+  const bool is_refused = !check_program(of.model(), text, of.settings()).empty();
+  take({.what = What::program, .where = device, .value = is_refused ? 1 : 0, .text = std::string(text)});
 }
 
 }  // namespace understudy::emulator::world

@@ -265,7 +265,10 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       line.json("name", Json(event.text));
       line.json("value", Json(event.real));
       break;
-    case What::program: line.json("text", Json(event.text)); break;
+    case What::program:
+      line.json("text", Json(event.text));
+      if (event.value != 0) line.json("refused", Json(true));
+      break;
     case What::end:
       if (!event.text.empty()) line.json("state", Json(event.text));
       break;
@@ -322,7 +325,10 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
       if (!demand(line, "value").is_number()) throw RecordingError("value: is not a number; expected one");
       event.real = line["value"].get<double>();
       break;
-    case What::program: event.text = text_at(line, "text"); break;
+    case What::program:
+      event.text = text_at(line, "text");
+      event.value = line.contains("refused") && truth_at(line, "refused") ? 1 : 0;
+      break;
     case What::end:
       if (line.contains("state")) event.text = text_at(line, "state");
       break;
@@ -340,6 +346,7 @@ void load_as_recorded(World& world, const RecordedEvent& event) {
   try {
     world.load_program(event.where, event.text);
   } catch (const ProgramError&) {
+    if (event.value == 0) throw;
   }
 }
 

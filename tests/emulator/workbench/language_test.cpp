@@ -262,6 +262,7 @@ TEST(Languages, ARefusedProgramIsRecordedAndRefusedAgain) {
     recorder.finish();
   }
   EXPECT_EQ(shown(world), 1U);
+  EXPECT_NE(text.find("\"refused\":true"), std::string::npos) << text;
   std::istringstream file(text);
   const auto again =
       world::replay(kModels, file, "a.jsonl", {}, {}, [&](world::World& of) { refused = shown(of); });
