@@ -280,6 +280,8 @@ class Super40nc final : public Device,
   // --- memory.cpp
   void blank_state();
   Eeprom factory_memory() const;
+  std::uint32_t factory_bits(const RegisterRow& row) const;
+  interpreter::super_40nc::Options chosen_options() const;
   void reset_parameters();
 
   // --- commands.cpp, keys.cpp: the scan's step of contacts
