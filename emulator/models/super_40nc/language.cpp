@@ -2,14 +2,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "emulator/device/model.h"
-#include "emulator/models/super_40nc/language_options.h"
+#include "emulator/models/super_40nc/device.h"
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
 
@@ -75,10 +74,9 @@ class ProgramListing final : public ProgramLanguage {
     static const Instructions instructions;
     return instructions.rows;
   }
+  /// What a listing may be is in part a choice.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
-    const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
-    const auto chose = [&](const Option& option) { return chosen[option.choice] == option.number; };
-    return mistakes_of(lang::check(text, language_options(chose)));
+    return Super40nc(settings).mistakes_in(text);
   }
 };
 
