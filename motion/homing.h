@@ -52,7 +52,7 @@ struct HomingPhase {
   std::int32_t count = 1;
   Signals again_while = 0;
   std::int64_t distance_pulses = 0;
-  std::int64_t within_pulses = 0;  // of a search: stops at once after so many, not having met it; 0: never
+  std::int64_t within_pulses = 0;  // of a search: after this many it stops at once; 0: never
   Signals ignores = 0;             // the axis does not react to these meanwhile
 
   std::int8_t next = kRowBelow;    // when met and, unless it runs on, standing

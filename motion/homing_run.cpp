@@ -243,8 +243,8 @@ Cause Axis::enter_phase(std::int8_t number, Instant at, bool running) {
 Cause Axis::begin_phase(Instant at) {
   const HomingPhase& row = homing.row();
   const SpeedLaw& speed = homing.program.speeds[static_cast<std::size_t>(row.speed)];
-  const auto go = [&](std::int64_t distance) {
-    return begin(Task::move, distance < 0 ? -1 : +1, distance, speed, at, true);
+  const auto go = [&](std::int64_t distance_pulses) {
+    return begin(Task::move, distance_pulses < 0 ? -1 : +1, distance_pulses, speed, at, true);
   };
   switch (row.does) {
     case HomingPhase::Does::search: return begin(Task::endless, row.way, 0, speed, at, true);

@@ -154,8 +154,8 @@ Profile plan_passing(double distance_u, double passing_speed_u_s, const SpeedLaw
   demand_positive(passing_speed_u_s, "move", "passing speed");
   const double start = start_speed(law);
   const double least = std::max(passing_speed_u_s, start);
-  const auto is_too_fast = [&](double top) {
-    return ramp_distance(law.up, start, top) + ramp_distance(law.down, top, least) > distance_u;
+  const auto is_too_fast = [&](double top_u_s) {
+    return ramp_distance(law.up, start, top_u_s) + ramp_distance(law.down, top_u_s, least) > distance_u;
   };
   if (law.top_speed_u_s <= passing_speed_u_s || is_too_fast(least)) {
     SpeedLaw slow = law;

@@ -37,14 +37,15 @@ double usual_jerk(const RampLaw& law, const Sample& now) {
 }
 
 /// The same, or more where that would leave the range of speeds.
-double jerk_within(const SpeedRange& range, const Sample& now, double acceleration, const RampLaw& up,
+double jerk_within(const SpeedRange& range, const Sample& now, double acceleration_u_s2, const RampLaw& up,
                    const RampLaw& down) {
-  if (acceleration == 0) return 0;
-  const RampLaw& law = acceleration > 0 ? up : down;
+  if (acceleration_u_s2 == 0) return 0;
+  const RampLaw& law = acceleration_u_s2 > 0 ? up : down;
   const double usual = usual_jerk(law, now);
-  if (usual == 0 || (acceleration > 0 && law.kind == RampLaw::Kind::jerk)) return usual;
-  const double room = acceleration > 0 ? range.most_u_s - now.speed_u_s : now.speed_u_s - range.least_u_s;
-  return room > 0 ? std::max(usual, acceleration * acceleration / (2 * room)) : 0;
+  if (usual == 0 || (acceleration_u_s2 > 0 && law.kind == RampLaw::Kind::jerk)) return usual;
+  const double room =
+      acceleration_u_s2 > 0 ? range.most_u_s - now.speed_u_s : now.speed_u_s - range.least_u_s;
+  return room > 0 ? std::max(usual, acceleration_u_s2 * acceleration_u_s2 / (2 * room)) : 0;
 }
 
 /// Less than this is what roundings leave of a change of speed, not a change to be made by a ramp.
@@ -189,7 +190,7 @@ void append_change(Profile& profile, const Sample& now, double to_u_s, const Ram
     const double size = std::abs(acceleration);
     const double faded = speed_without_acceleration(now, up, down, range);
     if (sign * (to_u_s - faded) > rounding_of_change(faded, to_u_s)) {
-      // Further in the same direction: to_u_s the greatest acceleration, along it, and out of it.
+      // Further in the same direction: to the greatest acceleration, along it, and out of it.
       const double further = sign * (to_u_s - speed);
       const double bound = (acceleration > 0 ? up : down).acceleration_u_s2;
       const double peak = std::min(bound, std::sqrt(jerk * further + 0.5 * size * size));

@@ -17,10 +17,10 @@
 namespace understudy::pty {
 namespace {
 
-// Dropped characters that follow each other become one packet, of so many bytes at most.
+// Dropped characters that follow each other become one packet, of this many bytes at most.
 constexpr std::size_t kLongestNoise = kRtuMaxFrame;
-// More than a framer can hold, so all of them are dropped: strict framing has so many open in a lump that is
-// too long for a frame.
+// More than a framer can hold, so all of them are dropped: strict framing has that many open in a lump that
+// is too long for a frame.
 constexpr std::size_t kMostBytesWaiting = 5 * kRtuMaxFrame;
 
 Remark why_dropped(std::span<const std::uint8_t> bytes) {

@@ -22,10 +22,10 @@ class Line::Voice final : public Transmitter {
  public:
   Voice(Line& line, std::size_t member) : line_(line), member_(member) {}
   void transmit(std::span<const std::uint8_t> bytes) override {
-    line_.say(member_, bytes, line_.is_host_open_);
+    line_.say(member_, bytes, line_.state_.is_host_open);
   }
   void answer(std::span<const std::uint8_t> bytes, std::uint64_t last_character) override {
-    line_.say(member_, bytes, line_.is_host_open_ && last_character > line_.last_departed_);
+    line_.say(member_, bytes, line_.state_.is_host_open && last_character > line_.state_.last_departed);
   }
 
  private:
@@ -34,10 +34,15 @@ class Line::Voice final : public Transmitter {
 };
 
 Line::Line(std::string name, LineOptions options, std::function<void(const std::string&)> warn)
-    : name_(std::move(name)), options_(options), warn_(std::move(warn)), input_(kInputCapacity) {
+    : name_(std::move(name)), options_(options), warn_(std::move(warn)) {
   if (options_.settings.baud <= 0) throw std::invalid_argument("line " + name_ + ": baud must be positive");
-  leaving_.reserve(2 * kOutputCapacity);
-  output_.reserve(2 * kOutputCapacity);
+  state_.settings = options_.settings;
+}
+
+LineOptions Line::options() const {
+  LineOptions options = options_;
+  options.settings = state_.settings;
+  return options;
 }
 
 void Line::add_observer(LineObserver& observer) {
@@ -55,46 +60,49 @@ void Line::tell_strike(const StruckMessage& message) {
 }
 
 void Line::attach(Station& station) {
-  members_.emplace_back().station = &station;
+  stations_.push_back(&station);
+  state_.members.emplace_back();
   due_changed();
 }
 
 void Line::set_settings(const LineSettings& settings) {
-  if (settings == options_.settings) return;
-  options_.settings = settings;
+  if (settings == state_.settings) return;
+  state_.settings = settings;
   // A burst counts characters of one length: what follows is another.
   const auto end = [](Burst& burst) { burst = {burst.end, 0, burst.end}; };
-  end(arriving_);
-  for (Member& member : members_) end(member.speech);
+  end(state_.arriving);
+  for (Member& member : state_.members) end(member.speech);
 }
 
 // --- the host's side ---------------------------------------------------------------------------
 
-std::size_t Line::room() const { return kInputCapacity - input_count_; }
+std::size_t Line::room() const { return kInputCapacity - state_.input.size(); }
 
-void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) { take(bytes, now, !is_host_open_); }
+void Line::receive(std::span<const std::uint8_t> bytes, SimTime now) {
+  take(bytes, now, !state_.is_host_open);
+}
 
 void Line::receive_departed(std::span<const std::uint8_t> bytes, SimTime now) { take(bytes, now, true); }
 
 void Line::take(std::span<const std::uint8_t> bytes, SimTime now, bool is_departed) {
   due_changed();
   bytes = bytes.first(std::min(bytes.size(), room()));
-  counters_.bytes_in += bytes.size();
+  state_.edge.counters.bytes_in += bytes.size();
   for (LineObserver* observer : observers_) observer->on_receive(bytes, is_departed);
-  const bool was_idle = input_count_ == 0;
+  const bool was_idle = state_.input.empty();
   for (const std::uint8_t value : bytes) {
-    input_[(input_first_ + input_count_) % kInputCapacity] = place(arriving_, value, now);
-    input_[(input_first_ + input_count_) % kInputCapacity].number = ++last_received_;
-    ++input_count_;
+    TimedByte character = place(state_.arriving, value, now);
+    character.number = ++state_.last_received;
+    state_.input.push_back(character);
   }
-  if (is_departed) last_departed_ = last_received_;
-  if (was_idle && !bytes.empty()) begin_character(input_[input_first_].start);
+  if (is_departed) state_.last_departed = state_.last_received;
+  if (was_idle && !bytes.empty()) begin_character(state_.input.front().start);
 }
 
 void Line::nothing_more(SimTime now) {
   due_changed();
-  if (input_count_ > 0) return;  // the rest is still on the wire
-  for (const Member& member : members_) member.station->hear_nothing_more();
+  if (!state_.input.empty()) return;  // the rest is still on the wire
+  for (Station* station : stations_) station->hear_nothing_more();
   for (LineObserver* observer : observers_) observer->on_nothing_more();
   run(now);
 }
@@ -102,37 +110,31 @@ void Line::nothing_more(SimTime now) {
 void Line::host_opened() {
   due_changed();
   for (LineObserver* observer : observers_) observer->on_host_opened();
-  is_host_open_ = true;
-  host_settings_.reset();
-  has_warned_deaf_ = has_warned_no_speed_ = has_warned_collision_ = false;
+  state_.is_host_open = true;
+  state_.host_settings.reset();
+  state_.warned = {};
 }
 
 void Line::host_settings(std::optional<HostSettings> settings) {
   due_changed();
   for (LineObserver* observer : observers_) observer->on_host_settings(settings);
-  host_settings_ = settings;
+  state_.host_settings = settings;
 }
 
 void Line::host_closed() {
   due_changed();
   for (LineObserver* observer : observers_) observer->on_host_closed();
-  is_host_open_ = false;
-  departed_settings_ = host_settings_;
-  last_departed_ = last_received_;
-  leaving_.clear();
-  leaving_first_ = 0;
-  output_.clear();
-  output_first_ = 0;
+  state_.is_host_open = false;
+  state_.departed_settings = state_.host_settings;
+  state_.last_departed = state_.last_received;
+  state_.leaving.clear();
+  state_.edge.output.clear();
 }
 
-std::span<const std::uint8_t> Line::output() const { return std::span(output_).subspan(output_first_); }
+std::span<const std::uint8_t> Line::output() const { return state_.edge.output.values(); }
 
 void Line::take_output(std::size_t count) {
-  output_first_ += std::min(count, output_.size() - output_first_);
-  if (output_first_ == output_.size()) {
-    output_.clear();
-    output_first_ = 0;
-  }
+  state_.edge.output.pop_front(std::min(count, state_.edge.output.size()));
 }
 
 // --- time --------------------------------------------------------------------------------------
@@ -148,20 +150,20 @@ Line::Event Line::find_next_event() const {
     if (next.what == What::nothing || at < next.at) next = {what, at, member};
   };
   const auto offer_input = [&] {
-    if (input_count_ > 0) offer(What::character_in, input_[input_first_].end, 0);
+    if (!state_.input.empty()) offer(What::character_in, state_.input.front().end, 0);
   };
   // What is offered first wins at equal times.
   if (!is_instant()) offer_input();
   for (std::size_t i = 0; i < observers_.size(); ++i) {
     if (const auto at = observers_[i]->due()) offer(What::observer, *at, i);
   }
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (const auto at = members_[i].station->due()) offer(What::station, *at, i);
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (const auto at = stations_[i]->due()) offer(What::station, *at, i);
   }
-  if (leaving_first_ < leaving_.size()) offer(What::character_out, leaving_[leaving_first_].end, 0);
+  if (!state_.leaving.empty()) offer(What::character_out, state_.leaving.front().end, 0);
   if (notices_ > 0) {
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      if (members_[i].noticed_at) offer(What::notice, *members_[i].noticed_at, i);
+    for (std::size_t i = 0; i < state_.members.size(); ++i) {
+      if (const auto at = state_.members[i].noticed_at) offer(What::notice, *at, i);
     }
   }
   if (is_instant()) offer_input();
@@ -178,10 +180,11 @@ void Line::run(SimTime now) {
   // A station that is due again and again, and does nothing, would never let go.
   constexpr int kMostAtOnce = 1 << 23;
   int at_once = 0;
+  SimTime& clock = state_.edge.clock;
   for (Event next = next_event(); next.what != What::nothing && next.at <= now; next = next_event()) {
-    at_once = next.at > clock_ ? 0 : at_once + 1;
+    at_once = next.at > clock ? 0 : at_once + 1;
     if (at_once > kMostAtOnce) throw std::logic_error(name_ + ": the events that are due never end");
-    clock_ = std::max(clock_, next.at);
+    clock = std::max(clock, next.at);
     due_changed();
     handle(next);
   }
@@ -191,14 +194,11 @@ void Line::handle(const Event& event) {
   switch (event.what) {
     case What::nothing: break;
     case What::character_in: deliver_character(); break;
-    case What::observer: observers_[event.member]->run(clock_); break;
+    case What::observer: observers_[event.member]->run(state_.edge.clock); break;
     case What::station: run_station(event.member); break;
     case What::character_out: {
-      const std::uint8_t value = leaving_[leaving_first_].value;
-      if (++leaving_first_ == leaving_.size()) {
-        leaving_.clear();
-        leaving_first_ = 0;
-      }
+      const std::uint8_t value = state_.leaving.front().value;
+      state_.leaving.pop_front();
       leave_wire(std::span(&value, 1));
       break;
     }
@@ -211,10 +211,10 @@ TimedByte Line::place(Burst& burst, std::uint8_t value, SimTime now) const {
   if (is_instant()) return {now, now, value};
   if (now >= burst.end) burst = {now, 0, now};
   const SimTime start = burst.end;
-  burst.end = burst.start + options_.settings.duration_of(++burst.count);
+  burst.end = burst.start + state_.settings.duration_of(++burst.count);
   // After `baud` characters the time is a whole number of seconds: begin anew there, without an error,
   // so that the count of a host that never stops does not overflow.
-  if (burst.count == options_.settings.baud) burst = {burst.end, 0, burst.end};
+  if (burst.count == state_.settings.baud) burst = {burst.end, 0, burst.end};
   return {start, burst.end, value};
 }
 
@@ -222,18 +222,18 @@ TimedByte Line::place(Burst& burst, std::uint8_t value, SimTime now) const {
 
 /// A start bit: decides who hears the character that follows.
 void Line::begin_character(SimTime at) {
-  const bool is_departed = input_[input_first_].number <= last_departed_;
-  const std::optional<HostSettings>& settings = is_departed ? departed_settings_ : host_settings_;
+  const bool is_departed = state_.input.front().number <= state_.last_departed;
+  const std::optional<HostSettings>& settings = is_departed ? state_.departed_settings : state_.host_settings;
   const bool is_speed_known = options_.enforce_settings && settings;
-  if (options_.enforce_settings && !settings && !is_departed && !members_.empty()) {
-    warn_once(has_warned_no_speed_, "the host set no speed; what it sends is assumed to be heard");
+  if (options_.enforce_settings && !settings && !is_departed && !stations_.empty()) {
+    warn_once(state_.warned.of_no_speed, "the host set no speed; what it sends is assumed to be heard");
   }
   std::size_t deaf = 0;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    Member& member = members_[i];
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    Member& member = state_.members[i];
     member.is_deaf = false;
     if (is_speed_known) {
-      const LineSettings expected = member.station->settings();
+      const LineSettings expected = stations_[i]->settings();
       member.is_deaf = !is_within(settings->baud, expected.baud, options_.baud_tolerance_ppm) ||
                        expected.stop_bits != settings->stop_bits;
       if (member.is_deaf) warn_deaf(i, *settings, expected);
@@ -241,51 +241,51 @@ void Line::begin_character(SimTime at) {
     if (member.is_deaf) {
       ++deaf;
     } else if (!is_instant()) {
-      member.station->hear_start_bit(at);
+      stations_[i]->hear_start_bit(at);
     }
   }
-  is_heard_ = deaf == 0 || deaf < members_.size();
-  if (!is_heard_) ++counters_.bytes_unheard;
+  state_.is_heard = deaf == 0 || deaf < stations_.size();
+  if (!state_.is_heard) ++state_.edge.counters.bytes_unheard;
   if (is_instant()) return;
   for (LineObserver* observer : observers_) observer->on_start_bit(at);
 }
 
 /// A character has wholly arrived; the next one, if there is any, begins at that very moment.
 void Line::deliver_character() {
-  const TimedByte byte = input_[input_first_];
-  input_first_ = (input_first_ + 1) % kInputCapacity;
-  --input_count_;
-  for (const Member& member : members_) {
-    if (!member.is_deaf) member.station->hear(byte);
+  const TimedByte byte = state_.input.front();
+  state_.input.pop_front();
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (!state_.members[i].is_deaf) stations_[i]->hear(byte);
   }
-  for (LineObserver* observer : observers_) observer->on_character(byte, is_heard_);
-  if (input_count_ > 0) begin_character(input_[input_first_].start);
+  for (LineObserver* observer : observers_) observer->on_character(byte, state_.is_heard);
+  if (!state_.input.empty()) begin_character(state_.input.front().start);
 }
 
 // --- from the stations -------------------------------------------------------------------------
 
 void Line::run_station(std::size_t index) {
   Voice voice(*this, index);
-  members_[index].station->run(clock_, voice);
+  stations_[index]->run(state_.edge.clock, voice);
 }
 
 void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_anybody_listening) {
   if (bytes.empty()) return;
-  Member& member = members_[index];
-  const bool is_new = is_instant() || clock_ >= member.speech.end;
+  Member& member = state_.members[index];
+  const SimTime clock = state_.edge.clock;
+  const bool is_new = is_instant() || clock >= member.speech.end;
   // A station that keeps talking faster than the wire carries must not run ahead of it without bound.
-  const SimTime latest = clock_ + options_.settings.duration_of(kOutputCapacity);
-  SimTime first_start = clock_;
-  SimTime first_end = clock_;
+  const SimTime latest = clock + state_.settings.duration_of(kOutputCapacity);
+  SimTime first_start = clock;
+  SimTime first_end = clock;
   bool has_collided = false;
   if (is_instant() && is_anybody_listening) leave_wire(bytes);
   for (std::size_t i = 0; i < bytes.size() && !is_instant(); ++i) {
     if (member.speech.end >= latest) {
-      counters_.bytes_discarded += bytes.size() - i;
+      state_.edge.counters.bytes_discarded += bytes.size() - i;
       bytes = bytes.first(i);
       break;
     }
-    TimedByte character = place(member.speech, bytes[i], clock_);
+    TimedByte character = place(member.speech, bytes[i], clock);
     character.number = index;
     if (i == 0) {
       first_start = character.start;
@@ -304,71 +304,58 @@ void Line::say(std::size_t index, std::span<const std::uint8_t> bytes, bool is_a
     }
   }
   if (!has_collided) return;
-  ++counters_.collisions;
-  warn_once(has_warned_collision_, "two stations spoke at once; what they said is garbled");
+  ++state_.edge.counters.collisions;
+  warn_once(state_.warned.of_collision, "two stations spoke at once; what they said is garbled");
 }
 
 /// A character that runs into one of another station is lost in it: the receiver follows the start bit
 /// that came first and reads the AND of both, as the dominant level wins. (A station never runs into
 /// itself, so what overlaps is always another's.)
 void Line::put_on_wire(const TimedByte& character, bool& has_collided) {
-  if (leaving_first_ == leaving_.size() || leaving_.back().end <= character.start) {
-    if (leaving_.size() == leaving_.capacity()) {
-      leaving_.erase(leaving_.begin(), leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_));
-      leaving_first_ = 0;
-    }
-    leaving_.push_back(character);
+  Queue<TimedByte>& leaving = state_.leaving;
+  if (leaving.empty() || leaving.back().end <= character.start) {
+    leaving.push_back(character);
     return;
   }
-  const auto begin = leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_);
   const auto other =
-      std::find_if(begin, leaving_.end(), [&](const TimedByte& sent) { return sent.end > character.start; });
+      std::ranges::find_if(leaving, [&](const TimedByte& sent) { return sent.end > character.start; });
   if (other->start < character.end) {
     other->value &= character.value;
     has_collided = true;
   } else {
-    leaving_.insert(other, character);
+    leaving.insert(other, character);
   }
 }
 
 void Line::hush(const Station& station, SimTime now) {
   due_changed();
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    Member& member = members_[i];
-    if (member.station != &station) continue;
-    const auto is_unsent = [&](const TimedByte& sent) { return sent.number == i && sent.start >= now; };
-    leaving_.erase(std::remove_if(leaving_.begin() + static_cast<std::ptrdiff_t>(leaving_first_),
-                                  leaving_.end(), is_unsent),
-                   leaving_.end());
-    if (leaving_first_ == leaving_.size()) {
-      leaving_.clear();
-      leaving_first_ = 0;
-    }
-    member.speech = {};
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    if (stations_[i] != &station) continue;
+    state_.leaving.remove_if([&](const TimedByte& sent) { return sent.number == i && sent.start >= now; });
+    state_.members[i].speech = {};
   }
 }
 
 /// Stations that talk at this moment hear nothing but themselves.
 void Line::notify_others(std::size_t speaker) {
-  members_[speaker].noticed_at.reset();
+  state_.members[speaker].noticed_at.reset();
   --notices_;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const bool is_talking = !is_instant() && members_[i].speech.end > clock_;
-    if (i != speaker && !is_talking) members_[i].station->hear_other_station();
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    const bool is_talking = !is_instant() && state_.members[i].speech.end > state_.edge.clock;
+    if (i != speaker && !is_talking) stations_[i]->hear_other_station();
   }
 }
 
 void Line::leave_wire(std::span<const std::uint8_t> bytes) {
-  const std::size_t room = kOutputCapacity - (output_.size() - output_first_);
-  const std::size_t lost = bytes.size() - std::min(bytes.size(), room);
-  counters_.bytes_discarded += lost;
-  bytes = bytes.first(bytes.size() - lost);
-  if (output_.size() + bytes.size() > output_.capacity()) {
-    output_.erase(output_.begin(), output_.begin() + static_cast<std::ptrdiff_t>(output_first_));
-    output_first_ = 0;
+  auto& [output, counters, clock] = state_.edge;
+  if (bytes.size() > kOutputCapacity - output.size()) {
+    for (LineObserver* observer : observers_) observer->on_output_full();
   }
-  output_.insert(output_.end(), bytes.begin(), bytes.end());
-  counters_.bytes_out += bytes.size();
+  const std::size_t lost = bytes.size() - std::min(bytes.size(), kOutputCapacity - output.size());
+  counters.bytes_discarded += lost;
+  bytes = bytes.first(bytes.size() - lost);
+  output.append(bytes);
+  counters.bytes_out += bytes.size();
 }
 
 // --- warnings ----------------------------------------------------------------------------------
@@ -380,12 +367,13 @@ void Line::warn_once(bool& has_warned, std::string_view what) {
 }
 
 void Line::warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected) {
-  if (has_warned_deaf_) return;
+  if (state_.warned.of_deafness) return;
   const std::string which =
-      members_.size() == 1 ? "the station" : "station " + std::to_string(index + 1) + " of the line";
+      stations_.size() == 1 ? "the station" : "station " + std::to_string(index + 1) + " of the line";
   const std::string stop_bits = settings.stop_bits == 1 ? "1 stop bit" : "2 stop bits";
-  warn_once(has_warned_deaf_, "the host set " + std::to_string(settings.baud) + " baud, " + stop_bits + "; " +
-                                  which + " expects " + to_string(expected) + ": it hears nothing");
+  warn_once(state_.warned.of_deafness, "the host set " + std::to_string(settings.baud) + " baud, " +
+                                           stop_bits + "; " + which + " expects " + to_string(expected) +
+                                           ": it hears nothing");
 }
 
 }  // namespace understudy::pty

@@ -9,7 +9,6 @@
 // and slaves that answer every address would take each other's replies for requests without end.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/queue.h"
 #include "pty/line_observer.h"
 #include "pty/line_settings.h"
 #include "pty/station.h"
@@ -108,59 +108,59 @@ class Line {
   void run(SimTime now);
 
   const std::string& name() const { return name_; }
-  const LineOptions& options() const { return options_; }
-  const LineCounters& counters() const { return counters_; }
-  bool is_host_open() const { return is_host_open_; }
+  /// As they are in force: the wire's speed may have changed.
+  LineOptions options() const;
+  const LineCounters& counters() const { return state_.edge.counters; }
+  bool is_host_open() const { return state_.is_host_open; }
   /// What the host that has it open was last said to have set, if anything was.
-  const std::optional<HostSettings>& settings_of_host() const { return host_settings_; }
+  const std::optional<HostSettings>& settings_of_host() const { return state_.host_settings; }
 
-  // --- its state -----------------------------------------------------------------------------
+  // --- its state: its stations and observers have states of their own -------------------------
   // Characters sent back to back, timed from the first one, so that rounding does not add up.
   struct Burst {
     SimTime start{0};
     std::int64_t count = 0;
     SimTime end{0};
   };
+  /// What it knows of a station.
+  struct Member {
+    bool is_deaf = false;                 // to the character on the wire
+    Burst speech;                         // its last transmission
+    std::optional<SimTime> noticed_at{};  // when the others hear that it talks
+  };
+  struct Warned {
+    bool of_deafness = false;
+    bool of_no_speed = false;
+    bool of_collision = false;
+  };
   /// What depends on whoever reads the line, or looks at it: the stations never notice.
   struct Edge {
-    std::vector<std::uint8_t> output;
+    Queue<std::uint8_t> output;  // waits to be taken
     LineCounters counters;
-    SimTime clock{0};
+    SimTime clock{0};  // of the last event
   };
-  /// What changes as the line works. Its stations and observers have states of their own.
   struct State {
-    struct Member {
-      bool is_deaf = false;
-      Burst speech;
-      std::optional<SimTime> noticed_at{};
-    };
     LineSettings settings;
-    std::vector<Member> members;
+    std::vector<Member> members;  // in the order of attaching
     bool is_host_open = true;
     std::optional<HostSettings> host_settings;
-    std::optional<HostSettings> departed_settings;
-    std::uint64_t last_departed = 0;
-    std::uint64_t last_received = 0;
-    std::array<bool, 3> has_warned{};  // of a deaf station, of no speed, of a collision
-    std::vector<TimedByte> input;      // on the wire or before it, the first one next
+    std::optional<HostSettings> departed_settings;  // of the host before
+    std::uint64_t last_departed = 0;                // number of its last character
+    std::uint64_t last_received = 0;                // number of the last character of all
+    Warned warned;
+    Queue<TimedByte> input;  // from the host, on the wire or before it, the first one next
     Burst arriving;
-    bool is_heard = true;
-    std::vector<TimedByte> leaving;
+    bool is_heard = true;      // the character that arrives, by a station at least
+    Queue<TimedByte> leaving;  // to the host, on the wire, in the order of time; numbered by their speakers
     Edge edge;
   };
-  State save() const;
+  const State& save() const { return state_; }
   /// Throws std::invalid_argument if this line cannot be in that state.
   void check(const State& state) const;
   /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:
-  struct Member {
-    Station* station = nullptr;
-    bool is_deaf = false;                 // to the character on the wire
-    Burst speech;                         // its last transmission
-    std::optional<SimTime> noticed_at{};  // when the others hear that it talks
-  };
   class Voice;
   enum class What : std::uint8_t { nothing, character_in, observer, station, character_out, notice };
   struct Event {
@@ -186,38 +186,14 @@ class Line {
   void warn_deaf(std::size_t index, const HostSettings& settings, const LineSettings& expected);
 
   std::string name_;
-  LineOptions options_;
+  LineOptions options_;  // but for the settings
   std::function<void(const std::string&)> warn_;
-  LineCounters counters_;
-  std::vector<Member> members_;
+  std::vector<Station*> stations_;
   std::vector<LineObserver*> observers_;
-  SimTime clock_{0};  // of the last event
-  // Stations that wait for nothing are many, and asked in every tick.
+  State state_;
+  // What follows from it. Stations that wait for nothing are many, and asked in every tick.
   mutable std::optional<Event> next_{};
-
-  bool is_host_open_ = true;
-  std::optional<HostSettings> host_settings_;
-  std::optional<HostSettings> departed_settings_;  // of the host before
-  std::uint64_t last_departed_ = 0;                // number of its last character
-  std::uint64_t last_received_ = 0;                // number of the last character of all
-  bool has_warned_deaf_ = false;
-  bool has_warned_no_speed_ = false;
-  bool has_warned_collision_ = false;
-
-  // Host to stations: a ring of what has not wholly arrived.
-  std::vector<TimedByte> input_;
-  std::size_t input_first_ = 0;
-  std::size_t input_count_ = 0;
-  Burst arriving_;
-  bool is_heard_ = true;  // the character that arrives, by a station at least
-
-  // Stations to host: characters on the wire, in the order of time, from `leaving_first_` on; then bytes
-  // that wait to be taken, from `output_first_` on. A leaving character's number is its speaker.
-  std::vector<TimedByte> leaving_;
-  std::size_t leaving_first_ = 0;
   std::size_t notices_ = 0;  // members whose noticed_at is set
-  std::vector<std::uint8_t> output_;
-  std::size_t output_first_ = 0;
 };
 
 }  // namespace understudy::pty

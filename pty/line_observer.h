@@ -54,6 +54,9 @@ class LineObserver {
   /// A station has begun to talk.
   virtual void on_speech(const Speech& speech) = 0;
 
+  /// What comes next for the host has no room any more, and is lost unless some of what waits is taken now.
+  virtual void on_output_full() {}
+
   /// Faults have acted on a message. For a request this comes after what was heard, for a reply before what
   /// is said.
   virtual void on_strike(const StruckMessage& /*message*/) {}

@@ -86,7 +86,7 @@ class PseudoTerminal {
   PortLink link_;
 
   bool is_present_ = false;
-  int opens_ = 0;      // by hosts; at least so many, as inotify merges equal neighbours
+  int opens_ = 0;      // by hosts; at least this many, as inotify merges equal neighbours
   int own_opens_ = 0;  // events still to come that we cause ourselves
   int own_closes_ = 0;
   Presence news_;

@@ -51,10 +51,10 @@ enum class Fit {
 
 struct Verdict {
   Fit fit = Fit::waiting;
-  std::size_t size = 0;  // good: of the frame; waiting: look again when so many bytes are in
+  std::uint16_t size = 0;  // good: of the frame; waiting: look again when this many bytes are in
 };
 
-constexpr std::size_t kOnlySilenceTells = kRtuMaxFrame + 1;
+constexpr std::uint16_t kOnlySilenceTells = kRtuMaxFrame + 1;
 constexpr std::size_t kShortestFrame = 4;  // address, function, checksum
 
 /// Of characters that are over and are not a frame.
@@ -79,9 +79,10 @@ Verdict judge(std::span<const std::uint8_t> bytes, bool is_in_noise) {
                               : Verdict{Fit::waiting, kOnlySilenceTells};
   const LengthRule rule = rule_of(function);
   if (rule.fixed == 0) return patient;
-  std::size_t size = rule.fixed;
+  std::uint16_t size = rule.fixed;
   if (rule.byte_count_at != 0) {
-    if (bytes.size() <= rule.byte_count_at) return {Fit::waiting, rule.byte_count_at + std::size_t{1}};
+    if (bytes.size() <= rule.byte_count_at)
+      return {Fit::waiting, static_cast<std::uint16_t>(rule.byte_count_at + 1)};
     size += bytes[rule.byte_count_at];
     if (size > kRtuMaxFrame) return {Fit::impossible, 0};
   }
@@ -106,116 +107,120 @@ SimTime RtuFramer::patience() const {
 }
 
 /// Whether the line has been quiet for long enough at `at` to end what is undecided.
-bool RtuFramer::is_silent(SimTime at) const { return undecided_ < used_ && at >= last_end_ + patience(); }
+bool RtuFramer::is_silent(SimTime at) const {
+  return state_.undecided < used() && at >= state_.last_end + patience();
+}
 
 void RtuFramer::start_bit(SimTime at) {
   if (is_silent(at)) end_of_silence();
-  character_under_way_ = true;
+  state_.character_under_way = true;
 }
 
 void RtuFramer::push(const TimedByte& byte) {
   if (is_silent(byte.start)) end_of_silence();
-  const bool is_lump_over = oversize_ != 0 && undecided_ == used_ && byte.start >= last_end_ + patience();
-  if (is_lump_over) oversize_ = 0;
-  character_under_way_ = false;
-  last_end_ = byte.end;
-  if (framing_.strict && used_ - undecided_ == kRtuMaxFrame) {
-    ++oversize_;
+  const bool is_lump_over =
+      state_.oversize != 0 && state_.undecided == used() && byte.start >= state_.last_end + patience();
+  if (is_lump_over) state_.oversize = 0;
+  state_.character_under_way = false;
+  state_.last_end = byte.end;
+  if (framing_.strict && undecided().size == kRtuMaxFrame) {
+    ++state_.oversize;
     return;
   }
-  if (used_ == kCapacity) make_room();
-  values_[used_] = byte.value;
-  marks_[used_] = {byte.end, byte.number};
-  ++used_;
-  if (!framing_.strict && used_ - candidate_ >= look_again_at_) search();
+  if (used() == kCapacity) drop_oldest();
+  state_.characters.push_back({byte.value, byte.end, byte.number});
+  if (!framing_.strict && used() - state_.candidate >= state_.look_again_at) search();
 }
 
 void RtuFramer::reset() {
-  used_ = undecided_ = candidate_ = look_again_at_ = 0;
-  ready_first_ = ready_count_ = 0;
-  oversize_ = 0;
-  character_under_way_ = false;
+  state_.characters.clear();
+  state_.ready.clear();
+  state_.undecided = state_.candidate = state_.look_again_at = 0;
+  state_.oversize = 0;
+  state_.character_under_way = false;
 }
 
 void RtuFramer::give_up_waiting() {
-  if (!framing_.strict && undecided_ < used_ && !character_under_way_) end_of_silence();
+  if (!framing_.strict && state_.undecided < used() && !state_.character_under_way) end_of_silence();
 }
 
 /// Moves the candidate on for as long as what is in decides about it.
 void RtuFramer::search() {
-  while (candidate_ < used_) {
-    const Verdict verdict = judge(bytes(candidate_, used_), candidate_ > undecided_);
+  Index& candidate = state_.candidate;
+  while (candidate < used()) {
+    const Verdict verdict = judge(bytes(candidate, used()), candidate > state_.undecided);
     if (verdict.fit == Fit::waiting) {
-      look_again_at_ = verdict.size;
+      state_.look_again_at = verdict.size;
       // What precedes a candidate is kept for the case that the whole is one frame of unknown length.
       // It cannot be one any more when it is too long, and that bounds the undecided part.
-      if (used_ - undecided_ > kRtuMaxFrame) give_up_as_overlong(candidate_);
+      if (undecided().size > kRtuMaxFrame) give_up_as_overlong(candidate);
       return;
     }
     if (verdict.fit == Fit::good) {
-      add_ready(candidate_, verdict.size);
-      decide_up_to(candidate_ + verdict.size);
+      const auto end = static_cast<Index>(candidate + verdict.size);
+      add_ready(candidate, verdict.size);
+      decide_up_to(end);
     } else {
-      ++candidate_;
+      ++candidate;
     }
   }
-  look_again_at_ = 0;
-  if (used_ - undecided_ > kRtuMaxFrame) give_up_as_overlong(used_);
+  state_.look_again_at = 0;
+  if (undecided().size > kRtuMaxFrame) give_up_as_overlong(used());
 }
 
 /// What of this lump comes later is part of the same error.
-void RtuFramer::give_up_as_overlong(std::size_t index) {
-  if (index == undecided_) return;
-  if (oversize_ == 0) add_error(ReceiveError::overlong);
-  oversize_ += index - undecided_;
-  dropped_ += index - undecided_;
-  undecided_ = index;
+void RtuFramer::give_up_as_overlong(Index index) {
+  const auto count = static_cast<std::uint64_t>(index - state_.undecided);
+  if (count == 0) return;
+  if (state_.oversize == 0) add_error(ReceiveError::overlong);
+  state_.oversize += count;
+  state_.dropped += count;
+  state_.undecided = index;
+  forget_served();
 }
 
 /// Nothing follows what is undecided: take the good frames out of it and drop the rest.
 void RtuFramer::end_of_silence() {
-  const auto whole = bytes(undecided_, used_);
-  const bool may_be_whole = (oversize_ == 0 || !framing_.strict) && whole.size() <= kRtuMaxFrame;
+  const auto whole = bytes(state_.undecided, used());
+  const bool may_be_whole = (state_.oversize == 0 || !framing_.strict) && whole.size() <= kRtuMaxFrame;
   // The whole comes first: a shorter frame inside a good one of unknown length is its data.
   if (may_be_whole && rtu_crc_ok(whole)) {
-    add_ready(undecided_, whole.size());
+    add_ready(state_.undecided, static_cast<std::uint16_t>(whole.size()));
   } else if (!framing_.strict) {
-    for (std::size_t at = candidate_; at < used_;) {
-      const Verdict verdict = judge(bytes(at, used_), true);
+    for (Index at = state_.candidate; at < used();) {
+      const Verdict verdict = judge(bytes(at, used()), true);
       if (verdict.fit == Fit::good) add_ready(at, verdict.size);
-      at += verdict.fit == Fit::good ? verdict.size : 1;
+      at += verdict.fit == Fit::good ? verdict.size : std::uint16_t{1};
     }
   }
-  if (framing_.strict) dropped_ += oversize_;
-  decide_up_to(used_);
-  oversize_ = 0;
+  if (framing_.strict) state_.dropped += state_.oversize;
+  decide_up_to(used());
+  state_.oversize = 0;
 }
 
 /// Queues a frame of the undecided part, and counts as dropped what lies before it.
-void RtuFramer::add_ready(std::size_t first, std::size_t size) {
+void RtuFramer::add_ready(Index first, std::uint16_t size) {
   drop_up_to(first);
-  oversize_ = 0;
-  undecided_ = first + size;
-  ready_[(ready_first_ + ready_count_) % kMaxReady] = {static_cast<std::uint16_t>(first),
-                                                       static_cast<std::uint16_t>(size)};
-  ++ready_count_;
+  state_.oversize = 0;
+  state_.undecided = static_cast<Index>(first + size);
+  state_.ready.push_back({first, size});
 }
 
-void RtuFramer::decide_up_to(std::size_t index) {
+void RtuFramer::decide_up_to(Index index) {
   drop_up_to(index);
-  candidate_ = index;
-  look_again_at_ = 0;
-  rewind_if_empty();
+  state_.candidate = index;
+  state_.look_again_at = 0;
+  forget_served();
 }
 
 /// What of the undecided part lies before `index` is no frame.
-void RtuFramer::drop_up_to(std::size_t index) {
-  const auto noise = bytes(undecided_, index);
-  undecided_ = index;
-  dropped_ += noise.size();
-  const bool is_told = oversize_ > 0 && !framing_.strict;
+void RtuFramer::drop_up_to(Index index) {
+  const auto noise = bytes(state_.undecided, index);
+  state_.undecided = index;
+  state_.dropped += noise.size();
+  const bool is_told = state_.oversize > 0 && !framing_.strict;
   if (noise.empty() || is_told) return;
-  add_error(oversize_ > 0 ? ReceiveError::overlong : error_in(noise));
+  add_error(state_.oversize > 0 ? ReceiveError::overlong : error_in(noise));
 }
 
 void RtuFramer::add_error(ReceiveError error) {
@@ -233,52 +238,45 @@ std::optional<ReceiveError> RtuFramer::take_error() {
   return std::nullopt;
 }
 
-void RtuFramer::rewind_if_empty() {
-  if (ready_count_ == 0 && undecided_ == used_) used_ = undecided_ = candidate_ = 0;
+/// What lies before the first that is ready, or undecided, matters to nobody any more.
+void RtuFramer::forget_served() {
+  const Index served = state_.ready.empty() ? state_.undecided : state_.ready.front().first;
+  if (served == 0) return;
+  state_.characters.pop_front(served);
+  for (Frame& frame : state_.ready) frame.first = static_cast<Index>(frame.first - served);
+  state_.undecided = static_cast<Index>(state_.undecided - served);
+  state_.candidate = static_cast<Index>(state_.candidate - served);
 }
 
-/// The buffer's end is reached: gives up what was served, and if nothing was, the oldest ready frame
-/// (of a station that does not take its frames; the undecided part alone always fits).
-void RtuFramer::make_room() {
-  if (ready_count_ > 0 && ready_[ready_first_].first == 0) {
-    dropped_ += ready_[ready_first_].size;
-    ready_first_ = (ready_first_ + 1) % kMaxReady;
-    --ready_count_;
-  }
-  const std::size_t shift = ready_count_ > 0 ? ready_[ready_first_].first : undecided_;
-  std::copy(values_.begin() + shift, values_.begin() + used_, values_.begin());
-  std::copy(marks_.begin() + shift, marks_.begin() + used_, marks_.begin());
-  for (std::size_t i = 0; i < ready_count_; ++i) {
-    auto& frame = ready_[(ready_first_ + i) % kMaxReady];
-    frame.first = static_cast<std::uint16_t>(frame.first - shift);
-  }
-  used_ -= shift;
-  undecided_ -= shift;
-  candidate_ -= shift;
+/// No more fits: gives up the oldest ready frame, of a station that does not take its frames. (There is one:
+/// the undecided part alone always fits.)
+void RtuFramer::drop_oldest() {
+  state_.dropped += state_.ready.front().size;
+  state_.ready.pop_front();
+  forget_served();
 }
 
 std::span<const std::uint8_t> RtuFramer::bytes(std::size_t first, std::size_t last) const {
-  return std::span(values_).subspan(first, last - first);
+  return state_.characters.values.values().subspan(first, last - first);
 }
 
 std::optional<SimTime> RtuFramer::due() const {
-  if (ready_count_ > 0) {
-    const Ready& frame = ready_[ready_first_];
-    return marks_[frame.first + frame.size - std::size_t{1}].end + framing_.silence;
+  if (!state_.ready.empty()) {
+    const auto& [first, size] = state_.ready.front();
+    return state_.characters.marks[first + size - std::size_t{1}].end + framing_.silence;
   }
-  if (undecided_ == used_ || character_under_way_) return std::nullopt;
-  return last_end_ + patience();
+  if (state_.undecided == used() || state_.character_under_way) return std::nullopt;
+  return state_.last_end + patience();
 }
 
 std::optional<std::uint64_t> RtuFramer::first_open_character() const {
-  if (ready_count_ > 0) return marks_[ready_[ready_first_].first].number;
-  if (undecided_ < used_) return marks_[undecided_].number;
-  return std::nullopt;
+  if (used() == 0) return std::nullopt;
+  return state_.characters.marks.front().number;
 }
 
 std::optional<RtuFrame> RtuFramer::take(SimTime now) {
-  if (!character_under_way_ && is_silent(now)) end_of_silence();
-  if (ready_count_ == 0 || now < *due()) return std::nullopt;
+  if (!state_.character_under_way && is_silent(now)) end_of_silence();
+  if (state_.ready.empty() || now < *due()) return std::nullopt;
   return take_ready();
 }
 
@@ -292,39 +290,43 @@ std::optional<RtuFrame> RtuFramer::take_due(SimTime now) {
 }
 
 RtuFrame RtuFramer::take_ready() {
-  const Ready ready = ready_[ready_first_];
-  const RtuFrame frame = frame_at(ready.first, ready.size);
-  ready_first_ = (ready_first_ + 1) % kMaxReady;
-  --ready_count_;
-  rewind_if_empty();
+  const RtuFrame frame = frame_at(state_.ready.front());
+  state_.ready.pop_front();
+  forget_served();
   return frame;
 }
 
-RtuFrame RtuFramer::frame_at(std::size_t first, std::size_t size) const {
+RtuFrame RtuFramer::frame_at(const Frame& place) const {
+  const std::size_t end = std::size_t{place.first} + place.size;
   RtuFrame frame;
-  std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(first), size, frame.bytes.begin());
-  frame.size = size;
-  const Mark& last = marks_[first + size - 1];
+  std::ranges::copy(bytes(place.first, end), frame.bytes.begin());
+  frame.size = place.size;
+  const Mark& last = state_.characters.marks[end - 1];
   frame.end = last.end;
   frame.last_character = last.number;
   return frame;
 }
 
+/// What is undecided, as one frame.
+RtuFramer::Frame RtuFramer::undecided() const {
+  return {state_.undecided, static_cast<std::uint16_t>(used() - state_.undecided)};
+}
+
 /// Under the strict rule: what is undecided would be a frame, if it ended here.
 bool RtuFramer::may_be_over() const {
-  return framing_.strict && undecided_ < used_ && !character_under_way_ && oversize_ == 0 &&
-         rtu_crc_ok(bytes(undecided_, used_));
+  return framing_.strict && state_.undecided < used() && !state_.character_under_way &&
+         state_.oversize == 0 && rtu_crc_ok(bytes(state_.undecided, used()));
 }
 
 std::optional<RtuFrame> RtuFramer::peek() const {
-  if (ready_count_ > 0) return frame_at(ready_[ready_first_].first, ready_[ready_first_].size);
-  if (may_be_over()) return frame_at(undecided_, used_ - undecided_);
+  if (!state_.ready.empty()) return frame_at(state_.ready.front());
+  if (may_be_over()) return frame_at(undecided());
   return std::nullopt;
 }
 
 std::optional<RtuFrame> RtuFramer::take_early() {
-  if (ready_count_ == 0 && may_be_over()) end_of_silence();
-  if (ready_count_ == 0) return std::nullopt;
+  if (state_.ready.empty() && may_be_over()) end_of_silence();
+  if (state_.ready.empty()) return std::nullopt;
   return take_ready();
 }
 

@@ -15,8 +15,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
+#include "base/queue.h"
 #include "pty/receive_error.h"
 #include "pty/station.h"
 
@@ -86,85 +86,91 @@ class RtuFramer {
   bool has_errors() const { return error_count_ != 0; }
 
   /// Noise, wrong checksums, cut frames, and what did not fit; not what reset() forgot.
-  std::uint64_t dropped_bytes() const { return dropped_; }
+  std::uint64_t dropped_bytes() const { return state_.dropped; }
 
-  // --- its state -----------------------------------------------------------------------------
-  /// What it holds, in as many words as it takes; the framing is not in it.
+  // --- its state: the framing is not in it ---------------------------------------------------
+  struct Mark {
+    SimTime end{0};
+    std::uint64_t number = 0;
+  };
+  struct Character {
+    std::uint8_t value = 0;
+    SimTime end{0};
+    std::uint64_t number = 0;
+  };
+  /// What has been heard; the values lie side by side, as a checksum wants them.
+  struct Characters {
+    Queue<std::uint8_t> values;
+    Queue<Mark> marks;  // of the same characters
+
+    std::size_t size() const { return values.size(); }
+    Character operator[](std::size_t number) const {
+      return {values[number], marks[number].end, marks[number].number};
+    }
+    void push_back(const Character& character) {
+      values.push_back(character.value);
+      marks.push_back({character.end, character.number});
+    }
+    void pop_front(std::size_t count) {
+      values.pop_front(count);
+      marks.pop_front(count);
+    }
+    void clear() {
+      values.clear();
+      marks.clear();
+    }
+  };
+  using Index = std::uint16_t;  // of a character
+  struct Frame {
+    Index first = 0;
+    std::uint16_t size = 0;
+  };
+  /// The characters, from low to high index:  [ready frames, noise between them] [undecided]
+  /// Within the undecided part, no frame begins before `candidate`; the one that may begin there needs
+  /// looking at again when `look_again_at` bytes of it are in.
+  /// That part never exceeds two frames: noise that may be the beginning of a long one, and a candidate.
   struct State {
-    struct Character {
-      std::uint8_t value = 0;
-      SimTime end{0};
-      std::uint64_t number = 0;
-    };
-    struct Frame {
-      std::uint16_t first = 0;  // of the characters
-      std::uint16_t size = 0;
-    };
-    std::vector<Character> characters;
-    std::vector<Frame> ready;
-    std::uint16_t undecided = 0;  // of the characters, as the next two
-    std::uint16_t candidate = 0;
+    Characters characters;
+    Queue<Frame> ready;
+    Index undecided = 0;
+    Index candidate = 0;
     std::uint16_t look_again_at = 0;
+    // Bytes of this lump that are too many: strict those beyond the longest frame, which are not stored,
+    // tolerant those that were given up before its end.
     std::uint64_t oversize = 0;
     SimTime last_end{0};
     bool character_under_way = false;
     std::uint64_t dropped = 0;
   };
-  State save() const;
+  const State& save() const { return state_; }
   /// Throws std::invalid_argument if this framer cannot hold it.
   void check(const State& state) const;
   /// Like check(); if it throws, nothing has changed.
   void restore(const State& state);
 
  private:
-  // The buffer, from low to high index:  [served] [ready frames, noise between them] [undecided]
-  // Within the undecided part, no frame begins before `candidate_`; the one that may begin there needs
-  // looking at again when `look_again_at_` bytes of it are in.
-  // That part never exceeds two frames: noise that may be the beginning of a long one, and a candidate.
-  static constexpr std::size_t kCapacity = 3 * kRtuMaxFrame;
-  static constexpr std::size_t kMaxReady = kCapacity / 4;
+  static constexpr std::size_t kCapacity = 3 * kRtuMaxFrame;  // characters
 
-  struct Mark {
-    SimTime end{0};
-    std::uint64_t number = 0;
-  };
-  struct Ready {
-    std::uint16_t first = 0;
-    std::uint16_t size = 0;
-  };
-
+  Frame undecided() const;
   bool may_be_over() const;
-  RtuFrame frame_at(std::size_t first, std::size_t size) const;
+  RtuFrame frame_at(const Frame& place) const;
   RtuFrame take_ready();
   SimTime patience() const;  // of the undecided part, under the rule in force
   bool is_silent(SimTime at) const;
   void search();
   void end_of_silence();
-  void add_ready(std::size_t first, std::size_t size);
-  void decide_up_to(std::size_t index);
-  void drop_up_to(std::size_t index);
+  void add_ready(Index first, std::uint16_t size);
+  void decide_up_to(Index index);
+  void drop_up_to(Index index);
   void add_error(ReceiveError error);
-  void give_up_as_overlong(std::size_t index);
-  void rewind_if_empty();
-  void make_room();
+  void give_up_as_overlong(Index index);
+  void forget_served();
+  void drop_oldest();
+  Index used() const { return static_cast<Index>(state_.characters.size()); }
   std::span<const std::uint8_t> bytes(std::size_t first, std::size_t last) const;
 
   RtuFraming framing_;
-  std::array<std::uint8_t, kCapacity> values_{};
-  std::array<Mark, kCapacity> marks_{};   // of the same characters
-  std::array<Ready, kMaxReady> ready_{};  // a ring
-  std::size_t ready_first_ = 0;
-  std::size_t ready_count_ = 0;
-  std::size_t used_ = 0;
-  std::size_t undecided_ = 0;
-  std::size_t candidate_ = 0;
-  std::size_t look_again_at_ = 0;
-  // Bytes of this lump that are too many: strict those beyond the longest frame, which are not stored,
-  // tolerant those that were given up before its end.
-  std::uint64_t oversize_ = 0;
-  SimTime last_end_{0};
-  bool character_under_way_ = false;
-  std::uint64_t dropped_ = 0;
+  State state_;
   std::array<std::uint32_t, 3> errors_{};  // not yet taken, by their kind
   std::uint32_t error_count_ = 0;          // of all kinds
 };

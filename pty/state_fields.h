@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/state/fields.h"
+#include "base/state/queue_fields.h"
 #include "base/state/state_bytes.h"
 #include "pty/line.h"
 #include "pty/rtu_framer.h"
@@ -52,11 +53,19 @@ struct StateOf<pty::Line::Burst> {
 };
 
 template <>
-struct StateOf<pty::Line::State::Member> {
-  using Value = pty::Line::State::Member;
+struct StateOf<pty::Line::Member> {
+  using Value = pty::Line::Member;
   static constexpr auto fields =
       std::tuple{field("is_deaf", &Value::is_deaf), field("speech", &Value::speech),
                  field("noticed_at", &Value::noticed_at)};
+};
+
+template <>
+struct StateOf<pty::Line::Warned> {
+  using Value = pty::Line::Warned;
+  static constexpr auto fields =
+      std::tuple{field("of_deafness", &Value::of_deafness), field("of_no_speed", &Value::of_no_speed),
+                 field("of_collision", &Value::of_collision)};
 };
 
 template <>
@@ -69,7 +78,7 @@ struct StateOf<pty::Line::State> {
                                             field("departed_settings", &Value::departed_settings),
                                             field("last_departed", &Value::last_departed),
                                             field("last_received", &Value::last_received),
-                                            field("has_warned", &Value::has_warned),
+                                            field("warned", &Value::warned),
                                             field("input", &Value::input),
                                             field("arriving", &Value::arriving),
                                             field("is_heard", &Value::is_heard),
@@ -94,15 +103,34 @@ struct StateOf<pty::Line::Edge> {
 };
 
 template <>
-struct StateOf<pty::RtuFramer::State::Character> {
-  using Value = pty::RtuFramer::State::Character;
+struct StateOf<pty::RtuFramer::Character> {
+  using Value = pty::RtuFramer::Character;
   static constexpr auto fields =
       std::tuple{field("value", &Value::value), field("end", &Value::end), field("number", &Value::number)};
 };
 
+/// One after another, each as a whole.
 template <>
-struct StateOf<pty::RtuFramer::State::Frame> {
-  using Value = pty::RtuFramer::State::Frame;
+struct StateOf<pty::RtuFramer::Characters> {
+  using Value = pty::RtuFramer::Characters;
+  static void write(const Value& characters, StateWriter& writer) {
+    writer.write(static_cast<std::uint32_t>(characters.size()));
+    for (std::size_t i = 0; i < characters.size(); ++i) writer.write(characters[i]);
+  }
+  static void read(Value& characters, StateReader& reader) {
+    characters.clear();
+    std::uint32_t count = 0;
+    for (reader.read(count); count > 0; --count) {
+      pty::RtuFramer::Character character;
+      reader.read(character);
+      characters.push_back(character);
+    }
+  }
+};
+
+template <>
+struct StateOf<pty::RtuFramer::Frame> {
+  using Value = pty::RtuFramer::Frame;
   static constexpr auto fields = std::tuple{field("first", &Value::first), field("size", &Value::size)};
 };
 
@@ -121,12 +149,18 @@ struct StateOf<pty::RtuFramer::State> {
 };
 
 template <>
+struct StateOf<pty::RtuFramer> : StateHeldBy<pty::RtuFramer> {};
+
+template <>
 struct StateOf<pty::TextLines::State> {
   using Value = pty::TextLines::State;
   static constexpr auto fields =
       std::tuple{field("text", &Value::text), field("is_overlong", &Value::is_overlong),
                  field("was_return", &Value::was_return), field("dropped", &Value::dropped)};
 };
+
+template <>
+struct StateOf<pty::TextLines> : StateHeldBy<pty::TextLines> {};
 
 template <>
 struct StateOf<pty::HeardText> {

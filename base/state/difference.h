@@ -115,7 +115,7 @@ std::string difference_in_fields(const T& a, const T& b, const std::string& path
 
 }  // namespace state_fields
 
-/// The same of fields that copy_fields() has given.
+/// Likewise, of what copy_fields() has returned.
 template <HasFields T>
 std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>& b,
                                  const std::string& path) {

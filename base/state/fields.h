@@ -17,7 +17,7 @@
 //
 // What lies in memory otherwise than it is saved (a ring, a program that is kept as its lines) has a pair of
 // its own instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may have `fields` as
-// well, or `told(value)`, another value, by which two of it are compared.
+// well, or `told(value)`, by which two of it are compared. StateHeldBy (state_bytes.h) is such a pair.
 #pragma once
 
 #include <cstddef>

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/enumerators.h"
 #include "base/state/fields.h"
 #include "base/state/shared_text.h"
 #include "base/state/state_error.h"
@@ -191,6 +192,7 @@ class StateReader {
     } else if constexpr (std::is_same_v<T, bool>) {
       demand_state(bits <= 1, "a yes or no must be 0 or 1");
     } else if constexpr (std::is_enum_v<T>) {
+      static_assert(is_last<StateOf<T>::last>(), "StateOf has another last value than the enumeration");
       demand_state(bits <= as_bits(StateOf<T>::last), "an enumeration has no such value");
     }
     return static_cast<T>(bits);
@@ -230,6 +232,18 @@ inline void StateReader::read_shared(SharedText& value) {
   value = shared_->front();
   shared_ = shared_->subspan(1);
 }
+
+/// Of a class that holds its state as one value: save() gives it; restore() checks it, and puts it in force.
+template <class T>
+struct StateHeldBy {
+  static void write(const T& value, StateWriter& writer) { writer.write(value.save()); }
+  static void read(T& value, StateReader& reader) {
+    std::remove_cvref_t<decltype(value.save())> state;
+    reader.read(state);
+    value.restore(state);
+  }
+  static const auto& told(const T& value) { return value.save(); }
+};
 
 // Outside of their classes, so that a room can have those of its big types made once (motion/state_fields.h).
 

@@ -1,4 +1,5 @@
-// The commands of `understudy`, free of any parsing of flags. Each returns the exit code.
+// The commands of `understudy`, free of any parsing of flags. Each returns the exit code. Those that know
+// models are handed their list.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "emulator/device/model.h"
 
 namespace understudy::emulator::command_line {
 
@@ -22,14 +25,14 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-int list_models();
+int list_models(ModelList models);
 
 struct DescribeArguments {
   std::string model;
   std::string what;
   std::string format = "table";
 };
-int describe_model(const DescribeArguments& arguments);
+int describe_model(ModelList models, const DescribeArguments& arguments);
 
 struct ServeArguments {
   std::string bench;  // a file; or else `model` and what belongs to it
@@ -55,7 +58,7 @@ struct ServeArguments {
   bool lint = false;
   std::string version;  // of this program
 };
-int serve(const ServeArguments& arguments);
+int serve(ModelList models, const ServeArguments& arguments);
 
 struct ExecArguments {
   ServeArguments serve;
@@ -67,7 +70,7 @@ struct ExecArguments {
   std::string timeout;  // a duration
 };
 /// The command's exit code, if it has one.
-int execute(const ExecArguments& arguments);
+int execute(ModelList models, const ExecArguments& arguments);
 /// The path of the library that `exec --tty-shim` preloads.
 int print_tty_shim();
 
@@ -89,7 +92,7 @@ struct RunArguments {
   std::string filter;   // a pattern for names
   std::string version;  // of this program
 };
-int run_scenarios(const RunArguments& arguments);
+int run_scenarios(ModelList models, const RunArguments& arguments);
 
 struct ReplayArguments {
   std::string recording;
@@ -101,7 +104,7 @@ struct ReplayArguments {
   std::string report;
   std::string version;  // of this program
 };
-int replay_recording(const ReplayArguments& arguments);
+int replay_recording(ModelList models, const ReplayArguments& arguments);
 
 struct PlotArguments {
   std::string trace;   // a file that --trace has written
@@ -159,14 +162,26 @@ struct PollArguments {
   int times = 1;
   std::vector<std::string> items;
 };
-int poll_port(const PollArguments& arguments);
+int poll_port(ModelList models, const PollArguments& arguments);
 
-/// A Simple2-R3 program: from its listing to cells, and back (interpreter/simple2/listing.h).
-int assemble_program(const std::string& file);
-int disassemble_program(const std::string& file);
+/// A program as text, and what decides how it is read.
+struct ProgramTextArguments {
+  std::string model;
+  std::string firmware;              // empty: the newest
+  std::vector<std::string> choices;  // "ID=OPTION"
+  std::string file;
+};
+/// Into the numbers that go over the wire, and back (emulator/device/program_cells.h).
+int assemble_program(ModelList models, const ProgramTextArguments& arguments);
+int disassemble_program(ModelList models, const ProgramTextArguments& arguments);
 
-/// Benches, scenarios, and files of steps that scenarios include; folders with such files.
-int check_files(const std::vector<std::string>& files, const std::string& save_below);
+struct CheckArguments {
+  std::vector<std::string> files;  // and folders with such files
+  std::string save_below;          // the folder that scenarios may save in; empty: their own
+  ProgramTextArguments programs;   // with a model the files are programs for it
+};
+/// Benches, scenarios, and files of steps that scenarios include; or programs.
+int check_files(ModelList models, const CheckArguments& arguments);
 /// The JSON Schema of "bench" or "scenario" files.
 int print_schema(const std::string& what);
 

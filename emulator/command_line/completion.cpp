@@ -11,7 +11,6 @@
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/device/model.h"
-#include "emulator/models/models.h"
 #include "emulator/world/faults/kinds.h"
 
 namespace understudy::emulator::command_line {
@@ -25,9 +24,9 @@ void for_each(const CommandWords& command, const std::string& path,
   for (const CommandWords& below : command.commands) for_each(below, path + " " + below.name, act);
 }
 
-std::string model_names() {
+std::string names_of(ModelList models) {
   std::string names;
-  for (const Model* const model : models::all_models()) {
+  for (const Model* const model : models) {
     names += (names.empty() ? "" : " ") + std::string(model->name);
   }
   return names;
@@ -47,8 +46,8 @@ struct OperandWords {
   int place = 0;  // from 0
   std::string words;
 };
-std::vector<OperandWords> operand_words() {
-  return {{"understudy describe", 0, model_names()},
+std::vector<OperandWords> operand_words(ModelList models) {
+  return {{"understudy describe", 0, names_of(models)},
           {"understudy describe", 1, "registers parameters instructions commands choices"},
           {"understudy schema", 0, "bench scenario"},
           {"understudy completion", 0, "bash zsh fish"},
@@ -92,7 +91,7 @@ std::string patterns_of(const CommandWords& words, const std::string& separator)
   return patterns;
 }
 
-std::string bash_script(const CommandWords& words) {
+std::string bash_script(const CommandWords& words, ModelList models) {
   std::string cases;
   for_each(words, words.name, [&](const std::string& path, const CommandWords& command) {
     std::string commands;
@@ -102,7 +101,7 @@ std::string bash_script(const CommandWords& words) {
     cases += "    '" + path + "') commands='" + commands + "' flags='" + flags + "' ;;\n";
   });
   std::string operands;
-  for (const OperandWords& row : operand_words()) {
+  for (const OperandWords& row : operand_words(models)) {
     operands += "    '" + row.path + " " + std::to_string(row.place) + "') operands='" + row.words + "' ;;\n";
   }
   return "# bash completion for understudy, made by `understudy completion bash`\n"
@@ -133,7 +132,7 @@ std::string bash_script(const CommandWords& words) {
          "  esac\n"
          "  if [[ $before == --model ]]; then\n"
          "    COMPREPLY=($(compgen -W '" +
-         model_names() +
+         names_of(models) +
          "' -- \"$word\"))\n"
          "  elif [[ $word == -* ]]; then\n"
          "    COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
@@ -146,7 +145,7 @@ std::string bash_script(const CommandWords& words) {
          "complete -o default -F _understudy understudy\n";
 }
 
-std::string zsh_script(const CommandWords& words) {
+std::string zsh_script(const CommandWords& words, ModelList models) {
   const auto entry = [](const std::string& name, const std::string& help) {
     std::string text = name + ":";
     for (const char c : help) text += c == ':' ? std::string("\\:") : std::string(1, c);
@@ -161,7 +160,7 @@ std::string zsh_script(const CommandWords& words) {
     cases += ") ;;\n";
   });
   std::string operands;
-  for (const OperandWords& row : operand_words()) {
+  for (const OperandWords& row : operand_words(models)) {
     operands += "    '" + row.path + " " + std::to_string(row.place) + "') operands=(" + row.words + ") ;;\n";
   }
   return "#compdef understudy\n"
@@ -191,7 +190,7 @@ std::string zsh_script(const CommandWords& words) {
          operands +
          "  esac\n"
          "  models=(" +
-         model_names() +
+         names_of(models) +
          ")\n"
          "  if [[ ${words[CURRENT-1]} == --model ]]; then\n"
          "    compadd -a models\n"
@@ -209,7 +208,7 @@ std::string zsh_script(const CommandWords& words) {
          "understudy; fi\n";
 }
 
-std::string fish_script(const CommandWords& words) {
+std::string fish_script(const CommandWords& words, ModelList models) {
   std::string script =
       "# fish completion for understudy, made by `understudy completion fish`\n"
       "function __understudy_path\n"
@@ -252,7 +251,7 @@ std::string fish_script(const CommandWords& words) {
       "  end\n"
       "  echo $path $place\n"
       "end\n";
-  for (const OperandWords& row : operand_words()) {
+  for (const OperandWords& row : operand_words(models)) {
     script += "complete -c understudy -n 'test \"(__understudy_place)\" = \"" + row.path + " " +
               std::to_string(row.place) + "\"' -f -a '" + row.words + "'\n";
   }
@@ -263,7 +262,7 @@ std::string fish_script(const CommandWords& words) {
       script += here + " -f -a " + below.name + " -d " + in_quotes(below.help, "\\'") + "\n";
     }
     for (const CommandWords::Flag& flag : command.flags) {
-      const std::string value = flag.name == "model" ? " -x -a '" + model_names() + "'"
+      const std::string value = flag.name == "model" ? " -x -a '" + names_of(models) + "'"
                                 : flag.takes_value   ? " -r"
                                                      : "";
       script += here + " -l " + flag.name + value + " -d " + in_quotes(flag.help, "\\'") + "\n";
@@ -274,18 +273,19 @@ std::string fish_script(const CommandWords& words) {
 
 }  // namespace
 
-std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell) {
-  if (shell == "bash") return bash_script(words);
-  if (shell == "zsh") return zsh_script(words);
-  if (shell == "fish") return fish_script(words);
+std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell,
+                                             ModelList models) {
+  if (shell == "bash") return bash_script(words, models);
+  if (shell == "zsh") return zsh_script(words, models);
+  if (shell == "fish") return fish_script(words, models);
   return std::nullopt;
 }
 
-int print_completion(const CommandWords& words, const std::string& shell) {
-  const auto script = completion_script(words, shell);
+int print_completion(const CommandWords& words, const std::string& shell, ModelList models) {
+  const auto script = completion_script(words, shell, models);
   if (!script) {
     throw UsageError("completion: " + understudy::quoted(shell) +
-                     " is not a shell that is known; expected bash, zsh or fish");
+                     " is not a known shell; expected bash, zsh or fish");
   }
   std::fputs(script->c_str(), stdout);
   return kExitWell;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/device/model.h"
+
 namespace understudy::emulator::command_line {
 
 /// A command, what may come after it, and its subcommands.
@@ -22,9 +24,10 @@ struct CommandWords {
 
 /// For "bash", "zsh" or "fish"; nothing for other shells. Where neither a command nor a flag can come, it
 /// offers what is known for that place (models, faults), or files; after --model, the models.
-std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell);
+std::optional<std::string> completion_script(const CommandWords& words, const std::string& shell,
+                                             ModelList models);
 
 /// `understudy completion SHELL`.
-int print_completion(const CommandWords& words, const std::string& shell);
+int print_completion(const CommandWords& words, const std::string& shell, ModelList models);
 
 }  // namespace understudy::emulator::command_line

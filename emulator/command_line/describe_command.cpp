@@ -11,20 +11,19 @@
 #include "emulator/device/describe/sheet.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/register_map.h"
-#include "emulator/models/models.h"
 
 namespace understudy::emulator::command_line {
 
-const Model& demand_model(const std::string& name) {
-  if (const Model* model = find_model(models::all_models(), name)) return *model;
+const Model& demand_model(ModelList models, const std::string& name) {
+  if (const Model* model = find_model(models, name)) return *model;
   std::vector<std::string> names;
-  for (const Model* model : models::all_models()) names.emplace_back(model->name);
+  for (const Model* model : models) names.emplace_back(model->name);
   throw UsageError(quoted(name) + " is not a model" + suggestion(name, names) +
                    " (`understudy models` lists them)");
 }
 
-int list_models() {
-  for (const Model* model : models::all_models()) {
+int list_models(ModelList models) {
+  for (const Model* model : models) {
     std::printf("%s  %s (firmware %s to %s)\n", std::string(model->name).c_str(),
                 std::string(model->title).c_str(), version_text(model->firmwares.front()).c_str(),
                 version_text(model->firmwares.back()).c_str());
@@ -32,8 +31,8 @@ int list_models() {
   return kExitWell;
 }
 
-int describe_model(const DescribeArguments& arguments) {
-  const Model& model = demand_model(arguments.model);
+int describe_model(ModelList models, const DescribeArguments& arguments) {
+  const Model& model = demand_model(models, arguments.model);
   const auto format = parse_sheet_format(arguments.format);
   if (!format)
     throw UsageError("--format: " + quoted(arguments.format) +

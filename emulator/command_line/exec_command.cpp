@@ -22,7 +22,6 @@
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/command_line/terminal.h"
-#include "emulator/models/models.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/companion.h"
 #include "emulator/play/results/result.h"
@@ -46,7 +45,7 @@ namespace {
 constexpr int kExitTimedOut = 124;
 constexpr int kExitNotStarted = 127;
 
-/// Calls once, so long after it was made.
+/// Calls once, this long after it was made.
 class Alarm {
  public:
   Alarm(serve::EventLoop& loop, serve::WallTime after, std::function<void()> call)
@@ -218,17 +217,16 @@ void demand_apart(const play::Scenario& scenario, const ServeArguments& serve, F
 
 }  // namespace
 
-int execute(const ExecArguments& arguments) {
+int execute(ModelList models, const ExecArguments& arguments) {
   if (!arguments.stray_words.empty() || arguments.command.empty()) {
     throw UsageError("exec: expected -- and a command behind it, such as `exec bench.yaml -- ./my_host`");
   }
   timeout_of(arguments);
-  Serving serving = make_serving(arguments.serve, "exec");
+  Serving serving = make_serving(models, arguments.serve, "exec");
   demand_variables(serving.bench);
   std::optional<play::Scenario> scenario;
   if (!arguments.with.empty()) {
-    scenario =
-        play::load_companion(models::all_models(), arguments.with, serving.bench, arguments.save_below);
+    scenario = play::load_companion(models, arguments.with, serving.bench, arguments.save_below);
     demand_apart(*scenario, arguments.serve, serving.options.files);
   }
   serve::remove_left_overs();

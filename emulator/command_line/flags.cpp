@@ -16,6 +16,7 @@
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/completion.h"
+#include "emulator/device/model.h"
 
 namespace understudy::emulator::command_line {
 
@@ -31,6 +32,7 @@ constexpr const char* kTraceAlsoHelp =
 constexpr const char* kLintHelp = "Report at the end what a real controller would not forgive its host";
 
 struct CommandLine {
+  ModelList models;
   CLI::App app{"Firmware-faithful emulator of industrial motion controllers.", "understudy"};
   DescribeArguments describe;
   ServeArguments serve;
@@ -42,14 +44,13 @@ struct CommandLine {
   FramesArguments frames;
   PollArguments poll;
   PlotArguments plot;
-  std::string program;
+  ProgramTextArguments program;
+  CheckArguments check;
   std::string schema;
   std::string shell;
-  std::vector<std::string> files;
-  std::string save_below;
   std::function<int()> chosen;
 
-  CommandLine() {
+  explicit CommandLine(ModelList known) : models(known) {
     app.require_subcommand(1);
     app.set_version_flag("--version", UNDERSTUDY_VERSION);
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
@@ -73,7 +74,9 @@ struct CommandLine {
 
  private:
   void add_models() {
-    app.add_subcommand("models", "List the models")->callback([this] { chosen = list_models; });
+    app.add_subcommand("models", "List the models")->callback([this] {
+      chosen = [this] { return list_models(models); };
+    });
   }
 
   void add_describe() {
@@ -82,7 +85,7 @@ struct CommandLine {
     command->add_option("WHAT", describe.what, "registers, parameters, instructions, commands or choices")
         ->required();
     command->add_option("--format", describe.format, "table, csv, json or markdown")->capture_default_str();
-    command->callback([this] { chosen = [this] { return describe_model(describe); }; });
+    command->callback([this] { chosen = [this] { return describe_model(models, describe); }; });
   }
 
   /// Those of everything that serves a bench.
@@ -146,7 +149,7 @@ struct CommandLine {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     add_serving_flags(*command, serve);
     command->callback(
-        [this] { chosen = [this] { return understudy::emulator::command_line::serve(serve); }; });
+        [this] { chosen = [this] { return understudy::emulator::command_line::serve(models, serve); }; });
   }
 
   static void add_save_below(CLI::App& command, std::string& folder) {
@@ -168,7 +171,7 @@ struct CommandLine {
     command
         ->add_option("--timeout", exec.timeout, "End the command after this time, by the wall clock [never]")
         ->check(kNotEmpty);
-    command->callback([this] { chosen = [this] { return execute(exec); }; });
+    command->callback([this] { chosen = [this] { return execute(models, exec); }; });
   }
 
   void add_tty_shim() {
@@ -200,7 +203,7 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->callback([this] {
       replay.version = UNDERSTUDY_VERSION;
-      chosen = [this] { return replay_recording(replay); };
+      chosen = [this] { return replay_recording(models, replay); };
     });
   }
 
@@ -240,7 +243,7 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->callback([this] {
       run.version = UNDERSTUDY_VERSION;
-      chosen = [this] { return run_scenarios(run); };
+      chosen = [this] { return run_scenarios(models, run); };
     });
   }
 
@@ -346,7 +349,7 @@ struct CommandLine {
     command->add_option("--timeout", poll.timeout, "How long to wait for a reply")->capture_default_str();
     command->add_option("--every", poll.every, "Time between two rounds")->check(kNotEmpty);
     command->add_option("--times", poll.times, "How many rounds; 0: no end")->capture_default_str();
-    command->callback([this] { chosen = [this] { return poll_port(poll); }; });
+    command->callback([this] { chosen = [this] { return poll_port(models, poll); }; });
   }
 
   void add_plot() {
@@ -360,20 +363,37 @@ struct CommandLine {
     command->callback([this] { chosen = [this] { return plot_trace(plot); }; });
   }
 
+  static void add_firmware_and_choices(CLI::App& command, ProgramTextArguments& text) {
+    command.add_option("--firmware", text.firmware, "The firmware that runs it [newest]")->check(kNotEmpty);
+    command.add_option("--choice", text.choices, "Another option of a choice: ID=OPTION")->check(kNotEmpty);
+  }
+
   void add_program_text() {
-    CLI::App* command = app.add_subcommand("asm", "Turn a Simple2-R3 listing into the cells of its lines");
-    command->add_option("FILE", program, "A listing")->required();
-    command->callback([this] { chosen = [this] { return assemble_program(program); }; });
-    command = app.add_subcommand("disasm", "Turn the cells of a Simple2-R3 program into a listing");
-    command->add_option("FILE", program, "Lines of CMD DATA1 DATA2 JMP, as asm prints them")->required();
-    command->callback([this] { chosen = [this] { return disassemble_program(program); }; });
+    program.model = "simple2-r3";
+    CLI::App* command = app.add_subcommand("asm", "Turn a program into the numbers that go over the wire");
+    command->add_option("FILE", program.file, "A listing")->required();
+    command->add_option("--model", program.model, "Whose program it is")->capture_default_str();
+    add_firmware_and_choices(*command, program);
+    command->callback([this] { chosen = [this] { return assemble_program(models, program); }; });
+    command = app.add_subcommand("disasm", "Turn the numbers of a program into its text");
+    command->add_option("FILE", program.file, "Lines of numbers, as asm prints them")->required();
+    command->add_option("--model", program.model, "Whose program it is")->capture_default_str();
+    add_firmware_and_choices(*command, program);
+    command->callback([this] { chosen = [this] { return disassemble_program(models, program); }; });
   }
 
   void add_check() {
-    CLI::App* command = app.add_subcommand("check", "Validate benches and scenarios without running them");
-    command->add_option("FILE", files, "Bench and scenario files, and folders of them")->required();
-    add_save_below(*command, save_below);
-    command->callback([this] { chosen = [this] { return check_files(files, save_below); }; });
+    CLI::App* command =
+        app.add_subcommand("check", "Validate benches, scenarios and programs without running them");
+    command
+        ->add_option("FILE", check.files,
+                     "Bench and scenario files, and folders of them; or with --model programs")
+        ->required();
+    command->add_option("--model", check.programs.model, "The model whose programs the files are")
+        ->check(kNotEmpty);
+    add_firmware_and_choices(*command, check.programs);
+    add_save_below(*command, check.save_below);
+    command->callback([this] { chosen = [this] { return check_files(models, check); }; });
   }
 
   void add_schema() {
@@ -386,14 +406,14 @@ struct CommandLine {
     CLI::App* command = app.add_subcommand(
         "completion", "Print a script that makes a shell complete the words of `understudy`");
     command->add_option("SHELL", shell, "bash, zsh or fish")->required();
-    command->callback([this] { chosen = [this] { return print_completion(words_of(app), shell); }; });
+    command->callback([this] { chosen = [this] { return print_completion(words_of(app), shell, models); }; });
   }
 };
 
 }  // namespace
 
-std::function<int()> parse_command_line(int argc, char** argv) {
-  const auto line = std::make_shared<CommandLine>();
+std::function<int()> parse_command_line(int argc, char** argv, ModelList models) {
+  const auto line = std::make_shared<CommandLine>(models);
   // The words of `exec`'s command are its own, whatever they look like.
   char** const end = argv + argc;
   char** own_end = end;

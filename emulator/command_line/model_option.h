@@ -7,6 +7,6 @@
 namespace understudy::emulator::command_line {
 
 /// The model of that name. Throws UsageError with the nearest name.
-const Model& demand_model(const std::string& name);
+const Model& demand_model(ModelList models, const std::string& name);
 
 }  // namespace understudy::emulator::command_line

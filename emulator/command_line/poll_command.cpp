@@ -86,11 +86,11 @@ void read_value_of(Item& item, const std::string& text) {
   const auto real = parse_real(value);
   if (!real) throw UsageError("poll: " + quoted(text) + " is not understood; expected NAME=NUMBER");
   const auto single = static_cast<float>(*real);
-  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is more than a single can hold");
+  if (std::isinf(single)) throw UsageError("poll: " + quoted(text) + " is more than a 32-bit real can hold");
   item.value = value_of_real(single);
 }
 
-Item parse_item(const std::string& text, const PollArguments& arguments) {
+Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments) {
   Item item;
   const std::size_t equals = text.find('=');
   const std::string what = text.substr(0, equals);
@@ -121,7 +121,7 @@ Item parse_item(const std::string& text, const PollArguments& arguments) {
   if (arguments.model.empty())
     throw UsageError("poll: " + quoted(what) +
                      " is a name; expected --model MODEL to look it up, or an address");
-  const Model& model = demand_model(arguments.model);
+  const Model& model = demand_model(models, arguments.model);
   if (!model.rtu || model.registers == nullptr) {
     throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
                      ", no Modbus; expected a model with registers, or a terminal program");
@@ -268,12 +268,12 @@ void demand_fitting(const Item& item) {
 
 }  // namespace
 
-int poll_port(const PollArguments& arguments) {
+int poll_port(ModelList models, const PollArguments& arguments) {
   if (arguments.items.empty())
     throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
   std::vector<Item> items;
   for (const std::string& text : arguments.items) {
-    items.push_back(parse_item(text, arguments));
+    items.push_back(parse_item(models, text, arguments));
     demand_fitting(items.back());
     if (arguments.station == 0 && !items.back().write) {
       throw UsageError(

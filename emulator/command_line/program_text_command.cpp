@@ -1,86 +1,103 @@
-#include <charconv>
-#include <cstdint>
 #include <cstdio>
-#include <sstream>
+#include <optional>
 #include <string>
-#include <system_error>
+#include <vector>
 
-#include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/model_option.h"
+#include "emulator/command_line/program_texts.h"
 #include "emulator/command_line/text_argument.h"
-#include "interpreter/simple2/listing.h"
-#include "interpreter/simple2/program.h"
+#include "emulator/device/model.h"
+#include "emulator/device/program_cells.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/program_language.h"
 
-// The Simple2-R3 program as text and back. Its cells are a line of four numbers for each line of the program,
-// as a master writes them from 0x4000 on; what follows the last line that is not all zeros is left out.
+// Programs as text and as numbers. Every model with a language has the first, some have the second.
 namespace understudy::emulator::command_line {
 
 namespace {
 
-using interpreter::simple2::Line;
-using interpreter::simple2::Lines;
+/// What both directions need.
+struct ProgramFile {
+  const ProgramCells& cells;
+  DeviceSettings settings;
+  std::string text;
+};
 
-/// Null, and one line on standard error, if it cannot be read.
-FileText content_of(const std::string& file) {
-  auto text = read_text_argument(file);
-  if (!text) std::fprintf(stderr, "%s: %s; expected a file\n", file.c_str(), text.why.c_str());
-  return text;
-}
-
-int refuse(const std::string& file, std::size_t line, const std::string& what) {
-  std::fprintf(stderr, "%s:%zu: %s\n", file.c_str(), line, what.c_str());
-  return kExitBadInput;
+/// Nothing, and one line on standard error, if it cannot be read.
+std::optional<ProgramFile> open_program(ModelList models, const ProgramTextArguments& arguments,
+                                        const char* command) {
+  const Model& model = demand_model(models, arguments.model);
+  const ProgramLanguage& language = demand_language(model);
+  if (language.cells() == nullptr) {
+    throw UsageError(std::string(command) + ": a " + std::string(language.name()) +
+                     " does not become numbers for the wire; expected another --model, or `check --model " +
+                     std::string(model.name) + "`");
+  }
+  DeviceSettings settings = program_settings(model, arguments);
+  auto text = read_text_argument(arguments.file);
+  if (!text) {
+    std::fprintf(stderr, "%s: %s; expected a file\n", arguments.file.c_str(), text.why.c_str());
+    return std::nullopt;
+  }
+  return ProgramFile{.cells = *language.cells(), .settings = std::move(settings), .text = *text};
 }
 
 }  // namespace
 
-int assemble_program(const std::string& file) {
-  const auto text = content_of(file);
-  if (!text) return kExitBadInput;
-  const auto assembly = interpreter::simple2::assemble(*text);
-  for (const auto& error : assembly.errors) {
-    std::fprintf(stderr, "%s:%s\n", file.c_str(), to_string(error).c_str());
-  }
-  if (!assembly.lines) return kExitBadInput;
-  std::size_t count = assembly.lines->size();
-  while (count > 0 && (*assembly.lines)[count - 1] == Line{}) --count;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Line& line = (*assembly.lines)[i];
-    std::printf("%d %d %d %d\n", line.command, line.data1, line.data2, line.flag);
+int assemble_program(ModelList models, const ProgramTextArguments& arguments) {
+  const auto program = open_program(models, arguments, "asm");
+  if (!program) return kExitBadInput;
+  try {
+    std::fputs(to_text(program->cells.assemble(program->text, program->settings)).c_str(), stdout);
+  } catch (const ProgramError& error) {
+    print_mistakes(error.mistakes, arguments.file);
+    return kExitBadInput;
   }
   return kExitWell;
 }
 
-int disassemble_program(const std::string& file) {
-  const auto text = content_of(file);
-  if (!text) return kExitBadInput;
-  Lines lines{};
-  std::size_t next = 0;
-  std::size_t number = 0;
-  std::istringstream rows(*text);
-  for (std::string row; std::getline(rows, row);) {
-    ++number;
-    std::istringstream words(row);
-    std::string word;
-    int cells[4] = {};
-    std::size_t found = 0;
-    for (; words >> word; ++found) {
-      if (found == 4) return refuse(file, number, "more than four cells; expected CMD DATA1 DATA2 JMP");
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), cells[found]);
-      if (error != std::errc{} || end != word.data() + word.size() || cells[found] < 0 ||
-          cells[found] > 255) {
-        return refuse(file, number, quoted(word) + " is not a cell; expected 0 to 255");
-      }
-    }
-    if (found == 0) continue;
-    if (found < 4) return refuse(file, number, "fewer than four cells; expected CMD DATA1 DATA2 JMP");
-    if (next == lines.size()) return refuse(file, number, "one line too many; expected at most 256");
-    const auto cell = [&](int i) { return static_cast<std::uint8_t>(cells[i]); };
-    lines[next++] = {.command = cell(0), .data1 = cell(1), .data2 = cell(2), .flag = cell(3)};
+int disassemble_program(ModelList models, const ProgramTextArguments& arguments) {
+  const auto program = open_program(models, arguments, "disasm");
+  if (!program) return kExitBadInput;
+  try {
+    const std::vector<CellRow> rows = read_cells(program->text, program->cells.cell_form());
+    std::fputs(program->cells.disassemble(rows, program->settings).c_str(), stdout);
+  } catch (const ProgramError& error) {
+    print_mistakes(error.mistakes, arguments.file);
+    return kExitBadInput;
   }
-  std::fputs(interpreter::simple2::disassemble(lines).c_str(), stdout);
   return kExitWell;
+}
+
+const ProgramLanguage& demand_language(const Model& model) {
+  if (model.language == nullptr) throw UsageError(no_program(model).what);
+  return *model.language;
+}
+
+DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments) {
+  DeviceSettings settings;
+  if (!arguments.firmware.empty()) {
+    settings.firmware = parse_firmware(arguments.firmware);
+    if (settings.firmware == 0) {
+      throw UsageError("--firmware: " + quoted(arguments.firmware) +
+                       " is not a version; expected one like 1.52");
+    }
+  }
+  for (const std::string& choice : arguments.choices) {
+    const std::size_t equals = choice.find('=');
+    if (equals == std::string::npos)
+      throw UsageError("--choice: " + quoted(choice) + " is not understood; expected ID=OPTION");
+    settings.choices[choice.substr(0, equals)] = choice.substr(equals + 1);
+  }
+  return checked_settings(model, settings);
+}
+
+void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file) {
+  for (const ProgramMistake& mistake : mistakes) {
+    std::fprintf(stderr, "%s\n", one_line(in_file(mistake, file)).c_str());
+  }
 }
 
 }  // namespace understudy::emulator::command_line

@@ -18,7 +18,6 @@
 #include "emulator/command_line/replay_looks.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/serving.h"
-#include "emulator/models/models.h"
 #include "emulator/play/report/page.h"
 #include "emulator/play/results/result.h"
 #include "emulator/serve/control/control_door.h"
@@ -59,7 +58,7 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
 
 }  // namespace
 
-int replay_recording(const ReplayArguments& arguments) {
+int replay_recording(ModelList models, const ReplayArguments& arguments) {
   std::optional<SimTime> until;
   if (!arguments.until.empty()) {
     until = parse_duration(arguments.until);
@@ -81,10 +80,10 @@ int replay_recording(const ReplayArguments& arguments) {
   const auto watch = [&](world::World& world) {
     return std::make_unique<ReplayLooks>(world, arguments, seen);
   };
-  const world::Replayed replayed = world::replay(models::all_models(), file, arguments.recording, until,
-                                                 watch, [&](const world::World& world) {
-                                                   if (until) state = world::save(world);
-                                                 });
+  const world::Replayed replayed =
+      world::replay(models, file, arguments.recording, until, watch, [&](const world::World& world) {
+        if (until) state = world::save(world);
+      });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (report.is_wanted()) {
     const play::ScenarioResult shown = result_of(replayed, arguments.recording, std::move(seen));

@@ -19,7 +19,6 @@
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/command_line/yaml_files.h"
-#include "emulator/models/models.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/onlooker.h"
 #include "emulator/play/performing/run.h"
@@ -43,7 +42,7 @@ namespace {
 /// The files that are played: of a folder its scenarios, and neither its benches nor steps to include.
 std::vector<std::string> files_of(const std::string& path) {
   if (!std::filesystem::is_directory(path)) return {path};
-  std::vector<std::string> files = yaml_files_below(path);
+  std::vector<std::string> files = files_below(path, kYamlEndings);
   std::erase_if(files,
                 [](const std::string& file) { return play::kind_of_file(file) != play::FileKind::scenario; });
   if (files.empty()) throw FileError(path + ": folder: has no scenario; expected at least one");
@@ -51,10 +50,10 @@ std::vector<std::string> files_of(const std::string& path) {
 }
 
 /// All scenarios of all files; what is wrong with each is told. Nothing if anything is.
-std::optional<std::vector<play::Scenario>> load_all(const RunArguments& arguments) {
+std::optional<std::vector<play::Scenario>> load_all(ModelList models, const RunArguments& arguments) {
   std::vector<play::Scenario> scenarios;
   std::vector<std::string> files;
-  play::SharedReading shared{.models = models::all_models(), .benches = {}, .included = {}};
+  play::SharedReading shared{.models = models, .benches = {}, .included = {}};
   bool is_well = true;
   for (const std::string& path : arguments.scenarios) {
     try {
@@ -156,12 +155,12 @@ void print(const std::vector<play::ScenarioResult>& results, bool with_hash, std
 
 }  // namespace
 
-int run_scenarios(const RunArguments& arguments) {
+int run_scenarios(ModelList models, const RunArguments& arguments) {
   const int jobs = jobs_of(arguments);
   if (arguments.hash && arguments.real_time) {
     throw UsageError("--hash: in real time no two runs are the same; expected it without --real-time");
   }
-  auto loaded = load_all(arguments);
+  auto loaded = load_all(models, arguments);
   if (!loaded) return kExitBadInput;
   FileClaims claims;  // also by those that are not chosen
   for (const play::Scenario& scenario : *loaded) claims.add(scenario.files);

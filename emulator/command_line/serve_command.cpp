@@ -11,8 +11,8 @@
 
 namespace understudy::emulator::command_line {
 
-int serve(const ServeArguments& arguments) {
-  const Serving serving = make_serving(arguments, "serve");
+int serve(ModelList models, const ServeArguments& arguments) {
+  const Serving serving = make_serving(models, arguments, "serve");
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
   signal(SIGXFSZ, SIG_IGN);  // a capture that may not grow further ends, the devices go on
   serve::Daemon daemon(serving.bench, serving.options, log_line);

@@ -16,7 +16,6 @@
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/output_paths.h"
 #include "emulator/device/model.h"
-#include "emulator/models/models.h"
 #include "emulator/serve/control/control_door.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/daemon/nv_keeper.h"
@@ -51,8 +50,8 @@ void demand_possible(const world::DeviceSetup& device) {
 }
 
 /// One device on all its ports, from flags.
-world::Bench bench_of_flags(const ServeArguments& arguments) {
-  world::DeviceSetup device{.model = &demand_model(arguments.model), .settings = {}};
+world::Bench bench_of_flags(ModelList models, const ServeArguments& arguments) {
+  world::DeviceSetup device{.model = &demand_model(models, arguments.model), .settings = {}};
   device.settings.name = "device";
   device.settings.address = arguments.station;
   if (arguments.station && !device.model->line.station_numbers) {
@@ -80,7 +79,7 @@ world::Bench bench_of_flags(const ServeArguments& arguments) {
   return world::bench_of_one(*device.model, device.settings, link);
 }
 
-world::Bench make_bench(const ServeArguments& arguments, const std::string& command) {
+world::Bench make_bench(ModelList models, const ServeArguments& arguments, const std::string& command) {
   if (arguments.bench.empty() == arguments.model.empty()) {
     throw UsageError(command + ": expected either a bench file or --model MODEL");
   }
@@ -91,9 +90,8 @@ world::Bench make_bench(const ServeArguments& arguments, const std::string& comm
                      ": --station, --modules, --firmware, --baud and --link belong to --model; a bench file "
                      "says them itself");
   }
-  world::Bench bench = arguments.bench.empty()
-                           ? bench_of_flags(arguments)
-                           : world::load_bench(models::all_models(), arguments.bench, arguments.links);
+  world::Bench bench = arguments.bench.empty() ? bench_of_flags(models, arguments)
+                                               : world::load_bench(models, arguments.bench, arguments.links);
   for (world::LineSetup& line : bench.lines) {
     if (!arguments.links.empty() && line.link.empty())
       line.link = arguments.links + "/" + line.name + ".port";
@@ -153,9 +151,9 @@ std::optional<gid_t> demand_group(const std::string& name) {
 
 }  // namespace
 
-Serving make_serving(const ServeArguments& arguments, const std::string& command) {
+Serving make_serving(ModelList models, const ServeArguments& arguments, const std::string& command) {
   Serving serving;
-  serving.bench = make_bench(arguments, command);
+  serving.bench = make_bench(models, arguments, command);
   serve::read_memories(serving.bench, arguments.nv);
   serve::DaemonOptions& options = serving.options;
   options.strict_framing = arguments.strict_framing;

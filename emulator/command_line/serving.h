@@ -21,7 +21,7 @@ struct Serving {
 
 /// Reads the bench and the memories it begins with. `command` is for messages. Throws what is wrong with
 /// them.
-Serving make_serving(const ServeArguments& arguments, const std::string& command);
+Serving make_serving(ModelList models, const ServeArguments& arguments, const std::string& command);
 
 /// One line for each port on standard output: its pty and its link. Throws PortError if nobody can read it.
 void say_ready(const serve::Daemon& daemon);

@@ -72,7 +72,7 @@ class Screen {
   }
   static std::size_t columns() { return size_now().ws_col; }
 
-  /// Waits so long, or until a signal or a key comes. False when somebody wants to end it.
+  /// Waits this long, or until a signal or a key comes. False when somebody wants to end it.
   bool wait(Clock::duration time) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(time).count();
     pollfd keyboard{keyboard_.is_there() ? STDIN_FILENO : -1, POLLIN, 0};

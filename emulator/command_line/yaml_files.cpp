@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace understudy::emulator::command_line {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> yaml_files_below(const std::string& folder) {
+std::vector<std::string> files_below(const std::string& folder, std::span<const std::string_view> endings) {
   std::vector<std::string> files;
   std::error_code error;
   for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
@@ -20,15 +22,19 @@ std::vector<std::string> yaml_files_below(const std::string& folder) {
     const bool is_hidden = path.filename().string().starts_with(".");
     if (is_hidden && it->is_directory()) it.disable_recursion_pending();
     if (is_hidden || it->is_directory()) continue;
-    if (path.extension() == ".yaml" || path.extension() == ".yml") files.push_back(path.string());
+    if (std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end())
+      files.push_back(path.string());
   }
   if (error) throw FileError(folder + ": folder: cannot be read (" + error.message() + "); expected one");
-  if (files.empty()) throw FileError(folder + ": folder: has no .yaml file; expected at least one");
+  if (files.empty())
+    throw FileError(folder + ": folder: has no " + std::string(endings.front()) +
+                    " file; expected at least one");
   std::sort(files.begin(), files.end());
   return files;
 }
 
-std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths) {
+std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths,
+                                             std::span<const std::string_view> endings) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     std::error_code error;
@@ -36,7 +42,7 @@ std::vector<std::string> with_folders_opened(const std::vector<std::string>& pat
       files.push_back(path);
       continue;
     }
-    const auto below = yaml_files_below(path);
+    const auto below = files_below(path, endings);
     files.insert(files.end(), below.begin(), below.end());
   }
   return files;

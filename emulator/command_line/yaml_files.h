@@ -1,16 +1,22 @@
 // Turns the files and folders given to `run` and `check` into files.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace understudy::emulator::command_line {
 
-/// All .yaml and .yml files in a folder and those below it, by their names; nothing hidden, and no folder
-/// that is a link. Throws FileError if a folder cannot be read, or has none.
-std::vector<std::string> yaml_files_below(const std::string& folder);
+inline constexpr std::array<std::string_view, 2> kYamlEndings{".yaml", ".yml"};
+
+/// All files with one of these endings in a folder and those below it, by their names; nothing hidden, and no
+/// folder that is a link. Throws FileError if a folder cannot be read, or has none.
+std::vector<std::string> files_below(const std::string& folder, std::span<const std::string_view> endings);
 
 /// Replaces each folder by its files.
-std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths);
+std::vector<std::string> with_folders_opened(const std::vector<std::string>& paths,
+                                             std::span<const std::string_view> endings);
 
 }  // namespace understudy::emulator::command_line

@@ -4,6 +4,7 @@
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/user_program.h"
 
@@ -69,9 +70,7 @@ void Device::mention_unmodelled(std::string_view what, std::string_view why) con
 
 void load_program(Device& device, std::string_view text) {
   UserProgram* const program = device.user_program();
-  if (program == nullptr) {
-    throw ProgramError(0, std::string(device.model().name) + " takes no program from a file; expected none");
-  }
+  if (program == nullptr) throw ProgramError(std::vector{no_program(device.model())});
   program->load_program(text);
 }
 

@@ -17,7 +17,7 @@ class MachineAhead {
   /// How far an axis may go before anything but its place and its encoder's count changes.
   virtual PulseRoom room(int axis) const = 0;
   virtual bool has_encoder(int axis) const = 0;
-  /// The count after so many pulses more, within the room.
+  /// The count after this many more pulses, within the room.
   virtual std::int64_t encoder_counts(int axis, std::int64_t pulses) const = 0;
 
  protected:

@@ -11,10 +11,16 @@
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/program_language.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/setting_entry.h"
 
 namespace understudy::emulator {
+
+ProgramMistake no_program(const Model& model) {
+  return {.what = std::string(model.name) + " takes no program from a file; expected none"};
+}
 
 const Model* find_model(ModelList models, std::string_view name) {
   const auto has_name = [&](const Model* model) { return model->name == name; };
@@ -227,7 +233,9 @@ void demand_facets(const Device& device) {
                         (model.terminals.empty() || device.terminals() != nullptr) &&
                         (model.axes.empty() || device.axes() != nullptr) &&
                         model.rtu.has_value() == (device.modbus() != nullptr) && !model.line.ports.empty();
-  if (!is_whole) throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
+  const bool takes_programs = (model.language != nullptr) == (device.user_program() != nullptr);
+  if (!is_whole || !takes_programs)
+    throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
   for (const TerminalGroup& group : model.terminal_groups) {
     const auto rows = model.terminals.subspan(static_cast<std::size_t>(group.first));
     bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMost &&
@@ -246,13 +254,24 @@ void demand_facets(const Device& device) {
 
 }  // namespace
 
-std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
-                                    std::function<void(const std::string&)> log) {
+DeviceSettings checked_settings(const Model& model, const DeviceSettings& given) {
   check(model, given);
   DeviceSettings settings = given;
   if (settings.firmware == 0) settings.firmware = model.firmwares.back();
-
   demand_choices(model, settings);
+  return settings;
+}
+
+std::vector<ProgramMistake> check_program(const Model& model, std::string_view text,
+                                          const DeviceSettings& given) {
+  const DeviceSettings settings = checked_settings(model, given);
+  if (model.language == nullptr) return {no_program(model)};
+  return model.language->check(text, settings);
+}
+
+std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
+                                    std::function<void(const std::string&)> log) {
+  const DeviceSettings settings = checked_settings(model, given);
   std::unique_ptr<Device> device = model.make(settings);
   demand_facets(*device);
   device->set_log(std::move(log));

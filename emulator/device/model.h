@@ -14,12 +14,14 @@
 
 #include "emulator/device/choices.h"
 #include "emulator/device/memory/nv_image.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
 #include "pty/line_settings.h"
 
 namespace understudy::emulator {
 
 class Device;
+class ProgramLanguage;
 
 /// A row of a model's parameter numbers: `count` numbers from `first` on name the registers called
 /// `register_name`, counted from its first one.
@@ -27,6 +29,9 @@ struct ParameterRow {
   int first = 0;
   int count = 1;
   std::string_view register_name;  // as in the register table, "{}" for the number
+  std::string_view letter{};       // before the number, where there is one: "X", of X20
+  bool of_each_axis = false;       // the one number names them all: X20 is a register for each axis
+  std::string_view meaning{};
 };
 
 /// A row of a table of parameters, of a model whose values have no registers.
@@ -41,15 +46,6 @@ struct NamedParameterRow {
   std::string factory{};
   std::string_view meaning{};
   std::string_view unmodelled{};  // what is missing, if it is only stored
-};
-
-/// A row of a model's instruction table.
-struct InstructionRow {
-  int opcode = 0;
-  std::string_view mnemonic;
-  std::string_view data1;
-  std::string_view data2;
-  std::string_view meaning{};
 };
 
 /// A section of a manual that is not in English: a model's rows name it as the manual does.
@@ -191,7 +187,7 @@ struct Model {
   const RegisterMap* registers = nullptr;  // null: it has none
   std::span<const ParameterRow> parameters{};
   std::span<const NamedParameterRow> named_parameters{};
-  std::span<const InstructionRow> instructions{};
+  const ProgramLanguage* language = nullptr;  // of the programs that its devices take; null: they take none
   std::span<const CommandRow> commands{};
   std::span<const ChoiceRow> choices;
   std::span<const SectionRow> sections{};
@@ -202,7 +198,7 @@ struct Model {
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   LineRules line;
   std::optional<RtuRules> rtu{};  // of a model with ModbusStation
-  int most_modules = 0;           // the most the most that one device can consist of; 0: it is not a chain
+  int most_modules = 0;           // the most that one device can consist of; 0: it is not a chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
 };
@@ -236,19 +232,21 @@ struct SettingError : std::runtime_error {
   std::string setting;
 };
 
-/// A program that a device cannot take: one line, with the line of the text where it went wrong.
-struct ProgramError : std::runtime_error {
-  ProgramError(int line_of_text, const std::string& what_is_wrong)
-      : std::runtime_error(what_is_wrong), line(line_of_text) {}
-  int line = 0;  // from 1; 0: the whole
-};
-
 /// Checks the settings against the model, makes the device, gives it its memory, power and program, and the
 /// registers of `set` their values; the persistent ones are kept at once. Throws SettingError, NvError,
 /// ProgramError. `log` gets what the device has to say, from its settings on.
 std::unique_ptr<Device> make_device(const Model& model, const DeviceSettings& given,
                                     std::function<void(const std::string&)> log = {});
 
+/// The settings with the firmware that they mean. Throws SettingError: of what a model says by itself; what
+/// its switches and memory say is found when the device is made.
+DeviceSettings checked_settings(const Model& model, const DeviceSettings& given);
+/// Everything that is wrong with a program for devices made so: what loading it would say. Throws
+/// SettingError.
+std::vector<ProgramMistake> check_program(const Model& model, std::string_view text,
+                                          const DeviceSettings& given);
+/// What is wrong with every program for a model that has no language.
+ProgramMistake no_program(const Model& model);
 /// "1.52" as 152; 0 if it is not a version.
 Firmware parse_firmware(std::string_view text);
 

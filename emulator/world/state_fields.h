@@ -144,13 +144,13 @@ struct StateOf<emulator::world::World> {
                                             field("now", &Value::now_),
                                             field("done", &Value::done_),
                                             field("input_turns", &Value::input_turns_)};
-  static constexpr std::size_t members = 25;
+  static constexpr std::size_t members = 26;
   /// What it is made of, who looks at it, and how ticks were run.
-  static constexpr std::size_t apart = 16;
+  static constexpr std::size_t apart = 17;
   static void name_all(Value& all) {  // does not compile if there are others
     [[maybe_unused]] auto& [known, devices, axes, lines, text_lines, plants, contacts, told_edges,
-                            input_turns, sent_pulses, inputs, supplies, wires, watchers, listener, faults,
-                            next_fault, fault_watch, seed, disturbed, now, done, ticks, bulk_ticks,
+                            input_turns, sent_pulses, inputs, supplies, wires, watchers, stops_here, listener,
+                            faults, next_fault, fault_watch, seed, disturbed, now, done, ticks, bulk_ticks,
                             crossing_tries] = all;
   }
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "base/large_pages.h"
 #include "base/prefetch.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/fault_watch.h"
@@ -120,6 +122,8 @@ const PlantAxis& World::plant(std::size_t device, int axis) const {
 void World::advance_to(SimTime time) {
   // Ticks leave the lines alone, but for devices that speak unasked; watchers do not.
   SimTime line_time = next_line_time();
+  bool is_at_rest =
+      false;  // the tick before was a quiet one that watchers have seen, and nothing was done since
   while (true) {
     const SimTime tick_time = time_of(done_ + 1);
     if (std::min(line_time, tick_time) > time) break;
@@ -127,6 +131,7 @@ void World::advance_to(SimTime time) {
       now_ = std::max(now_, line_time);
       run_lines(line_time);
       line_time = next_line_time();
+      is_at_rest = false;
       continue;
     }
     // Ticks at which nothing happens by itself are left out, up to the next thing that does happen.
@@ -134,15 +139,20 @@ void World::advance_to(SimTime time) {
     const Tick active = bulk_ticks_ ? std::min(next_active_tick(), next_fault_tick()) : done_ + 1;
     const bool tries = active == done_ + 1 && may_cross(reachable);
     const Tick crossed = tries ? last_tick_to_cross(reachable) : done_;
+    bool is_rest = false;
     if (crossed > done_) {
       cross_to(crossed);
     } else if (active > done_ + 1) {
-      // Watchers see each of them.
-      const Tick last_quiet = watchers_.empty() ? std::min(reachable, active - 1) : done_ + 1;
+      const Tick alike = last_alike();
+      is_rest = is_at_rest && alike > done_;
+      is_at_rest = true;
+      const Tick last_quiet =
+          watchers_.empty() || is_rest ? std::min({reachable, active - 1, alike}) : done_ + 1;
       ticks_.crossed += static_cast<std::uint64_t>(last_quiet - done_);
       done_ = last_quiet;
       for (const auto& device : devices_) device->set_now(done_);
     } else {
+      is_at_rest = false;
       run_tick();
       if (fault_watch_) look_at_faults();
       if (!unasked_lines_.empty()) {
@@ -153,16 +163,27 @@ void World::advance_to(SimTime time) {
     }
     now_ = std::max(now_, time_of(done_));
     if (watchers_.empty()) continue;
-    show_tick();
+    show_tick(is_rest);
+    if (std::exchange(stops_here_, false)) return;
     line_time = next_line_time();
   }
   now_ = std::max(now_, time);
 }
 
-void World::show_tick() {
+/// How far quiet ticks look like the last one to all who watch.
+Tick World::last_alike() const {
+  Tick next = kNever;
+  for (const TickWatcher* watcher : watchers_) {
+    next = std::min(next, watcher->next_look(done_));
+    if (next == done_ + 1) break;
+  }
+  return next == kNever ? kNever : next - 1;
+}
+
+void World::show_tick(bool is_rest) {
   // One may take itself away.
   const std::vector<TickWatcher*> present = watchers_;
-  for (TickWatcher* watcher : present) watcher->on_tick(done_);
+  for (TickWatcher* watcher : present) is_rest ? watcher->on_rest(done_) : watcher->on_tick(done_);
 }
 
 std::optional<SimTime> World::next_due() const {
@@ -351,8 +372,15 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
-  emulator::load_program(*devices_[device], text);  // throws before anything has changed
-  if (listener_ != nullptr) listener_->on_program(device, text);
+  // Also one that will be refused: a device may show that it was.
+  if (listener_ != nullptr && devices_[device]->user_program() != nullptr)
+    listener_->on_program(device, text);
+  try {
+    emulator::load_program(*devices_[device], text);
+  } catch (const ProgramError&) {
+    look_for_speech(now_);
+    throw;
+  }
   look_for_speech(now_);
 }
 

@@ -59,6 +59,8 @@ class World final : public WorldView {
   /// Adds a watcher until it is removed; several see a tick in the order in which they were added.
   void add_watcher(TickWatcher& watcher) { watchers_.push_back(&watcher); }
   void remove_watcher(TickWatcher& watcher) { std::erase(watchers_, &watcher); }
+  /// For a watcher, while it is shown a tick: advance_to() ends there, once all have seen it.
+  void stop_here() { stops_here_ = true; }
 
   /// One at most; null: nobody.
   void set_listener(OutsideListener* listener) { listener_ = listener; }
@@ -84,7 +86,7 @@ class World final : public WorldView {
   }
   /// The clock stands, and nothing more has come for as long as a frame is waited for.
   void nothing_more(std::size_t line) { lines_[line]->line.nothing_more(now_); }
-  /// The host has taken so many bytes of the line's output.
+  /// The host has taken this many bytes of the line's output.
   void take_output(std::size_t line, std::size_t count) { lines_[line]->line.take_output(count); }
 
   // Those who look at a line; they change nothing.
@@ -189,7 +191,8 @@ class World final : public WorldView {
 
   void begin_act();
   void run_tick();
-  void show_tick();
+  Tick last_alike() const;
+  void show_tick(bool is_rest);
   void run_lines(SimTime time);
   Tick next_active_tick() const;
   Tick next_event_tick(Tick most) const;
@@ -245,6 +248,7 @@ class World final : public WorldView {
   std::vector<Supply> supplies_;            // by device
   std::vector<WireSetup> wires_;
   std::vector<TickWatcher*> watchers_;
+  bool stops_here_ = false;
   OutsideListener* listener_ = nullptr;
   std::map<std::size_t, ArmedFault> faults_;  // by number
   std::size_t next_fault_ = 1;

@@ -24,7 +24,7 @@ struct Dialect {
   } module_move_from_variable = ModuleMoveFromVariable::refused;
   std::size_t longest_line = kLineLength;  // longer ones are refused
   int integer_least = kIntegerLeast;       // of integer variables
-  int event_count = kEventCount;           // EV1 to so many; 1 .. kEventCount
+  int event_count = kEventCount;           // EV1 to this one; 1 .. kEventCount
   bool helix_constants = true;             // SAA R0,R1,90,5 as its form is printed, besides four variables
   bool quantities = false;                 // what a query shows is a function: N0=PE, JG VM,R0,$A
 

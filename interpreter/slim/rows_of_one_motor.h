@@ -189,8 +189,8 @@ inline constexpr std::array<CommandRow, 117> kOneMotor{{
     row("RS", "RS(i)=data", "Set real array element RS(0)-RS(2000) in flash", kVariables, kUnprinted,
         Verb::set_variable, {data}),
     row("AIN", "AIN=N#",
-        "Set variable N# to the value of the VR (analog) input; manual says its resistance value (the "
-        "variable on the right receives)",
+        "Set variable N# to the value of the VR (analog) input (the variable on the right receives it; the "
+        "manual calls it a resistance)",
         kVariables, kUnprinted, Verb::set_variable, {variable}),
     row("<param>", "<name>=data", "Set a system parameter", kSystemParameters, kUnprinted,
         Verb::set_parameter, {data}),
@@ -227,7 +227,7 @@ inline constexpr std::array<CommandRow, 117> kOneMotor{{
     row("?ERR", "?ERR", "Present ERR", kQuery, kUnprinted, Verb::query_error, {}),
     row("?ERC", "?ERC", "ERR history", kQuery, kUnprinted, Verb::query_error_history, {}),
     row("?time", "?time", "Power-on time", kQuery, kUnprinted, Verb::query_time, {}),
-    row("?TM", "?TM", "Seconds since power-on; can be set to 0; can equal the variables N0, R0", kQuery,
+    row("?TM", "?TM", "Seconds since power-on; can be set to 0, or from a variable such as N0 or R0", kQuery,
         kUnprinted, Verb::query_parameter, {}),
     row("?Tp", "?Tp<name>", "Query module p (example ?t1err)", kQuery, kUnprinted, Verb::query_parameter, {}),
 }};

@@ -43,8 +43,9 @@ inline constexpr std::array<CommandRow, 52> kSeveralMotors{{
     row("4MR", "4MR Rx,Ry,Rz,Rw", "Same from variables", kMultiAxis, kStored, Verb::line_relative,
         {real_variable, real_variable, real_variable, real_variable}),
     row("AA", "AA fx,fy,fa",
-        "Arc: absolute centre fx,fy; angle fa degrees, + CCW, - CW (part 1 text says end point + radius r; "
-        "its examples contradict it; part 1 also says CSD215/1400/980/740 integrated types have it)",
+        "Arc: absolute centre fx,fy; angle fa in degrees, + CCW, - CW (part 1 has an end point and a radius "
+        "r, which its examples contradict; it also says that the integrated types CSD215/1400/980/740 have "
+        "the command)",
         kMultiAxis, kTyped, Verb::arc_absolute, {real, real, real}),
     row("AA", "AA Rx,Ry,Ra", "Same from variables", kMultiAxis, kStored, Verb::arc_absolute,
         {real_variable, real_variable, real_variable}),

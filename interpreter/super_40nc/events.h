@@ -77,7 +77,7 @@ inline constexpr auto kReactions = [] {
       {{nothing, nothing, broken, broken, nothing, nothing, broken}},                  // broken
       {{nothing, same_step, nothing, nothing, same_step, nothing, nothing}},           // file_changed
       {{nothing, nothing, nothing, nothing, nothing, nothing, nothing}},               // plc_stop
-      {{nothing, nothing, nothing, nothing, nothing, forget, forget}},                 // plc_run
+      {{forget, nothing, nothing, nothing, nothing, forget, forget}},                  // plc_run
   }};
 }();
 

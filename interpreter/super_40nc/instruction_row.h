@@ -156,6 +156,25 @@ constexpr Letters letters_of(Slot slot) {
   }
   return 0;
 }
+/// The same for people.
+constexpr std::string_view describe(Slot slot) {
+  switch (slot) {
+    case Slot::none: return "";
+    case Slot::contact: return "X, Y, M, T or C";
+    case Slot::bit: return "Y or M";
+    case Slot::resettable: return "Y, M, T or C";
+    case Slot::timer: return "T or C";
+    case Slot::preset:
+    case Slot::times:
+    case Slot::amount:
+    case Slot::needed: return "K or D";
+    case Slot::source: return "K, T, C or D";
+    case Slot::target: return "D";
+    case Slot::range: return "Y, M, T, C or D";
+    case Slot::label: return "K0 to K9999999";
+  }
+  return "";
+}
 constexpr bool may_be_unset(Slot slot) {
   return slot == Slot::none || slot == Slot::times || slot == Slot::amount;
 }

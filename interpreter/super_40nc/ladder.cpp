@@ -62,10 +62,7 @@ class LadderMaker {
   }
 
  private:
-  std::uint16_t new_memory(AtRun at_run) {
-    ladder_.memories_.push_back(at_run);
-    return static_cast<std::uint16_t>(ladder_.memories_.size() - 1);
-  }
+  std::uint16_t new_memory() { return static_cast<std::uint16_t>(ladder_.memory_count_++); }
 
   std::uint32_t constant(std::int32_t value) {
     ladder_.constants_.push_back(static_cast<std::uint32_t>(value));
@@ -99,7 +96,7 @@ class LadderMaker {
       step.act = at(place, Act::load_edge);
       step.flags = is_falling(line.op) ? kFalling : 0;
       std::tie(step.bank_a, step.a) = contact(first);
-      step.memory = new_memory(AtRun::present_state);
+      step.memory = new_memory();
     } else if (is_contact(line.op)) {
       step.act = at(place, Act::load);
       step.flags = is_inverted(line.op) ? kInverted : 0;
@@ -107,7 +104,7 @@ class LadderMaker {
     } else {
       make_other(line, step);
     }
-    if (step.act == Act::general && has_memory(line.op)) step.memory = new_memory(AtRun::off);
+    if (step.act == Act::general && has_memory(line.op)) step.memory = new_memory();
     ladder_.steps_.push_back(step);
   }
 
@@ -143,7 +140,7 @@ class LadderMaker {
     std::tie(step.bank_b, step.b) = value(line.fields[1]);
     step.c = value_cell(layout_, what);
     step.flags = is_kept(what) ? kKept : 0;
-    step.memory = new_memory(is_timer ? AtRun::by_value : AtRun::present_state);
+    step.memory = new_memory();
     if (is_timer) ladder_.timers_.push_back(static_cast<std::uint32_t>(ladder_.steps_.size()));
   }
 

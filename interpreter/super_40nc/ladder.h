@@ -1,7 +1,7 @@
 // A PLC program made ready to run: its lines decoded once into small steps that name cells.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -60,9 +60,6 @@ inline constexpr std::uint8_t kFalling = 2;
 inline constexpr std::uint8_t kKept = 4;         // what is written survives power-off
 inline constexpr std::uint8_t kValueIsRead = 8;  // of a timer: something else depends on its value
 
-/// What an edge's memory is when the PLC goes to RUN.
-enum class AtRun : std::uint8_t { present_state, off, by_value };
-
 class Ladder {
  public:
   Ladder() = default;
@@ -74,8 +71,8 @@ class Ladder {
   const Instruction& line(std::size_t number) const { return program_.lines[number]; }
   /// The step of a line as D8095 counts.
   int step_of(std::size_t line) const { return step_numbers_[line]; }
-  /// One for each edge's memory.
-  const std::vector<AtRun>& memories() const { return memories_; }
+  /// Of edges, timers and counters.
+  std::size_t memory_count() const { return memory_count_; }
   const std::vector<std::uint32_t>& timers() const { return timers_; }  // indices of steps
 
   /// Everything that a scan may look at, each once: when none of it has changed since a scan that changed
@@ -90,7 +87,7 @@ class Ladder {
   std::vector<LadderStep> steps_{LadderStep{}};
   std::vector<std::uint32_t> constants_;
   std::vector<int> step_numbers_;
-  std::vector<AtRun> memories_;
+  std::size_t memory_count_ = 0;
   std::vector<std::uint32_t> timers_;
   std::vector<Operand> reads_;
   bool reads_special_ = false;

@@ -43,6 +43,12 @@ struct Options {
   int timer_unit_ms = 1;
   /// A counter stops at its preset, or counts on.
   bool counts_beyond_preset = false;
+  /// Its contact is what value and preset say at each scan, or is closed by the last count and opened by RST
+  /// alone.
+  enum class CounterContact : std::uint8_t {
+    compares,
+    is_latched
+  } counter_contact = CounterContact::compares;
   /// DRV, HOM, STR: at the rising edge of their condition, or in every scan.
   bool motions_need_edge = true;
   /// At RUN: PLS, ALT and the like fire once if their condition is ON, or see no edge.

@@ -23,8 +23,7 @@ class Scan {
         lines_(plc, ladder, machine, programs, options),
         options_(options),
         depth_mask_((std::uint64_t{1} << options.stack_depth) - 1),
-        a_unit_is_over_(options.timer_unit_ms <= 1 ||
-                        plc.scans % static_cast<std::uint64_t>(options.timer_unit_ms) == 0) {}
+        a_unit_is_over_(plc.unit_ms + 1 >= options.timer_unit_ms) {}
 
   void steps(const LadderStep* step) {
     for (;; ++step) {
@@ -77,6 +76,7 @@ class Scan {
 
   Scanned ended() {
     has_changed_ |= lines_.end_scan();
+    plc_.unit_ms = timers_run_ && !a_unit_is_over_ ? plc_.unit_ms + 1 : 0;
     return {has_changed_, has_changed_ ? 0 : quiet_scans_};
   }
 
@@ -144,6 +144,7 @@ class Scan {
     }
     put(step.a, present >= preset ? 1 : 0, step.flags);
     if (present < preset) {
+      timers_run_ |= was_on;
       const std::int64_t left = std::int64_t{preset} - present - 1;
       quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 ? left : 0);
       if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
@@ -156,10 +157,13 @@ class Scan {
     const auto preset = static_cast<std::int32_t>(value(step.bank_b, step.b));
     auto present = static_cast<std::int32_t>(cells_[step.c]);
     const bool may_count = options_.counts_beyond_preset ? present < INT32_MAX : present < preset;
-    if (is_on && !was_on && !plc_.is_first_scan && may_count) {
-      put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    const bool counts = is_on && !was_on && !plc_.is_first_scan && may_count;
+    if (counts) put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+    if (options_.counter_contact == Options::CounterContact::compares) {
+      put(step.a, present >= preset ? 1 : 0, step.flags);
+    } else if (counts && present >= preset) {
+      put(step.a, 1, step.flags);
     }
-    put(step.a, present >= preset ? 1 : 0, step.flags);
   }
 
   PlcState& plc_;
@@ -173,6 +177,7 @@ class Scan {
   std::uint64_t blocks_ = 0;
   std::uint64_t branches_ = 0;
   bool has_changed_ = false;
+  bool timers_run_ = false;
   std::int64_t quiet_scans_ = INT64_MAX;
 };
 
@@ -182,20 +187,12 @@ void run(PlcState& plc, const Ladder& ladder, Machine& machine) {
   const Access access(machine);
   plc.runs = true;
   plc.is_first_scan = true;
-  const bool is_same_program = plc.memories.size() == ladder.memories().size();
-  if (!is_same_program) plc.memories.assign(ladder.memories().size(), 0);
+  plc.memories.assign(ladder.memory_count(), 0);
   for (const LadderStep& step : ladder.steps()) {
     const bool is_edge = step.act >= Act::load_edge && step.act <= Act::parallel_edge;
-    const bool has_own = step.act == Act::general && !ladder.is_empty() &&
-                         (row_of(ladder.line(step.line).op).in_plc == InPlc::rising_edge ||
-                          row_of(ladder.line(step.line).op).in_plc == InPlc::falling_edge);
-    std::uint8_t* const memory = is_edge || has_own || step.act == Act::timer || step.act == Act::counter
-                                     ? &plc.memories[step.memory]
-                                     : nullptr;
-    if (memory == nullptr) continue;
-    if (is_edge) *memory = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
-    if (has_own || step.act == Act::counter) *memory = 0;
-    if (step.act == Act::timer) *memory = machine.cells()[step.c] != 0 ? 1 : 0;  // goes on if it is still ON
+    if (is_edge) plc.memories[step.memory] = access.contact(ladder.line(step.line).fields[0]) ? 1 : 0;
+    // A timer goes on if it is still ON.
+    if (step.act == Act::timer) plc.memories[step.memory] = machine.cells()[step.c] != 0 ? 1 : 0;
   }
   plc.targets = machine.special_register(named::kTargetsOfC) == 0 ? Targets::absolute : Targets::relative;
   for (int axis = 0; axis < kAxisCount; ++axis) {
@@ -212,9 +209,8 @@ void stop(PlcState& plc, Machine& machine) {
 
 Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,
              const Options& options) {
-  ++plc.scans;
   if (!plc.runs) return {};
-  if (plc.memories.size() != ladder.memories().size()) plc.memories.assign(ladder.memories().size(), 0);
+  if (plc.memories.size() != ladder.memory_count()) plc.memories.assign(ladder.memory_count(), 0);
   Scan scan(plc, ladder, machine, programs, options);
   scan.steps(ladder.steps().data());
   Scanned scanned = scan.ended();
@@ -225,7 +221,6 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
 
 void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
            const Options& options) {
-  plc.scans += static_cast<std::uint64_t>(scans);
   if (!plc.runs) return;
   const std::span<std::uint32_t> cells = machine.cells();
   const Access access(machine);

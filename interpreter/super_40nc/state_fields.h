@@ -34,7 +34,8 @@ struct StateOf<interpreter::super_40nc::PlcState> {
       std::tuple{field("runs", &Value::runs),         field("is_first_scan", &Value::is_first_scan),
                  field("memories", &Value::memories), field("targets", &Value::targets),
                  field("rpm", &Value::rpm),           field("jogs", &Value::jogs),
-                 field("scans", &Value::scans)};
+                 field("unit_ms", &Value::unit_ms)};
+  static void check(const Value& state) { demand_reach(state.unit_ms); }
 };
 
 template <>
@@ -57,6 +58,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
                                             field("left_ms", &Value::left_ms),
                                             field("calls", &Value::calls),
                                             field("blocks", &Value::blocks),
+                                            field("has_modes", &Value::has_modes),
                                             field("targets", &Value::targets),
                                             field("rpm", &Value::rpm),
                                             field("waits_for_drive", &Value::waits_for_drive)};

@@ -19,6 +19,9 @@ void StepPrograms::fail(Area area, Code code) {
 
 void StepPrograms::take(Event event, Area area) {
   const Reaction reaction = reaction_of(event, state(area).phase);
+  // A pause that is due when its motion is over is called off.
+  const bool runs_on = event == Event::start && reaction == Reaction::nothing;
+  if (runs_on && !machine_.is_held_in_reset(area)) set_contact(area, true);
   switch (reaction) {
     case Reaction::nothing:
     case Reaction::pause_later:
@@ -40,7 +43,7 @@ void StepPrograms::take(Event event, Area area) {
       forget(area);
       break;
     case Reaction::restart:
-      state(area) = {};
+      clear(area);
       begin(area, Reaction::fresh_start);
       break;
     case Reaction::stop_motors: stop_motors(area); break;
@@ -59,13 +62,14 @@ void StepPrograms::begin(Area area, Reaction how) {
   if (machine_.is_held_in_reset(area)) return set_contact(area, false);
   if (code(area).is_empty()) {
     if (options_.empty_program == Options::EmptyProgram::is_an_error) report(area, Code::no_end);
-    return forget(area);
+    return set_contact(area, false);
   }
   machine_.program_starts(area);
   set_contact(area, true);
   program.is_paused_by_key = false;
   const bool is_new = program.step == 0 && how != Reaction::resume && program.resumes == Phase::executing;
-  if (is_new || options_.fresh_start == Options::FreshStart::every_start) load_modes(area);
+  const bool loads = is_new || !program.has_modes || options_.fresh_start == Options::FreshStart::every_start;
+  if (loads) load_modes(area);
   const bool has_motion = program.resumes == Phase::moving || program.resumes == Phase::homing;
   if (is_inhibited() && (has_motion || program.machine_holds)) {
     program.phase = Phase::waiting;
@@ -88,6 +92,7 @@ void StepPrograms::load_modes(Area area) {
   const int where = axis < 0 ? named::kTargetsOfC : named::kTargetsOfX + 100 * axis;
   program.targets = machine_.special_register(where) == 0 ? Targets::absolute : Targets::relative;
   program.waits_for_drive = true;
+  program.has_modes = true;
   for (int i = 0; i < kAxisCount; ++i) {
     program.rpm[static_cast<std::size_t>(i)] = machine_.rpm_at_power_up(i);
   }
@@ -96,9 +101,21 @@ void StepPrograms::load_modes(Area area) {
   machine_.set_special_register(named::kPlane, machine_.special_register(named::kDefaultPlane));
 }
 
+/// As at power-up, but for its modes and speeds.
+void StepPrograms::clear(Area area) {
+  StepState& program = state(area);
+  StepState cleared;
+  cleared.has_modes = program.has_modes;
+  cleared.targets = program.targets;
+  cleared.rpm = program.rpm;
+  cleared.waits_for_drive = program.waits_for_drive;
+  program = cleared;
+}
+
 void StepPrograms::forget(Area area) {
-  state(area) = {};
-  set_contact(area, false);
+  const bool was_idle = state(area).phase == Phase::idle;
+  clear(area);
+  if (!was_idle) set_contact(area, false);
 }
 
 void StepPrograms::stop_motors(Area area) {

@@ -34,7 +34,8 @@ struct StepState {
   std::int64_t left_ms = 0;          // of TMR; 0: it has not begun
   std::vector<Call> calls = {};
   std::uint64_t blocks = 0;  // the result of the last contacts
-  // Modal; loaded at a fresh start. F and the plane are D8006 and D8007.
+  // Modal: loaded at a fresh start, kept by any other. F and the plane are D8006 and D8007.
+  bool has_modes = false;
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
   bool waits_for_drive = true;  // CHK
@@ -99,6 +100,7 @@ class StepPrograms : public StepControl {
   // step_programs.cpp
   void begin(Area area, Reaction how);
   void load_modes(Area area);
+  void clear(Area area);
   void forget(Area area);
   void stop_motors(Area area);
   void pause(Area area, bool by_key);

@@ -244,7 +244,7 @@ TEST(ProgramText, TellsEveryErrorWithItsPlace) {
     const Finished refused =
         understudy({"disasm", folder.write("bad.cells", std::string("0 0 0 0\n") + cells)});
     EXPECT_EQ(refused.exit_code, 2) << cells;
-    EXPECT_NE(refused.errors.find("bad.cells:2: "), std::string::npos) << refused.errors;
+    EXPECT_NE(refused.errors.find("bad.cells:2:"), std::string::npos) << refused.errors;
   }
 }
 

@@ -104,7 +104,7 @@ TEST_F(Completion, OfAnotherShellIsRefused) {
   const Finished refused = understudy({"completion", "tcsh"});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_EQ(refused.errors,
-            "understudy: completion: 'tcsh' is not a shell that is known; expected bash, zsh or fish\n");
+            "understudy: completion: 'tcsh' is not a known shell; expected bash, zsh or fish\n");
 }
 
 }  // namespace completion_test

@@ -186,8 +186,8 @@ TEST(ControlProgram, ThatIsWrongIsRefusedWithOneLineAndTheOldOneStays) {
   obeyed(daemon, {"program", "device", good});
   const std::string before = obeyed(daemon, {"program"});
   expect_refused(daemon, {"program", "device", bad},
-                 "program: line 2: mnemonic: no instruction is called 'Dellay_mSec'; expected an instruction "
-                 "(nearest: 'Delay_mSec')");
+                 "program: line 2, column 1: mnemonic: no instruction is called 'Dellay_mSec'; expected an "
+                 "instruction (nearest: 'Delay_mSec') (and 1 more)");
   const std::string nowhere = daemon.folder() / "nowhere.lst";
   expect_refused(daemon, {"program", "device", nowhere},
                  "program: " + nowhere + ": cannot be read (No such file or directory); expected a listing");
@@ -219,6 +219,36 @@ TEST(ControlInput, TakesVoltagesWordsAndSwitches) {
                  "input: 'DIN_3' is given twice; expected it once");
   expect_refused(daemon, {"input", "DIN_3="}, "input: 'DIN_3=' is not understood; expected NAME=LEVEL");
   expect_refused(daemon, {"input"}, "input: nothing to do; expected NAME=LEVEL");
+}
+
+const std::string kHandWheel =
+    "understudy: 1\n"
+    "lines: { line: { link: ./port, stations: [ { name: feeder, model: simple2-r3, address: 1 } ] } }\n"
+    "plant: { feeder.A: { encoder: { per_revolution: 4000, on: wheel } } }\n";
+
+TEST(ControlTurn, MovesTheCountsOfAWheelAtOnceOrEvenly) {
+  const auto served = RunningUnderstudy::of_bench(kHandWheel, {"--speed", "manual"});
+  const RunningUnderstudy& daemon = *served;
+  EXPECT_EQ(obeyed(daemon, {"turn", "feeder.A=300"}), "");
+  obeyed(daemon, {"advance", "1ms"});
+  EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}), "feeder.A.encoder 300\n");
+  obeyed(daemon, {"turn", "feeder.A=-200", "in=2s"});
+  for (const auto& [after, counts] : {std::pair{"500ms", 250}, {"500ms", 200}, {"1s", 100}, {"1s", 100}}) {
+    obeyed(daemon, {"advance", after});
+    EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}),
+              "feeder.A.encoder " + std::to_string(counts) + "\n");
+  }
+}
+
+TEST(ControlTurn, IsRefusedWhereNothingTurns) {
+  const auto served = RunningUnderstudy::of_bench(kHandWheel, {"--speed", "manual"});
+  const RunningUnderstudy& daemon = *served;
+  expect_refused(daemon, {"turn", "feeder.B=1"},
+                 "turn: feeder.B has no hand wheel; expected `encoder: { on: wheel }` in `plant`");
+  expect_refused(daemon, {"turn", "feeder.A=1", "in=soon"},
+                 "turn: turn: in: 'soon' is not possible; expected a duration such as 250ms");
+  expect_refused(daemon, {"turn"}, "turn: nothing to do; expected NAME=VALUE");
+  EXPECT_EQ(obeyed(daemon, {"get", "feeder.A.encoder"}), "feeder.A.encoder 0\n");
 }
 
 }  // namespace faults_control_test

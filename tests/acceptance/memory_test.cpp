@@ -287,10 +287,11 @@ TEST(Program, ThatIsWrongIsRefusedWithItsLineAndChangesNothing) {
   std::string too_long;
   for (int i = 0; i < 257; ++i) too_long += "NOP\n";
   const Case cases[] = {
-      {"unknown.lst", "NOP\nNOP\nJumpp JMP1\n", "line 3: mnemonic: no instruction is called 'Jumpp'"},
-      {"operand.lst", "NOP\nOut DOUT_9 ON\n", "line 2: operand 1: "},
-      {"long.lst", too_long, "line 257: "},
-      {"binary.lst", std::string("NOP\n\x01\x02\xff\xfe\n"), "line 2: "},
+      {"unknown.lst", "NOP\nNOP\nJumpp JMP1\n",
+       "line 3, column 1: mnemonic: no instruction is called 'Jumpp'"},
+      {"operand.lst", "NOP\nOut DOUT_9 ON\n", "line 2, column 5: operand 1: "},
+      {"long.lst", too_long, "line 257, column 1: "},
+      {"binary.lst", std::string("NOP\n\x01\x02\xff\xfe\n"), "line 2, column 1: "},
   };
   for (const Case& c : cases) {
     expect_refused(daemon.ctl({"program", "device", folder.write(c.name, c.listing)}), c.why);
@@ -332,7 +333,7 @@ TEST(Program, OfABenchThatIsWrongIsRefusedWithItsFileAndLine) {
   const std::string path = folder.write("bench.yaml", bench_of(", program: bad.lst"));
   for (const char* command : {"serve", "check"}) {
     const Finished finished = understudy({command, path});
-    expect_refused(finished, "bad.lst:3: mnemonic: no instruction is called 'Jumpp'");
+    expect_refused(finished, "bad.lst:3:1: mnemonic: no instruction is called 'Jumpp'");
   }
   expect_refused(serve({folder.write("none.yaml", bench_of(", program: none.lst"))}),
                  "none.lst cannot be read");

@@ -225,6 +225,10 @@ TEST(LineState, WhatNoLineCanBeIsRefusedAndChangesNothing) {
   refused("its clock is beyond the end of time", [](Line::State& s) { s.edge.clock = SimTime::max(); });
 }
 
+void lengthen(RtuFramer::State& state, std::size_t size) {
+  while (state.characters.size() < size) state.characters.push_back({});
+}
+
 TEST(FramerState, WhatNoFramerCanHoldIsRefused) {
   RtuFramer framer({.strict = false, .silence = 750us, .patience = 10ms});
   std::uint64_t number = 0;
@@ -244,7 +248,8 @@ TEST(FramerState, WhatNoFramerCanHoldIsRefused) {
     EXPECT_THROW(framer.restore(bad), std::invalid_argument);
     EXPECT_EQ(framer.save().characters.size(), 11u);
   };
-  refused([](RtuFramer::State& s) { s.characters.resize(3 * kRtuMaxFrame + 1); });
+  refused([](RtuFramer::State& s) { lengthen(s, 3 * kRtuMaxFrame + 1); });
+  refused([](RtuFramer::State& s) { s.characters.marks.push_back({}); });
   refused([](RtuFramer::State& s) { s.undecided = 12; });
   refused([](RtuFramer::State& s) { s.undecided = 7; });  // within the frame
   refused([](RtuFramer::State& s) { s.candidate = 7; });
@@ -253,12 +258,12 @@ TEST(FramerState, WhatNoFramerCanHoldIsRefused) {
   refused([](RtuFramer::State& s) { s.ready[0].size = 3; });
   refused([](RtuFramer::State& s) { s.ready[0].first = 1; });
   refused([](RtuFramer::State& s) { s.ready.push_back(s.ready[0]); });
-  refused([](RtuFramer::State& s) { s.characters[3].end = SimTime::max(); });
+  refused([](RtuFramer::State& s) { s.characters.marks[3].end = SimTime::max(); });
   refused([](RtuFramer::State& s) { s.last_end = SimTime::min(); });
   // Under strict framing a lump is one frame at most.
   RtuFramer strict({.strict = true, .silence = 750us});
   RtuFramer::State long_lump;
-  long_lump.characters.resize(kRtuMaxFrame + 1);
+  lengthen(long_lump, kRtuMaxFrame + 1);
   EXPECT_THROW(strict.restore(long_lump), std::invalid_argument);
   EXPECT_NO_THROW(framer.restore(long_lump));
 }

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <span>
+
+#include "emulator/device/program_language.h"
 
 namespace understudy::emulator {
 
 namespace {
 
 std::string hex4(unsigned number) {
-  std::array<char, 8> text{};
+  std::array<char, 12> text{};
   std::snprintf(text.data(), text.size(), "0x%04X", number);
   return text.data();
 }
@@ -18,6 +21,11 @@ std::string hex2(unsigned number) {
   std::array<char, 8> text{};
   std::snprintf(text.data(), text.size(), "0x%02X", number);
   return text.data();
+}
+
+/// As wide as its maker's are.
+std::string opcode_text(int opcode) {
+  return opcode > 0xFF ? hex4(static_cast<unsigned>(opcode)) : hex2(static_cast<unsigned>(opcode));
 }
 
 std::string_view to_string(Access access) {
@@ -104,15 +112,22 @@ Sheet registers(const Model& model, SheetFormat format) {
   return sheet;
 }
 
+/// "X20", or "20" where the maker counts them without a letter.
+std::string number_of(const ParameterRow& row, int index) {
+  return std::string(row.letter) + std::to_string(row.first + (row.of_each_axis ? 0 : index));
+}
+
 /// Those that are registers have a row in the table of registers, with the rest.
 Sheet parameters(const Model& model) {
   const bool has_named = !model.named_parameters.empty();
+  const bool has_meanings = std::any_of(model.parameters.begin(), model.parameters.end(),
+                                        [](const ParameterRow& row) { return !row.meaning.empty(); });
   Sheet sheet{.columns = {"number", "name", "address", "width", "persistent"}, .rows = {}};
   if (has_named) {
-    for (const char* column : {"min", "max", "unit", "default", "meaning", "not modelled"}) {
-      sheet.columns.emplace_back(column);
-    }
+    for (const char* column : {"min", "max", "unit", "default"}) sheet.columns.emplace_back(column);
   }
+  if (has_named || has_meanings) sheet.columns.emplace_back("meaning");
+  if (has_named) sheet.columns.emplace_back("not modelled");
   for (const NamedParameterRow& row : model.named_parameters) {
     sheet.rows.push_back({std::string(row.number), std::string(row.name), "", std::to_string(row.width),
                           row.persistent ? "1" : "0"});
@@ -124,9 +139,11 @@ Sheet parameters(const Model& model) {
   for (const ParameterRow& parameter : model.parameters) {
     for (const RegisterRow& row : register_rows(model)) {
       if (row.name != parameter.register_name) continue;
-      for (int i = 0; i < parameter.count; ++i) {
-        sheet.rows.push_back({std::to_string(parameter.first + i), RegisterMap::name_of(row, i),
-                              hex4(address_of(row, i)), width_of(row), row.persistent ? "1" : "0"});
+      for (int i = 0; i < (parameter.of_each_axis ? row.count : parameter.count); ++i) {
+        sheet.rows.push_back({number_of(parameter, i), RegisterMap::name_of(row, i), hex4(address_of(row, i)),
+                              width_of(row), row.persistent ? "1" : "0"});
+        if (has_named) sheet.rows.back().resize(sheet.columns.size() - 2);
+        if (has_named || has_meanings) sheet.rows.back().emplace_back(parameter.meaning);
         sheet.rows.back().resize(sheet.columns.size());
       }
     }
@@ -134,11 +151,47 @@ Sheet parameters(const Model& model) {
   return sheet;
 }
 
+/// "target (D0 to D124); [speed (1 to 4000)]"
+std::string operands_text(std::span<const OperandRow> operands) {
+  std::string text;
+  for (const OperandRow& operand : operands) {
+    const std::string values(operand.values);
+    const std::string whole = operand.name.empty() ? values : std::string(operand.name) + " (" + values + ")";
+    text += (text.empty() ? "" : "; ") + (operand.may_be_unset ? "[" + whole + "]" : whole);
+  }
+  return text;
+}
+
 Sheet instructions(const Model& model) {
-  Sheet sheet{.columns = {"opcode", "mnemonic", "data1", "data2", "meaning"}, .rows = {}};
-  for (const InstructionRow& row : model.instructions) {
-    sheet.rows.push_back({hex2(static_cast<unsigned>(row.opcode)), std::string(row.mnemonic),
-                          std::string(row.data1), std::string(row.data2), std::string(row.meaning)});
+  const auto rows =
+      model.language == nullptr ? std::span<const InstructionRow>() : model.language->instructions();
+  const auto in_cells =
+      model.language == nullptr ? std::span<const std::string_view>() : model.language->operand_cells();
+  const auto any = [&](auto fills) { return std::any_of(rows.begin(), rows.end(), fills); };
+  const bool has_opcodes = any([](const InstructionRow& row) { return row.opcode.has_value(); });
+  const bool has_areas = any([](const InstructionRow& row) { return !row.areas.empty(); });
+  const bool has_sizes = any([](const InstructionRow& row) { return row.size != 0; });
+  const bool has_costs = any([](const InstructionRow& row) { return !row.cost.empty(); });
+
+  Sheet sheet;
+  if (has_opcodes) sheet.columns.emplace_back("opcode");
+  sheet.columns.emplace_back("mnemonic");
+  for (const std::string_view cell : in_cells) sheet.columns.emplace_back(cell);
+  if (in_cells.empty()) sheet.columns.emplace_back("operands");
+  if (has_areas) sheet.columns.emplace_back("areas");
+  if (has_sizes) sheet.columns.emplace_back("size");
+  if (has_costs) sheet.columns.emplace_back("cost");
+  sheet.columns.emplace_back("meaning");
+  for (const InstructionRow& row : rows) {
+    auto& cells = sheet.rows.emplace_back();
+    if (has_opcodes) cells.push_back(row.opcode ? opcode_text(*row.opcode) : "");
+    cells.emplace_back(row.mnemonic);
+    for (std::size_t i = 0; i < in_cells.size(); ++i) cells.emplace_back(row.operands[i].values);
+    if (in_cells.empty()) cells.push_back(operands_text(row.operands));
+    if (has_areas) cells.emplace_back(row.areas);
+    if (has_sizes) cells.push_back(row.size == 0 ? "" : std::to_string(row.size));
+    if (has_costs) cells.emplace_back(row.cost);
+    cells.emplace_back(row.meaning);
   }
   return sheet;
 }

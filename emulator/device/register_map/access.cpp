@@ -277,6 +277,11 @@ Value read_value(const RegisterBank& bank, const NamedPlace& place) {
   return place.bit < 0 ? value : value >> place.bit & ((Value{1} << place.width) - 1);
 }
 
+Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done) {
+  const RegisterRow& row = *named.place.row;
+  return row.next_change == nullptr ? kNever : row.next_change(bank, cell_of(named.place), done);
+}
+
 double number_of(const NamedPlace& place, Value value) {
   if (!place.is_real()) return static_cast<double>(value);
   // 0.1 where a single is the nearest one to it: what a person has written is what comes back.

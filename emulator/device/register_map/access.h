@@ -34,6 +34,9 @@ inline Refusal write_words(RegisterBank& bank, Table table, std::uint16_t first,
 /// A register's present value (or a half's), as its type has it: signed or not.
 Value read_value(const RegisterBank& bank, const Place& place);
 Value read_value(const RegisterBank& bank, const NamedPlace& place);
+/// The first tick after `done` at which it may change although nothing happens; kNever if it does not tell
+/// time.
+Tick next_change(const RegisterBank& bank, const NamedPlace& place, Tick done);
 /// The number that a place's value stands for.
 double number_of(const NamedPlace& place, Value value);
 /// The value of a number for a place: a real's bits where it holds a real. None: a fraction for a whole

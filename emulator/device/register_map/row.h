@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/simulated_time.h"
 #include "emulator/device/register_map/refusal.h"
 
 namespace understudy::emulator {
@@ -75,6 +76,9 @@ struct Cell {
 
 /// The present value, if it is not simply the stored one.
 using Reader = Value (*)(const RegisterBank& bank, Cell cell);
+/// The first tick after `done` at which the value may be another although nothing happens: it tells time.
+/// kNever if that is not so now.
+using NextChange = Tick (*)(const RegisterBank& bank, Cell cell, Tick done);
 /// What a write does beyond storing. Runs after the whole request is stored, in ascending order.
 using Effect = void (*)(RegisterBank& bank, Cell cell, Value value);
 /// Takes the words that one request has written to a window, or refuses them and has changed nothing.
@@ -88,6 +92,12 @@ template <typename D, Value (*function)(const D&, Cell)>
 struct Handler<function> {
   static Value call(const RegisterBank& bank, Cell cell) {
     return function(static_cast<const RegisterBankOf<D>&>(bank).device(), cell);
+  }
+};
+template <typename D, Tick (*function)(const D&, Cell, Tick)>
+struct Handler<function> {
+  static Tick call(const RegisterBank& bank, Cell cell, Tick done) {
+    return function(static_cast<const RegisterBankOf<D>&>(bank).device(), cell, done);
   }
 };
 template <typename D, void (*function)(D&, Cell, Value)>
@@ -164,11 +174,12 @@ struct RegisterRow {
 
   int argument = 0;
   Reader reader = nullptr;
+  NextChange next_change = nullptr;  // null: it changes only when something happens
   Effect effect = nullptr;
   bool is_view = false;  // of other state: no slot in the image, and not kept; without a reader `factory`
   std::span<const BitField> fields{};
   Message message = nullptr;    // a window: takes what one request writes from its first word on,
-  int least_words = 1;          // so many words or more, as one message
+  int least_words = 1;          // this many words or more, as one message
   bool acts_on_zero = true;     // false: a trigger, for which a written 0 does nothing
   std::string_view unmodelled;  // what is missing, if the register only stores and reads back
 
@@ -239,6 +250,12 @@ struct RegisterRow {
   constexpr RegisterRow& reads(int with_argument = 0) {
     reader = Handler<function>::call;
     argument = with_argument;
+    return *this;
+  }
+  /// Its reader tells time: the value changes while nothing happens, at these ticks.
+  template <auto function>
+  constexpr RegisterRow& changes_at() {
+    next_change = Handler<function>::call;
     return *this;
   }
   /// A view of other state, by a reader; writes reach that state by the effect.

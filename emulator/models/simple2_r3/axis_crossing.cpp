@@ -32,7 +32,7 @@ Tick even_ticks(const AxisState& axis, const DriveSettings& settings, Tick most)
   return std::min(most, steps / 2);
 }
 
-/// The phase, with all its pulses, after so many of those.
+/// The phase, with all its pulses, after this many of those.
 Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick ticks) {
   const Wide steps = Wide{2} * ticks;
   const Wide changes = steps * (settings.pulses_by_speed_before ? steps - 1 : steps + 1) / 2;
@@ -40,8 +40,8 @@ Wide phase_after(const AxisState& axis, const DriveSettings& settings, Tick tick
   return axis.velocity_phase + speeds * settings.pulses_per_revolution;
 }
 
-/// The pulses of so many ticks, in the commanded sense. Phases have one sign, or come to it without a pulse,
-/// so that whole pulses come out as by single steps.
+/// The pulses of this many ticks, in the commanded sense. Phases have one sign, or come to it without a
+/// pulse, so that whole pulses come out as by single steps.
 std::int64_t pulses_ahead(const AxisState& axis, const Crossing& crossing, Tick tick) {
   if (tick == crossing.done) return 0;
   if (runs_velocity(axis)) {

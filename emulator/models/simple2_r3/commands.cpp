@@ -30,9 +30,15 @@ motion::SpeedLaw Simple2R3::law_of(int axis, std::uint32_t speed_rpm, std::uint3
           .down = by_time(deceleration_10ms)};
 }
 
-bool Simple2R3::is_too_fast(int axis, std::int64_t milli_rpm) const {
+bool Simple2R3::is_refused_as_too_fast(int axis, std::int64_t milli_rpm) const {
+  if (!chose(option("pulse_rate_cap", "command_dropped"))) return false;
   const std::int64_t size = milli_rpm < 0 ? -milli_rpm : milli_rpm;
   return size * resolution_of(state_, axis) > kMaxPulseRate_pps * 60'000;
+}
+
+/// A motion has begun.
+void Simple2R3::leave_home(AxisState& axis) const {
+  if (chose(option("home_bit", "any_motion"))) axis.homed = false;
 }
 
 bool Simple2R3::lacks_ready(int axis) const {
@@ -106,9 +112,7 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   // Whatever the speed, a distance of 0 stops at once (appendix A).
   if (distance_pulses != 0) {
     if (lacks_ready(axis_number)) return;
-    if (chose(option("pulse_rate_cap", "command_dropped")) &&
-        is_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm))
-      return;
+    if (is_refused_as_too_fast(axis_number, std::int64_t{1000} * move.speed_rpm)) return;
     const bool counts_on =
         command == Command::incremental && chose(option("incremental_while_moving", "old_target"));
     if (counts_on) distance_pulses += remaining_pulses(axis);
@@ -136,7 +140,7 @@ void Simple2R3::start_move(int axis_number, Command command, const MoveParameter
   axis.command = command;
   axis.has_own_speed = move.of_the_axis;
   axis.by_trigger = move.by_trigger;
-  if (chose(option("home_bit", "any_motion"))) axis.homed = false;
+  leave_home(axis);
 }
 
 void Simple2R3::go_home(int axis_number, bool by_trigger) {
@@ -144,9 +148,7 @@ void Simple2R3::go_home(int axis_number, bool by_trigger) {
   const AxisSlots& slots = kAxisSlots[static_cast<std::size_t>(axis_number)];
   const std::uint32_t speed_rpm = state_.image[slots.home_speed];
   if (lacks_ready(axis_number)) return;
-  if (chose(option("pulse_rate_cap", "command_dropped")) &&
-      is_too_fast(axis_number, std::int64_t{1000} * speed_rpm))
-    return;
+  if (is_refused_as_too_fast(axis_number, std::int64_t{1000} * speed_rpm)) return;
   if (chose(option("home_unassigned", "dropped")) && !assigned(slots.home_assigned)) return;
   refresh_signals(axis_number);
   if (!may_begin(axis_number, reaction(axis_number, Event::home),
@@ -191,8 +193,7 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
   AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   refresh_signals(axis_number);
   const bool is_refused =
-      (milli_rpm != 0 && lacks_ready(axis_number)) ||
-      (chose(option("pulse_rate_cap", "command_dropped")) && is_too_fast(axis_number, milli_rpm));
+      (milli_rpm != 0 && lacks_ready(axis_number)) || is_refused_as_too_fast(axis_number, milli_rpm);
   const Event event = milli_rpm == 0 ? Event::velocity_zero
                                      : way_event(axis_number, milli_rpm < 0 ? -1 : +1,
                                                  Event::velocity_towards, Event::velocity_away);
@@ -203,7 +204,7 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
       simple2_r3::run_velocity(axis, milli_rpm);
       axis.velocity_resolution = resolution_of(state_, axis_number);
       axis.velocity_step_urpm = velocity_step_urpm(axis_number);
-      if (milli_rpm != 0 && chose(option("home_bit", "any_motion"))) axis.homed = false;
+      if (milli_rpm != 0) leave_home(axis);
       break;
     case Outcome::waits:
     case Outcome::slows_and_waits: axis.target_urpm = milli_rpm * 1000; break;
@@ -218,20 +219,19 @@ void Simple2R3::run_velocity(int axis_number, std::int64_t milli_rpm) {
     case Outcome::kept:
     case Outcome::ends: (void)may_begin(axis_number, outcome, {.mode = Mode::velocity, .value = milli_rpm});
   }
-  if (chose(option("dropped_value", "forgotten")) && outcome != Outcome::kept) {
+  if (is_forgotten(outcome)) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].velocity] =
         static_cast<std::uint32_t>(axis.target_urpm / 1000);
   }
 }
 
 void Simple2R3::show_velocity(int axis, std::int32_t milli_rpm) {
-  if (chose(option("command_values", "not_shown"))) return;
-  state_.image[kAxisSlots[static_cast<std::size_t>(axis)].velocity] = static_cast<std::uint32_t>(milli_rpm);
+  if (shows_command_values())
+    state_.image[kAxisSlots[static_cast<std::size_t>(axis)].velocity] = static_cast<std::uint32_t>(milli_rpm);
 }
 
 void Simple2R3::show_pwm(int axis, std::uint8_t percent) {
-  if (!chose(option("command_values", "not_shown")))
-    state_.image[kAxisSlots[static_cast<std::size_t>(axis)].pwm] = percent;
+  if (shows_command_values()) state_.image[kAxisSlots[static_cast<std::size_t>(axis)].pwm] = percent;
 }
 
 void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
@@ -245,7 +245,7 @@ void Simple2R3::output_pwm(int axis_number, std::uint8_t percent) {
   } else if (may_begin(axis_number, outcome, {.mode = Mode::pwm, .value = percent})) {
     simple2_r3::output_pwm(axis, percent);
   }
-  if (chose(option("dropped_value", "forgotten")) && outcome != Outcome::kept) {
+  if (is_forgotten(outcome)) {
     state_.image[kAxisSlots[static_cast<std::size_t>(axis_number)].pwm] = axis.pwm_percent;
   }
 }
@@ -294,7 +294,7 @@ void Simple2R3::follow_encoder(int axis_number) {
   refresh_signals(axis_number);
   if (!may_begin(axis_number, reaction(axis_number, Event::sync), {.mode = Mode::sync})) return;
   begin_following(axis_number);
-  if (chose(option("home_bit", "any_motion"))) axis.homed = false;
+  leave_home(axis);
 }
 
 void Simple2R3::begin_following(int axis_number) {
@@ -329,7 +329,7 @@ void Simple2R3::stop(int axis_number, Stopping how) {
   }
   const Mode mode = axis.mode;
   stop_drive(axis);
-  if (mode != Mode::sync && chose(option("mode_after_stop", "stays"))) axis.mode = mode;
+  if (mode != Mode::sync && chose(reactions::kModeStays)) axis.mode = mode;
 }
 
 void Simple2R3::switch_servo(int axis_number, bool on) {
@@ -354,7 +354,7 @@ void Simple2R3::start_program(std::uint8_t line) {
   interpreter::simple2::start(execution, line);
   if (chose(option("start_while_running", "jumps")))
     execution.loop = loop;  // none of a program that does not run
-  if (chose(option("flags_found", "at_start"))) state_.program.find_flags();
+  find_flags_if_told();
   if (!chose(option("program_start", "clears_them"))) return;
   for (Timer& timer : state_.timers) timer = {};
   constexpr std::array kValues{slot("CalcREG"), slot("Counter1_Value"), slot("Counter2_Value")};

@@ -261,8 +261,7 @@ Tick Simple2R3::next_slot(Tick done) const {
   if (state_.execution.held.command == 0) {
     return done + interpreter::simple2::kSlotMs - done % interpreter::simple2::kSlotMs;
   }
-  // It is only looked at.
-  const ProgramMachine machine(const_cast<Simple2R3&>(*this));
+  const ProgramView machine(*this);
   return interpreter::simple2::next_active_slot_ms(state_.execution, done, state_.program, dialect_, machine);
 }
 

@@ -234,10 +234,10 @@ class Simple2R3 final : public Device,
   void start_program(std::uint8_t line);
   void stop_program();
   /// The clock of the timers, in their unit.
+  Tick timer_unit() const { return timer_unit_; }  // in ticks
   Tick timer_time() const { return now() / timer_unit_; }
-  void run_timer(Timer& timer, bool on) {
-    timer.run(on, timer_time(), chose(option("timer_overflow", "stays")));
-  }
+  void run_timer(Timer& timer, bool on) { timer.run(on, timer_time(), timers_stay()); }
+  std::uint32_t timer_value(const Timer& timer) const { return timer.at(timer_time(), timers_stay()); }
   /// The image's cells have changed all at once.
   void reload_program();
   const interpreter::simple2::Dialect& dialect() const { return dialect_; }
@@ -282,7 +282,15 @@ class Simple2R3 final : public Device,
   motion::SpeedLaw law_of(int axis, std::uint32_t speed_rpm, std::uint32_t acceleration_10ms,
                           std::uint32_t deceleration_10ms) const;
   MapPolicy chosen_map_policy() const;
-  bool is_too_fast(int axis, std::int64_t milli_rpm) const;
+  bool is_refused_as_too_fast(int axis, std::int64_t milli_rpm) const;
+  void leave_home(AxisState& axis) const;
+  /// What a command's register shows of a command with that outcome.
+  bool is_forgotten(Outcome outcome) const {
+    return outcome != Outcome::kept && chose(option("dropped_value", "forgotten"));
+  }
+  bool timers_stay() const { return chose(option("timer_overflow", "stays")); }
+  bool shows_command_values() const { return !chose(option("command_values", "not_shown")); }
+  void find_flags_if_told();
   /// Whether commands need Ready, and it is missing.
   bool lacks_ready(int axis) const;
   /// Whether SVOFF forbids anything.

@@ -32,6 +32,11 @@ MoveParameters own_parameters(const Simple2R3& device, int axis) {
           .by_trigger = true};
 }
 
+/// The program, while it is locked.
+bool is_write_protected(const Simple2R3& device) {
+  return !device.unlocked() && device.chose(option("locked_writes", "ignored"));
+}
+
 /// Only a choice has a set appear in the axis's registers.
 void show_set(Simple2R3& device, int axis, const MoveParameters& set) {
   if (!device.chose(option("set_move", "copied"))) return;
@@ -166,8 +171,15 @@ Value read_now_line(const Simple2R3& device, Cell) {
 Value read_program_runs(const Simple2R3& device, Cell) { return device.state().execution.running; }
 
 Value read_timer(const Simple2R3& device, Cell cell) {
-  return device.state().timers[static_cast<std::size_t>(cell.argument)].at(
-      device.timer_time(), device.chose(option("timer_overflow", "stays")));
+  return device.timer_value(device.state().timers[static_cast<std::size_t>(cell.argument)]);
+}
+
+Tick every_tick(const Simple2R3&, Cell, Tick done) { return done + 1; }
+
+Tick next_count_of_timer(const Simple2R3& device, Cell cell, Tick done) {
+  const Tick unit = device.timer_unit();
+  return device.state().timers[static_cast<std::size_t>(cell.argument)].running ? (done / unit + 1) * unit
+                                                                                : kNever;
 }
 
 Value read_servo(const Simple2R3& device, Cell cell) { return axis_of(device, cell).motor.servo_on; }
@@ -308,7 +320,7 @@ void stop_program(Simple2R3& device, Cell, Value) { device.stop_program(); }
 
 void write_cell(Simple2R3& device, Cell cell, Value value) {
   const int number = 4 * cell.index + cell.argument;
-  if (!device.unlocked() && device.chose(option("locked_writes", "ignored"))) {
+  if (is_write_protected(device)) {
     device.state().image[cell_slot(cell)] = device.state().program.cell(number);
     return;
   }
@@ -322,7 +334,7 @@ void change_password(Simple2R3& device, Cell, Value password) {
 }
 
 void erase_program(Simple2R3& device, Cell, Value) {
-  if (!device.unlocked() && device.chose(option("locked_writes", "ignored"))) return;
+  if (is_write_protected(device)) return;
   device.erase_program();
 }
 

@@ -30,7 +30,9 @@ Value read_mode(const Simple2R3& device, Cell cell);
 Value read_encoder_speed(const Simple2R3& device, Cell cell);
 Value read_now_line(const Simple2R3& device, Cell);
 Value read_program_runs(const Simple2R3& device, Cell);
-Value read_timer(const Simple2R3& device, Cell cell);   // argument: 0 or 1
+Value read_timer(const Simple2R3& device, Cell cell);  // argument: 0 or 1
+Tick next_count_of_timer(const Simple2R3& device, Cell cell, Tick done);
+Tick every_tick(const Simple2R3& device, Cell cell, Tick done);
 Value read_adc(const Simple2R3& device, Cell cell);     // argument: 0 or 1
 Value read_analog(const Simple2R3& device, Cell cell);  // likewise; 200 a volt
 Value read_eeprom_busy(const Simple2R3& device, Cell);

@@ -2,9 +2,11 @@
 #include <algorithm>
 
 #include "emulator/device/memory/register_memory.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/language.h"
 #include "interpreter/simple2/listing.h"
 
 namespace understudy::emulator::models::simple2_r3 {
@@ -52,8 +54,7 @@ bool is_useful_guess(const RegisterRow& row) {
 
 std::uint32_t Simple2R3::factory_bits(const RegisterRow& row) const {
   if (chose(option("first_password", "65535")) && row.name == "NEW_PWD") return 65535;
-  if (chose(option("adc_width", "10_bits_100_a_volt")) && row.name.starts_with("ADC_1"))
-    return static_cast<std::uint32_t>(row.factory / 4);
+  if (adc_10_bits_ && row.name.starts_with("ADC_1")) return static_cast<std::uint32_t>(row.factory / 4);
   if (chose(option("factory_values", "least")) && is_useful_guess(row))
     return static_cast<std::uint32_t>(std::max<Value>(row.min, 0));
   return static_cast<std::uint32_t>(row.factory);
@@ -123,14 +124,14 @@ void Simple2R3::power_up() {
   judge_lock();
   state_.program = interpreter::simple2::Program({}, flag_rules_of(*this));
   reload_program();
-  if (chose(option("flags_found", "at_start"))) state_.program.find_flags();
+  find_flags_if_told();
 
   motion::AxisSettings motor;
-  const auto stops_unless = [&](const Option& ignored) {
-    return chose(ignored) ? motion::Reaction::ignore : motion::Reaction::stop_at_once;
+  const auto reaction_to = [&](motion::Signal signal) {
+    return ignores(signal) ? motion::Reaction::ignore : motion::Reaction::stop_at_once;
   };
-  motor.at_limit_plus = motor.at_limit_minus = stops_unless(option("limit_reaction", "none"));
-  motor.at_alarm = stops_unless(option("alarm_reaction", "none"));
+  motor.at_limit_plus = motor.at_limit_minus = reaction_to(motion::Signal::limit_plus);
+  motor.at_alarm = reaction_to(motion::Signal::alarm);
   for (int i = 0; i < 2; ++i) {
     AxisState& axis = state_.axes[static_cast<std::size_t>(i)];
     motor.needs_servo = servo_matters(i);
@@ -143,6 +144,11 @@ std::uint8_t Simple2R3::switch_levels() const {
   std::uint8_t levels = 0;
   for (int i = 0; i < kSwitchCount; ++i) levels |= static_cast<std::uint8_t>(input(kFirstSwitch + i) << i);
   return levels;
+}
+
+void Simple2R3::find_flags_if_told() {
+  using Found = interpreter::simple2::FlagRules::Found;
+  if (state_.program.flag_rules().found == Found::when_told) state_.program.find_flags();
 }
 
 void Simple2R3::reset_timers() {
@@ -161,10 +167,11 @@ bool Simple2R3::dip_switch(int number) const {
 
 void Simple2R3::reset_to_factory() {
   if (!unlocked() && chose(option("locked_reset", "ignored"))) return;
+  const bool volatile_stays = chose(option("factory_reset_of_volatile", "kept"));
   constexpr std::size_t kFirstSurvivor = slot("ADC_10V_A");
   constexpr std::size_t kLastSurvivor = slot("ADC_1V_B");
   for_each_slot([&](std::size_t slot, const RegisterRow& row) {
-    const bool stays = !keeps(row) && chose(option("factory_reset_of_volatile", "kept"));
+    const bool stays = volatile_stays && !keeps(row);
     if (stays || (slot >= kFirstSurvivor && slot <= kLastSurvivor)) return;
     state_.image[slot] = factory_bits(row);
   });
@@ -177,7 +184,7 @@ void Simple2R3::reset_to_factory() {
     if (!chose(option("factory_reset_motion", "goes_on"))) switch_servo(axis, false);
     state_.axes[static_cast<std::size_t>(axis)].homed = false;
   }
-  if (chose(option("factory_reset_of_volatile", "kept"))) return;
+  if (volatile_stays) return;
   state_.written_outputs = 0;
   reset_timers();
   for (AxisState& axis : state_.axes) axis.alarm_clear_until = 0;
@@ -207,10 +214,7 @@ void Simple2R3::reload_program() {
 
 void Simple2R3::load_program(std::string_view listing) {
   const auto assembly = interpreter::simple2::assemble(listing);
-  if (!assembly.lines) {
-    const auto& error = assembly.errors.front();
-    throw ProgramError(error.line, error.field + ": " + error.what + "; expected " + error.expected);
-  }
+  if (!assembly.lines) throw ProgramError(mistakes_of(assembly));
   auto address = kProgramAddress;
   for (const auto& line : *assembly.lines) {
     const std::array<std::uint16_t, 4> words{line.command, line.data1, line.data2, line.flag};

@@ -6,9 +6,9 @@
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/choices.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/language.h"
 #include "emulator/models/simple2_r3/parameters.h"
 #include "emulator/models/simple2_r3/registers.h"
-#include "interpreter/simple2/instructions.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
@@ -104,30 +104,17 @@ constexpr SectionRow kSections[] = {
     {"1.40 以前", "up to 1.40"},
 };
 
-std::vector<InstructionRow> instruction_rows() {
-  std::vector<InstructionRow> rows;
-  for (const auto& instruction : interpreter::simple2::kInstructions) {
-    rows.push_back({.opcode = instruction.opcode,
-                    .mnemonic = instruction.mnemonic,
-                    .data1 = describe(instruction.data1),
-                    .data2 = describe(instruction.data2),
-                    .meaning = instruction.meaning});
-  }
-  return rows;
-}
-
 }  // namespace
 
 const Model& model() {
   static const RegisterMap registers(kRegisters, MapPolicy{});
-  static const std::vector<InstructionRow> instructions = instruction_rows();
   static const Model model{
       .name = "simple2-r3",
       .title = "2-axis pulse controller, Modbus RTU on RS485",
       .firmwares = kFirmwares,
       .registers = &registers,
       .parameters = kParameters,
-      .instructions = instructions,
+      .language = &language(),
       .choices = kChoices,
       .sections = kSections,
       .terminals = kTerminals,

@@ -34,8 +34,13 @@ const std::vector<NamedPlace>& parameter_places() {
   return places;
 }
 
+/// A program's speed and times are not those of the axis's registers.
+bool has_speed_of_its_own(const Simple2R3& device) {
+  return device.chose(option("program_speed", "of_its_own"));
+}
+
 MoveParameters parameters_for(const Simple2R3& device, std::size_t axis, std::int64_t distance_pulses) {
-  if (device.chose(option("program_speed", "of_its_own"))) {
+  if (has_speed_of_its_own(device)) {
     const ProgramSpeed& own = device.state().program_speeds[axis];
     return {.distance_pulses = distance_pulses,
             .speed_rpm = own.speed_rpm,
@@ -59,18 +64,49 @@ void show_pulse(Simple2R3& device, std::size_t axis, std::int32_t pulses) {
 
 }  // namespace
 
-bool ProgramMachine::input(int din) const { return ((device_.inputs() >> din) & 1) != 0; }
-
-bool ProgramMachine::status_bit(int bit) const { return ((read_status(device_, {}) >> bit) & 1) != 0; }
-
-void ProgramMachine::set_outputs(std::uint8_t which, std::uint8_t levels) {
-  device_.write_outputs(which, levels);
+template <class Seen, class Of>
+bool ProgramSight<Seen, Of>::input(int din) const {
+  return ((device_.inputs() >> din) & 1) != 0;
 }
 
-std::int32_t ProgramMachine::parameter(int number) const {
+template <class Seen, class Of>
+bool ProgramSight<Seen, Of>::status_bit(int bit) const {
+  return ((read_status(device_, {}) >> bit) & 1) != 0;
+}
+
+template <class Seen, class Of>
+std::int32_t ProgramSight<Seen, Of>::parameter(int number) const {
   const NamedPlace& place = parameter_places()[static_cast<std::size_t>(number)];
   if (!place.place) return 0;
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(read_value(device_, place)));
+}
+
+template <class Seen, class Of>
+bool ProgramSight<Seen, Of>::moving(Axis axis) const {
+  const State& state = device_.state();
+  const std::size_t number = number_of(axis);
+  return state.axes[number].command != Command::none || state.kept[number].command != Command::none;
+}
+
+template <class Seen, class Of>
+bool ProgramSight<Seen, Of>::moving_for_wait(Axis axis) const {
+  const State& state = device_.state();
+  const std::size_t number = number_of(axis);
+  const bool homes =
+      state.axes[number].command == Command::homing || state.kept[number].command == Command::homing;
+  return moving(axis) && !(homes && device_.chose(option("wait_move_homing", "does_not_wait")));
+}
+
+template <class Seen, class Of>
+bool ProgramSight<Seen, Of>::cut_short(Axis axis) const {
+  return device_.state().axes[number_of(axis)].cut_short;
+}
+
+template class ProgramSight<interpreter::simple2::MachineView, const Simple2R3>;
+template class ProgramSight<interpreter::simple2::Machine, Simple2R3>;
+
+void ProgramMachine::set_outputs(std::uint8_t which, std::uint8_t levels) {
+  device_.write_outputs(which, levels);
 }
 
 void ProgramMachine::set_parameter(int number, std::int32_t value) {
@@ -83,8 +119,8 @@ void ProgramMachine::set_parameter(int number, std::int32_t value) {
   if (row.type == Type::u32 && row.min == 0) {
     wanted = static_cast<std::uint32_t>(value);
   } else if (is_counter && device_.chose(option("counter_by_var", "as_a_counter"))) {
-    wanted =
-        device_.chose(option("counter_overflow", "saturates")) ? std::clamp(value, 0, 65535) : value & 0xFFFF;
+    const bool saturates = device_.dialect().counter_overflow == Dialect::CounterOverflow::saturates;
+    wanted = saturates ? std::clamp(value, 0, 65535) : value & 0xFFFF;
   } else if (row.ranged && row.type == Type::u16) {
     wanted = interpreter::simple2::fitted(device_.dialect(), value, static_cast<std::int32_t>(row.min),
                                           static_cast<std::int32_t>(row.max));
@@ -115,26 +151,10 @@ void ProgramMachine::move_absolute(Axis axis, std::int32_t pulses) {
 
 void ProgramMachine::go_home(Axis axis) { device_.go_home(static_cast<int>(number_of(axis))); }
 
-bool ProgramMachine::moving(Axis axis) const {
-  const State& state = device_.state();
-  const std::size_t number = number_of(axis);
-  return state.axes[number].command != Command::none || state.kept[number].command != Command::none;
-}
-
-bool ProgramMachine::moving_for_wait(Axis axis) const {
-  const State& state = device_.state();
-  const std::size_t number = number_of(axis);
-  const bool homes =
-      state.axes[number].command == Command::homing || state.kept[number].command == Command::homing;
-  return moving(axis) && !(homes && device_.chose(option("wait_move_homing", "does_not_wait")));
-}
-
-bool ProgramMachine::cut_short(Axis axis) const { return device_.state().axes[number_of(axis)].cut_short; }
-
 void ProgramMachine::set_speed(Axis axis, std::int32_t rpm) {
   const std::size_t number = number_of(axis);
   const auto speed_rpm = static_cast<std::uint32_t>(rpm);
-  if (device_.chose(option("program_speed", "of_its_own"))) {
+  if (has_speed_of_its_own(device_)) {
     device_.state().program_speeds[number].speed_rpm = speed_rpm;
     return;
   }
@@ -146,7 +166,7 @@ void ProgramMachine::set_ramps(Axis axis, std::int32_t acceleration_10ms, std::i
   const std::size_t number = number_of(axis);
   const auto up_10ms = static_cast<std::uint32_t>(acceleration_10ms);
   const auto down_10ms = static_cast<std::uint32_t>(deceleration_10ms);
-  if (device_.chose(option("program_speed", "of_its_own"))) {
+  if (has_speed_of_its_own(device_)) {
     device_.state().program_speeds[number].acceleration_10ms = up_10ms;
     device_.state().program_speeds[number].deceleration_10ms = down_10ms;
     return;

@@ -7,24 +7,40 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-class ProgramMachine final : public interpreter::simple2::Machine {
+/// What its program sees: `Seen` is all of the abstract machine, or what of it can be looked at.
+template <class Seen, class Of>
+class ProgramSight : public Seen {
  public:
   using Axis = interpreter::simple2::Axis;
 
-  explicit ProgramMachine(Simple2R3& device) : device_(device) {}
+  explicit ProgramSight(Of& device) : device_(device) {}
 
-  bool input(int din) const override;
-  bool status_bit(int bit) const override;
+  bool input(int din) const final;
+  bool status_bit(int bit) const final;
+  std::int32_t parameter(int number) const final;
+  bool moving(Axis axis) const final;
+  bool moving_for_wait(Axis axis) const final;
+  bool cut_short(Axis axis) const final;
+
+ protected:
+  Of& device_;
+};
+
+extern template class ProgramSight<interpreter::simple2::MachineView, const Simple2R3>;
+extern template class ProgramSight<interpreter::simple2::Machine, Simple2R3>;
+
+using ProgramView = ProgramSight<interpreter::simple2::MachineView, const Simple2R3>;
+
+class ProgramMachine final : public ProgramSight<interpreter::simple2::Machine, Simple2R3> {
+ public:
+  using ProgramSight::ProgramSight;
+
   void set_outputs(std::uint8_t which, std::uint8_t levels) override;
-  std::int32_t parameter(int number) const override;
   void set_parameter(int number, std::int32_t value) override;
   void run_timer(int timer, bool run) override;
   void move_incremental(Axis axis, std::int32_t pulses) override;
   void move_absolute(Axis axis, std::int32_t pulses) override;
   void go_home(Axis axis) override;
-  bool moving(Axis axis) const override;
-  bool moving_for_wait(Axis axis) const override;
-  bool cut_short(Axis axis) const override;
   void set_speed(Axis axis, std::int32_t rpm) override;
   void set_ramps(Axis axis, std::int32_t acceleration_10ms, std::int32_t deceleration_10ms) override;
   void stop(Axis axis) override;
@@ -32,9 +48,6 @@ class ProgramMachine final : public interpreter::simple2::Machine {
   void run_velocity(Axis axis, std::int32_t milli_rpm) override;
   void output_pwm(Axis axis, std::int32_t percent) override;
   void follow_encoder(Axis axis) override;
-
- private:
-  Simple2R3& device_;
 };
 
 /// The language as the device's firmware speaks it, with the device's choices.

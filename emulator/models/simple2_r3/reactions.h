@@ -127,11 +127,18 @@ inline constexpr Set kDuties = set_of(E::pwm, E::pwm_zero);
 inline constexpr Set kCommands = kMoves | set_of(E::move_nowhere, E::home) | kVelocities |
                                  set_of(E::velocity_zero) | kDuties | set_of(E::sync);
 
+inline constexpr Option kModeStays = option("mode_after_stop", "stays");
+inline constexpr Option kPwmNeedsNoServo = option("pwm_servo", "not_needed");
+inline constexpr Option kAlarmResumes = option("after_alarm", "resumes");
+inline constexpr Option kLimitResumes = option("after_limit", "resumes");
+inline constexpr Option kPwmStopsAtLimit = option("pwm_at_limit", "stops");
+
+inline constexpr OtherOutcome kUntilServoOn{option("command_while_servo_off", "kept_until_servo_on"), kept};
 inline constexpr OtherOutcome kUnlessMoving{option("command_while_moving", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessPositioning{option("mode_change_while_moving", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessInOtherMode{option("move_in_other_mode", "ignored"), dropped};
 inline constexpr OtherOutcome kUnlessIntoLimit{option("command_into_limit", "dropped"), dropped};
-inline constexpr OtherOutcome kForgotten{option("after_alarm", "resumes"), ends};  // what would have resumed
+inline constexpr OtherOutcome kForgotten{kAlarmResumes, ends};  // what would have resumed
 inline constexpr OtherOutcome kFromTheSpeed{option("move_in_other_mode", "goes_on_from_the_speed"), changes};
 
 // clang-format off
@@ -141,61 +148,61 @@ inline constexpr ReactionRow kRows[] = {
     {kPosition, kGoing,           set_of(E::limit_ahead), stops, "limit_reaction"},
     {kHoming,   kRunning,         set_of(E::limit_ahead), turns, "homing_sequence"},
     {kHoming,   set_of(leaving),  set_of(E::limit_ahead), stops, "homing_sequence"},
-    {kVelocity, set_of(moving, slowing, leaving), set_of(E::limit_ahead), stops, "after_limit", {option("after_limit", "resumes"), waits}},
+    {kVelocity, set_of(moving, slowing, leaving), set_of(E::limit_ahead), stops, "after_limit", {kLimitResumes, waits}},
     {kVelocity, set_of(turning),  set_of(E::limit_ahead), turns, "limit_reaction"},
     {kSync,     kReady,           set_of(E::limit_ahead), blocked, "limit_reaction"},
 
     {kPositioning, kFree,         set_of(E::limit_behind), goes_on, "limit_reaction"},
     {kVelocity, set_of(standing, moving, slowing), set_of(E::limit_behind), goes_on, "limit_reaction"},
-    {kVelocity, set_of(turning),  set_of(E::limit_behind), slows, "after_limit", {option("after_limit", "resumes"), slows_and_waits}},
+    {kVelocity, set_of(turning),  set_of(E::limit_behind), slows, "after_limit", {kLimitResumes, slows_and_waits}},
     {kSync,     kFree,            set_of(E::limit_behind), goes_on, "limit_reaction"},
 
-    {kPwm,      kPowered,         set_of(E::limit_ahead), goes_on, "pwm_at_limit", {option("pwm_at_limit", "stops"), stops}},
-    {kPwm,      kFree,            set_of(E::limit_behind), goes_on, "pwm_at_limit", {option("pwm_at_limit", "stops"), stops}},
+    {kPwm,      kPowered,         set_of(E::limit_ahead), goes_on, "pwm_at_limit", {kPwmStopsAtLimit, stops}},
+    {kPwm,      kFree,            set_of(E::limit_behind), goes_on, "pwm_at_limit", {kPwmStopsAtLimit, stops}},
     {kAny & ~kPwm, set_of(in_alarm), set_of(E::limit_ahead), goes_on, "limit_reaction"},
     {kAny,      set_of(in_alarm), set_of(E::limit_gone), goes_on, "limit_reaction"},
 
     {kPositioning | kPwm, kOnLimit, set_of(E::limit_gone), goes_on, "limit_reaction"},
     {kVelocity, set_of(leaving),  set_of(E::limit_gone), goes_on, "limit_reaction"},
-    {kVelocity, set_of(at_limit), set_of(E::limit_gone), goes_on, "after_limit", {option("after_limit", "resumes"), resumes}},
+    {kVelocity, set_of(at_limit), set_of(E::limit_gone), goes_on, "after_limit", {kLimitResumes, resumes}},
     {kSync,     set_of(leaving),  set_of(E::limit_gone), goes_on, "limit_reaction"},
     {kSync,     set_of(at_limit), set_of(E::limit_gone), resumes, "系統參數相關: 0xF024, left by STOP alone"},
 
     // --- alarm ---
     {kPosition | kVelocity, kResting, set_of(E::alarm), goes_on, "alarm_reaction"},
     {kPositioning, kGoing,        set_of(E::alarm), stops, "alarm_reaction"},
-    {kVelocity, kGoing,           set_of(E::alarm), stops, "after_alarm", {option("after_alarm", "resumes"), waits}},
+    {kVelocity, kGoing,           set_of(E::alarm), stops, "after_alarm", {kAlarmResumes, waits}},
     {kPwm, set_of(standing),      set_of(E::alarm), goes_on, "alarm_reaction"},
-    {kPwm, set_of(moving, at_limit), set_of(E::alarm), stops, "after_alarm", {option("after_alarm", "resumes"), waits}},
+    {kPwm, set_of(moving, at_limit), set_of(E::alarm), stops, "after_alarm", {kAlarmResumes, waits}},
     {kSync, kReady,               set_of(E::alarm), waits, "sync_after_alarm", {option("sync_after_alarm", "mode_left"), leaves}},
 
     {kPosition, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "alarm_reaction"},
-    {kVelocity | kPwm, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "after_alarm", {option("after_alarm", "resumes"), resumes}},
+    {kVelocity | kPwm, set_of(in_alarm), set_of(E::alarm_gone), goes_on, "after_alarm", {kAlarmResumes, resumes}},
     {kSync, set_of(in_alarm),     set_of(E::alarm_gone), resumes, "sync_after_alarm"},
 
     // --- STOP, SVOFF ---
     {kPosition, kResting | set_of(in_alarm), set_of(E::stop, E::servo_off), goes_on, "運動相關: 0x100D, 0x1013"},
     {kPositioning, kGoing, set_of(E::stop), stops, "stop", {option("stop", "slows_down"), slows}},
     {kPositioning, kGoing, set_of(E::servo_off), stops, "程式指令列表: 0x2B, SVOFF"},
-    {kVelocity, kPowered, set_of(E::stop, E::servo_off), leaves, "mode_after_stop", {option("mode_after_stop", "stays"), stops}},
-    {kPwm, kPowered, set_of(E::stop), leaves, "mode_after_stop", {option("mode_after_stop", "stays"), stops}},
-    {kPwm, kPowered, set_of(E::servo_off), leaves, "pwm_servo", {option("pwm_servo", "not_needed"), goes_on}, {option("mode_after_stop", "stays"), stops}},
+    {kVelocity, kPowered, set_of(E::stop, E::servo_off), leaves, "mode_after_stop", {kModeStays, stops}},
+    {kPwm, kPowered, set_of(E::stop), leaves, "mode_after_stop", {kModeStays, stops}},
+    {kPwm, kPowered, set_of(E::servo_off), leaves, "pwm_servo", {kPwmNeedsNoServo, goes_on}, {kModeStays, stops}},
     {kSync, kPowered, set_of(E::stop), leaves, "系統參數相關: 0xF024"},
     {kSync, kPowered, set_of(E::servo_off), leaves, "程式指令列表: 0x2B, SVOFF"},
 
     // --- commands while nothing may come out ---
-    {kPosition | kVelocity | kPwm, set_of(servo_off), kCommands & ~kDuties, dropped, "command_while_servo_off", {option("command_while_servo_off", "kept_until_servo_on"), kept}},
-    {kPosition | kVelocity, set_of(servo_off), kDuties, dropped, "pwm_servo", {option("pwm_servo", "not_needed"), begins}, {option("command_while_servo_off", "kept_until_servo_on"), kept}},
-    {kPwm, set_of(servo_off), kDuties, dropped, "pwm_servo", {option("pwm_servo", "not_needed"), changes}, {option("command_while_servo_off", "kept_until_servo_on"), kept}},
+    {kPosition | kVelocity | kPwm, set_of(servo_off), kCommands & ~kDuties, dropped, "command_while_servo_off", kUntilServoOn},
+    {kPosition | kVelocity, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmNeedsNoServo, begins}, kUntilServoOn},
+    {kPwm, set_of(servo_off), kDuties, dropped, "pwm_servo", {kPwmNeedsNoServo, changes}, kUntilServoOn},
     {kPosition | kSync, set_of(in_alarm), kMoves | set_of(E::home, E::sync), dropped, "alarm_reaction"},
     {kVelocity | kPwm, set_of(in_alarm), kMoves | set_of(E::home), dropped, "after_alarm", kUnlessInOtherMode, kForgotten},
     {kVelocity | kPwm, set_of(in_alarm), set_of(E::sync), dropped, "after_alarm", kForgotten},
-    {kVelocity, set_of(in_alarm), kVelocities, dropped, "after_alarm", {option("after_alarm", "resumes"), waits}},
+    {kVelocity, set_of(in_alarm), kVelocities, dropped, "after_alarm", {kAlarmResumes, waits}},
     {kVelocity, set_of(in_alarm), set_of(E::velocity_zero), changes, "系統參數相關: 0xF006, at once"},
     {kPosition | kSync, set_of(in_alarm), kVelocities, dropped, "alarm_reaction"},
     {kPwm, set_of(in_alarm), kVelocities, dropped, "after_alarm", kForgotten},
     {kAny & ~kVelocity, set_of(in_alarm), set_of(E::velocity_zero), begins, "系統參數相關: 0xF006, at once"},
-    {kPwm, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", {option("after_alarm", "resumes"), waits}},
+    {kPwm, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", {kAlarmResumes, waits}},
     {kPwm, set_of(in_alarm), set_of(E::pwm_zero), changes, "運動相關: 0x1019, at once"},
     {kPosition | kSync, set_of(in_alarm), set_of(E::pwm), dropped, "alarm_reaction"},
     {kVelocity, set_of(in_alarm), set_of(E::pwm), dropped, "after_alarm", kForgotten},
@@ -225,23 +232,23 @@ inline constexpr ReactionRow kRows[] = {
     {kPositioning, set_of(leaving), set_of(E::velocity_towards), ends, "command_into_limit", kUnlessPositioning, kUnlessIntoLimit},
     {kVelocity, kReady, set_of(E::velocity_away, E::velocity_zero), changes, "系統參數相關: 0xF006, at once"},
     {kVelocity, kFree, set_of(E::velocity_towards), changes, "系統參數相關: 0xF006, at once"},
-    {kVelocity, kOnLimit, set_of(E::velocity_towards), slows, "after_limit", {option("after_limit", "resumes"), slows_and_waits}},
+    {kVelocity, kOnLimit, set_of(E::velocity_towards), slows, "after_limit", {kLimitResumes, slows_and_waits}},
     {kPwm | kSync, kReady, set_of(E::velocity_away, E::velocity_zero), begins, "系統參數相關: 0xF006, at once"},
     {kPwm | kSync, kFree, set_of(E::velocity_towards), begins, "系統參數相關: 0xF006, at once"},
     {kPwm | kSync, kOnLimit, set_of(E::velocity_towards), ends, "command_into_limit", kUnlessIntoLimit},
 
     // --- PWM, sync ---
     {kPosition, set_of(standing), kDuties, begins, "運動相關: 0x1019, at once"},
-    {kPosition, set_of(at_limit), set_of(E::pwm), begins, "pwm_at_limit", {option("pwm_at_limit", "stops"), dropped}},
+    {kPosition, set_of(at_limit), set_of(E::pwm), begins, "pwm_at_limit", {kPwmStopsAtLimit, dropped}},
     {kPosition, set_of(at_limit), set_of(E::pwm_zero), begins, "運動相關: 0x1019, at once"},
     {kPositioning, kRunning, kDuties, begins, "mode_change_while_moving", kUnlessPositioning},
-    {kPositioning, set_of(leaving), set_of(E::pwm), begins, "pwm_at_limit", kUnlessPositioning, {option("pwm_at_limit", "stops"), dropped}},
+    {kPositioning, set_of(leaving), set_of(E::pwm), begins, "pwm_at_limit", kUnlessPositioning, {kPwmStopsAtLimit, dropped}},
     {kPositioning, set_of(leaving), set_of(E::pwm_zero), begins, "mode_change_while_moving", kUnlessPositioning},
     {kVelocity | kSync, kFree, kDuties, begins, "運動相關: 0x1019, at once"},
-    {kVelocity | kSync, kOnLimit, set_of(E::pwm), begins, "pwm_at_limit", {option("pwm_at_limit", "stops"), dropped}},
+    {kVelocity | kSync, kOnLimit, set_of(E::pwm), begins, "pwm_at_limit", {kPwmStopsAtLimit, dropped}},
     {kVelocity | kSync, kOnLimit, set_of(E::pwm_zero), begins, "運動相關: 0x1019, at once"},
     {kPwm, kFree, kDuties, changes, "運動相關: 0x1019, at once"},
-    {kPwm, kOnLimit, set_of(E::pwm), changes, "pwm_at_limit", {option("pwm_at_limit", "stops"), dropped}},
+    {kPwm, kOnLimit, set_of(E::pwm), changes, "pwm_at_limit", {kPwmStopsAtLimit, dropped}},
     {kPwm, kOnLimit, set_of(E::pwm_zero), changes, "運動相關: 0x1019, at once"},
     {kPosition, kResting, set_of(E::sync), begins, "系統參數相關: 0xF024"},
     {kPositioning, kGoing, set_of(E::sync), begins, "mode_change_while_moving", kUnlessPositioning},

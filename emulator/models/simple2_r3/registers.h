@@ -89,8 +89,8 @@ inline constexpr auto kPositionRows = section("編碼器，座標，類比輸入
     reg(0x0E09, "Analog_B", u16, R).range(0, 65535).reads<read_analog>(1),
     reg(0x0E0A, "ENCA_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
     reg(0x0E0C, "ENCB_Resoultion", u32, RW).range(1, k2To31).in("Pulse").from_factory(3200).kept(),
-    reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed>(kAxisA),
-    reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed>(kAxisB),
+    reg(0x0E0E, "ENCA_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed>(kAxisA).changes_at<every_tick>(),
+    reg(0x0E0F, "ENCB_RPM", s16, R).range(-32768, 32767).in("RPM").reads<read_encoder_speed>(kAxisB).changes_at<every_tick>(),
 });
 
 // Speeds are printed with a minimum of 1, but the factory's value is 0 and appendix A documents it.
@@ -209,8 +209,8 @@ inline constexpr auto kApplicationRows = section("程式應用相關", {
     reg(0xF100, "CalcREG",        s32, RW),
     reg(0xF122, "Counter1_Value", u16, RW).range(0, 65535),
     reg(0xF123, "Counter2_Value", u16, RW).range(0, 65535),
-    reg(0xF126, "Timer1_Value",   u32, RW).range(0, 4294967295).reads<read_timer>(0).does<preset_timer>(0),
-    reg(0xF128, "Timer2_Value",   u32, RW).range(0, 4294967295).reads<read_timer>(1).does<preset_timer>(1),
+    reg(0xF126, "Timer1_Value",   u32, RW).range(0, 4294967295).reads<read_timer>(0).changes_at<next_count_of_timer>().does<preset_timer>(0),
+    reg(0xF128, "Timer2_Value",   u32, RW).range(0, 4294967295).reads<read_timer>(1).changes_at<next_count_of_timer>().does<preset_timer>(1),
 });
 
 inline constexpr auto kFactoryRows = section("附錄 C", {

@@ -48,7 +48,7 @@ void meet_in_pwm(AxisState& axis, Outcome outcome) {
 Outcome Simple2R3::reaction(int axis_number, Event event) const {
   const AxisState& axis = state_.axes[static_cast<std::size_t>(axis_number)];
   const bool needs_servo = has(reactions::kCommands, event) &&
-                           !(has(reactions::kDuties, event) && chose(option("pwm_servo", "not_needed")));
+                           !(has(reactions::kDuties, event) && chose(reactions::kPwmNeedsNoServo));
   const bool is_held = needs_servo && lacks_servo(axis_number);
   const ReactionRow* row =
       reaction_row(doing(axis), is_held ? Phase::servo_off : phase_of(axis, now()), event);

@@ -169,6 +169,8 @@ class Chain {
   int analog(int module) const { return modules_[at(module)].analog; }
   bool analog_speed(int module) const { return modules_[at(module)].analog_speed; }
   ContinuousPath continuous_path() const { return continuous_; }
+  /// By choice: lines of two axes go by PR4, not PR3.
+  bool lines_have_own_speed() const { return options_.chose(option("line_speed", "pr4_of_its_own")); }
   ModuleStatus status(int module) const;
   double coordinate(int module) const;
   std::int64_t travel(int module) const { return axes_[at(module)].travel_pulses; }
@@ -210,6 +212,22 @@ class Chain {
   };
 
   static std::size_t at(int module) { return static_cast<std::size_t>(module); }
+
+  // What several places ask of the options.
+  bool has_servo_at_power_up() const { return !options_.chose(option("power_up_servo", "off")); }
+  bool reserves_moves_only() const { return options_.chose(option("reserved_module", "moves_by_number")); }
+  bool thrust_runs() const { return options_.chose(option("thrust", "runs_at_vj")); }
+  bool new_speed_counts_at_once() const { return options_.chose(option("new_speed", "at_once")); }
+  bool speeds_are_of_t0() const { return options_.chose(option("unequal_speeds", "as_t0_has_them")); }
+  bool acceleration_may_change() const {
+    return options_.chose(option("acceleration_in_motion", "next_command"));
+  }
+  bool triggers_stay() const {
+    return options_.chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position"));
+  }
+  bool is_refused_as_empty(const motion::Path& path) const {
+    return path.length_u == 0 && options_.chose(option("path_without_length", "error_2"));
+  }
   bool in_pause_scope(int module) const {
     return module == 0 || !options_.chose(option("pause_scope", "t0"));
   }
@@ -270,7 +288,7 @@ class Chain {
   void give_up(bool in_scope_only);
   void clear_waiting();
   void stop_all();
-  void end_outputs(int module);
+  void stop_outputs(int module);
   void hold();
   void release();
   void cut(int module, motion::Cause why);              // no more pulses; what was running is forgotten

@@ -26,7 +26,7 @@ bool is_module(int module) { return module >= 0 && module < kModules; }
 
 Chain::Chain(const ChainOptions& options) : options_(options) {
   modules_[0].linked = true;
-  for (motion::Axis& axis : axes_) axis.switch_servo(!options.chose(option("power_up_servo", "off")));
+  for (motion::Axis& axis : axes_) axis.switch_servo(has_servo_at_power_up());
 }
 
 Error Chain::refusal(int module) const {
@@ -54,9 +54,8 @@ Error Chain::refusal_by_number(int module, InPause what) const {
 }
 
 Error Chain::refusal_of_jog(int module) const {
-  const Error why = options_.chose(option("reserved_module", "moves_by_number"))
-                        ? refusal_of_motion(module, InPause::jog)
-                        : refusal_by_number(module, InPause::jog);
+  const Error why = reserves_moves_only() ? refusal_of_motion(module, InPause::jog)
+                                          : refusal_by_number(module, InPause::jog);
   if (why != Error::none) return why;
   const Activity activity = modules_[at(module)].activity;
   if (!busy(module) || activity == Activity::jog || activity == Activity::thrust) return Error::none;
@@ -126,8 +125,7 @@ Error Chain::move_axis(Letter letter, bool absolute, double units) {
 }
 
 Error Chain::home(int module) {
-  const Error why = options_.chose(option("reserved_module", "moves_by_number")) ? refusal_of_motion(module)
-                                                                                 : refusal_by_number(module);
+  const Error why = reserves_moves_only() ? refusal_of_motion(module) : refusal_by_number(module);
   if (why != Error::none) return why;
   Job job{.kind = Job::Kind::home};
   job.module_of[0] = static_cast<std::int8_t>(module);
@@ -224,7 +222,7 @@ void Chain::begin_jog(int module, int way, Tick begin_at) {
 
 void Chain::begin_thrust(int module, std::int32_t force, Tick begin_at) {
   Module& mine = modules_[at(module)];
-  if (options_.chose(option("thrust", "runs_at_vj"))) begin_jog(module, +1, begin_at);
+  if (thrust_runs()) begin_jog(module, +1, begin_at);
   // Also where there is no speed to run at.
   if (!axes_[at(module)].moving()) axes_[at(module)].hang(+1);
   mine.starved = false;
@@ -307,8 +305,8 @@ Error Chain::reset(int module) {
   forget_queue(module);
   modules_[at(module)].analog_speed = false;
   modules_[at(module)].late_error = Error::none;
-  if (options_.chose(option("outputs_at_stop", "end"))) end_outputs(module);
-  if (options_.chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position"))) {
+  stop_outputs(module);
+  if (triggers_stay()) {
     modules_[at(module)].triggers = {};
     place_triggers(module);
   }
@@ -316,7 +314,7 @@ Error Chain::reset(int module) {
     modules_[at(module)].homed = false;
     put_coordinate(module, 0);
   }
-  axes_[at(module)].switch_servo(!options_.chose(option("power_up_servo", "off")));
+  axes_[at(module)].switch_servo(has_servo_at_power_up());
   serve(now_ + 1);
   return Error::none;
 }

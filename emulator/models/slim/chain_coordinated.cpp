@@ -87,9 +87,7 @@ Error Chain::enqueue_coordinated(Job job) {
     const ModuleSettings& mine = modules_[at(module)].settings;
     const bool equal = path_speed(job, mine) == path_speed(job, first) &&
                        mine.path_acceleration_units_s2 == first.path_acceleration_units_s2;
-    if (!equal && !options_.chose(option("unequal_speeds", "as_t0_has_them"))) {
-      return Error::unequal_speeds;
-    }
+    if (!equal && !speeds_are_of_t0()) return Error::unequal_speeds;
     const Activity activity = modules_[at(module)].activity;
     begin_is_known = begin_is_known && activity != Activity::jog && activity != Activity::thrust &&
                      activity != Activity::stopping;
@@ -97,14 +95,13 @@ Error Chain::enqueue_coordinated(Job job) {
   }
   job.continuous = continuous_;
   job.smooth_corner_deg = modules_[0].settings.smooth_corner_deg;
-  if (options_.chose(option("acceleration_in_motion", "next_command"))) {
+  if (acceleration_may_change()) {
     job.path_acceleration_units_s2 = path_settings(job).path_acceleration_units_s2;
   }
   try {
     const motion::Path path = path_of(job, begin);
     if (!within_reach(job, path)) return Error::range;
-    if (options_.chose(option("path_without_length", "error_2")) && begin_is_known && path.length_u == 0)
-      return Error::range;
+    if (begin_is_known && is_refused_as_empty(path)) return Error::range;
     for (std::size_t i = 0; i < job.ends.size(); ++i) job.ends[i] = path.end[static_cast<Eigen::Index>(i)];
   } catch (const motion::BadMotion&) {
     return Error::range;
@@ -114,14 +111,12 @@ Error Chain::enqueue_coordinated(Job job) {
 
 /// Whose speed and acceleration count.
 const ModuleSettings& Chain::path_settings(const Job& job) const {
-  const bool by_0 = options_.chose(option("unequal_speeds", "as_t0_has_them"));
-  return modules_[by_0 ? 0 : at(job.module_of[0])].settings;
+  return modules_[speeds_are_of_t0() ? 0 : at(job.module_of[0])].settings;
 }
 
 /// PR4 instead of PR3.
 bool Chain::goes_by_line_speed(const Job& job) const {
-  return options_.chose(option("line_speed", "pr4_of_its_own")) && job.kind == Job::Kind::line &&
-         job.modules() == 2;
+  return lines_have_own_speed() && job.kind == Job::Kind::line && job.modules() == 2;
 }
 
 double Chain::path_speed(const Job& job, const ModuleSettings& settings) const {

@@ -128,15 +128,15 @@ void Chain::meet_triggers(int module) {
     PositionTrigger& trigger = mine.triggers[i];
     if (!trigger.armed || (axes_[at(module)].events & motion::bit(event)) == 0) continue;
     mine.outputs[trigger.output] = {.on = trigger.sets};
-    if (options_.chose(option("position_outputs", "each_time_from_either_side_on_the_commanded_position")))
-      continue;
+    if (triggers_stay()) continue;
     trigger = {};
     axes_[at(module)].set_comparator(i, {});
   }
 }
 
-/// What goes on by itself: pulses and PWM end, and no place switches any more. Levels stay.
-void Chain::end_outputs(int module) {
+/// By choice, what goes on by itself: pulses and PWM end, and no place switches any more. Levels stay.
+void Chain::stop_outputs(int module) {
+  if (!options_.chose(option("outputs_at_stop", "end"))) return;
   Module& mine = modules_[at(module)];
   for (Output& output : mine.outputs) {
     if (output.mode != Output::Mode::level) output = {};

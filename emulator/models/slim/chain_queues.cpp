@@ -200,11 +200,7 @@ bool Chain::start_group(int module, Tick begin_at) {
     drop_head(module, Error::range);
     return true;
   }
-  if (!within_reach(job, path)) {
-    drop_head(module, Error::range);
-    return true;
-  }
-  if (path.length_u == 0 && options_.chose(option("path_without_length", "error_2"))) {
+  if (!within_reach(job, path) || is_refused_as_empty(path)) {
     drop_head(module, Error::range);
     return true;
   }
@@ -266,9 +262,7 @@ void Chain::extend(Group& group) {
     } catch (const motion::BadMotion&) {
       return;  // refused when its turn comes
     }
-    if (!within_reach(next, path) ||
-        (path.length_u == 0 && options_.chose(option("path_without_length", "error_2"))))
-      return;
+    if (!within_reach(next, path) || is_refused_as_empty(path)) return;
     note_ends(next, group.paths, path.end);
     group.motion.run.append(path, joint, now_);
     group.end = path.end;

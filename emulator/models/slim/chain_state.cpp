@@ -57,7 +57,7 @@ Error Chain::set_working_speed(int module, double rpm_or_rps) {
   Module& mine = modules_[at(module)];
   mine.settings.working_speed = rpm_or_rps;
   mine.analog_speed = false;
-  if (mine.starved || options_.chose(option("new_speed", "at_once"))) refresh_speed(module);
+  if (mine.starved || new_speed_counts_at_once()) refresh_speed(module);
   serve(now_ + 1);  // a move may have waited for AVM's voltage
   return Error::none;
 }
@@ -67,9 +67,8 @@ Error Chain::set_jog_speed(int module, double rpm_or_rps) {
   Module& mine = modules_[at(module)];
   const bool same_sense = rpm_or_rps * mine.settings.jog_speed > 0;
   mine.settings.jog_speed = rpm_or_rps;
-  const bool at_once = options_.chose(option("new_speed", "at_once"));
   // A jog that is to turn round, or to stand, is another one.
-  if (mine.activity == Activity::jog && at_once && same_sense) refresh_speed(module);
+  if (mine.activity == Activity::jog && same_sense && new_speed_counts_at_once()) refresh_speed(module);
   return Error::none;
 }
 
@@ -116,8 +115,7 @@ Error Chain::set_tvm(double units_s) {
 
 Error Chain::set_path_acceleration(int module, double units_s2) {
   if (!plannable(units_s2)) return Error::range;
-  if (group_of(module) != nullptr && !options_.chose(option("acceleration_in_motion", "next_command")))
-    return Error::not_allowed;
+  if (group_of(module) != nullptr && !acceleration_may_change()) return Error::not_allowed;
   modules_[at(module)].settings.path_acceleration_units_s2 = units_s2;
   return Error::none;
 }
@@ -166,7 +164,7 @@ bool Chain::moving(int module) const {
   if (const Group* group = group_of(module); group != nullptr) {
     return !group->motion.run.paused() || !group->motion.run.at_rest(now_);
   }
-  const bool pushes = mine.activity == Activity::thrust && !options_.chose(option("thrust", "runs_at_vj"));
+  const bool pushes = mine.activity == Activity::thrust && !thrust_runs();
   return !pushes && axes_[at(module)].moving();
 }
 

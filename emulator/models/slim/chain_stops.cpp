@@ -138,8 +138,7 @@ void Chain::clear_waiting() {
     const Activity activity = modules_[at(module)].activity;
     const Group* group = group_of(module);
     const auto& fifo = modules_[at(module)].fifo;
-    const bool is_half_done =
-        options_.chose(option("clear_buffer_in_pause", "what_waits")) && !fifo.empty() && fifo[0].begun;
+    const bool is_half_done = options_.chose(pauses::kOnlyWhatWaits) && !fifo.empty() && fifo[0].begun;
     const bool head_runs = activity == Activity::move || activity == Activity::home || is_half_done;
     forget_queue(module, group != nullptr ? group->paths : head_runs ? 1 : 0);
   }
@@ -151,7 +150,7 @@ void Chain::stop_all() {
   for (int module = 0; module < kModules; ++module) {
     Module& mine = modules_[at(module)];
     mine.fifo.truncate(0);
-    if (options_.chose(option("outputs_at_stop", "end"))) end_outputs(module);
+    stop_outputs(module);
     if (!options_.chose(option("emergency_stop", "nothing_queued_not_paused_servo_off")) || !mine.linked)
       continue;
     mine.analog_speed = false;  // as HOFF does

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
+#include "emulator/device/program_error.h"
 #include "emulator/models/slim/model.h"
 
 namespace understudy::emulator::models::slim {
@@ -14,6 +16,7 @@ Slim::Slim(const DeviceSettings& settings)
   flow_options_ = flow_options();
   state_.kept = factory();
   state_.ram = state_.kept;
+  state_.chain.set_options(chain_options());
 }
 
 /// Each row's option in force, as the device has it.
@@ -47,7 +50,7 @@ lang::ProgramOptions Slim::program_options() const {
   if (chose(option("refused_line", "ends_editing")))
     options.refused_line = Options::RefusedLine::ends_pe_and_pi;
   options.check_command =
-      chose(option("axis_values", "is_taken_from_its_letter"))
+      takes_letters_away()
           ? [](const lang::Command& command) { return check_parameter_line(command, true); }
           : [](const lang::Command& command) { return check_parameter_line(command, false); };
   if (chose(option("same_label", "the_first_counts"))) options.same_label = Options::SameLabel::first_counts;
@@ -121,8 +124,9 @@ void Slim::power_down() {
   blank.ram = blank.kept;
   blank.kept_program = std::move(state_.kept_program);
   blank.kept_revision = state_.kept_revision;
+  blank.chain.set_options(chain_options());
   blank.chain.skip_to(now());
-  if (chose(option("history_kept", "for_ever"))) {
+  if (history_is_kept()) {
     for (std::size_t m = 0; m < blank.errors.size(); ++m) {
       blank.errors[m].history = std::move(state_.errors[m].history);
     }
@@ -144,7 +148,7 @@ void Slim::settle_memory() {
 
 void Slim::write_memory(NvImage& image) const {
   write_image(state_.kept, factory(), memory_form(), image);
-  if (chose(option("history_kept", "for_ever"))) write_history(image);
+  if (history_is_kept()) write_history(image);
   image.program = state_.kept_program;
 }
 
@@ -161,7 +165,7 @@ void Slim::write_history(NvImage& image) const {
 /// Takes them out of the image.
 std::array<Errors, kModules> Slim::read_history(NvImage& image) const {
   std::array<Errors, kModules> errors{};
-  if (!chose(option("history_kept", "for_ever"))) return errors;
+  if (!history_is_kept()) return errors;
   for (int m = 0; m < kModules; ++m) {
     for (std::size_t i = 0; i < history_length(); ++i) {
       const auto found = std::ranges::find(image.registers, history_name(m, i),
@@ -194,14 +198,13 @@ void Slim::read_memory(const NvImage& given) {
         "program: holds a line that is not a command of a program; expected lines as ULP shows them");
   }
   state_.kept = std::move(memory);
-  if (chose(option("history_kept", "for_ever"))) state_.errors = errors;
+  if (history_is_kept()) state_.errors = errors;
   state_.kept_program = image.program;
   ++state_.kept_revision;
 }
 
-void Slim::load_program(std::string_view text) {
-  wake();
-  lang::Program program;
+Slim::ReadProgram Slim::read_program(std::string_view text) const {
+  ReadProgram read;
   std::istringstream lines{std::string(text)};
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -209,7 +212,7 @@ void Slim::load_program(std::string_view text) {
     const std::size_t first = line.find_first_not_of(" \t");
     // What a file has for people: empty lines and remarks.
     if (first == std::string::npos || line[first] == ';' || line[first] == '#') continue;
-    const Error error = program.insert(program.size(), line, of_programs());
+    const Error error = read.program.insert(read.program.size(), line, of_programs());
     if (error == Error::none) continue;
     const std::string lines_that_fit = std::to_string(of_programs().capacity);
     const std::string what =
@@ -218,10 +221,18 @@ void Slim::load_program(std::string_view text) {
         : error == Error::not_allowed ? "may not stand in a program"
         : error == Error::address     ? "begins with a label that another line has"
                                   : "is not a command; expected one of `understudy describe slim commands`";
-    throw ProgramError(number, what);
+    read.mistakes.push_back({number, static_cast<int>(first) + 1, what});
+    if (error == Error::buffer_full) break;  // for all that follow as well
   }
+  return read;
+}
+
+void Slim::load_program(std::string_view text) {
+  ReadProgram read = read_program(text);
+  if (!read.mistakes.empty()) throw ProgramError(std::move(read.mistakes));
+  wake();
   stop(state_.execution);
-  state_.program = std::move(program);
+  state_.program = std::move(read.program);
 }
 
 std::string Slim::program_text() const {
@@ -265,7 +276,7 @@ void Slim::step_motion(Tick tick) { state_.chain.step(tick); }
 void Slim::update_outputs(Tick) {
   for (int m = 0; m < kModules; ++m) {
     const Error late = state_.chain.take_late_error(m);
-    if (late != Error::none) note_error(chose(option("error_of", "t0")) ? 0 : m, late);
+    if (late != Error::none) note_error(errors_are_of_t0() ? 0 : m, late);
   }
 }
 

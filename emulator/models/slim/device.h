@@ -100,6 +100,7 @@ class Slim final : public TextDevice,
 
   // --- by name ---
   std::optional<double> value_named(std::string_view name) const override;
+  Tick next_change(std::string_view name, Tick done) const override;
   std::optional<std::string> assign(std::string_view name, double value) override;
   std::vector<std::string> names() const override;
 
@@ -108,6 +109,8 @@ class Slim final : public TextDevice,
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  /// What is wrong with a text, for a device made like this one.
+  std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 
   // --- time ---
   void sample_inputs(Tick tick) override;
@@ -147,6 +150,13 @@ class Slim final : public TextDevice,
     bool has_words = true;           // false: only the number is wanted
   };
 
+  /// A program, as far as its lines are good.
+  struct ReadProgram {
+    lang::Program program{};
+    std::vector<ProgramMistake> mistakes{};
+  };
+  ReadProgram read_program(std::string_view text) const;
+
   // Of a program: interpreter/slim/machine.h.
   bool input(int number) const override;
   double value(const lang::Operand& operand) const override;
@@ -170,6 +180,11 @@ class Slim final : public TextDevice,
     return state_.speech.size() < static_cast<std::size_t>(chosen_number(numbers("print_ahead")));
   }
   void say(std::string_view text);
+  /// What has succeeded and says nothing itself.
+  void acknowledge() {
+    if (chose(option("acknowledgement", "ok"))) say("OK");
+  }
+  bool errors_are_of_t0() const { return chose(option("error_of", "t0")); }
   /// These two return the module that ends up with the error.
   int fail(int module, Error error);
   int remember(int module, Error error);
@@ -194,10 +209,12 @@ class Slim final : public TextDevice,
   }
   double amount(const lang::Command& command, std::size_t operand) const;
   std::string text_of(const lang::Operand& variable) const;
+  /// A module that has an axis letter already gives it up for another one.
+  bool takes_letters_away() const { return chose(option("axis_values", "is_taken_from_its_letter")); }
   Error set_variable(const lang::Operand& variable, double value);
   /// PR4 is another name of PR3, unless it is a speed of its own.
   std::string_view meant(std::string_view parameter) const {
-    return parameter == "PR4" && !chose(option("line_speed", "pr4_of_its_own")) ? "PR3" : parameter;
+    return parameter == "PR4" && !state_.chain.lines_have_own_speed() ? "PR3" : parameter;
   }
   /// By number: this many pulses are this many user units.
   struct UserUnit {
@@ -230,6 +247,7 @@ class Slim final : public TextDevice,
   // queries.cpp
   friend struct SlimQueries;
   Error query(const lang::Command& command, Answer& answer) const;
+  bool has_input_mask() const { return !chose(option("input_mask", "error_1")); }
   std::uint16_t status_bits(int module) const;
   std::string history_text(const Errors& errors) const;
 
@@ -244,12 +262,13 @@ class Slim final : public TextDevice,
   MemoryForm memory_form() const;
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
+  bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
   void write_history(NvImage& image) const;
   std::array<Errors, kModules> read_history(NvImage& image) const;
   /// By PZ.
   bool program_is_held() const {
     const bool is_paused =
-        state_.chain.queues_paused() || (chose(option("pauses", "one_pause")) && state_.chain.paused());
+        state_.chain.queues_paused() || (chose(pauses::kOnePause) && state_.chain.paused());
     return chose(option("pause_and_program", "program_pauses_too")) && is_paused;
   }
   void reboot();

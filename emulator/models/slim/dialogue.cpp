@@ -54,7 +54,7 @@ void Slim::say(std::string_view text) {
 /// is its own, unless nobody could ask: of a module that is not linked the host has it.
 int Slim::remember(int module, Error error) {
   const bool is_of_line = error == Error::syntax || error == Error::range || error == Error::address;
-  if (is_of_line || !state_.chain.linked(module) || chose(option("error_of", "t0"))) module = 0;
+  if (is_of_line || !state_.chain.linked(module) || errors_are_of_t0()) module = 0;
   note_error(module, error);
   return module;
 }
@@ -62,7 +62,7 @@ int Slim::remember(int module, Error error) {
 void Slim::note_error(int module, Error error) {
   Errors& errors = state_.errors[static_cast<std::size_t>(module)];
   errors.present = error;
-  if (chose(option("history_kept", "for_ever"))) ++state_.kept_revision;
+  if (history_is_kept()) ++state_.kept_revision;
   errors.history.insert(errors.history.begin(), static_cast<std::uint8_t>(error));
   if (errors.history.size() > history_length()) errors.history.pop_back();
 }
@@ -91,8 +91,8 @@ void Slim::hear_line(std::string_view line) {
     const Error error = enter_line(state_.editor, state_.program, line, of_programs());
     if (error != Error::none) {
       fail(0, error);
-    } else if (chose(option("acknowledgement", "ok"))) {
-      say("OK");
+    } else {
+      acknowledge();
     }
   } else if (wants_number(state_.execution) && !is_heard_instead_of_number(line)) {
     const Error error = give_number(state_.execution, state_.program, line, of_programs().dialect);
@@ -141,7 +141,7 @@ void Slim::hear_command(std::string_view line) {
     return;
   }
   for (const std::string& text : lines) say(text);
-  if (lines.empty() && chose(option("acknowledgement", "ok")) && powered()) say("OK");
+  if (lines.empty() && powered()) acknowledge();
 }
 
 /// A typed command. `lines` is what it has to say.

@@ -13,6 +13,7 @@
 #include "emulator/device/text/text_device.h"
 #include "emulator/models/slim/choices.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/language.h"
 #include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
 #include "emulator/models/slim/parameters.h"
@@ -131,6 +132,7 @@ const Model& model() {
       .title = "chain of up to 8 integrated servos, ASCII commands on RS232",
       .firmwares = kFirmwares,
       .named_parameters = parameters,
+      .language = &language(),
       .commands = commands,
       .choices = kChoices,
       .sections = kSections,

@@ -84,9 +84,13 @@ using enum PauseOutcome;
 using P = Pauses;
 using W = InPause;
 
+inline constexpr Option kOnePause = option("pauses", "one_pause");
+inline constexpr Option kOnlyWhatWaits = option("clear_buffer_in_pause", "what_waits");
+inline constexpr Option kEndsPause = option("reset", "pause_too");
+
 // clang-format off
 inline constexpr PauseRow kRows[] = {
-    {P::none, W::pz,           {P::pz, slows_down},   "list, PZ", {option("pauses", "one_pause"), {P::tapz, slows_down}}},
+    {P::none, W::pz,           {P::pz, slows_down},   "list, PZ", {kOnePause, {P::tapz, slows_down}}},
     {P::none, W::redo,         {P::none, in_vain},    "ineffective_pause"},
     {P::none, W::clear_buffer, {P::none, clears},     "list, CLR BUF"},
     {P::none, W::tapz,         {P::tapz, slows_down}, "list, TAPZ"},
@@ -99,34 +103,34 @@ inline constexpr PauseRow kRows[] = {
 
     {P::pz, W::pz,             {P::pz, slows_down},   "list, PZ"},
     {P::pz, W::redo,           {P::none, goes_on},    "list, REDO"},
-    {P::pz, W::clear_buffer,   {P::none, gives_up},   "clear_buffer_in_pause", {option("clear_buffer_in_pause", "what_waits"), {P::pz, clears}}},
+    {P::pz, W::clear_buffer,   {P::none, gives_up},   "clear_buffer_in_pause", {kOnlyWhatWaits, {P::pz, clears}}},
     {P::pz, W::tapz,           {P::both, slows_down}, "pauses"},
     {P::pz, W::taredo,         {P::pz, in_vain},      "pauses"},
     {P::pz, W::taupz,          {P::pz, in_vain},      "pauses"},
     {P::pz, W::tastop,         {P::none, stops},      "emergency_stop"},
-    {P::pz, W::reset,          {P::pz, resets},       "reset", {option("reset", "pause_too"), {P::none, gives_up}}},
+    {P::pz, W::reset,          {P::pz, resets},       "reset", {kEndsPause, {P::none, gives_up}}},
     {P::pz, W::motion,         {P::pz, waits},        "pauses"},
     {P::pz, W::jog,            {P::pz, is_refused},   "pauses"},
 
-    {P::tapz, W::pz,           {P::both, slows_down}, "pauses", {option("pauses", "one_pause"), {P::tapz, slows_down}}},
-    {P::tapz, W::redo,         {P::tapz, in_vain},    "pauses", {option("pauses", "one_pause"), {P::none, goes_on}}},
-    {P::tapz, W::clear_buffer, {P::tapz, gives_up},   "clear_buffer_in_pause", {option("clear_buffer_in_pause", "what_waits"), {P::tapz, clears}}, {option("pauses", "one_pause"), {P::none, gives_up}}},
+    {P::tapz, W::pz,           {P::both, slows_down}, "pauses", {kOnePause, {P::tapz, slows_down}}},
+    {P::tapz, W::redo,         {P::tapz, in_vain},    "pauses", {kOnePause, {P::none, goes_on}}},
+    {P::tapz, W::clear_buffer, {P::tapz, gives_up},   "clear_buffer_in_pause", {kOnlyWhatWaits, {P::tapz, clears}}, {kOnePause, {P::none, gives_up}}},
     {P::tapz, W::tapz,         {P::tapz, slows_down}, "list, TAPZ"},
     {P::tapz, W::taredo,       {P::none, goes_on},    "list, TAREDO"},
     {P::tapz, W::taupz,        {P::none, gives_up},   "list, TAUPZ"},
     {P::tapz, W::tastop,       {P::none, stops},      "emergency_stop"},
-    {P::tapz, W::reset,        {P::tapz, resets},     "reset", {option("reset", "pause_too"), {P::none, gives_up}}},
+    {P::tapz, W::reset,        {P::tapz, resets},     "reset", {kEndsPause, {P::none, gives_up}}},
     {P::tapz, W::motion,       {P::tapz, is_refused}, "list, TAPZ"},
     {P::tapz, W::jog,          {P::tapz, is_refused}, "list, TAPZ"},
 
     {P::both, W::pz,           {P::both, slows_down}, "pauses"},
     {P::both, W::redo,         {P::tapz, goes_on},    "pauses"},
-    {P::both, W::clear_buffer, {P::tapz, gives_up},   "clear_buffer_in_pause", {option("clear_buffer_in_pause", "what_waits"), {P::both, clears}}},
+    {P::both, W::clear_buffer, {P::tapz, gives_up},   "clear_buffer_in_pause", {kOnlyWhatWaits, {P::both, clears}}},
     {P::both, W::tapz,         {P::both, slows_down}, "pauses"},
     {P::both, W::taredo,       {P::pz, goes_on},      "pauses"},
     {P::both, W::taupz,        {P::pz, gives_up},     "pauses"},
     {P::both, W::tastop,       {P::none, stops},      "emergency_stop"},
-    {P::both, W::reset,        {P::both, resets},     "reset", {option("reset", "pause_too"), {P::none, gives_up}}},
+    {P::both, W::reset,        {P::both, resets},     "reset", {kEndsPause, {P::none, gives_up}}},
     {P::both, W::motion,       {P::both, is_refused}, "list, TAPZ"},
     {P::both, W::jog,          {P::both, is_refused}, "list, TAPZ"},
 };

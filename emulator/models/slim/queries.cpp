@@ -160,7 +160,7 @@ struct SlimQueries {
   using Row = HandlerRow<Verb, Reply>;
 
   static Error input(const Question& q) {
-    if (q.command.operands.empty() && q.chose(option("input_mask", "error_1"))) return Error::syntax;
+    if (q.command.operands.empty() && !q.slim.has_input_mask()) return Error::syntax;
     const std::uint8_t levels = q.slim.input_levels(q.module);
     return q.whole(q.command.operands.empty() ? levels : (levels >> (q.number() - 1)) & 1);
   }
@@ -276,6 +276,15 @@ std::optional<double> Slim::value_named(std::string_view name) const {
   return answer.number;
 }
 
+Tick Slim::next_change(std::string_view /*name*/, Tick done) const {
+  // Its clocks count seconds.
+  constexpr Tick kSecond = 1000;
+  const auto next_second = [&](Tick since) {
+    return done + kSecond - ((done - since) % kSecond + kSecond) % kSecond;
+  };
+  return std::min(next_second(state_.powered_at), next_second(state_.clock_zero));
+}
+
 std::optional<std::string> Slim::assign(std::string_view name, double value) {
   if (!powered()) return "it has no power";
   wake();
@@ -320,7 +329,7 @@ std::optional<std::string> Slim::assign(std::string_view name, double value) {
 
 std::vector<std::string> Slim::names() const {
   std::vector<std::string> all{"PE", "ST", "MD", "ERR", "IN", "AIN", "TM", "N0", "R0"};
-  if (chose(option("input_mask", "error_1"))) std::erase(all, "IN");
+  if (!has_input_mask()) std::erase(all, "IN");
   for (const ParameterDefinition& row : kParameters)
     all.emplace_back(row.alias.empty() ? row.name : row.alias);
   for (int m = 1; m < kModules; ++m) {

@@ -74,6 +74,7 @@ std::function<void()> Slim::read_own_state(StateReader& reader) {
     check_integers(memory->integers);
     check_integers(memory->integer_array);
   }
+  restored->chain.set_options(chain_options());
   return [this, restored] { state_ = *restored; };
 }
 

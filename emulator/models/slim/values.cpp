@@ -95,8 +95,7 @@ Error Slim::set_parameter(int module, std::string_view given_name, double value)
   const std::string_view name = meant(given_name);
   if (const Error error = linked(module); error != Error::none) return error;
   const SpeedNames names = memory_form().speed_names;
-  if (const Error error = check_parameter(module, name, value, names,
-                                          chose(option("axis_values", "is_taken_from_its_letter")));
+  if (const Error error = check_parameter(module, name, value, names, takes_letters_away());
       error != Error::none) {
     return error;
   }
@@ -170,8 +169,7 @@ void Slim::apply_all_parameters() {
 Error Slim::assign_axis(Letter letter, int module) {
   for (const Letter other : {Letter::x, Letter::y, Letter::z, Letter::w}) {
     const bool has_it = module != kUnassigned && state_.chain.assigned(other) == module;
-    if (chose(option("axis_values", "is_taken_from_its_letter")) && has_it)
-      state_.chain.assign(other, kUnassigned);
+    if (has_it && takes_letters_away()) state_.chain.assign(other, kUnassigned);
   }
   return state_.chain.assign(letter, module);
 }

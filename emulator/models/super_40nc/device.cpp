@@ -47,6 +47,11 @@ language::Options Super40nc::chosen_options() const {
     if (chose(chosen)) field = value;
   };
   set(option("area_bases", "older"), made.bases, Options::Bases::older);
+  set(option("stack_depth", "8"), made.stack_depth, 8);
+  set(option("stack_depth", "11"), made.stack_depth, 11);
+  set(option("cal_depth", "8"), made.call_depth, 8);
+  set(option("counter_contact", "closed_by_the_last_count"), made.counter_contact,
+      Options::CounterContact::is_latched);
   set(option("timer_unit", "10ms"), made.timer_unit_ms, 10);
   set(option("timer_unit", "1s"), made.timer_unit_ms, 1000);
   set(option("run_edges", "not_at_all"), made.outputs_fire_at_run, false);

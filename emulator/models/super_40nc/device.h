@@ -14,6 +14,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
@@ -141,6 +142,8 @@ class Super40nc final : public Device,
   void settle_memory() override { state_.eeprom.settle(state_.image); }
 
   /// Areas that the text does not name stay as they are. A listing that is refused shows in D8094 to D8096.
+  /// What would be wrong with it as a program.
+  std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
 

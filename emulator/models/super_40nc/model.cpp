@@ -1,20 +1,16 @@
 #include "emulator/models/super_40nc/model.h"
 
 #include <array>
-#include <string>
-#include <vector>
 
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/models/super_40nc/choices.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/parameters.h"
-#include "interpreter/super_40nc/instructions.h"
 
 namespace understudy::emulator::models::super_40nc {
 
 namespace {
-
-namespace language = interpreter::super_40nc;
 
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
@@ -58,53 +54,17 @@ constexpr SectionRow kSections[] = {
     {"D9x 參數暫存器的功用(XYZU 軸用)", "parameters D9x, of the axes"},
 };
 
-/// "PCXYZU": the areas where it does something, as the manual's lists have them.
-std::string areas_of(const language::InstructionRow& row) {
-  const auto acts_in = [&](language::Area area) {
-    return language::has(row.areas, area) && !language::has(row.void_in, area);
-  };
-  std::string text = acts_in(language::Area::plc) ? "P" : "";
-  for (const language::AreaRow& area : language::kAreas) {
-    if (area.area != language::Area::plc && acts_in(area.area)) text += area.letter;
-  }
-  return text;
-}
-
-struct Instructions {
-  std::vector<std::string> places;
-  std::vector<InstructionRow> rows;
-};
-
-Instructions make_instructions() {
-  Instructions made;
-  made.places.reserve(language::kInstructions.size());  // rows point into it
-  int number = 0;
-  for (const language::InstructionRow& row : language::kInstructions) {
-    const bool is_named_only = row.group == language::Group::undocumented;
-    made.places.push_back(is_named_only ? std::string()
-                                        : areas_of(row) + " " + std::to_string(row.steps) +
-                                              (row.steps == 1 ? " step" : " steps"));
-    made.rows.push_back({.opcode = number++,
-                         .mnemonic = row.mnemonic,
-                         .data1 = row.section,
-                         .data2 = made.places.back(),
-                         .meaning = row.meaning});
-  }
-  return made;
-}
-
 }  // namespace
 
 const Model& model() {
   static const RegisterMap registers(kRegisters, kPolicy);
-  static const Instructions instructions = make_instructions();
   static const Model model{
       .name = "super-40nc",
       .title = "4-axis motion controller with a PLC, Modbus RTU on RS232 and RS485",
       .firmwares = kFirmwares,
       .registers = &registers,
       .named_parameters = named_parameters(),
-      .instructions = instructions.rows,
+      .language = &program_language(),
       .choices = kChoices,
       .sections = kSections,
       .terminals = terminals(),

@@ -4,6 +4,7 @@
 #include "base/text/one_line.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "interpreter/super_40nc/listing.h"
 
@@ -41,12 +42,16 @@ void Super40nc::make_programs_ready() {
   }
 }
 
+std::vector<ProgramMistake> Super40nc::mistakes_in(std::string_view text) const {
+  return mistakes_of(language::check(text, options_));
+}
+
 void Super40nc::load_program(std::string_view text) {
   const language::Checked checked = language::check(text, options_);
   if (!checked.program) {
     const language::Complaint& first = checked.errors.front();
     state_.error = {.code = first.code, .step = first.step, .other_step = first.other_step, .tick = now()};
-    throw ProgramError(first.line, first.message());
+    throw ProgramError(mistakes_of(checked));
   }
   const bool runs = state_.plc.runs;
   for (const language::AreaRow& row : language::kAreas) {

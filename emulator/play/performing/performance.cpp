@@ -14,6 +14,7 @@
 #include "base/simulated_time.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
@@ -138,7 +139,7 @@ std::optional<Failure> Performance::play(std::span<const Step> steps) {
   } catch (const world::NameError& error) {
     return explain_failure(StepError(error.what()));
   } catch (const ProgramError& error) {
-    return explain_failure(StepError(error.what()));
+    return explain_failure(StepError(in_text(error.first())));
   } catch (const NvError& error) {
     return explain_failure(StepError(error.what()));
   }

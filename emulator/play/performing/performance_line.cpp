@@ -22,8 +22,9 @@ namespace {
 Value demand_fitting(const Target& target, world::Number number) {
   if (const auto value = value_for(target, number)) return *value;
   const bool is_real = target.place && target.place->is_real();
-  throw StepError(target.name + ": " + world::number_text(number) +
-                  (is_real ? " is more than a single can hold" : " is not a whole number; expected one"));
+  throw StepError(
+      target.name + ": " + world::number_text(number) +
+      (is_real ? " is more than a 32-bit real can hold" : " is not a whole number; expected one"));
 }
 
 std::string to_text(const HostReply& reply) {

@@ -17,6 +17,7 @@
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench.h"
@@ -161,8 +162,7 @@ void Performance::perform(const ProgramStep& step) {
     try {
       world.load_program(step.device, step.text);
     } catch (const ProgramError& error) {
-      const std::string line = error.line == 0 ? "" : ":" + std::to_string(error.line);
-      throw StepError(step.file + line + ": " + error.what());
+      throw StepError(in_file(error.first(), step.file));
     }
   });
 }

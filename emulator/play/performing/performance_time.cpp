@@ -56,7 +56,9 @@ void Performance::pass_time(SimTime until) {
   bool has_spans = false;
   stage_->with_world([&](world::World&) { has_spans = !eyes_->spans.is_empty(); });
   if (has_spans) {
-    stage_->run_until([this](world::World&) { return eyes_->spans.violation().has_value(); }, until);
+    stage_->run_until({.is_there = [this](world::World&) { return eyes_->spans.violation().has_value(); },
+                       .next_look = [this](Tick done) { return eyes_->spans.next_look(done); }},
+                      until);
     throw_if_broken();
   } else if (until > stage_->now()) {
     stage_->advance(until - stage_->now());
@@ -132,7 +134,10 @@ Tick Performance::wait_for(const WaitStep& step) {
       return true;
     }
   };
-  const bool is_there = stage_->run_until(is_over, deadline);
+  const auto next_look = [&](Tick done) {
+    return std::min(eyes_->probes.next_change(condition, done), eyes_->spans.next_look(done));
+  };
+  const bool is_there = stage_->run_until({.is_there = is_over, .next_look = next_look}, deadline);
   throw_if_broken();
   if (no_result) throw StepError(*no_result);
   if (is_there) return std::max(tick_at(stage_->now()), earliest);

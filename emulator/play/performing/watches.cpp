@@ -31,6 +31,12 @@ void SpanWatch::on_tick(Tick) {
   }
 }
 
+Tick SpanWatch::next_look(Tick done) const {
+  Tick next = kNever;
+  for (const Span& span : spans_) next = std::min(next, values_.next_change(span.condition, done));
+  return next;
+}
+
 bool SpanWatch::close(const std::string& name) {
   return std::erase_if(spans_, [&](const Span& span) { return span.name == name; }) > 0;
 }

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/world/expression/expression.h"
+#include "emulator/world/probe/probes.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
@@ -27,11 +29,12 @@ class SpanWatch final : public world::TickWatcher {
   };
 
   /// `describe` returns the state around a violation. All must outlive this.
-  SpanWatch(const world::World& world, const world::ValueSource& values,
+  SpanWatch(const world::World& world, const world::Probes& values,
             std::vector<std::string> (*describe)(const world::World&))
       : world_(world), values_(values), describe_(describe) {}
 
   void on_tick(Tick tick) override;
+  Tick next_look(Tick done) const override;
   void open(Span span) { spans_.push_back(std::move(span)); }
   /// Returns false if no span of that name is open.
   bool close(const std::string& name);
@@ -45,7 +48,7 @@ class SpanWatch final : public world::TickWatcher {
 
  private:
   const world::World& world_;
-  const world::ValueSource& values_;
+  const world::Probes& values_;
   std::vector<std::string> (*describe_)(const world::World&);
   std::vector<Span> spans_;
   std::optional<Violation> violation_;
@@ -61,10 +64,11 @@ class ConditionHistory final : public world::TickWatcher {
   };
 
   /// The source must outlive it.
-  ConditionHistory(world::Expression condition, const world::ValueSource& values)
+  ConditionHistory(world::Expression condition, const world::Probes& values)
       : condition_(std::move(condition)), values_(values) {}
 
   void on_tick(Tick tick) override;
+  Tick next_look(Tick done) const override { return values_.next_change(condition_, done); }
   /// The first tick from `begin` on at which it held.
   std::optional<Tick> first_from(Tick begin) const;
 
@@ -73,7 +77,7 @@ class ConditionHistory final : public world::TickWatcher {
 
  private:
   world::Expression condition_;
-  const world::ValueSource& values_;
+  const world::Probes& values_;
   State state_;
 };
 

@@ -19,6 +19,7 @@
 #include "emulator/device/memory/nv_file.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/reading/parameters.h"
 #include "emulator/play/reading/scenario_form.h"
@@ -294,7 +295,7 @@ class ScenarioReader {
     } catch (const NvError& error) {
       throw FileError(error.what());
     } catch (const ProgramError& error) {
-      field.fail("program: line " + std::to_string(error.line) + ": " + error.what());
+      field.fail("program: " + in_text(error.first()));
     }
   }
 

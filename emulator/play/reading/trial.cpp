@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/files/file_error.h"
@@ -13,6 +14,7 @@
 #include "base/text/suggestion.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/scenario/requests.h"
@@ -194,7 +196,7 @@ std::string Trial::value_to_write(const world::YamlFields& field, const Target& 
   };
   const auto fitting = value_for(target, number);
   const bool is_real = target.place && target.place->is_real();
-  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a single can hold");
+  if (!fitting && is_real) field.fail(world::number_text(number) + " is more than a 32-bit real can hold");
   if (!fitting) field.fail(world::number_text(number) + " is not a whole number; expected one");
   const bool is_judged = row != nullptr && row->ranged && target.place->bit < 0 &&
                          target.place->place.part == Place::Part::whole && !is_refused;
@@ -234,8 +236,16 @@ void Trial::demand_program(const world::YamlFields& field, std::size_t device, c
   try {
     make_device(*bench_.devices[device].model, settings);
   } catch (const ProgramError& error) {
-    if (name.empty()) field.fail("line " + std::to_string(error.line) + ": " + error.what());
-    throw FileError(name + ":" + std::to_string(error.line) + ": " + error.what());
+    if (!name.empty()) throw world::program_complaints(error, name);
+    std::vector<FileError::Complaint> all;
+    for (const ProgramMistake& mistake : error.mistakes) {
+      try {
+        field.fail(in_text(mistake));
+      } catch (const FileError& complaint) {
+        all.push_back(complaint.complaints().front());
+      }
+    }
+    throw FileError(std::move(all));
   } catch (const SettingError& error) {
     field.fail(error.what());
   }

@@ -92,6 +92,17 @@ void Camera::on_tick(Tick tick) {
   scene_.end = std::max(scene_.end, time_of(tick));
 }
 
+Tick Camera::next_look(Tick done) const {
+  Tick next = kNever;
+  for (const Sight& sight : sights_) next = std::min(next, probes_.next_change(sight.handle, done));
+  return next;
+}
+
+void Camera::on_rest(Tick last) {
+  for (Sight& sight : sights_) sight.values.stay(last);
+  scene_.end = std::max(scene_.end, time_of(last));
+}
+
 void Camera::add(const pty::CapturedPacket& packet) {
   const bool is_from_host = packet.way == pty::Way::from_host;
   const bool is_frame = !packet.bytes.empty();

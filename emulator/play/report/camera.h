@@ -35,6 +35,8 @@ class Camera final : public Onlooker, private world::TickWatcher {
   void watch_lines();
   void ignore_lines();
   void on_tick(Tick tick) override;
+  Tick next_look(Tick done) const override;
+  void on_rest(Tick last) override;
   void add(const pty::CapturedPacket& packet);
   void end_scene();
 

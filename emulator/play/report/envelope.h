@@ -21,6 +21,8 @@ class Envelope {
 
   /// Ticks ascend; an earlier one, or the last one again, is left out.
   void add(Tick tick, double value);
+  /// The last value again, at every tick up to `last`. Costs as many steps as there are stretches in it.
+  void stay(Tick last);
 
   /// In the order of time. Where a value stays the same for a while only its first and last points are kept,
   /// so a line from point to point is what was added, or encloses it.

@@ -121,25 +121,26 @@ void FreeStage::set_quiet_since(const std::vector<SimTime>& since) {
   for (std::size_t i = 0; i < hosts_.size() && i < since.size(); ++i) hosts_[i]->set_quiet_since(since[i]);
 }
 
-bool FreeStage::run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) {
+bool FreeStage::run_until(const Awaited& awaited, SimTime deadline) {
   struct Look final : world::TickWatcher {
-    Look(world::World& of, const std::function<bool(world::World&)>& condition)
-        : world(of), is_there(condition) {
-      world.add_watcher(*this);
-    }
+    Look(world::World& of, const Awaited& what) : world(of), awaited(what) { world.add_watcher(*this); }
     ~Look() override { world.remove_watcher(*this); }
     Look(const Look&) = delete;
     Look& operator=(const Look&) = delete;
-    void on_tick(Tick) override { is_over = is_over || is_there(world); }
+    void on_tick(Tick) override {
+      is_over = is_over || awaited.is_there(world);
+      if (is_over) world.stop_here();
+    }
+    Tick next_look(Tick done) const override {
+      return awaited.next_look ? awaited.next_look(done) : done + 1;
+    }
     world::World& world;
-    const std::function<bool(world::World&)>& is_there;
+    const Awaited& awaited;
     bool is_over = false;
   };
-  if (is_there(world_)) return true;
-  Look look(world_, is_there);
-  while (!look.is_over && world_.now() < deadline) {
-    world_.advance_to(std::min(deadline, time_of(tick_at(world_.now()) + 1)));
-  }
+  if (awaited.is_there(world_)) return true;
+  Look look(world_, awaited);
+  world_.advance_to(deadline);
   return look.is_over;
 }
 

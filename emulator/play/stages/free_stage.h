@@ -39,7 +39,7 @@ class FreeStage final : public Stage {
                                     const world::LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(world::World&)>& act) override;
-  bool run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) override;
+  bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override { world_.advance_to(world_.now() + by); }
   SimTime now() override { return world_.now(); }
   Tick tick_of_last_write() override { return tick_of_last_write_; }

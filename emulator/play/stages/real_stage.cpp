@@ -159,10 +159,10 @@ std::optional<serve::WallTime> RealStage::wall_time_until(SimTime time) {
   return std::max(*there - serve::wall_now(), serve::WallTime{1});
 }
 
-bool RealStage::run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) {
+bool RealStage::run_until(const Awaited& awaited, SimTime deadline) {
   throw_if_given_up();
   found_at_.reset();
-  Look look(is_there, deadline);
+  Look look(awaited.is_there, deadline);
   struct Watching {
     Watching(RealStage& of, Look& watcher) : stage(of), look(watcher) {
       stage.with_world([&](world::World& world) { look.begin(world); });

@@ -53,7 +53,7 @@ class RealStage final : public Stage {
                                     const world::LinesWanted& wanted, SimTime within) override;
 
   void with_world(const std::function<void(world::World&)>& act) override;
-  bool run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) override;
+  bool run_until(const Awaited& awaited, SimTime deadline) override;
   void advance(SimTime by) override;
   /// The tick at which run_until() found what it was looking for; only valid right after that.
   SimTime now() override;

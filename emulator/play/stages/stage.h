@@ -29,6 +29,13 @@ struct HostReply {
       bytes;  // as they came, checksum and all (free time), or what the host made of them
 };
 
+/// Something that may come true at the end of a tick.
+struct Awaited {
+  std::function<bool(world::World&)> is_there;
+  /// As TickWatcher::next_look; none: it may come true at any tick, even if nothing happens.
+  std::function<Tick(Tick)> next_look{};
+};
+
 class Stage {
  public:
   virtual ~Stage() = default;
@@ -56,9 +63,9 @@ class Stage {
   // --- the world -------------------------------------------------------------------------------------
   /// Acts on the world between two ticks, or looks at it. What `act` throws comes out here.
   virtual void with_world(const std::function<void(world::World&)>& act) = 0;
-  /// Lets time pass until `is_there` is true at the end of a tick (or now), at most to `deadline`; returns
-  /// whether it is. `is_there` is called at every tick, on whatever thread runs the world.
-  virtual bool run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) = 0;
+  /// Lets time pass until it is there at the end of a tick (or now), at most to `deadline`; returns whether
+  /// it is. `is_there` is called at every tick that may be different, on whatever thread runs the world.
+  virtual bool run_until(const Awaited& awaited, SimTime deadline) = 0;
   virtual void advance(SimTime by) = 0;
   virtual SimTime now() = 0;
   /// The tick from which the host's last write acts.

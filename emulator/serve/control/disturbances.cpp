@@ -2,11 +2,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/text/one_line.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
@@ -67,6 +69,19 @@ Json course_of(std::size_t number, const world::ArmedFault& armed, const world::
 std::size_t demand_device(const Daemon& daemon, const Json& message) {
   return world::find_device(daemon.world().known(),
                             message.contains("device") ? demand_text(message, "device") : std::string());
+}
+
+/// The first mistake for people, and all of them.
+Json refusal_of(const ProgramError& error) {
+  Json mistakes = Json::array();
+  for (const ProgramMistake& mistake : error.mistakes) {
+    mistakes.push_back({{"line", mistake.line}, {"column", mistake.column}, {"what", mistake.what}});
+  }
+  const std::size_t more = error.mistakes.size() - 1;
+  return Json{
+      {"ok", false},
+      {"error", in_text(error.first()) + (more > 0 ? " (and " + std::to_string(more) + " more)" : "")},
+      {"mistakes", std::move(mistakes)}};
 }
 
 }  // namespace
@@ -142,7 +157,7 @@ Json program_message(Daemon& daemon, const Json& message) {
   try {
     daemon.world().load_program(number, demand_text(message, "text"));
   } catch (const ProgramError& error) {
-    throw MessageError((error.line != 0 ? "line " + std::to_string(error.line) + ": " : "") + error.what());
+    return refusal_of(error);
   }
   return Json{{"ok", true}};
 }

@@ -127,7 +127,7 @@ void demand_accepted(Refusal refusal, const std::string& name, const std::string
 Value value_for(const world::RegisterName& place, const WantedRegister& wanted) {
   if (!place.place.is_real()) return wanted.number.get<std::int64_t>();
   if (const auto value = value_of_number(place.place, wanted.number.get<double>())) return *value;
-  throw MessageError(wanted.name + ": " + wanted.number.dump() + " is more than a single can hold");
+  throw MessageError(wanted.name + ": " + wanted.number.dump() + " is more than a 32-bit real can hold");
 }
 
 /// Each is tried on a device that is made alike, so that all are given or none.

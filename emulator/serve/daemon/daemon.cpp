@@ -50,6 +50,8 @@ namespace {
 constexpr WallTime kWorkSlice = std::chrono::milliseconds(5);
 // For bytes, which are stamped with the moment that the world has come to.
 constexpr WallTime kWorkForBytes = std::chrono::milliseconds(100);
+// How long a host that reads more slowly than time goes by is left to itself before it is looked at again.
+constexpr WallTime kReadingTime = std::chrono::milliseconds(1);
 // A trace looks at every tick, so a long quiet span takes long to cross: it is crossed as it goes by.
 constexpr SimTime kTracedSpan = std::chrono::milliseconds(100);
 // What they do at first before they look at the clock again.
@@ -249,12 +251,12 @@ void Daemon::judge_stall() {
   }
 }
 
-/// For so much wall time at most; quiet spans are crossed in ever larger steps.
+/// For this much wall time at most; quiet spans are crossed in ever larger steps.
 void Daemon::work_towards(SimTime target, WallTime longest) {
   const WallTime until = wall_now() + longest;
   for (SimTime step = kSimSlice; world_.now() < target; step = std::min(2 * step, kHorizon / 4)) {
     world_.advance_to(target - world_.now() > step ? world_.now() + step : target);
-    if (wall_now() >= until) return;
+    if (wall_now() >= until || hosts_are_reading()) return;
   }
 }
 
@@ -290,7 +292,21 @@ void Daemon::work_towards_condition() {
       return;
     }
     world_.advance_to(std::min(advance_target_, time_of(tick_at(world_.now()) + 1)));
+    if (hosts_are_reading()) return;
   }
+}
+
+/// As fast as it can: by the wall clock a host may have no chance to read what is said.
+bool Daemon::makes_time_go() const {
+  return advance_done_ != nullptr || pacer_.speed().kind == Speed::Kind::free;
+}
+
+/// Whether time has to wait for a host that reads.
+bool Daemon::hosts_are_reading() {
+  if (!makes_time_go()) return false;
+  bool is_any = false;
+  for (const auto& port : ports_) is_any = port->keeps_host_reading() || is_any;
+  return is_any;
 }
 
 void Daemon::work_on_advance() {
@@ -337,6 +353,7 @@ void Daemon::wait() {
   // when it lasts, not how much simulated time it has still to cross, which may have been a long sleep.
   planned_ = advance_done_ ? std::nullopt : behind_since_ ? behind_since_ : next_wake();
   std::optional<WallTime> wake = advance_done_ ? WallTime{0} : planned_;
+  if (hosts_are_reading()) wake = wall_now() + kReadingTime;
   for (const auto& port : ports_) {
     const auto look = port->next_look(pacer_.standing());
     if (look && (!wake || *look < *wake)) wake = look;

@@ -113,6 +113,8 @@ class Daemon {
   void catch_up(WallTime longest);
   void work_towards(SimTime target, WallTime longest);
   void work_on_advance();
+  bool makes_time_go() const;
+  bool hosts_are_reading();
   void work_towards_condition();
   std::optional<WallTime> next_wake() const;
   void wait();

@@ -19,17 +19,40 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-// The kernel tells that a host closes a moment before it has; so much later it has.
+// The kernel tells that a host closes a moment before it has; this much later it has.
 constexpr WallTime kSecondLook = std::chrono::milliseconds(5);
 
-// A lost terminal is tried again after so long.
+// A lost terminal is tried again after this long.
 constexpr WallTime kRecovery = std::chrono::milliseconds(100);
+
+// A host that has not taken anything for this long is not reading.
+constexpr WallTime kStillReads = std::chrono::milliseconds(200);
 
 // As much as the kernel holds (20,480 bytes) and one reading more: a host that goes loses nothing. Hosts that
 // write and go faster than the wire carries lose what is beyond that.
 constexpr std::size_t kLeftBehindCapacity = 20'480 + pty::Line::kInputCapacity;
 
 }  // namespace
+
+/// A world that runs fast says more in one go than its line keeps.
+class Port::Overflow final : public pty::LineObserver {
+ public:
+  explicit Overflow(Port& port) : port_(port) { port_.world_.add_observer(port_.line_number_, *this); }
+  ~Overflow() override { port_.world_.remove_observer(port_.line_number_, *this); }
+  Overflow(const Overflow&) = delete;
+  Overflow& operator=(const Overflow&) = delete;
+
+  void on_output_full() override { port_.hand_over(); }
+  void on_start_bit(SimTime) override {}
+  void on_character(const pty::TimedByte&, bool) override {}
+  void on_nothing_more() override {}
+  void on_speech(const pty::Speech&) override {}
+  std::optional<SimTime> due() const override { return std::nullopt; }
+  void run(SimTime) override {}
+
+ private:
+  Port& port_;
+};
 
 Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const std::string& link_path,
            std::function<void()> catch_up, std::function<void(const std::string&)> log)
@@ -38,7 +61,8 @@ Port::Port(EventLoop& loop, world::World& world, std::size_t line_number, const 
       line_number_(line_number),
       catch_up_(std::move(catch_up)),
       log_(std::move(log)),
-      terminal_(link_path) {
+      terminal_(link_path),
+      overflow_(std::make_unique<Overflow>(*this)) {
   watch();
 }
 
@@ -199,13 +223,24 @@ void Port::world_restored() {
   flush();
 }
 
-void Port::flush() {
-  if (!left_behind_.empty()) pass_on_what_was_left_behind();
+void Port::hand_over() {
   while (!line().output().empty()) {
     const std::size_t taken = terminal_.write(line().output());
     if (taken == 0) break;  // nobody reads
     world_.take_output(line_number_, taken);
+    last_taken_ = wall_now();
   }
+}
+
+bool Port::keeps_host_reading() {
+  if (line().output().empty()) return false;
+  flush();
+  return host_present() && !line().output().empty() && wall_now() < last_taken_ + kStillReads;
+}
+
+void Port::flush() {
+  if (!left_behind_.empty()) pass_on_what_was_left_behind();
+  hand_over();
   const std::uint32_t interest = (line().room() > 0 && left_behind_.empty() ? EventLoop::readable : 0U) |
                                  (line().output().empty() ? 0U : EventLoop::writable);
   loop_.change_interest(terminal_.data_descriptor(), interest);

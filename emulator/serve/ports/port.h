@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ class Port {
 
   /// Hands over what the wire has brought, and takes more bytes if the line has room.
   void flush();
+  /// Hands over what there is, and returns whether there is more for a host that was reading a moment ago:
+  /// where time goes by as fast as it can, such a host is waited for.
+  bool keeps_host_reading();
   /// When look() should be called even if nothing is readable: a host may have gone, a frame is incomplete
   /// while the clock stands, or the pseudo-terminal was lost and could not be opened again yet.
   std::optional<WallTime> next_look(bool clock_stands);
@@ -39,7 +43,9 @@ class Port {
   std::optional<pty::HostSettings> host_settings() const { return terminal_.poll_host_settings(); }
 
  private:
+  class Overflow;
   const pty::Line& line() const { return world_.line(line_number_).line; }
+  void hand_over();
   void on_data(std::uint32_t ready);
   void watch();
   void keep_watch();
@@ -59,7 +65,9 @@ class Port {
   WallTime second_look_{0};                // when to check again whether the host has gone; 0: no need
   bool is_watching_ = false;               // the terminal's descriptors
   WallTime next_recovery_{0};              // when to try to open a lost terminal again; 0: it is not lost
-  WallTime last_bytes_{0};                 // when the host's last bytes came; 0: nothing is waited for
+  WallTime last_taken_{0};                 // when the host's side took something last
+  std::unique_ptr<Overflow> overflow_;
+  WallTime last_bytes_{0};  // when the host's last bytes came; 0: nothing is waited for
 };
 
 }  // namespace understudy::emulator::serve

@@ -3,8 +3,20 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
+
+#include "base/text/one_line.h"
 
 namespace understudy::emulator::world {
+
+FileError program_complaints(const ProgramError& error, const std::string& file) {
+  std::vector<FileError::Complaint> complaints;
+  for (const ProgramMistake& mistake : error.mistakes) {
+    complaints.push_back({.place = {.file = file, .line = mistake.line, .column = mistake.column},
+                          .text = one_line(in_file(mistake, file))});
+  }
+  return FileError(std::move(complaints));
+}
 
 void Complaints::add(const FileError& error, const std::string& behind) {
   for (FileError::Complaint complaint : error.complaints()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/files/file_error.h"
+#include "emulator/device/program_error.h"
 
 namespace understudy::emulator::world {
 
@@ -14,6 +15,9 @@ namespace understudy::emulator::world {
 struct LastError : FileError {
   using FileError::FileError;
 };
+
+/// What is wrong with a program, about its own file.
+FileError program_complaints(const ProgramError& error, const std::string& file);
 
 /// What a part refers to could not be read, which has been reported already.
 struct Untold {};

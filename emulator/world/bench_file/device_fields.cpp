@@ -12,8 +12,10 @@
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/setting_entry.h"
 #include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/complaints.h"
 
 namespace understudy::emulator::world {
 
@@ -235,7 +237,7 @@ void judge_device(const DevicePlaces& places, DeviceSetup& device, Complaints& c
         fields.fail(std::string("nv: ") + error.what());
       } catch (const ProgramError& error) {
         is_asked = !std::exchange(settings.program, "").empty();
-        throw FileError(settings.program_name + ":" + std::to_string(error.line) + ": " + error.what());
+        throw program_complaints(error, settings.program_name);
       }
     });
   }

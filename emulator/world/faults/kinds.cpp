@@ -1,5 +1,7 @@
 #include "emulator/world/faults/kinds.h"
 
+#include "base/enumerators.h"
+
 namespace understudy::emulator::world {
 
 namespace {
@@ -71,7 +73,7 @@ static_assert(
       for (std::size_t i = 0; i < kKinds.size(); ++i) {
         if (kKinds[i].kind != static_cast<Kind>(i)) return false;
       }
-      return true;
+      return is_last<kKinds.back().kind>();
     }(),
     "rows stand in the order of Fault::Kind, one each");
 

@@ -132,7 +132,7 @@ class alignas(64) PlantAxis {
   /// Where a place of the machine leaves everything else as it is, for as long as its controller's outputs
   /// do; empty where each pulse must be looked at.
   PulseSpan places_alike() const;
-  /// So many pulses at once, within that: what as many quiet ticks do.
+  /// This many pulses at once, within that: what as many quiet ticks do.
   void cross(std::int64_t pulses) { state_.position_pulses += pulses; }
   /// From now on a switch that it has passed within a tick has been on. (Else only the places at the ends of
   /// ticks count, as for a controller that looks at levels.)
@@ -177,7 +177,7 @@ class alignas(64) PlantAxis {
   std::int64_t encoder_counts() const;
   /// Like the above, after a quiet step.
   std::int64_t quiet_encoder_counts() const { return encoder_.counts_at(state_.position_pulses); }
-  /// The same after so many pulses more.
+  /// The same after this many more pulses.
   std::int64_t encoder_counts_after(std::int64_t pulses) const {
     return encoder_.counts_at(state_.position_pulses + pulses);
   }

@@ -23,6 +23,7 @@ class Peaks final : public TickWatcher {
   explicit Peaks(const WorldView& view);
 
   void on_tick(Tick tick) override;
+  Tick next_look(Tick) const override { return kNever; }
   /// Starts again; the speed at this moment does not count.
   void reset();
 

@@ -1,5 +1,7 @@
 #include "emulator/world/probe/probes.h"
 
+#include <algorithm>
+
 #include "emulator/device/axes.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
@@ -20,6 +22,23 @@ std::optional<std::size_t> Probes::device_read(std::int32_t handle) const {
   const Probe& probe = names_.probe(handle);
   if (probe.what != What::reg && probe.what != What::named) return std::nullopt;
   return probe.device;
+}
+
+Tick Probes::next_change(std::int32_t handle, Tick done) const {
+  const Probe& probe = names_.probe(handle);
+  if (probe.what == What::time) return done + 1;
+  if (probe.what != What::reg && probe.what != What::named) return kNever;
+  const Device& device = view_.device(probe.device);
+  if (!device.powered()) return kNever;
+  return probe.what == What::reg ? understudy::emulator::next_change(*device.register_bank(), probe.reg, done)
+                                 : device.named_values()->next_change(probe.value_name, done);
+}
+
+Tick Probes::next_change(const Expression& condition, Tick done) const {
+  Tick next = kNever;
+  for (const Expression::Name& name : condition.names)
+    next = std::min(next, next_change(name.number.handle, done));
+  return next;
 }
 
 bool Probes::may_be_a_fraction(std::int32_t handle) const {

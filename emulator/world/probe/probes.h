@@ -22,6 +22,11 @@ class Probes final : public NameResolver, public ValueSource {
   NamedNumber resolve(std::string_view name) const override { return names_.resolve(name); }
   /// A register of a device without power is 0. NameError for what nobody keeps here.
   Number value(std::int32_t handle) const override;
+  /// The first tick after `done` at which its value may be another although nothing happens, because it tells
+  /// time.
+  Tick next_change(std::int32_t handle, Tick done) const;
+  /// The same for all the names of a condition.
+  Tick next_change(const Expression& condition, Tick done) const;
   /// The device whose register or value it is: without power it has none.
   std::optional<std::size_t> device_read(std::int32_t handle) const;
   /// Whether it is not always a whole number; of a device without registers, whether it is none now.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text/one_line.h"
+#include "emulator/device/program_error.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/strict_json.h"
 
@@ -332,6 +333,18 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
   return event;
 }
 
+namespace {
+
+/// What was refused is refused again.
+void load_as_recorded(World& world, const RecordedEvent& event) {
+  try {
+    world.load_program(event.where, event.text);
+  } catch (const ProgramError&) {
+  }
+}
+
+}  // namespace
+
 void apply(World& world, const RecordedEvent& event) {
   switch (event.what) {
     case What::opened: world.host_opened(event.where); break;
@@ -348,7 +361,7 @@ void apply(World& world, const RecordedEvent& event) {
     case What::clear: world.clear_fault(static_cast<std::size_t>(event.value)); break;
     case What::write: world.write(event.where, event.write); break;
     case What::assign: world.assign(event.where, event.text, event.real); break;
-    case What::program: world.load_program(event.where, event.text); break;
+    case What::program: load_as_recorded(world, event); break;
     case What::said:
     case What::end: break;
   }

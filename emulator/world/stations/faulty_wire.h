@@ -36,7 +36,18 @@ class FaultyWire {
     ~End() = default;
   };
 
-  explicit FaultyWire(End& end) : end_(end) {}
+  /// A message that is on its way.
+  struct Late {
+    pty::SimTime at{0};
+    bool is_reply = false;  // else a request
+    std::uint64_t last_character = 0;
+    std::vector<std::uint8_t> bytes{};
+  };
+  /// Throws std::invalid_argument for what cannot be late.
+  static void check(const std::vector<Late>& late);
+
+  /// `late` is its state, in the order of time: a part of its station's.
+  FaultyWire(End& end, std::vector<Late>& late) : end_(end), late_(late) {}
 
   /// Null: nothing is broken. The numbers of the device and of the line are told with each frame.
   void set_faults(FrameFaults* faults, std::size_t device, std::size_t line) {
@@ -69,18 +80,6 @@ class FaultyWire {
   /// What is on its way is lost.
   void reset();
 
-  // --- its state -------------------------------------------------------------------------------
-  struct Late {
-    pty::SimTime at{0};
-    bool is_reply = false;  // else a request
-    std::uint64_t last_character = 0;
-    std::vector<std::uint8_t> bytes{};
-  };
-  const std::vector<Late>& late() const { return late_; }  // in the order of time
-  /// Throws std::invalid_argument for what cannot be late.
-  static void check(const std::vector<Late>& late);
-  void restore(const std::vector<Late>& late) { late_ = late; }
-
  private:
   HeardFrame told(HeardFrame frame) const {
     frame.device = device_;
@@ -90,10 +89,10 @@ class FaultyWire {
   void keep(Late message);
 
   End& end_;
+  std::vector<Late>& late_;
   FrameFaults* faults_ = nullptr;
   std::size_t device_ = 0;
   std::size_t line_ = 0;
-  std::vector<Late> late_;
   bool is_early_ = false;  // within the event that brought the frame
 };
 

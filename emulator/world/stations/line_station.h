@@ -53,11 +53,14 @@ class LineStation : public pty::Station, private FaultyWire::End {
   virtual std::string difference(StateReader& a, StateReader& b, const std::string& path) const = 0;
 
  protected:
-  LineStation(Device& device, std::size_t port) : device_(device), port_(port), wire_(*this) {}
+  /// The last two are parts of the station's state.
+  LineStation(Device& device, std::size_t port, StationCounters& counters,
+              std::vector<FaultyWire::Late>& late)
+      : device_(device), port_(port), counters_(counters), wire_(*this, late) {}
 
   Device& device_;
   std::size_t port_;
-  StationCounters counters_;
+  StationCounters& counters_;
   FaultyWire wire_;  // all that it hears and says goes through it
 };
 

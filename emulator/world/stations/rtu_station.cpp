@@ -23,7 +23,7 @@ ModbusReply refusal(std::uint8_t function, int exception) {
 }  // namespace
 
 std::optional<pty::SimTime> RtuStation::due() const {
-  const std::optional<pty::SimTime> frame = framer_.due();
+  const std::optional<pty::SimTime> frame = state_.framer.due();
   const std::optional<pty::SimTime> wire = wire_.due();
   return frame && wire ? std::min(frame, wire) : frame ? frame : wire;
 }
@@ -31,17 +31,17 @@ std::optional<pty::SimTime> RtuStation::due() const {
 void RtuStation::run(pty::SimTime now, pty::Transmitter& out) {
   wire_.run(now, out);
   if (wire_.take_early_frame()) {
-    if (const auto frame = framer_.take_early()) take_frame(*frame, now, out);
+    if (const auto frame = state_.framer.take_early()) take_frame(*frame, now, out);
   }
-  while (const auto frame = framer_.take_due(now)) {
-    tell_errors(framer_);  // what came before it
+  while (const auto frame = state_.framer.take_due(now)) {
+    tell_errors(state_.framer);  // what came before it
     take_frame(*frame, now, out);
   }
-  tell_errors(framer_);
+  tell_errors(state_.framer);
 }
 
 void RtuStation::reset() {
-  framer_.reset();
+  state_.framer.reset();
   wire_.reset();
 }
 
@@ -60,7 +60,7 @@ HeardFrame RtuStation::heard(const pty::RtuFrame& frame, pty::SimTime now) const
 
 /// The frame that the character of that number completes, if it does.
 void RtuStation::look_at_completed(std::uint64_t last_character, pty::SimTime now) {
-  const auto frame = framer_.peek();
+  const auto frame = state_.framer.peek();
   if (frame && frame->last_character == last_character) wire_.look_at_completed(heard(*frame, now));
 }
 
@@ -71,7 +71,8 @@ void RtuStation::take_frame(const pty::RtuFrame& frame, pty::SimTime now, pty::T
 void RtuStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) {
   constexpr pty::SimTime kInstant{1};
-  pty::RtuFramer framer({.strict = framer_.framing().strict, .silence = kInstant, .patience = kInstant});
+  pty::RtuFramer framer(
+      {.strict = state_.framer.framing().strict, .silence = kInstant, .patience = kInstant});
   for (const std::uint8_t value : bytes) {
     framer.push({.start = now, .end = now, .value = value, .number = last_character});
   }
@@ -110,24 +111,9 @@ void RtuStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_cha
 
 // --- its state -----------------------------------------------------------------------------------
 
-RtuStation::State RtuStation::save() const {
-  return {.framer = framer_.save(), .counters = counters_, .late = wire_.late()};
-}
+void RtuStation::write_state(StateWriter& writer) const { writer.write(state_); }
 
-void RtuStation::check(const State& state) const {
-  framer_.check(state.framer);
-  FaultyWire::check(state.late);
-}
-
-void RtuStation::restore(const State& state) {
-  framer_.restore(state.framer);
-  counters_ = state.counters;
-  wire_.restore(state.late);
-}
-
-void RtuStation::write_state(StateWriter& writer) const { writer.write(save()); }
-
-std::function<void()> RtuStation::read_state(StateReader& reader) { return read_state_of(*this, reader); }
+std::function<void()> RtuStation::read_state(StateReader& reader) { return read_into(state_, reader); }
 
 std::string RtuStation::difference(StateReader& a, StateReader& b, const std::string& path) const {
   return difference_of_saved<State>(a, b, path);

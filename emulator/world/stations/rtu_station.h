@@ -11,48 +11,45 @@ namespace understudy::emulator::world {
 class RtuStation final : public LineStation {
  public:
   RtuStation(Device& device, std::size_t port, pty::RtuFraming framing)
-      : LineStation(device, port), framer_(framing) {}
+      : LineStation(device, port, state_.counters, state_.late),
+        state_{.framer = pty::RtuFramer(framing), .counters = {}} {}
 
   // Without power it hears nothing.
   void hear_start_bit(pty::SimTime at) override {
     if (!device_.powered()) return;
-    framer_.start_bit(at);
-    tell_errors(framer_);
+    state_.framer.start_bit(at);
+    tell_errors(state_.framer);
   }
   void hear(const pty::TimedByte& byte) override {
     if (!device_.powered()) return;
-    framer_.push(byte);
-    tell_errors(framer_);
+    state_.framer.push(byte);
+    tell_errors(state_.framer);
     if (wire_.is_broken()) look_at_completed(byte.number, byte.end);
   }
   void hear_other_station() override {
-    framer_.reset();
+    state_.framer.reset();
     wire_.forget_early_frame();
   }
   void hear_nothing_more() override {
-    framer_.give_up_waiting();
-    tell_errors(framer_);
+    state_.framer.give_up_waiting();
+    tell_errors(state_.framer);
   }
   std::optional<pty::SimTime> due() const override;
   void run(pty::SimTime now, pty::Transmitter& out) override;
 
   void reset() override;
-  std::uint64_t dropped_bytes() const override { return framer_.dropped_bytes(); }
+  std::uint64_t dropped_bytes() const override { return state_.framer.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
 
   /// What it hears and has counted; the device's state is separate.
   struct State {
-    pty::RtuFramer::State framer;
+    pty::RtuFramer framer;
     StationCounters counters;
     std::vector<FaultyWire::Late> late{};
   };
-  State save() const;
-  /// Throws std::invalid_argument for what this station cannot be.
-  void check(const State& state) const;
-  /// Like check(); if it throws, nothing has changed.
-  void restore(const State& state);
+  const State& save() const { return state_; }
 
  private:
   /// To be called after all that a framer does: the device is told when it is over.
@@ -68,7 +65,7 @@ class RtuStation final : public LineStation {
                    pty::Transmitter& out) override;
   void say(std::span<const std::uint8_t> bytes, std::uint64_t last_character, pty::Transmitter& out) override;
 
-  pty::RtuFramer framer_;
+  State state_;
 };
 
 }  // namespace understudy::emulator::world

@@ -35,6 +35,7 @@ struct StateOf<emulator::world::RtuStation::State> {
   using Value = emulator::world::RtuStation::State;
   static constexpr auto fields = std::tuple{field("framer", &Value::framer),
                                             field("counters", &Value::counters), field("late", &Value::late)};
+  static void check(const Value& state) { emulator::world::FaultyWire::check(state.late); }
 };
 
 template <>
@@ -59,19 +60,19 @@ struct StateOf<emulator::world::TextStation::State> {
                  field("waiting", &Value::waiting),     field("late", &Value::late),
                  field("outgoing", &Value::outgoing),   field("free_at", &Value::free_at),
                  field("speaks_at", &Value::speaks_at), field("is_held", &Value::is_held)};
+  static void check(const Value& state);
 };
 
 }  // namespace understudy
 
 namespace understudy::emulator::world {
 
-/// Reads a state of `station` and checks it; calling the result puts it in force.
-template <class OneStation>
-std::function<void()> read_state_of(OneStation& station, StateReader& reader) {
-  typename OneStation::State state;
-  reader.read(state);
-  station.check(state);
-  return [&station, state = std::move(state)] { station.restore(state); };
+/// Reads a station's state, which checks it; calling the result puts it in force.
+template <class State>
+std::function<void()> read_into(State& state, StateReader& reader) {
+  State restored = state;  // with what is not read, as the rules of framing
+  reader.read(restored);
+  return [&state, restored = std::move(restored)] { state = restored; };
 }
 
 }  // namespace understudy::emulator::world

@@ -8,6 +8,20 @@
 #include "emulator/world/stations/station_fields.h"
 #include "pty/state_reach.h"
 
+namespace understudy {
+
+void StateOf<emulator::world::TextStation::State>::check(const emulator::world::TextStation::State& state) {
+  emulator::world::FaultyWire::check(state.late);
+  const auto demand = [](bool holds) { demand_state(holds, "a station cannot have such text"); };
+  demand(state.waiting.size() <= 1);
+  for (const auto& waiting : state.waiting) demand(pty::is_within_reach(waiting.heard.end));
+  for (const auto& outgoing : state.outgoing) demand(!outgoing.text.empty());
+  demand(state.free_at >= pty::SimTime{0} && pty::is_within_reach(state.free_at));
+  demand(!state.speaks_at || pty::is_within_reach(*state.speaks_at));
+}
+
+}  // namespace understudy
+
 namespace understudy::emulator::world {
 
 using Heard = pty::HeardText::What;
@@ -40,67 +54,70 @@ TextSpeaker& speaker_of(Device& device) {
 }  // namespace
 
 TextStation::TextStation(Device& device, std::size_t port, bool is_instant)
-    : LineStation(device, port), speaker_(speaker_of(device)), is_instant_(is_instant) {}
+    : LineStation(device, port, state_.counters, state_.late),
+      speaker_(speaker_of(device)),
+      is_instant_(is_instant) {}
 
 void TextStation::hear(const pty::TimedByte& byte) {
   if (!device_.powered()) return;
   const pty::TextLineRules rules = rules_of(speaker_);
-  pty::TextLines::Outcome outcome = lines_.push(byte, rules);
+  pty::TextLines::Outcome outcome = state_.lines.push(byte, rules);
   if (!rules.echoes) outcome.echo.clear();
   if (!outcome.heard && outcome.echo.empty()) return;
   pty::HeardText heard{.end = byte.end, .last_character = byte.number};
   if (outcome.heard) heard = std::move(*outcome.heard);
-  waiting_.push_back({outcome.heard.has_value(), std::move(heard), std::move(outcome.echo)});
+  state_.waiting.push_back({outcome.heard.has_value(), std::move(heard), std::move(outcome.echo)});
 }
 
 std::optional<pty::SimTime> TextStation::due() const {
   std::optional<pty::SimTime> due = wire_.due();
   const auto offer = [&](pty::SimTime at) { due = std::min(due.value_or(at), at); };
-  if (!waiting_.empty()) offer(waiting_.front().heard.end);
-  if (is_held_) return due;
-  if (!outgoing_.empty()) offer(free_at_);
-  if (speaks_at_) offer(*speaks_at_);
+  if (!state_.waiting.empty()) offer(state_.waiting.front().heard.end);
+  if (state_.is_held) return due;
+  if (!state_.outgoing.empty()) offer(state_.free_at);
+  if (state_.speaks_at) offer(*state_.speaks_at);
   return due;
 }
 
 void TextStation::run(pty::SimTime now, pty::Transmitter& out) {
   wire_.run(now, out);
-  for (const Waiting& waiting : std::exchange(waiting_, {})) {
+  for (const Waiting& waiting : std::exchange(state_.waiting, {})) {
     if (!waiting.echo.empty()) echo(waiting, out);
     if (waiting.has_heard) carry_out(waiting.heard, now, out);
   }
   send(now, out);
-  if (is_held_ || !speaks_at_ || *speaks_at_ > now) return;
-  speaks_at_.reset();
-  if (!outgoing_.empty() || free_at_ > now) {
-    speaks_at_ = free_at_;
+  if (state_.is_held || !state_.speaks_at || *state_.speaks_at > now) return;
+  state_.speaks_at.reset();
+  if (!state_.outgoing.empty() || state_.free_at > now) {
+    state_.speaks_at = state_.free_at;
   } else if (speaker_.has_speech()) {
-    outgoing_.push_back({.text = speaker_.take_speech()});
+    state_.outgoing.push_back({.text = speaker_.take_speech()});
     send(now, out);
   }
 }
 
 void TextStation::reset() {
-  lines_.reset();
-  waiting_.clear();
+  state_.lines.reset();
+  state_.waiting.clear();
   wire_.reset();
-  outgoing_.clear();
-  free_at_ = pty::SimTime{0};
-  speaks_at_.reset();
-  is_held_ = false;
+  state_.outgoing.clear();
+  state_.free_at = pty::SimTime{0};
+  state_.speaks_at.reset();
+  state_.is_held = false;
 }
 
 bool TextStation::look_for_speech(pty::SimTime now) {
-  if (speaks_at_ || !device_.powered() || !speaker_.has_speech()) return false;
-  speaks_at_ = std::max(now, free_at_);
+  if (state_.speaks_at || !device_.powered() || !speaker_.has_speech()) return false;
+  state_.speaks_at = std::max(now, state_.free_at);
   return true;
 }
 
 // --- what it has heard ---------------------------------------------------------------------------
 
 void TextStation::echo(const Waiting& waiting, pty::Transmitter& out) {
-  if (!is_held_) return out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
-  if (outgoing_size() < kMostOutgoing) outgoing_.push_back({waiting.heard.last_character, waiting.echo});
+  if (!state_.is_held) return out.answer(bytes_of(waiting.echo), waiting.heard.last_character);
+  if (outgoing_size() < kMostOutgoing)
+    state_.outgoing.push_back({waiting.heard.last_character, waiting.echo});
 }
 
 void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now, pty::Transmitter& out) {
@@ -112,8 +129,8 @@ void TextStation::carry_out(const pty::HeardText& heard, pty::SimTime now, pty::
 void TextStation::serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                               pty::SimTime now, pty::Transmitter& out) {
   for (const std::uint8_t value : bytes) {
-    auto outcome =
-        lines_.push({.start = now, .end = now, .value = value, .number = last_character}, rules_of(speaker_));
+    auto outcome = state_.lines.push({.start = now, .end = now, .value = value, .number = last_character},
+                                     rules_of(speaker_));
     if (outcome.heard) serve(*outcome.heard, now, out);
   }
 }
@@ -129,8 +146,8 @@ void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Tran
       break;
     case Heard::overlong: speaker_.hear_overlong(); break;
     case Heard::escape: speaker_.hear_escape(); break;
-    case Heard::hold: is_held_ = true; return;
-    case Heard::go_on: is_held_ = false; return;
+    case Heard::hold: state_.is_held = true; return;
+    case Heard::go_on: state_.is_held = false; return;
   }
   if (!speaker_.has_speech() || outgoing_size() >= kMostOutgoing) return;
   const std::string text = speaker_.take_speech();
@@ -143,14 +160,14 @@ void TextStation::serve(const pty::HeardText& heard, pty::SimTime now, pty::Tran
 
 void TextStation::say(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                       pty::Transmitter& /*out*/) {
-  outgoing_.push_back({last_character, {bytes.begin(), bytes.end()}});
+  state_.outgoing.push_back({last_character, {bytes.begin(), bytes.end()}});
 }
 
 void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
   const std::size_t piece =
       is_instant_ || !speaker_.text_rules().has_flow_control ? kPiece : kPieceThatCanBeHeld;
-  while (!is_held_ && !outgoing_.empty() && free_at_ <= now) {
-    Outgoing& first = outgoing_.front();
+  while (!state_.is_held && !state_.outgoing.empty() && state_.free_at <= now) {
+    Outgoing& first = state_.outgoing.front();
     const std::size_t size = std::min(first.text.size(), piece);
     const auto bytes = bytes_of(std::string_view(first.text).substr(0, size));
     if (first.last_character == 0) {
@@ -160,58 +177,23 @@ void TextStation::send(pty::SimTime now, pty::Transmitter& out) {
     }
     // Where characters take no time, a long text takes it all the same: nobody could read it so fast.
     const bool takes_time = !is_instant_ || size == kPiece;
-    if (takes_time) free_at_ = now + settings().duration_of(static_cast<std::int64_t>(size));
+    if (takes_time) state_.free_at = now + settings().duration_of(static_cast<std::int64_t>(size));
     first.text.erase(0, size);
-    if (first.text.empty()) outgoing_.erase(outgoing_.begin());
+    if (first.text.empty()) state_.outgoing.erase(state_.outgoing.begin());
   }
 }
 
 std::size_t TextStation::outgoing_size() const {
   std::size_t size = 0;
-  for (const Outgoing& outgoing : outgoing_) size += outgoing.text.size();
+  for (const Outgoing& outgoing : state_.outgoing) size += outgoing.text.size();
   return size;
 }
 
 // --- its state -----------------------------------------------------------------------------------
 
-TextStation::State TextStation::save() const {
-  return {.lines = lines_.save(),
-          .counters = counters_,
-          .waiting = waiting_,
-          .late = wire_.late(),
-          .outgoing = outgoing_,
-          .free_at = free_at_,
-          .speaks_at = speaks_at_,
-          .is_held = is_held_};
-}
+void TextStation::write_state(StateWriter& writer) const { writer.write(state_); }
 
-void TextStation::check(const State& state) const {
-  const auto demand = [](bool holds) {
-    if (!holds) throw std::invalid_argument("a station cannot have such text");
-  };
-  pty::TextLines::check(state.lines);
-  demand(state.waiting.size() <= 1);
-  for (const Waiting& waiting : state.waiting) demand(pty::is_within_reach(waiting.heard.end));
-  FaultyWire::check(state.late);
-  for (const Outgoing& outgoing : state.outgoing) demand(!outgoing.text.empty());
-  demand(state.free_at >= pty::SimTime{0} && pty::is_within_reach(state.free_at));
-  demand(!state.speaks_at || pty::is_within_reach(*state.speaks_at));
-}
-
-void TextStation::restore(const State& state) {
-  lines_.restore(state.lines);
-  counters_ = state.counters;
-  waiting_ = state.waiting;
-  wire_.restore(state.late);
-  outgoing_ = state.outgoing;
-  free_at_ = state.free_at;
-  speaks_at_ = state.speaks_at;
-  is_held_ = state.is_held;
-}
-
-void TextStation::write_state(StateWriter& writer) const { writer.write(save()); }
-
-std::function<void()> TextStation::read_state(StateReader& reader) { return read_state_of(*this, reader); }
+std::function<void()> TextStation::read_state(StateReader& reader) { return read_into(state_, reader); }
 
 std::string TextStation::difference(StateReader& a, StateReader& b, const std::string& path) const {
   return difference_of_saved<State>(a, b, path);

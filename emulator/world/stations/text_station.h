@@ -37,7 +37,7 @@ class TextStation final : public LineStation {
 
   void reset() override;
   bool look_for_speech(pty::SimTime now) override;
-  std::uint64_t dropped_bytes() const override { return lines_.dropped_bytes(); }
+  std::uint64_t dropped_bytes() const override { return state_.lines.dropped_bytes(); }
   void write_state(StateWriter& writer) const override;
   std::function<void()> read_state(StateReader& reader) override;
   std::string difference(StateReader& a, StateReader& b, const std::string& path) const override;
@@ -53,7 +53,7 @@ class TextStation final : public LineStation {
     std::string text{};
   };
   struct State {
-    pty::TextLines::State lines;
+    pty::TextLines lines;
     StationCounters counters;
     std::vector<Waiting> waiting{};  // one at most
     std::vector<FaultyWire::Late> late{};
@@ -62,11 +62,7 @@ class TextStation final : public LineStation {
     std::optional<pty::SimTime> speaks_at{};  // what the device says unasked is taken
     bool is_held = false;                     // by the host's XOFF
   };
-  State save() const;
-  /// Throws std::invalid_argument for what this station cannot be.
-  void check(const State& state) const;
-  /// Like check(); if it throws, nothing has changed.
-  void restore(const State& state);
+  const State& save() const { return state_; }
 
  private:
   void echo(const Waiting& waiting, pty::Transmitter& out);
@@ -80,12 +76,7 @@ class TextStation final : public LineStation {
 
   TextSpeaker& speaker_;
   bool is_instant_;
-  pty::TextLines lines_;
-  std::vector<Waiting> waiting_;
-  std::vector<Outgoing> outgoing_;
-  pty::SimTime free_at_{0};
-  std::optional<pty::SimTime> speaks_at_;
-  bool is_held_ = false;
+  State state_;
 };
 
 }  // namespace understudy::emulator::world

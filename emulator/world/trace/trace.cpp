@@ -84,6 +84,12 @@ Trace::~Trace() {
 
 void Trace::on_tick(Tick tick) { look(time_of(tick)); }
 
+Tick Trace::next_look(Tick done) const {
+  Tick next = kNever;
+  for (const std::int32_t handle : handles_) next = std::min(next, probes_.next_change(handle, done));
+  return next;
+}
+
 void Trace::look(SimTime at) {
   bool anything = false;
   for (std::size_t i = 0; i < handles_.size(); ++i) {

@@ -51,6 +51,8 @@ class Trace final : private TickWatcher {
 
  private:
   void on_tick(Tick tick) override;
+  Tick next_look(Tick done) const override;
+  void on_rest(Tick) override {}  // it writes what changes
   void look(SimTime at);
 
   World& world_;

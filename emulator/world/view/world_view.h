@@ -53,11 +53,17 @@ class WorldView : public Inventory {
   ~WorldView() = default;
 };
 
-/// Sees every tick, quiet or not, when it is completely over. May act on the world as the outside does.
+/// Sees ticks when they are completely over. May act on the world as the outside does.
 class TickWatcher {
  public:
   virtual ~TickWatcher() = default;
   virtual void on_tick(Tick tick) = 0;
+  /// The first tick after `done` that it must see although nothing happens: `done` + 1 for one that sees
+  /// each, kNever for one that would see the same again. The first tick at which nothing happens is shown to
+  /// all.
+  virtual Tick next_look(Tick done) const { return done + 1; }
+  /// Nothing has changed since the tick that it saw last, and nothing does up to `last`.
+  virtual void on_rest(Tick last) { on_tick(last); }
 };
 
 }  // namespace understudy::emulator::world

@@ -21,7 +21,7 @@ void finish(Execution& execution, Ending ending) {
   execution = {.ending = ending, .now_line = execution.now_line};
 }
 
-bool waited_for_move_goes_on(const Execution& execution, const Dialect& dialect, const Machine& machine) {
+bool waited_for_move_goes_on(const Execution& execution, const Dialect& dialect, const MachineView& machine) {
   return (execution.waits_for_a && machine.moving(Axis::a)) ||
          (execution.waits_for_b && machine.moving(Axis::b)) || waits_on(execution, dialect, machine);
 }
@@ -118,7 +118,7 @@ void execute_line(Execution& execution, std::int64_t now_ms, const Program& prog
 /// Whether the next line has been executed and would do no more than wait on, as long as the machine stays as
 /// it is.
 bool would_wait_on(const Execution& execution, const Program& program, const Dialect& dialect,
-                   const Machine& machine) {
+                   const MachineView& machine) {
   if (execution.next_line != execution.now_line) return false;
   if (dialect.wait_slot == Dialect::WaitSlot::next_line_runs_in_it && !execution.waits) return false;
   if (!holds(execution) || must_be_read_anew(execution, program, dialect)) return false;
@@ -192,7 +192,7 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
 }
 
 std::int64_t next_active_slot_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                                 const Dialect& dialect, const Machine& machine) {
+                                 const Dialect& dialect, const MachineView& machine) {
   if (!execution.running) return kNoSlot;
   const auto first_slot_from = [](std::int64_t ms) { return (ms + kSlotMs - 1) / kSlotMs * kSlotMs; };
   const std::int64_t next = first_slot_from(done_ms + 1);

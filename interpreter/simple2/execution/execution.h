@@ -75,6 +75,6 @@ void step(Execution& execution, std::int64_t now_ms, const Program& program, con
 /// as they are; kNoSlot if none. Slots before it may be left out: the execution is then the same as with
 /// them.
 std::int64_t next_active_slot_ms(const Execution& execution, std::int64_t done_ms, const Program& program,
-                                 const Dialect& dialect, const Machine& machine);
+                                 const Dialect& dialect, const MachineView& machine);
 
 }  // namespace understudy::interpreter::simple2

@@ -12,14 +12,14 @@ inline Then jump(Step&) { return Then::flag; }
 // --- inputs and STATUS ---------------------------------------------------------------------------
 
 /// An input that does not exist is OFF, a bit that does not exist 0.
-inline bool input(const Machine& machine, std::uint8_t din) {
+inline bool input(const MachineView& machine, std::uint8_t din) {
   return is_defined(Operand::input, din) && machine.input(din);
 }
-inline bool status_bit(const Machine& machine, std::uint8_t bit) {
+inline bool status_bit(const MachineView& machine, std::uint8_t bit) {
   return is_defined(Operand::status_bit, bit) && machine.status_bit(bit);
 }
 
-inline bool wait_io_is_over(const Line& line, const Dialect& dialect, const Machine& machine) {
+inline bool wait_io_is_over(const Line& line, const Dialect& dialect, const MachineView& machine) {
   return input(machine, line.data1) == is_on(dialect, line.data2);
 }
 

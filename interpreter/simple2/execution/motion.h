@@ -100,25 +100,25 @@ Then and_wait(Step& step) {
 }
 
 template <Axes axes>
-bool any_moving(const Machine& machine) {
+bool any_moving(const MachineView& machine) {
   return (has(axes, Axis::a) && machine.moving_for_wait(Axis::a)) ||
          (has(axes, Axis::b) && machine.moving_for_wait(Axis::b));
 }
 
 /// Whether what was waited for has been cut short.
-inline bool wait_is_cut_short(const Execution& execution, const Machine& machine) {
+inline bool wait_is_cut_short(const Execution& execution, const MachineView& machine) {
   return (execution.waits_for_a && machine.cut_short(Axis::a)) ||
          (execution.waits_for_b && machine.cut_short(Axis::b));
 }
 /// The same, and the line waits for a later move.
-inline bool waits_on(const Execution& execution, const Dialect& dialect, const Machine& machine) {
+inline bool waits_on(const Execution& execution, const Dialect& dialect, const MachineView& machine) {
   return dialect.wait_cut_short == Dialect::WaitCutShort::waits_on && wait_is_cut_short(execution, machine);
 }
 
 /// Where Wait_Move_* goes on. It does nothing else.
 template <Axes axes>
 Then after_wait_move(const Line& line, const Execution& execution, const Program& program,
-                     const Dialect& dialect, const Machine& machine) {
+                     const Dialect& dialect, const MachineView& machine) {
   if (!any_moving<axes>(machine)) {
     return waits_on(execution, dialect, machine) ? Then::same_line : Then::next_line;
   }

@@ -29,9 +29,14 @@ inline std::string why_not_number(const std::string& name) {
   return is_number ? "" : "is not a number; expected 00 to 99";
 }
 
+inline std::string why_not_area(const std::string& name) {
+  return name == "MAIN" || name == "ALARM" ? "" : "is not an area; expected MAIN or ALARM";
+}
+
 inline constexpr BlockKind kBlocks[] = {
     {.name = "files", .most = 100, .longest = 8192, .why_not_called = why_not_number},
-    {.name = "recipes", .most = 10, .longest = 200, .why_not_called = why_not_number}};
+    {.name = "recipes", .most = 10, .longest = 200, .why_not_called = why_not_number},
+    {.name = "areas", .most = 2, .longest = 4096, .why_not_called = why_not_area}};
 
 struct Kept {
   Eeprom eeprom;

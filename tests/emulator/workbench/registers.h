@@ -29,6 +29,7 @@ Value is_any_driving(const Workbench& bench, Cell cell);
 Value fifo_length(const Workbench& bench, Cell cell);
 Value last_cause(const Workbench& bench, Cell cell);
 Value last_reason(const Workbench& bench, Cell cell);
+Value program_refused(const Workbench& bench, Cell cell);
 Value commands_done(const Workbench& bench, Cell cell);
 Value temperature(const Workbench& bench, Cell cell);
 Value input_level(const Workbench& bench, Cell cell);
@@ -78,6 +79,7 @@ inline constexpr RegisterRow kRows[] = {
     input(0, "STATE", Type::u16).shows_bits(kStateBits),
     input(2, "Position_{}", Type::s32).each(kAxes, 2).shows<position_of>(),
     input(8, "Temperature", Type::f32).shows<temperature>(),
+    input(15, "Program_Refused", Type::u16).shows<program_refused>(),
     input(16, "Cause", Type::u16).shows<last_cause>(),
     input(17, "Reason", Type::u16).shows<last_reason>(),
     input(18, "Receive_Errors_{}", Type::u16).each(kPortNames, 1).shows<receive_errors>(),

@@ -108,7 +108,7 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
   Served served;
   const std::tuple<const char*, Json, const char*> cases[] = {
       {"Gain_Z", 10.5, "Gain_Z: 10.5 is out of range; expected 0 to 10"},
-      {"Gain_Z", 1e300, "Gain_Z: 1e+300 is more than a single can hold"},
+      {"Gain_Z", 1e300, "Gain_Z: 1e+300 is more than a 32-bit real can hold"},
       {"Speed_X", 2.5, "Speed_X: expected a whole number"},
       {"Output_9", 2, "Output_9: 2 is out of range; expected 0 or 1"},
       {"Command0", kStop, "Command0 takes whole messages; expected a request from the line"},

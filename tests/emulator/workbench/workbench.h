@@ -17,6 +17,8 @@
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
+#include "emulator/device/user_program.h"
+#include "tests/emulator/workbench/language.h"
 #include "tests/emulator/workbench/machine.h"
 #include "tests/emulator/workbench/memory.h"
 #include "tests/emulator/workbench/registers.h"
@@ -29,8 +31,9 @@ struct WorkbenchState {
   std::array<std::int32_t, kAxisCount> targets{};
   std::vector<std::vector<std::uint16_t>> fifo{};
   std::uint32_t done = 0;
-  std::uint8_t cause = 0;    // of the last exception
-  std::uint16_t reason = 0;  // the same in its own numbers
+  std::uint8_t cause = 0;            // of the last exception
+  std::uint16_t reason = 0;          // the same in its own numbers
+  std::uint8_t program_refused = 0;  // the last one that was loaded
   MotorsState motors{};
   std::array<std::uint32_t, 2> receive_errors{};
   std::array<std::uint8_t, 2> last_receive_error{};  // 1 + pty::ReceiveError
@@ -53,6 +56,7 @@ struct StateOf<emulator::workbench::WorkbenchState> {
                                             field("done", &Value::done),
                                             field("cause", &Value::cause),
                                             field("reason", &Value::reason),
+                                            field("program_refused", &Value::program_refused),
                                             field("motors", &Value::motors),
                                             field("receive_errors", &Value::receive_errors),
                                             field("last_receive_error", &Value::last_receive_error),
@@ -66,6 +70,7 @@ namespace understudy::emulator::workbench {
 class Workbench final : public Device,
                         public RegisterBankOf<Workbench>,
                         public ModbusStation,
+                        public UserProgram,
                         public Terminals,
                         public Axes {
  public:
@@ -85,6 +90,41 @@ class Workbench final : public Device,
   const Terminals* terminals() const override { return this; }
   Axes* axes() override { return this; }
   const Axes* axes() const override { return this; }
+
+  UserProgram* user_program() override { return this; }
+  const UserProgram* user_program() const override { return this; }
+  /// Its areas and files are kept as blocks; what it sets is set at once.
+  void load_program(std::string_view text) override {
+    ProgramReader read = WorkbenchLanguage::read(text, settings());
+    state.program_refused = read.mistakes.empty() ? 0 : 1;
+    if (!read.mistakes.empty()) throw ProgramError(std::move(read.mistakes));
+    TextBlocks& blocks = state.kept.blocks;
+    for (const std::string_view area : kAreas) {
+      const auto found = read.program.areas.find(std::string(area));
+      blocks.erase("areas", std::string(area));
+      if (found == read.program.areas.end()) continue;
+      std::string lines;
+      for (const ProgramStep& step : found->second) {
+        lines += (step.label.empty() ? "" : step.label + ":") + "\t" + to_text(step, found->second) + "\n";
+        if (step.row->opcode == 3)
+          state.image[first_d_ + static_cast<std::size_t>(step.operands[0])] =
+              static_cast<std::uint32_t>(step.operands[1]);
+      }
+      blocks.put("areas", std::string(area), SharedText(std::move(lines)));
+    }
+    for (auto& [name, lines] : read.program.files) blocks.put("files", name, SharedText(std::move(lines)));
+  }
+  std::string program_text() const override {
+    std::string text;
+    for (const std::string_view area : kAreas) {
+      const SharedText* const lines = state.kept.blocks.find("areas", std::string(area));
+      if (lines != nullptr) text += "AREA " + std::string(area) + "\n" + lines->text();
+    }
+    const auto files = state.kept.blocks.all().find("files");
+    if (files == state.kept.blocks.all().end()) return text;
+    for (const auto& [name, lines] : files->second) text += "FILE " + name + "\n" + lines.text() + "END\n";
+    return text;
+  }
 
   KeptMemory* memory() override { return &memory_; }
   const KeptMemory* memory() const override { return &memory_; }
@@ -233,6 +273,7 @@ class Workbench final : public Device,
   const std::size_t station_ = slot_of("Station");
   const std::size_t volts_ = slot_of("Volts");
   const std::size_t first_word_ = slot_of("DO_Word_0");
+  const std::size_t first_d_ = slot_of("D0");
   Motors motors_{state.motors};
 };
 
@@ -249,6 +290,7 @@ inline Value is_driving(const Workbench& bench, Cell cell) {
 inline Value is_any_driving(const Workbench& bench, Cell) { return bench.is_moving() ? 1 : 0; }
 inline Value fifo_length(const Workbench& bench, Cell) { return static_cast<Value>(bench.state.fifo.size()); }
 inline Value last_cause(const Workbench& bench, Cell) { return bench.state.cause; }
+inline Value program_refused(const Workbench& bench, Cell) { return bench.state.program_refused; }
 inline Value last_reason(const Workbench& bench, Cell) { return bench.state.reason; }
 inline Value commands_done(const Workbench& bench, Cell) { return bench.state.done; }
 inline Value temperature(const Workbench&, Cell) { return value_of_real(21.5F); }
@@ -284,6 +326,16 @@ inline constexpr Firmware kFirmwares[] = {100};
 inline constexpr std::string_view kStateRegisters[] = {"STATE", "holding.Position_X", "Temperature",
                                                        "Mode.PROGRAM"};
 
+/// One number for every axis, and numbers that are counted.
+inline constexpr ParameterRow kParameters[] = {
+    {.first = 20,
+     .register_name = "Speed_{}",
+     .letter = "P",
+     .of_each_axis = true,
+     .meaning = "speed of an axis"},
+    {.first = 100, .count = 125, .register_name = "D{}", .letter = "D"},
+    {.first = 7, .register_name = "Offset"}};
+
 inline const Model& model() {
   static const RegisterMap map(kRows, kPolicy);
   static const Model made{
@@ -291,7 +343,9 @@ inline const Model& model() {
       .title = "a controller for tests",
       .firmwares = kFirmwares,
       .registers = &map,
-      .choices = {},
+      .parameters = kParameters,
+      .language = &language(),
+      .choices = kChoices,
       .terminals = terminal_tables().rows,
       .terminal_groups = terminal_tables().groups,
       .axes = motor_rows(),

@@ -9,6 +9,7 @@
 #include "emulator/world/snapshot.h"
 #include "emulator/world/state_fields.h"
 #include "emulator/world/stations/rtu_station.h"
+#include "emulator/world/stations/station_fields.h"
 #include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
@@ -46,7 +47,11 @@ TEST(SnapshotDifference, IsToldByPathAndName) {
          auto& station = dynamic_cast<RtuStation&>(*w.line(0).stations[1]);
          RtuStation::State state = station.save();
          state.counters.replies = 2;
-         station.restore(state);
+         StateWriter writer;
+         writer.write(state);
+         const std::vector<std::byte> bytes = writer.take();
+         StateReader reader(bytes);
+         station.read_state(reader)();
        }},
       {"rs485.edge.counters.bytes_discarded: 0 against 4",
        [](World& w) {

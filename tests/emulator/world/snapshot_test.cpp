@@ -58,7 +58,7 @@ void count(const World& world, Moments& moments) {
   moments.in_reply += state.leaving.empty() ? 0 : 1;
   for (const auto& station : line.stations) {
     moments.between_characters_and_service +=
-        dynamic_cast<const RtuStation&>(*station).save().framer.ready.empty() ? 0 : 1;
+        dynamic_cast<const RtuStation&>(*station).save().framer.save().ready.empty() ? 0 : 1;
   }
   for (const char* device : {"feeder.", "turner."}) {
     if (!world.device(device[0] == 'f' ? 0 : 1).powered()) {

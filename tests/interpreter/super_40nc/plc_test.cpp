@@ -217,6 +217,26 @@ TEST(Super40ncPlc, ACounterCountsOnIfChosen) {
   EXPECT_EQ(plc.machine.value(c(0)), 3);
 }
 
+TEST(Super40ncPlc, ACountersContactIsLatchedIfChosen) {
+  Options options;
+  options.counter_contact = Options::CounterContact::is_latched;
+  Running plc = ladder_of("LD X0;OUT C0 K1;LD X1;RST C0", options);
+  plc.scan();
+  plc.machine.write(c(0), 5);  // a host: does not close it
+  plc.scan();
+  EXPECT_FALSE(plc.machine.contact(c(0)));
+  plc.machine.write(c(0), 0);
+  plc.machine.set(x(0), true);
+  plc.scan();
+  EXPECT_TRUE(plc.machine.contact(c(0)));
+  plc.machine.write(c(0), 0);
+  plc.scan();
+  EXPECT_TRUE(plc.machine.contact(c(0)));
+  plc.machine.set(x(1), true);
+  plc.scan();
+  EXPECT_FALSE(plc.machine.contact(c(0)));
+}
+
 struct Sum {
   const char* line;
   std::int32_t d0;

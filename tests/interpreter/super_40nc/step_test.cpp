@@ -195,7 +195,7 @@ TEST(Super40ncStep, AStopOfItselfEndsIt) {
   running.tick(2);
   EXPECT_EQ(running.phase(Area::x), Phase::idle);
   EXPECT_FALSE(running.machine.contact(y(0)));
-  EXPECT_EQ(running.state(Area::x), StepState{});
+  EXPECT_EQ(running.state(Area::x).step, 0);
 }
 
 // --- what motion lines ask for ----------------------------------------------------------------------

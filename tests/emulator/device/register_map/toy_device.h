@@ -77,7 +77,6 @@ struct Toy {
               .firmwares = kToyFirmwares,
               .registers = &map,
               .parameters = {},
-              .instructions = {},
               .choices = {},
               .terminals = {},
               .axes = {},

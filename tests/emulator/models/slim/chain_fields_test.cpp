@@ -1,6 +1,8 @@
 // The state of a chain as bytes, and back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "emulator/models/slim/chain_fields.h"
 #include "tests/emulator/models/slim/one_chain.h"
 
@@ -12,17 +14,21 @@ std::vector<std::byte> saved(const Chain& chain) {
   writer.write(chain);
   return writer.take();
 }
-Chain restored(std::span<const std::byte> bytes) {
-  Chain chain;
+Chain restored(std::span<const std::byte> bytes, const ChainOptions& options = {}) {
+  Chain chain(options);
   StateReader reader(bytes);
   reader.read(chain);
   reader.demand_end();
   return chain;
 }
 
-OneChain busy() {
+ChainOptions shorter_buffers() {
   ChainOptions options;
   options.choose(option("buffer_length", "16"));
+  return options;
+}
+
+OneChain busy(const ChainOptions& options = shorter_buffers()) {
   OneChain bench(options);
   bench.scale_all(100);
   bench.map({0, 1});
@@ -48,7 +54,7 @@ TEST(SlimChainFields, RestoredItIsTheSameAndGoesOnTheSame) {
       bench.steps(when);
       if (paused) bench.chain.pause();
       OneChain copy = bench;
-      copy.chain = restored(saved(bench.chain));
+      copy.chain = restored(saved(bench.chain), shorter_buffers());
       ASSERT_EQ(copy.chain, bench.chain);
       if (paused) {
         bench.steps(100);
@@ -63,6 +69,18 @@ TEST(SlimChainFields, RestoredItIsTheSameAndGoesOnTheSame) {
       EXPECT_EQ(saved(copy.chain), saved(bench.chain));
     }
   }
+}
+
+TEST(SlimChainFields, OptionsAreNotAPartOfIt) {
+  ChainOptions others;
+  for (std::size_t row = 0; row < others.numbers.size(); ++row) {
+    others.numbers[row] = static_cast<std::uint8_t>(std::ranges::count(kChoices[row].options, '|'));
+  }
+  OneChain bench = busy();
+  bench.steps(77);
+  const std::vector<std::byte> bytes = saved(bench.chain);
+  bench.chain.set_options(others);
+  EXPECT_EQ(saved(bench.chain), bytes);
 }
 
 TEST(SlimChainFields, AnIdleChainIsSmall) { EXPECT_LT(saved(Chain{}).size(), 30'000U); }

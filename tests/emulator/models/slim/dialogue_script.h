@@ -1,7 +1,7 @@
 // A whole dialogue with a SLIM as a script, compared line by line:
 //   > ?PE          is typed
 //   < 100          is said next
-//   @ 250          so many milliseconds pass
+//   @ 250          this many milliseconds pass
 //   IN3 = 1        a terminal gets a level
 //   off, on        the power
 // At the end nothing more may have been said. Lines that begin with # are remarks.

@@ -3,7 +3,7 @@
 //   ?PE -> 100        is typed; said to it is this, or several lines apart by "|"
 //   .                 an empty line is typed
 //   < DONE            is said unasked
-//   @250              so many milliseconds pass
+//   @250              this many milliseconds pass
 //   P3 is 1           the level of an output
 //   IN3 = 1, off, on  as in dialogue_script.h
 //   {name}            several steps, see expanded()

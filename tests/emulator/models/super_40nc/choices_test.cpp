@@ -24,6 +24,14 @@ struct Case {
   std::vector<std::pair<std::string, Value>> by_option;  // ours first
 };
 
+/// A block that is ON, covered by so many that are OFF; then all of them joined.
+std::string blocks_over(int count, const std::string& output) {
+  std::string text = "AREA PLC\nLD M8003\nOUT Y0\n";
+  for (int i = 0; i < count; ++i) text += "LD M1\nOUT Y1\n";
+  for (int i = 0; i < count; ++i) text += "ORB\n";
+  return text + "OUT " + output + "\nEND";
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
       {"factory_values", "", {}, {}, "D9178", {{"table_of_d9", 100}, {"panels", 500}}},
@@ -36,6 +44,20 @@ const std::vector<Case>& cases() {
        {{{{"M8100", 1}}, 5}},
        "D8095",
        {{"newer", 1500}, {"older", 500}}},
+      {"stack_depth", blocks_over(8, "Y2"), {}, {{{}, 5}}, "Y2", {{"16", 1}, {"8", 0}, {"11", 1}}},
+      {"stack_depth", blocks_over(11, "Y3"), {}, {{{}, 5}}, "Y3", {{"16", 1}, {"8", 0}, {"11", 0}}},
+      {"counter_contact",
+       "AREA PLC\nLD M1\nOUT C0 K2\nLD C0\nOUT Y0\nEND",
+       {},
+       {{{{"holding.C0", 5}}, 5}},
+       "Y0",
+       {{"compares_at_each_scan", 1}, {"closed_by_the_last_count", 0}}},
+      {"cal_depth",
+       "AREA X\nLAB K1\nINC D0\nCAL K1\nEND",
+       {},
+       {{{{"M8100", 1}}, 50}},
+       "D0",
+       {{"16", 17}, {"8", 9}}},
       {"timer_unit",
        "AREA PLC\nLD M8003\nOUT T0 K10\nLD T0\nOUT M0\nLD M8003\nOUT T1 K100\nLD T1\nOUT M1\nEND",
        {},

@@ -36,8 +36,8 @@ class WrittenDown final : public Stage {
     return stage_->converse(line, text, wanted, within);
   }
   void with_world(const std::function<void(world::World&)>& act) override { stage_->with_world(act); }
-  bool run_until(const std::function<bool(world::World&)>& is_there, SimTime deadline) override {
-    return stage_->run_until(is_there, deadline);
+  bool run_until(const Awaited& awaited, SimTime deadline) override {
+    return stage_->run_until(awaited, deadline);
   }
   void advance(SimTime by) override { stage_->advance(by); }
   SimTime now() override { return stage_->now(); }

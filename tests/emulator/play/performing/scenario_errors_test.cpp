@@ -307,9 +307,9 @@ TEST_F(ScenarioErrors, FromOutside) {
   EXPECT_EQ(complaint(jam + "  - clear: all\n  - clear: jam\n"),
             "scenario.yaml:6: steps[2].clear: no fault in force here is called 'jam'; there is none");
   folder_.write("bad.lst", "        SVON_A\n        Fly MEM0\n        END\n");
-  EXPECT_TRUE(complaint("  - program: { feeder: bad.lst }\n").starts_with("bad.lst:2: "));
+  EXPECT_TRUE(complaint("  - program: { feeder: bad.lst }\n").starts_with("bad.lst:2: mnemonic: "));
   EXPECT_TRUE(complaint("  - program:\n      feeder: |\n        SVON_A\n        Fly MEM0\n")
-                  .starts_with("scenario.yaml:5: steps[0].program.feeder: line 2: "));
+                  .starts_with("scenario.yaml:5: steps[0].program.feeder: line 2, column 1: mnemonic: "));
   folder_.write("mill.json",
                 to_json({.model = "simple2-r3", .firmware = "1.52", .registers = {{"Aaxis_SVON", 1}}}));
   EXPECT_EQ(complaint("  - memory: { feeder: mill.json }\n"),

@@ -84,5 +84,34 @@ TEST(Envelope, HasTheExtremesOfEveryStretch) {
   }
 }
 
+/// To stay is to be added again at every tick, however long, and whatever comes after it.
+TEST(Envelope, StaysAsIfItWereAddedAtEveryTick) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    std::mt19937 random(seed);
+    const std::size_t most = 1 + random() % 20;
+    Envelope stays(most);
+    Envelope added(most);
+    Tick tick = random() % 100;
+    for (int i = 0; i < 12; ++i) {
+      const double value = random() % 5;
+      stays.add(tick, value);
+      added.add(tick, value);
+      const Tick last = tick + (random() % 2 == 0 ? random() % 4 : random() % 5000);
+      stays.stay(last);
+      while (++tick <= last) added.add(tick, value);
+      ASSERT_EQ(stays.points(), added.points()) << "seed " << seed;
+    }
+    EXPECT_EQ(stays.least(), added.least());
+    EXPECT_EQ(stays.greatest(), added.greatest());
+  }
+}
+
+TEST(Envelope, StaysForALongTimeInAFewSteps) {
+  Envelope envelope(100);
+  envelope.add(0, 1);
+  envelope.stay(Tick{1} << 50);
+  EXPECT_EQ(envelope.points(), (Points{{0, 1}, {Tick{1} << 50, 1}}));
+}
+
 }  // namespace envelope_test
 }  // namespace understudy::emulator::play

@@ -219,13 +219,37 @@ TEST(FreeStage, RunUntilStopsAtTheVeryTick) {
     ++looks;
     return world.now() >= std::chrono::milliseconds(7);
   };
-  EXPECT_TRUE(stage.run_until(at_7, std::chrono::seconds(1)));
+  EXPECT_TRUE(stage.run_until({at_7}, std::chrono::seconds(1)));
   EXPECT_EQ(stage.now(), std::chrono::milliseconds(7));
   EXPECT_EQ(looks, 8);  // at once, and at each tick
-  EXPECT_TRUE(stage.run_until(at_7, std::chrono::seconds(1)));
+  EXPECT_TRUE(stage.run_until({at_7}, std::chrono::seconds(1)));
   EXPECT_EQ(stage.now(), std::chrono::milliseconds(7));
-  EXPECT_FALSE(stage.run_until([](world::World&) { return false; }, ns(9'500'000)));
+  EXPECT_FALSE(stage.run_until({[](world::World&) { return false; }}, ns(9'500'000)));
   EXPECT_EQ(stage.now(), ns(9'500'000));
+}
+
+/// Where nothing happens it looks only where what it waits for says so, and stops there.
+TEST(FreeStage, RunUntilLooksOnlyWhereSomethingMayBeDifferent) {
+  HeardStage heard(kAt19200);
+  FreeStage& stage = heard.stage;
+  stage.advance(std::chrono::seconds(1));
+  int looks = 0;
+  const Awaited in_an_hour{
+      .is_there =
+          [&](world::World& world) {
+            ++looks;
+            return world.now() >= std::chrono::hours(1);
+          },
+      .next_look = [](Tick done) { return done < 3'600'000 ? Tick{3'600'000} : done + 1; }};
+  EXPECT_TRUE(stage.run_until(in_an_hour, std::chrono::hours(2)));
+  EXPECT_EQ(stage.now(), std::chrono::hours(1));
+  EXPECT_LT(looks, 10);
+  const Awaited never{.is_there = [&](world::World&) { return ++looks < 0; },
+                      .next_look = [](Tick) { return kNever; }};
+  looks = 0;
+  EXPECT_FALSE(stage.run_until(never, std::chrono::hours(3)));
+  EXPECT_EQ(stage.now(), std::chrono::hours(3));
+  EXPECT_LT(looks, 10);
 }
 
 TEST(FreeStage, FramingIsStrict) {

@@ -117,9 +117,12 @@ TEST(ProgramMessages, AWrongListingLeavesTheProgramAsItWas) {
   DaemonRig rig;
   rig.reply_to(R"({"do":"program","device":"feeder","text":"Delay_mSec 1500\n"})");
   const Json before = rig.ask(R"({"do":"program","device":"feeder"})");
-  EXPECT_EQ(error_of(rig, R"({"do":"program","device":"feeder","text":"NOP\nDellay_mSec 5\nJump\n"})"),
-            "line 2: mnemonic: no instruction is called 'Dellay_mSec'; expected an instruction (nearest: "
-            "'Delay_mSec')");
+  const Json refused = rig.ask(R"({"do":"program","device":"feeder","text":"NOP\nDellay_mSec 5\nJump\n"})");
+  EXPECT_EQ(refused["ok"], false);
+  EXPECT_EQ(refused["mistakes"].size(), 2U) << refused;
+  EXPECT_EQ(refused["error"],
+            "line 2, column 1: mnemonic: no instruction is called 'Dellay_mSec'; expected an instruction "
+            "(nearest: 'Delay_mSec') (and 1 more)");
   EXPECT_EQ(rig.ask(R"({"do":"program","device":"feeder"})"), before);
 }
 

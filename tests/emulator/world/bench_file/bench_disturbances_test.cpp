@@ -169,7 +169,7 @@ TEST(BenchFile, AProgramIsAListingBesideIt) {
   } catch (const BenchError& error) {
     // The complaint is about the listing, where an editor finds it.
     EXPECT_EQ(error.what(), folder +
-                                "/pick.lst:2: mnemonic: no instruction is called 'Dellay_mSec'; expected "
+                                "/pick.lst:2:3: mnemonic: no instruction is called 'Dellay_mSec'; expected "
                                 "an instruction (nearest: 'Delay_mSec')");
   }
   std::filesystem::remove_all(folder);
@@ -252,8 +252,8 @@ TEST(BenchErrors, OfDisturbancesAreOneLineToo) {
         and_then("faults: [ { \"st\\nall\": x.A } ]\n"), and_then("faults: [ { stall: \"x.\\nA\" } ]\n"),
         and_then("faults: [ { stall: x.A, \"a\\nb\": 1 } ]\n"),
         and_then("faults: [ { stuck: x.DIN_1, level: \"a\\nb\" } ]\n"),
-        and_then("plant:\n  x.A: { drive: { enabled_by: \"o\\nn\" } }\n"), and_then("", "program: \"a\\nb\""),
-        and_then("", "dip: { \"DIP\\n1\": on }")}) {
+        and_then("plant:\n  x.A: { drive: { enabled_by: \"o\\nn\" } }\n"),
+        and_then("", "program: \"NOP\\nb\""), and_then("", "dip: { \"DIP\\n1\": on }")}) {
     const std::string got = complaint(text);
     EXPECT_NE(got, "") << text;
     EXPECT_EQ(got.find('\n'), std::string::npos) << got;

@@ -24,6 +24,7 @@
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
+#include "emulator/device/program_language.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/text/text_device.h"
 #include "emulator/device/user_program.h"
@@ -149,7 +150,7 @@ class EchoBox final : public TextDevice,
     std::istringstream stream{std::string(text)};
     for (std::string line; std::getline(stream, line);) {
       if (line == "BAD")
-        throw ProgramError(static_cast<int>(lines.size()) + 1, "is not a command; expected one");
+        throw ProgramError(static_cast<int>(lines.size()) + 1, 1, "is not a command; expected one");
       lines.push_back(line);
     }
     state_.program = std::move(lines);
@@ -224,11 +225,35 @@ class EchoBox final : public TextDevice,
   std::uint64_t revision_ = 0;
 };
 
+class EchoLanguage final : public ProgramLanguage {
+ public:
+  std::string_view name() const override { return "list of words"; }
+  std::string_view file_ending() const override { return ".txt"; }
+  std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
+    const std::unique_ptr<Device> device = make_echo_box(settings);
+    try {
+      device->user_program()->load_program(text);
+    } catch (const ProgramError& error) {
+      return error.mistakes;
+    }
+    return {};
+  }
+
+ private:
+  static std::unique_ptr<Device> make_echo_box(const DeviceSettings& settings);
+};
+
+inline const ProgramLanguage& echo_language() {
+  static const EchoLanguage language;
+  return language;
+}
+
 inline const Model& echo_box() {
   static const Model model{
       .name = "echo-box",
       .title = "says back what it is told",
       .firmwares = kEchoFirmwares,
+      .language = &echo_language(),
       .commands = kEchoCommands,
       .choices = {},
       .terminals = kEchoTerminals,
@@ -242,6 +267,10 @@ inline const Model& echo_box() {
       },
   };
   return model;
+}
+
+inline std::unique_ptr<Device> EchoLanguage::make_echo_box(const DeviceSettings& settings) {
+  return std::make_unique<EchoBox>(echo_box(), settings);
 }
 
 /// A bench with one of them, "robot" on the line "serial".

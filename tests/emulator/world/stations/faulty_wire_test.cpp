@@ -59,7 +59,8 @@ struct Rig final : FaultyWire::End {
 
   std::string log{};
   Silence nobody{};
-  FaultyWire wire{*this};
+  std::vector<FaultyWire::Late> late{};
+  FaultyWire wire{*this, late};
   Faults faults{};
 };
 
@@ -133,7 +134,7 @@ TEST(FaultyWire, LosesWhatIsTooMuchAndWhatIsReset) {
   rig.wire.set_faults(&rig.faults, 0, 0);
   rig.faults.reply = {{.kind = Kind::delay, .time = 10ms}};
   for (std::size_t i = 0; i < FaultyWire::kMostLate + 5; ++i) rig.answer({1}, 0ms);
-  EXPECT_EQ(rig.wire.late().size(), FaultyWire::kMostLate);
+  EXPECT_EQ(rig.late.size(), FaultyWire::kMostLate);
   rig.wire.look_at_completed({.bytes = {}, .is_for_device = true});
   EXPECT_EQ(rig.wire.due(), 0ms);
   rig.wire.reset();

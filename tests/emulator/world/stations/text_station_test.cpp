@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "emulator/world/snapshot.h"
+#include "emulator/world/stations/station_fields.h"
 #include "tests/emulator/device/same_state.h"
 #include "tests/emulator/world/stations/echo_box.h"
 
@@ -224,15 +225,22 @@ TEST(TextStation, RefusesStatesThatCannotBe) {
   auto& station = dynamic_cast<TextStation&>(*rig.world.line(0).stations[0]);
   const TextStation::State good = station.save();
   const std::vector<std::function<void(TextStation::State&)>> spoilers{
-      [](auto& state) { state.lines.text = "a\r"; },    [](auto& state) { state.waiting.resize(2); },
-      [](auto& state) { state.late.push_back({}); },    [](auto& state) { state.outgoing.push_back({}); },
-      [](auto& state) { state.free_at = SimTime{-1}; }, [](auto& state) { state.speaks_at = SimTime::max(); },
+      [](auto& state) { state.waiting.resize(2); },          [](auto& state) { state.late.push_back({}); },
+      [](auto& state) { state.outgoing.push_back({}); },     [](auto& state) { state.free_at = SimTime{-1}; },
+      [](auto& state) { state.speaks_at = SimTime::max(); },
   };
-  station.check(good);
+  const auto read = [&](const TextStation::State& state) {
+    StateWriter writer;
+    writer.write(state);
+    const std::vector<std::byte> bytes = writer.take();
+    StateReader reader(bytes);
+    station.read_state(reader);
+  };
+  read(good);
   for (const auto& spoil : spoilers) {
     TextStation::State bad = good;
     spoil(bad);
-    EXPECT_THROW(station.check(bad), std::invalid_argument);
+    EXPECT_ANY_THROW(read(bad));
   }
 }
 

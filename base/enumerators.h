@@ -1,0 +1,29 @@
+// Which numbers of an enumeration have names, for tables that must have a row for each of them.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+
+namespace understudy {
+
+template <auto value>
+constexpr bool has_name() {
+  // The compiler writes "... value = Colour::red]" of one that has, and "... value = (Colour)7]" of one that
+  // has not.
+  std::string_view text = __PRETTY_FUNCTION__;
+  text.remove_suffix(1);
+  const std::size_t bracket = text.rfind(')');
+  return bracket == std::string_view::npos ||
+         text.find_first_not_of("0123456789", bracket + 1) != std::string_view::npos;
+}
+
+/// Whether no value stands behind this one.
+template <auto last>
+constexpr bool is_last() {
+  using T = decltype(last);
+  using Number = std::underlying_type_t<T>;
+  return !has_name<static_cast<T>(static_cast<Number>(static_cast<Number>(last) + 1))>();
+}
+
+}  // namespace understudy

@@ -1,0 +1,30 @@
+// A queue as a part of a state: saved is what is in it, as a vector of it would be.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/queue.h"
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+
+namespace understudy {
+
+template <class T>
+struct StateOf<Queue<T>> {
+  static void write(const Queue<T>& queue, StateWriter& writer) {
+    writer.write(static_cast<std::uint32_t>(queue.size()));
+    for (const T& value : queue) writer.write(value);
+  }
+  static void read(Queue<T>& queue, StateReader& reader) {
+    std::uint32_t count = 0;
+    reader.read(count);
+    // Each takes at least a byte, so no room is made for what is not there.
+    demand_state(count <= reader.rest().size(), "the bytes end too early");
+    queue.clear();
+    queue.resize(count);
+    for (T& value : queue) reader.read(value);
+  }
+};
+
+}  // namespace understudy

@@ -1,0 +1,80 @@
+#include "emulator/command_line/program.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/files/growing_file.h"
+#include "base/text/one_line.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/command_line/flags.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/ports/tty_shim.h"
+#include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/recording/recording.h"
+#include "pty/capture_file.h"
+#include "pty/port_link.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+int complain(const std::exception& error, int code) {
+  std::fprintf(stderr, "understudy: %s\n", one_line(error.what()).c_str());
+  return code;
+}
+
+/// With a standard descriptor closed, a port would get its number, and what is printed would go out on it.
+void open_standard_descriptors() {
+  int descriptor = 0;
+  while ((descriptor = open("/dev/null", O_RDWR)) >= 0 && descriptor <= STDERR_FILENO) {
+  }
+  if (descriptor > STDERR_FILENO) close(descriptor);
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, ModelList models) {
+  open_standard_descriptors();
+  try {
+    const int code = parse_command_line(argc, argv, models)();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    return complain(std::runtime_error("standard output cannot be written"), kExitNoResource);
+  } catch (const world::BenchError& error) {
+    // It begins with the file's name and line, where editors look for it.
+    std::fprintf(stderr, "%s\n", error.what());
+    return kExitBadInput;
+  } catch (const UsageError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const SettingError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const NvError& error) {
+    std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());  // it begins with the file's name
+    return kExitBadInput;
+  } catch (const serve::NoTtyShim& error) {
+    return complain(error, kExitNoResource);
+  } catch (const understudy::pty::PortError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const serve::ControlError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const world::RecordingError& error) {
+    std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());
+    return kExitBadInput;
+  } catch (const GrowingFileError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const understudy::pty::CaptureError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const std::system_error& error) {
+    return complain(error, kExitNoResource);
+  } catch (const std::exception& error) {
+    return complain(error, kExitInternal);
+  }
+}
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,21 @@
+// What commands that read programs share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/command_line/commands.h"
+#include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/program_language.h"
+
+namespace understudy::emulator::command_line {
+
+/// Throws UsageError where the model's devices take no programs.
+const ProgramLanguage& demand_language(const Model& model);
+/// Throws UsageError, or SettingError for what the model does not have.
+DeviceSettings program_settings(const Model& model, const ProgramTextArguments& arguments);
+/// On standard error, a line each.
+void print_mistakes(const std::vector<ProgramMistake>& mistakes, const std::string& file);
+
+}  // namespace understudy::emulator::command_line

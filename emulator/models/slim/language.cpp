@@ -1,0 +1,32 @@
+#include "emulator/models/slim/language.h"
+
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/program_language.h"
+#include "emulator/models/slim/device.h"
+
+namespace understudy::emulator::models::slim {
+
+namespace {
+
+class ProgramText final : public ProgramLanguage {
+ public:
+  std::string_view name() const override { return "SLIM program"; }
+  std::string_view file_ending() const override { return ".slim"; }
+  /// Much of what a line may be is a choice.
+  std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
+    return Slim(settings).mistakes_in(text);
+  }
+};
+
+}  // namespace
+
+const ProgramLanguage& language() {
+  static const ProgramText text;
+  return text;
+}
+
+}  // namespace understudy::emulator::models::slim

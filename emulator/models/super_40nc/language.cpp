@@ -1,0 +1,98 @@
+#include "emulator/models/super_40nc/language.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "emulator/device/model.h"
+#include "emulator/models/super_40nc/device.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/listing.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+namespace lang = interpreter::super_40nc;
+
+/// "PLC C X Y Z U": where an instruction does something.
+std::string areas_of(const lang::InstructionRow& row) {
+  std::string text;
+  for (const lang::AreaRow& area : lang::kAreas) {
+    const bool acts = lang::has(row.areas, area.area) && !lang::has(row.void_in, area.area);
+    if (acts) text += (text.empty() ? "" : " ") + std::string(area.name);
+  }
+  return text;
+}
+
+std::string_view cost_of(const lang::InstructionRow& row) {
+  switch (row.waits) {
+    case lang::Waits::no: return "";
+    case lang::Waits::for_on: return "until it is ON";
+    case lang::Waits::for_off: return "until it is OFF";
+    case lang::Waits::for_time: return "its time";
+    case lang::Waits::for_arrival: return "until all have arrived";
+    case lang::Waits::for_home: return "until all are home";
+    case lang::Waits::for_standstill: return "with 0 until it stands";
+  }
+  return "";
+}
+
+/// The rows, and what they refer to.
+struct Instructions {
+  std::array<std::array<OperandRow, 4>, lang::kInstructions.size()> operands;
+  std::array<std::string, lang::kInstructions.size()> areas;
+  std::array<InstructionRow, lang::kInstructions.size()> rows;
+
+  Instructions() {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const lang::InstructionRow& row = lang::kInstructions[i];
+      for (std::size_t field = 0; field < row.slots.size(); ++field) {
+        const lang::Slot slot = row.slots[field];
+        operands[i][field] = {
+            .name = "", .values = lang::describe(slot), .may_be_unset = lang::may_be_unset(slot)};
+      }
+      areas[i] = areas_of(row);
+      rows[i] = {.mnemonic = row.mnemonic,
+                 .operands = std::span(operands[i]).first(static_cast<std::size_t>(row.fields())),
+                 .areas = areas[i],
+                 .size = row.steps,
+                 .cost = cost_of(row),
+                 .meaning = row.meaning};
+    }
+  }
+};
+
+class ProgramListing final : public ProgramLanguage {
+ public:
+  std::string_view name() const override { return "SUPER-40NC listing"; }
+  std::string_view file_ending() const override { return ".lst"; }
+  std::span<const InstructionRow> instructions() const override {
+    static const Instructions instructions;
+    return instructions.rows;
+  }
+  /// What a listing may be is in part a choice.
+  std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
+    return Super40nc(settings).mistakes_in(text);
+  }
+};
+
+}  // namespace
+
+const ProgramLanguage& program_language() {
+  static const ProgramListing listing;
+  return listing;
+}
+
+std::vector<ProgramMistake> mistakes_of(const lang::Checked& checked) {
+  std::vector<ProgramMistake> mistakes;
+  for (const lang::Complaint& error : checked.errors) {
+    mistakes.push_back({error.line, error.column, error.message()});
+  }
+  return mistakes;
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,17 @@
+// The language of SUPER-40NC's programs, as a model offers it.
+#pragma once
+
+#include <vector>
+
+#include "emulator/device/program_error.h"
+#include "emulator/device/program_language.h"
+#include "interpreter/super_40nc/listing.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+const ProgramLanguage& program_language();
+
+/// All errors of a listing that was checked.
+std::vector<ProgramMistake> mistakes_of(const interpreter::super_40nc::Checked& checked);
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,101 @@
+// Programs on the command line, whatever the language: checked, turned into numbers and back. The program
+// here knows the tests' own controller as well.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace program_text_test {
+
+Finished with_workbench(Words arguments) {
+  arguments.insert(arguments.begin(), WORKBENCH_BINARY);
+  return run(arguments);
+}
+
+constexpr const char* kGood = "AREA MAIN\nagain: MOVE X -1000\nWAIT *\nJUMP again\n";
+
+TEST(ProgramTexts, AreCheckedInTheLanguageOfAModel) {
+  const PrivateFolder folder;
+  const std::string good = folder.write("good.wb", kGood);
+  const Finished checked = with_workbench({"check", "--model", "workbench", good});
+  EXPECT_EQ(checked.exit_code, 0) << checked.errors;
+  EXPECT_EQ(checked.output, good + ": workbench program with 4 lines\n");
+
+  const std::string bad = folder.write("bad.wb", "AREA MAIN\n MOVE W 5\n FLY\n");
+  const std::string mistakes = bad + ":2:7: axis: 'W' is not one; expected X, Y or Z\n" + bad +
+                               ":3:2: 'FLY' is not an instruction; expected one\n";
+  const Finished both = with_workbench({"check", "--model", "workbench", good, bad, folder / "none.wb"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.output, good + ": workbench program with 4 lines\n");
+  EXPECT_EQ(both.errors, mistakes + (folder / "none.wb") +
+                             ": cannot be read (No such file or directory); expected a file\n");
+  // Of a folder, the files with the language's ending.
+  folder.write("other.lst", "NOP\n");
+  EXPECT_EQ(with_workbench({"check", "--model", "workbench", folder / "."}).errors.find("other"),
+            std::string::npos);
+}
+
+TEST(ProgramTexts, AreCheckedForAFirmwareAndForOptions) {
+  const PrivateFolder folder;
+  const std::string file = folder.write("good.wb", kGood);
+  const Finished full = with_workbench({"check", "--model", "workbench", "--choice", "longest_area=2", file});
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_EQ(full.errors, file + ":4:1: the area is full; expected at most 2 steps\n");
+  const std::pair<Words, const char*> wrong[] = {
+      {{"--choice", "longest_area=3"}, "longest_area"},
+      {{"--choice", "longest_area"}, "expected ID=OPTION"},
+      {{"--firmware", "9.99"}, "9.99"},
+      {{"--firmware", "new"}, "is not a version"},
+  };
+  for (const auto& [flags, why] : wrong) {
+    Words words{"check", "--model", "workbench", file};
+    words.insert(words.end(), flags.begin(), flags.end());
+    const Finished refused = with_workbench(words);
+    EXPECT_EQ(refused.exit_code, 2) << why;
+    EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
+  }
+  const Finished bench = with_workbench({"check", "--firmware", "1.00", file});
+  EXPECT_EQ(bench.exit_code, 2);
+  EXPECT_NE(bench.errors.find("belong to --model"), std::string::npos) << bench.errors;
+}
+
+TEST(ProgramTexts, BecomeNumbersAndTextAgain) {
+  const PrivateFolder folder;
+  const std::string file = folder.write("good.wb", kGood);
+  const Finished cells = with_workbench({"asm", "--model", "workbench", file});
+  EXPECT_EQ(cells.exit_code, 0) << cells.errors;
+  EXPECT_EQ(cells.output, "0 2561 0 -1000\n0 5 -2147483648\n0 4 0\n");
+  const std::string written = folder.write("good.cells", cells.output);
+  const Finished text = with_workbench({"disasm", "--model", "workbench", written});
+  EXPECT_EQ(text.output, "AREA MAIN\ns0:\tMOVE X -1000\n\tWAIT *\n\tJUMP s0\n");
+  const std::string wrong = folder.write("wrong.cells", "0 2561 0 -1000\n0 4 7\n0 99\n");
+  EXPECT_EQ(with_workbench({"disasm", "--model", "workbench", wrong}).errors,
+            wrong + ":3: is not a step; expected an area, a code and its operands\n");
+  // Without --model it is the listing of Simple2-R3.
+  const std::string listing = folder.write("a.lst", "END\n");
+  EXPECT_EQ(with_workbench({"asm", listing}).output, "255 0 0 0\n");
+  EXPECT_EQ(with_workbench({"asm", "--model", "simple2-r3", listing}).output, "255 0 0 0\n");
+}
+
+TEST(ProgramTexts, OfSlimAreCheckedAndAreNoNumbers) {
+  const PrivateFolder folder;
+  const std::string file = folder.write("a.slim", "; a remark\nMA 100\n  NONSENSE\n$A DN\n$A DN\n");
+  EXPECT_EQ(with_workbench({"check", "--model", "slim", file}).errors,
+            file + ":3:3: is not a command; expected one of `understudy describe slim commands`\n" + file +
+                ":5:1: begins with a label that another line has\n");
+  const Finished cells = with_workbench({"asm", "--model", "slim", file});
+  EXPECT_EQ(cells.exit_code, 2);
+  EXPECT_NE(cells.errors.find("does not become numbers"), std::string::npos) << cells.errors;
+}
+
+TEST(ProgramTexts, AreDescribed) {
+  const Finished table = with_workbench({"describe", "workbench", "instructions"});
+  EXPECT_EQ(table.exit_code, 0) << table.errors;
+  EXPECT_TRUE(table.output.starts_with("opcode  mnemonic  operands")) << table.output;
+  EXPECT_NE(with_workbench({"models"}).output.find("workbench  a controller for tests"), std::string::npos);
+}
+
+}  // namespace program_text_test
+}  // namespace understudy::acceptance

@@ -1,0 +1,13 @@
+// `understudy` with the tests' own controller beside those that there are: for what only it has.
+#include <vector>
+
+#include "emulator/command_line/program.h"
+#include "emulator/models/models.h"
+#include "tests/emulator/workbench/workbench.h"
+
+int main(int argc, char** argv) {
+  using namespace understudy::emulator;
+  std::vector<const Model*> models(models::all_models().begin(), models::all_models().end());
+  models.push_back(&workbench::model());
+  return command_line::run_program(argc, argv, models);
+}
