@@ -109,7 +109,12 @@ void Super40nc::sample_inputs(Tick) {
 void Super40nc::run_interpreters(Tick) {
   ProgramMachine machine(*this);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
-  if (!ladder_.is_empty()) language::scan(state_.plc, ladder_, machine, steps, options_);
+  if (!ladder_.is_empty() && state_.plc.runs) {
+    // A scan that changed nothing, and was not told of anything new, is the same again.
+    const bool was_told = state_.touched;
+    const language::Scanned scanned = language::scan(state_.plc, ladder_, machine, steps, options_);
+    state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
+  }
   if (state_.touched) {
     state_.shows_file_changed = state_.file_changed;
     read_keys();
@@ -187,17 +192,8 @@ void Super40nc::update_outputs(Tick tick) {
   }
 }
 
-Tick Super40nc::next_active_tick(Tick done) const {
-  if (state_.touched || inputs_changed() || !ladder_.is_empty() || programs_are_busy()) return done + 1;
-  Tick next = state_.logo_at;
-  for (int number = 0; number < kAxisCount; ++number) {
-    const AxisState& state = axis(number);
-    const motion::Axis& motor = chip(number);
-    if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0 ||
-        state.sent_pulses != 0 || state.followed_pulses != 0 || here(number).version != motor.seen_version) {
-      return done + 1;
-    }
-  }
+Tick Super40nc::next_timed_tick(Tick done) const {
+  Tick next = std::max(done + 1, state_.logo_at);
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const bool is_on = state_.image[kSignals[i].output.slot] != 0;
     const bool is_system = registers().of(kSignals[i].time, kSignals[i].axis) != 0;

@@ -80,6 +80,7 @@ struct State {
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
   double path_limit_lu_s = 1;       // where an axis comes to its highest speed
   interpreter::super_40nc::PlcState plc;
+  Tick plc_quiet_scans = 0;  // that would do nothing but count, if nothing that they read changes
   interpreter::super_40nc::StepStates steps;
   Contacts contacts;
   ErrorReport error;
@@ -152,6 +153,8 @@ class Super40nc final : public Device,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
+  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
   bool same_state(const Device& other) const override;
 
   // --- terminals and axes --------------------------------------------------------------------------
@@ -339,6 +342,12 @@ class Super40nc final : public Device,
   bool programs_are_busy() const;
   void plc_to_run();
   void plc_to_stop();
+
+  // --- crossing.cpp
+  Tick quiet_scans(bool moves) const;
+  /// The first tick after `done` at which anything is due by its time.
+  Tick next_timed_tick(Tick done) const;
+  bool is_quiet(int axis) const;
 
   // --- signals.cpp: what they meet
   void look_at_inputs();
