@@ -73,7 +73,7 @@ void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::s
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
     motion::Axis& motor = chip(number);
-    if (!motor.moving()) continue;
+    if (is_quiet(number)) continue;
     AxisState& state = axis(number);
     const std::int64_t travel_before = motor.travel_pulses;
     const std::int64_t before_last = tick - 1 > done ? motor.cross_to(tick - 1) : 0;

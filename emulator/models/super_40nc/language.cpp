@@ -18,12 +18,14 @@ namespace {
 
 namespace lang = interpreter::super_40nc;
 
-/// "PLC C X Y Z U": where an instruction does something.
+/// "PCXYZU", as the manual's lists have it: where an instruction does something.
 std::string areas_of(const lang::InstructionRow& row) {
-  std::string text;
+  const auto acts_in = [&](lang::Area area) {
+    return lang::has(row.areas, area) && !lang::has(row.void_in, area);
+  };
+  std::string text = acts_in(lang::Area::plc) ? "P" : "";
   for (const lang::AreaRow& area : lang::kAreas) {
-    const bool acts = lang::has(row.areas, area.area) && !lang::has(row.void_in, area.area);
-    if (acts) text += (text.empty() ? "" : " ") + std::string(area.name);
+    if (area.area != lang::Area::plc && acts_in(area.area)) text += area.letter;
   }
   return text;
 }
