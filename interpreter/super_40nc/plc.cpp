@@ -23,8 +23,7 @@ class Scan {
         lines_(plc, ladder, machine, programs, options),
         options_(options),
         depth_mask_((std::uint64_t{1} << options.stack_depth) - 1),
-        a_unit_is_over_(options.timer_unit_ms <= 1 ||
-                        plc.scans % static_cast<std::uint64_t>(options.timer_unit_ms) == 0) {}
+        a_unit_is_over_(plc.unit_ms + 1 >= options.timer_unit_ms) {}
 
   void steps(const LadderStep* step) {
     for (;; ++step) {
@@ -77,6 +76,7 @@ class Scan {
 
   Scanned ended() {
     has_changed_ |= lines_.end_scan();
+    plc_.unit_ms = timers_run_ && !a_unit_is_over_ ? plc_.unit_ms + 1 : 0;
     return {has_changed_, has_changed_ ? 0 : quiet_scans_};
   }
 
@@ -144,6 +144,7 @@ class Scan {
     }
     put(step.a, present >= preset ? 1 : 0, step.flags);
     if (present < preset) {
+      timers_run_ |= was_on;
       const std::int64_t left = std::int64_t{preset} - present - 1;
       quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 ? left : 0);
       if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
@@ -176,6 +177,7 @@ class Scan {
   std::uint64_t blocks_ = 0;
   std::uint64_t branches_ = 0;
   bool has_changed_ = false;
+  bool timers_run_ = false;
   std::int64_t quiet_scans_ = INT64_MAX;
 };
 
@@ -207,7 +209,6 @@ void stop(PlcState& plc, Machine& machine) {
 
 Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,
              const Options& options) {
-  ++plc.scans;
   if (!plc.runs) return {};
   if (plc.memories.size() != ladder.memory_count()) plc.memories.assign(ladder.memory_count(), 0);
   Scan scan(plc, ladder, machine, programs, options);
@@ -220,7 +221,6 @@ Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl&
 
 void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t scans,
            const Options& options) {
-  plc.scans += static_cast<std::uint64_t>(scans);
   if (!plc.runs) return;
   const std::span<std::uint32_t> cells = machine.cells();
   const Access access(machine);

@@ -19,8 +19,8 @@ struct PlcState {
   std::vector<std::uint8_t> memories;  // of edges: what each has seen last
   Targets targets = Targets::absolute;
   std::array<std::int32_t, kAxisCount> rpm{};
-  Jogs jogs;                // of the last scan
-  std::uint64_t scans = 0;  // since power-up: the phase of timers that count in larger units
+  Jogs jogs;                 // of the last scan
+  std::int32_t unit_ms = 0;  // of the present unit, while timers run that count in larger ones
 
   bool operator==(const PlcState&) const = default;
 };

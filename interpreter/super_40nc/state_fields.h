@@ -34,7 +34,8 @@ struct StateOf<interpreter::super_40nc::PlcState> {
       std::tuple{field("runs", &Value::runs),         field("is_first_scan", &Value::is_first_scan),
                  field("memories", &Value::memories), field("targets", &Value::targets),
                  field("rpm", &Value::rpm),           field("jogs", &Value::jogs),
-                 field("scans", &Value::scans)};
+                 field("unit_ms", &Value::unit_ms)};
+  static void check(const Value& state) { demand_reach(state.unit_ms); }
 };
 
 template <>

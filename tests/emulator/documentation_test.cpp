@@ -56,7 +56,8 @@ TEST(Documentation, TheSlimPageHasTheParametersOfTheTable) {
 }
 
 TEST(Documentation, TheShippedBenchesAreValid) {
-  for (const char* name : {"quickstart.yaml", "two_stations.yaml", "slim_quickstart.yaml"}) {
+  for (const char* name :
+       {"quickstart.yaml", "two_stations.yaml", "slim_quickstart.yaml", "super40nc_quickstart.yaml"}) {
     EXPECT_NO_THROW(
         world::load_bench(models::all_models(), std::string(PROJECT_FOLDER) + "/scenarios/" + name))
         << name;

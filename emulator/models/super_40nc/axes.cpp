@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 #include "motion/homing_tables.h"
 #include "motion/ramp.h"
 
@@ -177,7 +178,8 @@ bool Super40nc::start_jog(int number, int way, bool AxisState::*asked_by) {
   const Settings its = registers();
   const Grant given = ask(number, Request::jog);
   const std::array<Kept, 3> speeds{kept_x(94), kept_x(95), kept_x(96)};
-  const Kept chosen = speeds[static_cast<std::size_t>(its.of(kept_d(8022)))];
+  const bool is_medium = chose(option("jog_selector", "always_medium"));
+  const Kept chosen = is_medium ? speeds[1] : speeds[static_cast<std::size_t>(its.of(kept_d(8022)))];
   const motion::SpeedLaw law = its.law(number, static_cast<double>(its.of(chosen, number)));
   if (given == Grant::same_or_no) {
     if (chip(number).last_direction != way) {

@@ -1,6 +1,7 @@
 // What a scan does with command contacts, in this order: emergency, resets, STOP keys, M8008, ZERO SET, HOME,
 // ZERO, jog, hand-wheel. Levels that stay ON after they were void, or after a stop, need to go OFF first.
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -130,6 +131,11 @@ void Super40nc::obey_contacts() {
   for (int number = 0; number < kAxisCount; ++number) obey_jogs(number);
   obey_wheel();
   set_contact(8005, false);
+  if (!chose(option("edge_contacts_fall", "when_served"))) return;
+  set_contact(8008, false);
+  for (int number = 0; number < kAxisCount; ++number) {
+    for (const int contact : {kHome, kZero, kZeroSet}) set_contact(of_axis(number, contact), false);
+  }
 }
 
 void Super40nc::see_contacts() {

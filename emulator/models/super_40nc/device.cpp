@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "emulator/models/super_40nc/files.h"
-#include "emulator/models/super_40nc/language_options.h"
 #include "emulator/models/super_40nc/model.h"
+#include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -34,10 +34,40 @@ Super40nc::Super40nc(const DeviceSettings& given)
     : Device(super_40nc::model(), given),
       RegisterBankOf(*this, *Device::model().registers, given.firmware),
       KeptMemory(Device::model().name, given.firmware) {
+  options_ = chosen_options();
   state_.eeprom = factory_memory();
   state_.blocks = TextBlocks(block_kinds());
-  options_ = language_options([this](const Option& option) { return chose(option); });
   set_input(kRunSwitch, 1);
+}
+
+language::Options Super40nc::chosen_options() const {
+  using Options = language::Options;
+  Options made;
+  const auto set = [&](const Option& chosen, auto& field, auto value) {
+    if (chose(chosen)) field = value;
+  };
+  set(option("area_bases", "older"), made.bases, Options::Bases::older);
+  set(option("stack_depth", "8"), made.stack_depth, 8);
+  set(option("stack_depth", "11"), made.stack_depth, 11);
+  set(option("cal_depth", "8"), made.call_depth, 8);
+  set(option("counter_contact", "closed_by_the_last_count"), made.counter_contact,
+      Options::CounterContact::is_latched);
+  set(option("timer_unit", "10ms"), made.timer_unit_ms, 10);
+  set(option("timer_unit", "1s"), made.timer_unit_ms, 1000);
+  set(option("run_edges", "not_at_all"), made.outputs_fire_at_run, false);
+  set(option("counter_past_preset", "counts_on"), made.counts_beyond_preset, true);
+  set(option("fmv_end", "nothing"), made.fill_beyond, Options::FillBeyond::does_nothing);
+  set(option("division_by_zero", "zero"), made.division_by_zero, Options::DivisionByZero::gives_zero);
+  set(option("product_size", "saturates"), made.product, Options::Product::saturates);
+  set(option("instruction_edges", "every_scan"), made.motions_need_edge, false);
+  set(option("fresh_start", "every_start"), made.fresh_start, Options::FreshStart::every_start);
+  set(option("slice_length", "1_line"), made.slice, 1);
+  set(option("c21_zero", "stops_the_program"), made.not_owned, Options::NotOwned::stops_program);
+  set(option("ret_without_cal", "ignored"), made.loose_return, Options::LooseReturn::is_ignored);
+  set(option("cal_count", "endless"), made.no_passes, Options::NoPasses::mean_endless);
+  set(option("empty_program", "is_an_error"), made.empty_program, Options::EmptyProgram::is_an_error);
+  set(option("vdrv_zero_wait", "goes_on"), made.rotation_0_waits, false);
+  return made;
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
@@ -79,7 +109,12 @@ void Super40nc::sample_inputs(Tick) {
 void Super40nc::run_interpreters(Tick) {
   ProgramMachine machine(*this);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
-  if (!ladder_.is_empty()) language::scan(state_.plc, ladder_, machine, steps, options_);
+  if (!ladder_.is_empty() && state_.plc.runs) {
+    // A scan that changed nothing, and was not told of anything new, is the same again.
+    const bool was_told = state_.touched;
+    const language::Scanned scanned = language::scan(state_.plc, ladder_, machine, steps, options_);
+    state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
+  }
   if (state_.touched) {
     state_.shows_file_changed = state_.file_changed;
     read_keys();
@@ -157,17 +192,8 @@ void Super40nc::update_outputs(Tick tick) {
   }
 }
 
-Tick Super40nc::next_active_tick(Tick done) const {
-  if (state_.touched || inputs_changed() || !ladder_.is_empty() || programs_are_busy()) return done + 1;
-  Tick next = state_.logo_at;
-  for (int number = 0; number < kAxisCount; ++number) {
-    const AxisState& state = axis(number);
-    const motion::Axis& motor = chip(number);
-    if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0 ||
-        state.sent_pulses != 0 || state.followed_pulses != 0 || here(number).version != motor.seen_version) {
-      return done + 1;
-    }
-  }
+Tick Super40nc::next_timed_tick(Tick done) const {
+  Tick next = std::max(done + 1, state_.logo_at);
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const bool is_on = state_.image[kSignals[i].output.slot] != 0;
     const bool is_system = registers().of(kSignals[i].time, kSignals[i].axis) != 0;

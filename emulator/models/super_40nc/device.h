@@ -14,6 +14,7 @@
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
 #include "emulator/device/user_program.h"
@@ -79,6 +80,7 @@ struct State {
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
   double path_limit_lu_s = 1;       // where an axis comes to its highest speed
   interpreter::super_40nc::PlcState plc;
+  Tick plc_quiet_scans = 0;  // that would do nothing but count, if nothing that they read changes
   interpreter::super_40nc::StepStates steps;
   Contacts contacts;
   ErrorReport error;
@@ -140,6 +142,8 @@ class Super40nc final : public Device,
   void settle_memory() override { state_.eeprom.settle(state_.image); }
 
   /// Areas that the text does not name stay as they are. A listing that is refused shows in D8094 to D8096.
+  /// What would be wrong with it as a program.
+  std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
 
@@ -149,6 +153,8 @@ class Super40nc final : public Device,
   void step_motion(Tick tick) override;
   void update_outputs(Tick tick) override;
   Tick next_active_tick(Tick done) const override;
+  Tick next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const override;
+  void cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) override;
   bool same_state(const Device& other) const override;
 
   // --- terminals and axes --------------------------------------------------------------------------
@@ -280,6 +286,8 @@ class Super40nc final : public Device,
   // --- memory.cpp
   void blank_state();
   Eeprom factory_memory() const;
+  std::uint32_t factory_bits(const RegisterRow& row) const;
+  interpreter::super_40nc::Options chosen_options() const;
   void reset_parameters();
 
   // --- commands.cpp, keys.cpp: the scan's step of contacts
@@ -334,6 +342,12 @@ class Super40nc final : public Device,
   bool programs_are_busy() const;
   void plc_to_run();
   void plc_to_stop();
+
+  // --- crossing.cpp
+  Tick quiet_scans(bool moves) const;
+  /// The first tick after `done` at which anything is due by its time.
+  Tick next_timed_tick(Tick done) const;
+  bool is_quiet(int axis) const;
 
   // --- signals.cpp: what they meet
   void look_at_inputs();

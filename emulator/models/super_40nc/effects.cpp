@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -73,6 +74,7 @@ void select_file(Super40nc& device, Cell, Value number) {
 }
 
 void select_file_by_alias(Super40nc& device, Cell, Value number) {
+  if (device.chose(option("d8002_alias", "plain_register"))) return;
   device.put(kept_d(9001), static_cast<std::int32_t>(number));
   device.change_file(static_cast<std::int32_t>(number));
 }

@@ -5,12 +5,15 @@
 #include <algorithm>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 
 namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
 constexpr int kOrders = 4;
+constexpr int kFirstJogKey = 8560;  // the older ones come before
+constexpr int kOriginKey = 8514;
 
 bool has_digit(std::int32_t mask, int digits, int digit) {
   std::int64_t rest = mask < 0 ? 0 : mask;
@@ -24,6 +27,7 @@ int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4
 }  // namespace
 
 bool Super40nc::is_locked(const Key& key) const {
+  if (chose(option("lock_scope", "nothing"))) return false;
   const Settings its = registers();
   return key.axis < 0 ? has_digit(its.raw(kept_d(9025)), kMainLockDigits, key.lock)
                       : has_digit(its.raw(kept_x(98), key.axis), kAxisLockDigits, key.lock);
@@ -37,7 +41,9 @@ void Super40nc::read_jog_keys() {
       bool is_down = false;
       bool was_down = false;
       for (const Key& key : kKeys) {
-        if (key.does != KeyDoes::jog || key.axis != number || key.way * sense != way || is_locked(key)) {
+        const bool is_older = key.contact < kFirstJogKey;
+        if (key.does != KeyDoes::jog || key.axis != number || key.way * sense != way || is_locked(key) ||
+            (is_older && chose(option("jog_aliases", "plain_contacts")))) {
           continue;
         }
         is_down = is_down || is_on(key.contact);
@@ -52,6 +58,7 @@ void Super40nc::read_jog_keys() {
 
 void Super40nc::read_keys() {
   read_jog_keys();
+  const std::int32_t enabled = chose(option("zero_set_enable", "0_enables")) ? 0 : 1;
   const auto press = [&](int contact) {
     set_contact(contact, true);
     state_.contacts.press(contact);
@@ -68,8 +75,9 @@ void Super40nc::read_keys() {
       case KeyDoes::start_c: press(8000); break;
       case KeyDoes::pause_c: press(8006); break;
       case KeyDoes::set_zero:
+        if (key.contact == kOriginKey && chose(option("m8514_meaning", "home"))) break;
         for (int number = 0; number < kAxisCount; ++number) {
-          if (registers().raw(kept_x(74), number) == 1) press(8107 + 100 * number);
+          if (registers().raw(kept_x(74), number) == enabled) press(8107 + 100 * number);
         }
         break;
       // These have no contact of their own: obey_contacts() asks for them.
@@ -111,6 +119,7 @@ void Super40nc::obey_order_keys() {
     if (!key.runs && is_pressed(what, -1)) key = {.runs = true};
   };
   press(state_.homing_by_key, KeyDoes::home_by_order);
+  if (rises(kOriginKey) && chose(option("m8514_meaning", "home"))) state_.homing_by_key.runs = true;
   press(state_.zeroing_by_key, KeyDoes::zero_by_order);
   follow_order(state_.homing_by_key, Holder::home, kept_x(99), &Super40nc::start_home);
   follow_order(state_.zeroing_by_key, Holder::zero, kept_x(84), &Super40nc::start_zero);

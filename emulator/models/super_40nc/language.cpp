@@ -2,14 +2,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "emulator/device/model.h"
-#include "emulator/models/super_40nc/language_options.h"
+#include "emulator/models/super_40nc/device.h"
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
 
@@ -19,12 +18,14 @@ namespace {
 
 namespace lang = interpreter::super_40nc;
 
-/// "PLC C X Y Z U": where an instruction does something.
+/// "PCXYZU", as the manual's lists have it: where an instruction does something.
 std::string areas_of(const lang::InstructionRow& row) {
-  std::string text;
+  const auto acts_in = [&](lang::Area area) {
+    return lang::has(row.areas, area) && !lang::has(row.void_in, area);
+  };
+  std::string text = acts_in(lang::Area::plc) ? "P" : "";
   for (const lang::AreaRow& area : lang::kAreas) {
-    const bool acts = lang::has(row.areas, area.area) && !lang::has(row.void_in, area.area);
-    if (acts) text += (text.empty() ? "" : " ") + std::string(area.name);
+    if (area.area != lang::Area::plc && acts_in(area.area)) text += area.letter;
   }
   return text;
 }
@@ -75,10 +76,9 @@ class ProgramListing final : public ProgramLanguage {
     static const Instructions instructions;
     return instructions.rows;
   }
+  /// What a listing may be is in part a choice.
   std::vector<ProgramMistake> check(std::string_view text, const DeviceSettings& settings) const override {
-    const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
-    const auto chose = [&](const Option& option) { return chosen[option.choice] == option.number; };
-    return mistakes_of(lang::check(text, language_options(chose)));
+    return Super40nc(settings).mistakes_in(text);
   }
 };
 

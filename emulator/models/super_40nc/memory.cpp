@@ -5,6 +5,7 @@
 
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/options.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -25,11 +26,28 @@ bool is_parameter(const RegisterRow& row) {
 
 }  // namespace
 
+/// The panel's parameters have other values where its chapter and the table of D9 differ (3 of them in every
+/// axis, the decimals, the logo).
+std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
+  struct Panel {
+    int d9;
+    std::int32_t value;
+  };
+  static constexpr Panel kPanels[] = {{9007, 2000}, {9165, 2}, {9178, 500}, {9181, 1}, {9183, 1000}};
+  for (const Panel& panel : kPanels) {
+    if (row.table == Table::holding && row.address == data_address(panel.d9) &&
+        chose(option("factory_values", "panels"))) {
+      return static_cast<std::uint32_t>(panel.value);
+    }
+  }
+  return static_cast<std::uint32_t>(row.factory);
+}
+
 Eeprom Super40nc::factory_memory() const {
   std::array<std::uint32_t, kSlotCount> factory{};
   std::array<bool, kSlotCount> is_kept{};
   for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
-    factory[slot] = static_cast<std::uint32_t>(row.factory);
+    factory[slot] = factory_bits(row);
     is_kept[slot] = row.persistent;
   });
   return Eeprom(factory, is_kept, is_kept);
@@ -103,7 +121,7 @@ void Super40nc::power_up() {
 /// M8008. Another file and another recipe are changed to as if they were written.
 void Super40nc::reset_parameters() {
   for_each_kept_slot([&](std::size_t slot, const RegisterRow& row) {
-    if (is_parameter(row)) put({.slot = slot}, static_cast<std::int32_t>(row.factory));
+    if (is_parameter(row)) put({.slot = slot}, static_cast<std::int32_t>(factory_bits(row)));
   });
   change_file(0);
   change_recipe(0);

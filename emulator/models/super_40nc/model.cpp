@@ -3,9 +3,9 @@
 #include <array>
 
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/models/super_40nc/choices.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/language.h"
-#include "emulator/models/super_40nc/language_options.h"
 #include "emulator/models/super_40nc/parameters.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -21,7 +21,9 @@ constexpr std::array<std::string_view, 6> kGaps{
     "A soft limit that stops at once on one side and by a ramp on the other has the negative side's way.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
     "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",
-    "Choices: of what the manual leaves open, a bench cannot ask for another option yet.",
+    "Of what else the manual leaves open (scan time, ownership of axes, what pauses hold, failed homes and "
+    "more) only "
+    "our reading is there; a bench cannot choose another.",
 };
 
 constexpr std::array<int, 1> kBauds{19200};

@@ -42,6 +42,10 @@ void Super40nc::make_programs_ready() {
   }
 }
 
+std::vector<ProgramMistake> Super40nc::mistakes_in(std::string_view text) const {
+  return mistakes_of(language::check(text, options_));
+}
+
 void Super40nc::load_program(std::string_view text) {
   const language::Checked checked = language::check(text, options_);
   if (!checked.program) {

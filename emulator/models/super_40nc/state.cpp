@@ -49,6 +49,7 @@ void StateOf<AxisState>::check(const AxisState& axis) {
 
 void StateOf<State>::check(const State& state) {
   for (const Tick tick : state.signal_until) demand_reach(tick);
+  demand_within(state.plc_quiet_scans, 0, kNever);
   demand_within(state.logo_ms, 0, 10'000);
   demand_within(state.file, 0, 30'000);
   demand_within(state.recipe, 0, kRecipeCount - 1);

@@ -128,6 +128,7 @@ struct StateOf<emulator::models::super_40nc::State> {
                  field("path_feed_lu_s", &Value::path_feed_lu_s),
                  field("path_limit_lu_s", &Value::path_limit_lu_s),
                  field("plc", &Value::plc),
+                 field("plc_quiet_scans", &Value::plc_quiet_scans),
                  field("steps", &Value::steps),
                  field("contacts", &Value::contacts),
                  field("error", &Value::error),

@@ -27,6 +27,7 @@ struct Given {
   std::vector<std::pair<std::string, Value>> set{};
   std::map<int, world::PlantSetup> plant{};  // by axis
   std::string program{};
+  std::map<std::string, std::string> choices{};
 };
 
 /// A listing of the manual, by the name that its tests have: "S2".
@@ -111,6 +112,7 @@ class OneSuper40nc {
     device.settings.name = "mill";
     device.settings.set = given.set;
     device.settings.program = given.program;
+    device.settings.choices = given.choices;
     bench.devices.push_back(device);
     for (std::size_t port = 0; port < 2; ++port) {
       world::LineSetup line;

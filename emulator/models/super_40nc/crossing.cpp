@@ -1,0 +1,92 @@
+// Many ticks in one step, where a SUPER-40NC only counts on: the PLC has settled, no step program is at work,
+// and axes meet nothing.
+#include <algorithm>
+
+#include "emulator/device/machine_ahead.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/program_machine.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// COUNTER4 or the comparators 4 and 5 latch at the end of a tick: those are run.
+bool latches_by_comparator(const Settings& its, int axis) { return its.of(kept_x(50), axis) >= 2; }
+
+}  // namespace
+
+/// Ticks that the PLC needs no scan in, if nothing that it reads changes.
+Tick Super40nc::quiet_scans(bool moves) const {
+  if (ladder_.is_empty() || !state_.plc.runs) return kNever;
+  return moves && ladder_.reads_special() ? 0 : state_.plc_quiet_scans;
+}
+
+bool Super40nc::is_quiet(int number) const {
+  const motion::Axis& motor = chip(number);
+  const AxisState& state = axis(number);
+  return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
+         state.sent_pulses == 0 && state.followed_pulses == 0 && here(number).version == motor.seen_version;
+}
+
+Tick Super40nc::next_active_tick(Tick done) const {
+  const bool scans = !ladder_.is_empty() && state_.plc.runs;  // they are crossed, not skipped
+  if (scans || state_.touched || inputs_changed() || programs_are_busy()) return done + 1;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!is_quiet(number)) return done + 1;
+  }
+  return next_timed_tick(done);
+}
+
+Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
+  if (state_.touched || inputs_changed() || programs_are_busy() || state_.path.engaged ||
+      input(kWheelTerminal) != state_.wheel_edges) {
+    return done + 1;
+  }
+  const bool moves = std::any_of(state_.chips.begin(), state_.chips.end(),
+                                 [](const motion::Axis& chip) { return chip.moving(); });
+  Tick last = std::min(most, next_timed_tick(done) - 1);
+  if (const Tick scans = quiet_scans(moves); scans < last - done) last = done + scans;
+  for (int number = 0; number < kAxisCount && last > done; ++number) {
+    const motion::Axis& motor = chip(number);
+    const AxisState& state = axis(number);
+    if (is_quiet(number)) continue;
+    if (state.masked || motor.homing.active() || state.holder == Holder::wheel ||
+        latches_by_comparator(registers(), number)) {
+      return done + 1;
+    }
+    PulseRoom room = ahead.room(number);
+    if (motor.inverted) room = {.least = -room.most, .most = -room.least};
+    last =
+        motor.quiet_until(done + 1, last, here(number),
+                          {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
+  }
+  return last + 1;
+}
+
+void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
+  const Tick ticks = tick - done;
+  if (!ladder_.is_empty() && state_.plc.runs) {
+    ProgramMachine machine(*this);
+    language::cross(state_.plc, ladder_, machine, ticks, options_);
+    if (state_.plc_quiet_scans != kNever) state_.plc_quiet_scans -= ticks;
+  }
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    motion::Axis& motor = chip(number);
+    if (is_quiet(number)) continue;
+    AxisState& state = axis(number);
+    const std::int64_t travel_before = motor.travel_pulses;
+    const std::int64_t before_last = tick - 1 > done ? motor.cross_to(tick - 1) : 0;
+    if (ahead.has_encoder(number)) state.encoder_counts = ahead.encoder_counts(number, before_last);
+    const std::int64_t travel_at_last = motor.travel_pulses;
+    state.sent_pulses = motor.step(tick, here(number));
+    state.followed_pulses = motor.travel_pulses - travel_at_last;
+    count(number, travel_before, state_.encoders_seen[n], 0);
+    state_.encoders_seen[n] = state.encoder_counts;
+    pulses[n] += before_last + state.sent_pulses;
+    // What the last tick brings is seen in the next one.
+    if (ahead.has_encoder(number)) state.encoder_counts = ahead.encoder_counts(number, pulses[n]);
+  }
+}
+
+}  // namespace understudy::emulator::models::super_40nc

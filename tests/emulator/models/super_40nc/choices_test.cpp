@@ -1,0 +1,241 @@
+// Every choice of the SUPER-40NC that can be made otherwise shows its effect.
+#include "emulator/models/super_40nc/choices.h"
+
+#include <set>
+
+#include "tests/emulator/models/super_40nc/one_super40nc.h"
+
+namespace understudy::emulator::models::super_40nc {
+namespace choices_test {
+
+using Writes = std::vector<std::pair<std::string, Value>>;
+
+struct Step {
+  Writes writes;
+  Tick ticks = 1;
+};
+
+struct Case {
+  std::string id;
+  std::string program;
+  Writes set;
+  std::vector<Step> steps;
+  std::string shown;                                     // a register
+  std::vector<std::pair<std::string, Value>> by_option;  // ours first
+};
+
+/// A block that is ON, covered by so many that are OFF; then all of them joined.
+std::string blocks_over(int count, const std::string& output) {
+  std::string text = "AREA PLC\nLD M8003\nOUT Y0\n";
+  for (int i = 0; i < count; ++i) text += "LD M1\nOUT Y1\n";
+  for (int i = 0; i < count; ++i) text += "ORB\n";
+  return text + "OUT " + output + "\nEND";
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all{
+      {"factory_values", "", {}, {}, "D9178", {{"table_of_d9", 100}, {"panels", 500}}},
+      {"factory_values", "", {}, {}, "D9181", {{"table_of_d9", 0}, {"panels", 1}}},
+      {"factory_values", "", {}, {}, "D9183", {{"table_of_d9", 0}, {"panels", 1000}}},
+      {"factory_values", "", {}, {}, "D9007", {{"table_of_d9", 6000}, {"panels", 2000}}},
+      {"area_bases",
+       "AREA X\nDIV K1 K0 D0\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}},
+       "D8095",
+       {{"newer", 1500}, {"older", 500}}},
+      {"stack_depth", blocks_over(8, "Y2"), {}, {{{}, 5}}, "Y2", {{"16", 1}, {"8", 0}, {"11", 1}}},
+      {"stack_depth", blocks_over(11, "Y3"), {}, {{{}, 5}}, "Y3", {{"16", 1}, {"8", 0}, {"11", 0}}},
+      {"counter_contact",
+       "AREA PLC\nLD M1\nOUT C0 K2\nLD C0\nOUT Y0\nEND",
+       {},
+       {{{{"holding.C0", 5}}, 5}},
+       "Y0",
+       {{"compares_at_each_scan", 1}, {"closed_by_the_last_count", 0}}},
+      {"cal_depth",
+       "AREA X\nLAB K1\nINC D0\nCAL K1\nEND",
+       {},
+       {{{{"M8100", 1}}, 50}},
+       "D0",
+       {{"16", 17}, {"8", 9}}},
+      {"timer_unit",
+       "AREA PLC\nLD M8003\nOUT T0 K10\nLD T0\nOUT M0\nLD M8003\nOUT T1 K100\nLD T1\nOUT M1\nEND",
+       {},
+       {{{}, 200}},
+       "M0",
+       {{"1ms", 1}, {"10ms", 1}, {"1s", 0}}},
+      {"timer_unit",
+       "AREA PLC\nLD M8003\nOUT T0 K10\nLD T0\nOUT M0\nLD M8003\nOUT T1 K100\nLD T1\nOUT M1\nEND",
+       {},
+       {{{}, 200}},
+       "M1",
+       {{"1ms", 1}, {"10ms", 0}, {"1s", 0}}},
+      {"run_edges", "AREA PLC\nLD M8003\nALT M0\nEND", {}, {{{}, 5}}, "M0", {{"once", 1}, {"not_at_all", 0}}},
+      {"counter_past_preset",
+       "AREA PLC\nLD M1\nOUT C0 K2\nEND",
+       {},
+       {{{}, 5},
+        {{{"M1", 1}}, 2},
+        {{{"M1", 0}}, 2},
+        {{{"M1", 1}}, 2},
+        {{{"M1", 0}}, 2},
+        {{{"M1", 1}}, 2},
+        {{{"M1", 0}}, 2},
+        {{{"M1", 1}}, 2},
+        {{{"M1", 0}}, 2}},
+       "holding.C0",
+       {{"stays", 2}, {"counts_on", 4}}},
+      {"fmv_end",
+       "AREA X\nFMV K5 D998 K9\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}},
+       "D998",
+       {{"clipped", 5}, {"nothing", 0}}},
+      {"fmv_end",
+       "AREA X\nFMV K5 D998 K9\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}},
+       "D999",
+       {{"clipped", 5}, {"nothing", 0}}},
+      {"division_by_zero",
+       "AREA X\nDIV K1 K0 D0\nEND",
+       {{"D0", 7}},
+       {{{{"M8100", 1}}, 5}},
+       "D0",
+       {{"unchanged", 7}, {"zero", 0}}},
+      {"division_by_zero",
+       "AREA X\nDIV K1 K0 D0\nEND",
+       {{"D0", 7}},
+       {{{{"M8100", 1}}, 5}},
+       "D8094",
+       {{"unchanged", 8}, {"zero", 8}}},
+      {"product_size",
+       "AREA X\nMUL K65536 K65536 D0\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}},
+       "D0",
+       {{"low_half", 0}, {"saturates", 2147483647}}},
+      {"instruction_edges",
+       "AREA PLC\nLD M0\nINCC\nRPM K500\nDRV K1000\nEND",
+       {},
+       {{{{"M0", 1}}, 40}},
+       "D8094",
+       {{"on_the_edge", 0}, {"every_scan", 21}}},
+      {"fresh_start",
+       "AREA X\nINCC\nWAT M1\nDRV K100\nEND",
+       {{"D8117", 50}},
+       {{{{"M8100", 1}}, 5}, {{{"M8100", 0}}, 5}, {{{"M8100", 1}, {"M1", 1}}, 200}},
+       "D8117",
+       {{"pointer_at_0", 150}, {"every_start", 100}}},
+      {"slice_length",
+       "AREA X\nSET M1\nINC D0\nINC D0\nINC D0\nINC D0\nINC D0\nINC D0\nINC D0\nINC D0\nEND\nAREA PLC\nLDP "
+       "M1\nMOV D0 D1\nEND",
+       {},
+       {{{{"M8100", 1}}, 20}},
+       "D1",
+       {{"64_lines", 8}, {"1_line", 0}}},
+      {"c21_zero",
+       "AREA C\nDRV K1000\nSET M0\nEND",
+       {},
+       {{{{"M8000", 1}}, 5}},
+       "M0",
+       {{"skipped", 1}, {"stops_the_program", 0}}},
+      {"c21_zero",
+       "AREA C\nDRV K1000\nSET M0\nEND",
+       {},
+       {{{{"M8000", 1}}, 5}},
+       "D8094",
+       {{"skipped", 16}, {"stops_the_program", 16}}},
+      {"ret_without_cal",
+       "AREA X\nRET\nSET M0\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}},
+       "M0",
+       {{"stops_the_program", 0}, {"ignored", 1}}},
+      {"cal_count",
+       "AREA X\nCAL K1 K0\nSET M0\nEND\nLAB K1\nRET\nEND",
+       {},
+       {{{{"M8100", 1}}, 20}},
+       "M0",
+       {{"skipped", 1}, {"endless", 0}}},
+      {"cal_count",
+       "AREA X\nCAL K1 K0\nSET M0\nEND\nLAB K1\nRET\nEND",
+       {},
+       {{{{"M8100", 1}}, 20}},
+       "M8100",
+       {{"skipped", 0}, {"endless", 1}}},
+      {"empty_program", "", {}, {{{{"M8100", 1}}, 5}}, "M8100", {{"ends_silently", 0}, {"is_an_error", 0}}},
+      {"empty_program", "", {}, {{{{"M8100", 1}}, 5}}, "D8094", {{"ends_silently", 0}, {"is_an_error", 6}}},
+      {"vdrv_zero_wait",
+       "AREA X\nVDRV K1000\nTMR K300\nVDRV K0\nSET M0\nEND",
+       {},
+       {{{{"M8100", 1}}, 350}},
+       "M0",
+       {{"waits", 0}, {"goes_on", 1}}},
+      {"jog_selector",
+       "",
+       {{"D8022", 2}},
+       {{{{"M8103", 1}}, 100}},
+       "D8123",
+       {{"d8022", 65500}, {"always_medium", 65533}}},
+      {"jog_aliases", "", {}, {{{{"M8519", 1}}, 5}}, "M8103", {{"jog_keys", 1}, {"plain_contacts", 0}}},
+      {"zero_set_enable",
+       "",
+       {{"D8117", 10}},
+       {{{{"M8594", 1}}, 5}},
+       "D8117",
+       {{"1_enables", 10}, {"0_enables", 0}}},
+      {"m8514_meaning",
+       "",
+       {{"D9174", 1}, {"D8117", 10}, {"D9199", 1}},
+       {{{{"M8514", 1}}, 5}},
+       "M8197",
+       {{"set_zero", 0}, {"home", 1}}},
+      {"d8002_alias",
+       "",
+       {},
+       {{{{"D8002", 3}}, 2}},
+       "D9001",
+       {{"selects_the_file", 3}, {"plain_register", 0}}},
+      {"lock_scope",
+       "",
+       {{"D9198", 10000000}},
+       {{{{"M8560", 1}}, 5}},
+       "M8103",
+       {{"keys", 0}, {"nothing", 1}}},
+      {"edge_contacts_fall", "", {}, {{{{"M8107", 1}}, 5}}, "M8107", {{"no", 1}, {"when_served", 0}}},
+  };
+  return all;
+}
+
+TEST(Super40ncChoices, ThereIsACaseForEveryOneThatCanBeChosen) {
+  std::set<std::string> with_cases;
+  for (const Case& each : cases()) with_cases.insert(each.id);
+  std::set<std::string> selectable;
+  for (const ChoiceRow& row : kChoices) {
+    if (options_of(row).size() > 1) selectable.insert(std::string(row.id));
+  }
+  EXPECT_EQ(selectable, with_cases);
+}
+
+TEST(Super40ncChoices, ShowTheirEffects) {
+  for (const Case& each : cases()) {
+    std::vector<std::string_view> named;
+    for (const auto& [option, value] : each.by_option) named.push_back(option);
+    for (const ChoiceRow& row : kChoices) {
+      if (row.id != each.id) continue;
+      EXPECT_EQ(options_of(row), named) << each.id;
+    }
+    for (const auto& [option, value] : each.by_option) {
+      OneSuper40nc one({.set = each.set, .program = each.program, .choices = {{each.id, option}}});
+      for (const Step& step : each.steps) {
+        for (const auto& [name, written] : step.writes) one.set(name, written);
+        one.run(step.ticks);
+      }
+      EXPECT_EQ(one.get(each.shown), value) << each.id << ": " << option << ", " << each.shown;
+    }
+  }
+}
+
+}  // namespace choices_test
+}  // namespace understudy::emulator::models::super_40nc
