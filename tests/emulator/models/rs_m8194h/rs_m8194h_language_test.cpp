@@ -60,7 +60,7 @@ TEST(RsM8194hLanguage, LoadingSaysWhatCheckingSays) {
   const std::vector<std::string> kWrong[] = {
       {"MP 1\nRSM_MACRO_NEXT\nRSM_MACRO_SET_V X\nEND\n",
        "line 2, column 1: RSM_MACRO_NEXT: NEXT without a FOR",
-       "line 3, column 19: RSM_MACRO_SET_V has 1 parameters; expected axis, data"},
+       "line 3, column 17: RSM_MACRO_SET_V has 1 parameters; expected axis, data"},
       {"TRIGGER 8.0 on MP0\n",
        "line 1, column 16: 'MP0' does not fit; expected MP1 to MP157, hold, abort_command, abort_macro, "
        "pause or "
