@@ -29,8 +29,7 @@ namespace lang = interpreter::rs_m8194h;
 std::string values_of(const lang::Command& command, std::size_t parameter) {
   const std::string_view meaning = command.row().parameters[parameter].values;
   std::string values = lang::expected_of(command, parameter);
-  if (!meaning.empty() && values.find(meaning) == std::string::npos)
-    values += ": " + std::string(meaning);
+  if (!meaning.empty() && values.find(meaning) == std::string::npos) values += ": " + std::string(meaning);
   return values;
 }
 
