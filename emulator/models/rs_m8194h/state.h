@@ -42,6 +42,9 @@ struct Fifo {
 inline int blocks_of(const lang::Command& command) { return command.row().fifo_blocks(); }
 int blocks_left(const Fifo& fifo);
 
+/// Whether it is an interpolation (path_commands.cpp).
+bool is_path(const lang::Command& command);
+
 /// Equal triggers along an axis (7.4.12).
 struct LineScan {
   bool set = false;

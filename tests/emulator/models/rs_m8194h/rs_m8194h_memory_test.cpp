@@ -1,6 +1,7 @@
 // What survives the power, what the Initial Table does, and that a state is whole (8, 3.19, 4.3.1).
 #include <gtest/gtest.h>
 
+#include "base/state/state_error.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "tests/emulator/models/rs_m8194h/one_rsm.h"
 
@@ -96,6 +97,36 @@ TEST(RsM8194hMemory, AStateGoesOnAsIfNothingHadHappened) {
     ASSERT_EQ(twin.device().save_state(), saved);
     ASSERT_EQ(twin.device().state_difference(saved, twin.device().save_state()), "");
   }
+}
+
+TEST(RsM8194hMemory, AFlippedByteIsRefusedOrCanBeLivedOn) {
+  OneRsm rsm({.program = "MP 1\nRSM_MACRO_TIMER 900\nEND\n"});
+  for (int step = 0; step < 11; ++step) {
+    (void)rsm.exception(busy_course(step));
+    rsm.run(3);
+  }
+  const std::vector<std::byte> saved = rsm.device().save_state();
+  OneRsm twin;
+  int lived = 0;
+  for (std::size_t at = 0; at < saved.size(); at += 11) {
+    std::vector<std::byte> bytes = saved;
+    bytes[at] ^= std::byte{1} << (at % 8);
+    try {
+      twin.device().restore_state(bytes);
+    } catch (const StateError&) {
+      continue;
+    }
+    ++lived;
+    for (Tick tick = rsm.now() + 1; tick < rsm.now() + 6; ++tick) {
+      twin.device().sample_inputs(tick);
+      twin.device().run_interpreters(tick);
+      twin.device().step_motion(tick);
+      twin.device().set_now(tick);
+      twin.device().update_outputs(tick);
+    }
+    (void)twin.ask("04 00 00 00 60");
+  }
+  EXPECT_GT(lived, 100);
 }
 
 TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
