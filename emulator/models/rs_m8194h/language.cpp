@@ -91,7 +91,7 @@ CellRow cells_of(const lang::Command& command) {
 class Listing final : public ProgramLanguage, public ProgramCells {
  public:
   std::string_view name() const override { return "RS-M8194H macros"; }
-  std::string_view file_ending() const override { return ".mp"; }
+  std::string_view file_ending() const override { return ".mac"; }
   std::span<const InstructionRow> instructions() const override {
     static const Instructions instructions;
     return instructions.rows();
