@@ -161,7 +161,7 @@ std::string random_command(std::uint32_t& seed) {
   constexpr const char* kMasks[] = {"X", "Y", "Z", "U", "XY", "XYZU", "YU"};
   const std::string axes = kMasks[draw(7)];
   const std::string distance = std::to_string(static_cast<int>(draw(20000)) - 10000);
-  switch (draw(17)) {
+  switch (draw(24)) {
     case 0: return "RSM_FIXED_MOVE " + axes + " " + distance;
     case 1: return "RSM_ABS_FIXED_MOVE " + axes + " " + distance;
     case 2: return "RSM_CONTINUE_MOVE " + axes + " " + distance;
@@ -178,6 +178,13 @@ std::string random_command(std::uint32_t& seed) {
     case 13: return "RSM_SET_COMPARE " + axes + " 0 0 " + distance;
     case 14: return "RSM_MP_CALL 1";
     case 15: return "RSM_CLEAR_VSTOP";
+    case 16: return "RSM_VSTOP_SLOWLY";
+    case 17: return "RSM_EMERGENCY_STOP 1";
+    case 18:
+    case 19: return "RSM_CLEAR_EMERGENCY_STOP";
+    case 20: return "RSM_HOME_START " + axes;
+    case 21: return "RSM_MP_TERMINATE";
+    case 22: return "RSM_CLEAR_CARD_BUFFER";
     default: return "RSM_SET_PULSE " + axes + " " + distance;
   }
 }
