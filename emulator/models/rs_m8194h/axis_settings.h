@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/state/fields.h"
+#include "base/state/state_error.h"
 #include "motion/homing.h"
 #include "motion/move.h"
 
@@ -140,6 +141,12 @@ struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
                                             field("ring", &Value::ring),
                                             field("ring_top", &Value::ring_top),
                                             field("avoids_triangles", &Value::avoids_triangles)};
+  static void check(const Value& value) {
+    constexpr std::uint32_t kMostRing = 2'000'000'000;
+    const bool fits = value.pulse_mode <= 5 && value.encoder_mode <= 3 && value.encoder_division <= 2 &&
+                      value.filter_time <= 7 && value.ring_top <= kMostRing && value.soft_limit_source <= 1;
+    demand_state(fits, "a setting is not one of the manual's");
+  }
 };
 
 template <>
@@ -153,6 +160,11 @@ struct StateOf<emulator::models::rs_m8194h::SpeedSettings> {
                                             field("jerk_up", &Value::jerk_up),
                                             field("jerk_down", &Value::jerk_down),
                                             field("offset_pulses", &Value::offset_pulses)};
+  static void check(const Value& value) {
+    demand_state(value.mode < 12, "a speed mode is not one of the manual's");
+    demand_state(value.offset_pulses >= INT16_MIN && value.offset_pulses <= INT16_MAX,
+                 "an offset of slowing down is not one of the manual's");
+  }
 };
 
 template <>
@@ -161,6 +173,10 @@ struct StateOf<emulator::models::rs_m8194h::HomeSettings> {
   static constexpr auto fields =
       std::tuple{field("home_pps", &Value::home_pps), field("limit_is_home", &Value::limit_is_home),
                  field("steps", &Value::steps), field("offset_pulses", &Value::offset_pulses)};
+  static void check(const Value& value) {
+    constexpr std::uint32_t kMostOffset = 2'000'000'000;
+    demand_state(value.offset_pulses <= kMostOffset, "an offset of homing is too far");
+  }
 };
 
 }  // namespace understudy

@@ -217,6 +217,15 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                             field("action_isr", &Value::action_isr),
                                             field("out", &Value::out),
                                             field("latched", &Value::latched)};
+  static void check(const Value& unit) {
+    demand_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
+    for (const Tick since : unit.pins.since)
+      demand_state(since >= -kFar && since <= kFar, "a time is too far");
+    demand_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
+                     unit.encoder_zero <= kFar,
+                 "an encoder is too far");
+  }
+  static constexpr std::int64_t kFar = std::int64_t{1} << 56;
 };
 
 }  // namespace understudy

@@ -29,8 +29,7 @@ namespace lang = interpreter::rs_m8194h;
 std::string values_of(const lang::Command& command, std::size_t parameter) {
   const std::string_view meaning = command.row().parameters[parameter].values;
   std::string values = lang::expected_of(command, parameter);
-  if (!meaning.empty() && values.find(meaning) == std::string::npos)
-    values += " (" + std::string(meaning) + ")";
+  if (!meaning.empty() && values.find(meaning) == std::string::npos) values += ": " + std::string(meaning);
   return values;
 }
 
@@ -92,7 +91,7 @@ CellRow cells_of(const lang::Command& command) {
 class Listing final : public ProgramLanguage, public ProgramCells {
  public:
   std::string_view name() const override { return "RS-M8194H macros"; }
-  std::string_view file_ending() const override { return ".mp"; }
+  std::string_view file_ending() const override { return ".mac"; }
   std::span<const InstructionRow> instructions() const override {
     static const Instructions instructions;
     return instructions.rows();

@@ -129,6 +129,12 @@ RectanglePlan rectangle_plan(double length, double width, double radius) {
 
 }  // namespace
 
+bool is_path(const lang::Command& command) {
+  return std::any_of(std::begin(kPathRows), std::end(kPathRows),
+                     [&](const PathRow& row) { return row.verb == command.verb(); }) &&
+         lang::find_code(command.code) != nullptr;
+}
+
 /// What follow_path() needs to draw.
 struct PathDrawing {
   motion::PathRun run;

@@ -42,6 +42,9 @@ struct Fifo {
 inline int blocks_of(const lang::Command& command) { return command.row().fifo_blocks(); }
 int blocks_left(const Fifo& fifo);
 
+/// Whether it is an interpolation (path_commands.cpp).
+bool is_path(const lang::Command& command);
+
 /// Equal triggers along an axis (7.4.12).
 struct LineScan {
   bool set = false;
@@ -122,7 +125,8 @@ struct State {
   std::array<std::uint16_t, kFrnetGroups> sent{};             // as the last scan has sent them,
   std::array<std::uint16_t, kFrnetGroups> inputs{};           // as it has found them
   Tick powered_at = 0;
-  int steps_left = 0;  // of this tick
+  int steps_left = 0;    // of this tick
+  bool touched = false;  // by a command at once since then: what waits may go on
   // Non-volatile.
   std::array<BasicSettings, kAxes> initial_table{};
   TextBlocks blocks{};  // macros, triggers and the Initial Table, as text

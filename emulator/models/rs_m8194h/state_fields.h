@@ -21,6 +21,11 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
       std::tuple{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
   static void check(const Value& fifo) {
     demand_state(emulator::models::rs_m8194h::blocks_left(fifo) >= 0, "the FIFO holds more than it can");
+    for (const auto& command : fifo.waiting) {
+      const bool waits = interpreter::rs_m8194h::find_code(command.code) != nullptr &&
+                         !command.is_macro_line() && command.row().fifo_blocks() > 0;
+      demand_state(waits, "a command in the FIFO is not one that waits there");
+    }
   }
 };
 
@@ -76,12 +81,20 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                             field("inputs", &Value::inputs),
                                             field("powered_at", &Value::powered_at),
                                             field("steps_left", &Value::steps_left),
+                                            field("touched", &Value::touched),
                                             field("initial_table", &Value::initial_table),
                                             field("blocks", &Value::blocks),
                                             field("eeprom", &Value::eeprom),
                                             field("image", &Value::image)};
   static void check(const Value& state) {
     demand_state(state.held_paths.size() <= 1, "more than one path is held");
+    for (const auto& command : state.held_paths) {
+      demand_state(emulator::models::rs_m8194h::is_path(command), "what is held is not a path");
+    }
+    for (const std::uint8_t channel : state.queued_triggers) {
+      demand_state(channel < interpreter::rs_m8194h::kTriggerCount, "a trigger has no such channel");
+    }
+    for (const auto& scan : state.scans) demand_reach(scan.begin);
     demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");
     demand_reach(state.powered_at);
   }

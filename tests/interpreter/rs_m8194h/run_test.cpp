@@ -317,6 +317,21 @@ TEST(RsM8194hRun, InputsAreWaitedForUpToTheTimeout) {
   EXPECT_EQ(edge.machine.log.back(), "10 end");
 }
 
+TEST(RsM8194hRun, EachWaitForAChangeWantsOneOfItsOwn) {
+  Bench bench(mp(1, "FRNET_WAIT 8 3 1 0|DRV_HOLD X|FRNET_WAIT 8 3 1 0|DRV_HOLD Y"),
+              {.frnet_wait_needs_edge = true});
+  bench.start();
+  bench.run(2);
+  bench.machine.inputs = {131};
+  bench.run(5);
+  EXPECT_EQ(bench.machine.log, Log{"3 DRV_HOLD X"});
+  bench.machine.inputs.clear();
+  bench.run(1);
+  bench.machine.inputs = {131};
+  bench.run(1);
+  EXPECT_EQ(bench.machine.log.back(), "9 end");
+}
+
 TEST(RsM8194hRun, RestIsCrossedAtOnce) {
   Bench bench(mp(1, "TIMER 1000|DRV_HOLD X|STOP_WAIT X"));
   EXPECT_EQ(next_active_ms(bench.execution, 0), kNever);
@@ -348,6 +363,8 @@ TEST(RsM8194hRun, WaitsCanBeGivenUp) {
   Bench bench(mp(1, "TIMER 500|DRV_HOLD X|FIXED_MOVE Y 1|STOP_WAIT Y"));
   bench.machine.moving = 2;
   bench.start();
+  drop_wait(bench.execution, bench.machine);  // it has not begun: nothing waits yet
+  EXPECT_EQ(next_active_ms(bench.execution, -5), 1);
   bench.run(1);
   drop_wait(bench.execution, bench.machine);
   bench.run(1);

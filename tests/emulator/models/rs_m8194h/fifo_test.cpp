@@ -105,6 +105,13 @@ TEST(RsM8194hFifo, ClearCardBufferEmptiesItAndWaitsGoOn) {
   EXPECT_EQ(rsm.positions()[1], 0);
 }
 
+TEST(RsM8194hFifo, ACommandOfOneRegisterMayComeByFunction6) {
+  BlockedRsm rsm;
+  rsm.send("RSM_SET_LP Y 5");
+  EXPECT_EQ(rsm.ask("06 1F 40 0A 0B"), "06 1F 40 0A 0B");  // CLEAR_CARD_BUFFER
+  EXPECT_EQ(rsm.get("FREE_BUFFER_SIZE"), 30);
+}
+
 TEST(RsM8194hFifo, EmergencyStopEmptiesAFullOne) {
   BlockedRsm rsm;
   for (int i = 0; i < 30; ++i) rsm.send("RSM_SET_V Y 1000");
