@@ -1,7 +1,10 @@
 #include "base/state/difference.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
+#include <string>
+#include <string_view>
 
 namespace understudy::state_fields {
 

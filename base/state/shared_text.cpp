@@ -1,6 +1,9 @@
 #include "base/state/shared_text.h"
 
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "base/state/state_bytes.h"

@@ -1,4 +1,7 @@
 #include "base/text/utf8.h"
+#include <cstddef>
+#include <optional>
+#include <string_view>
 
 namespace understudy {
 

@@ -1,9 +1,16 @@
 #include "docs/motion/homing_samples.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 
 #include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/homing_tables.h"
+#include "motion/move.h"
+#include "motion/ramp.h"
+#include "motion/surroundings.h"
+#include "motion/tick.h"
 
 namespace understudy::docs {
 

@@ -1,15 +1,22 @@
 // Samples of the motion library's laws, for the pictures of docs/motion.md: writes one table a picture into
 // the folder given. Nothing is drawn here that the library did not compute.
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <initializer_list>
 #include <string>
 
 #include "docs/motion/homing_samples.h"
 #include "motion/move.h"
+#include "motion/path.h"
 #include "motion/path_run.h"
+#include "motion/profile.h"
+#include "motion/ramp.h"
+#include "motion/tick.h"
 
 namespace understudy::docs {
 

@@ -22,6 +22,7 @@
 #include "emulator/command_line/output_paths.h"
 #include "emulator/command_line/serving.h"
 #include "emulator/command_line/terminal.h"
+#include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/companion.h"
 #include "emulator/play/results/result.h"

@@ -18,6 +18,7 @@
 #include "emulator/command_line/replay_looks.h"
 #include "emulator/command_line/result_file.h"
 #include "emulator/command_line/serving.h"
+#include "emulator/device/model.h"
 #include "emulator/play/report/page.h"
 #include "emulator/play/results/result.h"
 #include "emulator/serve/control/control_door.h"

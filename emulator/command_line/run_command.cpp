@@ -19,6 +19,7 @@
 #include "emulator/command_line/run_files.h"
 #include "emulator/command_line/terminal.h"
 #include "emulator/command_line/yaml_files.h"
+#include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/play/performing/onlooker.h"
 #include "emulator/play/performing/run.h"

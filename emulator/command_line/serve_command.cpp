@@ -4,6 +4,7 @@
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/log.h"
 #include "emulator/command_line/serving.h"
+#include "emulator/device/model.h"
 #include "emulator/play/lint/lint.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/serve/loop/readiness.h"

@@ -1,10 +1,16 @@
 #include "emulator/device/choices.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/register_map/register_map.h"
 
 namespace understudy::emulator {
 

@@ -1,10 +1,10 @@
 #include "emulator/device/command_window.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"

@@ -1,12 +1,23 @@
 #include "emulator/device/device.h"
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/prefetch.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/choices.h"
+#include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/user_program.h"
+#include "pty/line_settings.h"
 
 namespace understudy::emulator {
 

@@ -1,11 +1,21 @@
 // What of a device's state is every model's: its inputs, its power, its time.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/state/difference.h"
 #include "base/state/fields.h"
+#include "base/state/shared_text.h"
 #include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
 #include "emulator/device/device.h"
+#include "emulator/device/model.h"
 
 namespace understudy {
 

@@ -3,18 +3,32 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/choices.h"
 #include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/device/setting_entry.h"
 
 namespace understudy::emulator {

@@ -1,8 +1,13 @@
 #include "emulator/device/terminals.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "emulator/device/device.h"
+#include "emulator/device/model.h"
 
 namespace understudy::emulator {
 

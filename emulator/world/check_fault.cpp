@@ -1,10 +1,19 @@
 #include "emulator/world/check_fault.h"
+#include <cstddef>
+#include <stdexcept>
+#include <string>
 
 #include "base/text/one_line.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
+#include "emulator/world/expression/term.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/names/names.h"
 #include "emulator/world/probe/probe_names.h"
 #include "emulator/world/speech/line_speech.h"
+#include "emulator/world/view/inventory.h"
 
 namespace understudy::emulator::world {
 

@@ -1,11 +1,24 @@
 #include "emulator/world/fault_watch.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/tokens.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/faults/trigger.h"
 #include "emulator/world/speech/line_speech.h"
+#include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/world.h"
+#include "pty/line_observer.h"
+#include "pty/wire_fault.h"
 
 namespace understudy::emulator::world {
 

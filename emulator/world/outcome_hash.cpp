@@ -1,9 +1,18 @@
 #include "emulator/world/outcome_hash.h"
+#include "base/simulated_time.h"
+#include "emulator/device/model.h"
 #include "emulator/device/terminals.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "base/state/state_bytes.h"
+#include "pty/line_observer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::world {
 

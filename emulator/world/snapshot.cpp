@@ -1,13 +1,30 @@
 #include "emulator/world/snapshot.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <stdexcept>
+#include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/state/difference.h"
+#include "base/state/fields.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/device/model.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/faults/trigger.h"
+#include "emulator/world/plant/plant.h"
 #include "emulator/world/state_fields.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
 
 namespace understudy::emulator::world {
 

@@ -2,15 +2,25 @@
 #include "emulator/world/snapshot_file.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "base/simulated_time.h"
 #include "base/state/base64.h"
+#include "base/state/shared_text.h"
 #include "base/state/state_bytes.h"
 #include "base/text/one_line.h"
 #include "base/version.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench/bench_text.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/strict_json.h"
 
 namespace understudy::emulator::world {

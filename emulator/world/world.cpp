@@ -1,19 +1,35 @@
 #include "emulator/world/world.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/large_pages.h"
 #include "base/prefetch.h"
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
-#include "emulator/device/machine_ahead.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/refusal.h"
 #include "emulator/device/terminals.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/fault_watch.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/plant/plant.h"
 #include "emulator/world/speech/line_speech.h"
+#include "emulator/world/view/world_view.h"
+#include "pty/line.h"
+#include "pty/rtu_framer.h"
 
 namespace understudy::emulator::world {
 

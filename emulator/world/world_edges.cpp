@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "emulator/device/axes.h"
 #include "emulator/device/machine_edges.h"

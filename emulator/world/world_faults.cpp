@@ -1,9 +1,15 @@
 // What is wrong in a world: faults that are injected, wait for their moment, begin, end and are cleared.
 #include <algorithm>
+#include <cstddef>
+#include <map>
+#include <memory>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
 #include "emulator/world/check_fault.h"
 #include "emulator/world/fault_watch.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/plant/plant.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::world {

@@ -1,6 +1,16 @@
 #include "interpreter/slim/state_fields.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/command_row.h"
+#include "interpreter/slim/events.h"
+#include "interpreter/slim/flow.h"
+#include "interpreter/slim/parse.h"
+#include "interpreter/slim/program.h"
 
 namespace understudy {
 

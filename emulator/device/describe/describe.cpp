@@ -2,15 +2,26 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "emulator/device/choices.h"
+#include "emulator/device/describe/sheet.h"
 #include "emulator/device/device.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/model.h"
 #include "emulator/device/program_language.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "pty/line_settings.h"
 
 namespace understudy::emulator {
 

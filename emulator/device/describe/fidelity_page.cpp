@@ -1,6 +1,9 @@
 #include "emulator/device/describe/fidelity_page.h"
+#include <string>
 
 #include "emulator/device/describe/describe.h"
+#include "emulator/device/describe/sheet.h"
+#include "emulator/device/model.h"
 
 namespace understudy::emulator {
 

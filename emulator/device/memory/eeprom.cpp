@@ -1,7 +1,12 @@
 #include "emulator/device/memory/eeprom.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/state/state_error.h"
 
 namespace understudy::emulator {

@@ -1,6 +1,10 @@
 #include "emulator/device/memory/kept_memory.h"
+#include <string>
 
 #include "base/text/one_line.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/register_map/register_map.h"
 
 namespace understudy::emulator {
 

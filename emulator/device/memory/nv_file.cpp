@@ -1,10 +1,17 @@
 #include "emulator/device/memory/nv_file.h"
 
 #include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "base/files/output_file.h"
 #include "base/files/text_file.h"
+#include "emulator/device/memory/nv_image.h"
 
 namespace understudy::emulator {
 

@@ -2,10 +2,16 @@
 #include "emulator/device/memory/nv_image.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/state/shared_text.h"
 #include "base/text/one_line.h"
 #include "base/text/utf8.h"
 

@@ -1,12 +1,18 @@
 #include "emulator/device/memory/text_blocks.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "base/state/shared_text.h"
 #include "base/state/state_error.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "base/text/utf8.h"
+#include "emulator/device/memory/nv_image.h"
 
 namespace understudy::emulator {
 

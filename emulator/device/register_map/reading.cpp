@@ -1,8 +1,15 @@
 // Requests that read consecutive words or bits.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/present.h"
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 
 namespace understudy::emulator {
 

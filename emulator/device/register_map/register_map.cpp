@@ -3,11 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/device/register_map/row_sense.h"
 
 namespace understudy::emulator {

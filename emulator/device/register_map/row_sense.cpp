@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 
 namespace understudy::emulator {
 

@@ -1,9 +1,17 @@
 #include "emulator/models/simple2_r3/axis_drive.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 #include "base/prefetch.h"
+#include "base/simulated_time.h"
+#include "emulator/models/simple2_r3/reactions.h"
+#include "motion/axis.h"
+#include "motion/following.h"
+#include "motion/homing.h"
+#include "motion/homing_tables.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

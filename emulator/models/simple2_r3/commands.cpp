@@ -1,11 +1,23 @@
 // What Simple2-R3 is told to do: moves, homing, modes, servo and STOP, and its program. Registers and program
 // lines come here alike. What a command is dropped for, and what it does to the one before it, is said here.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
+#include "base/simulated_time.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/reactions.h"
+#include "emulator/models/simple2_r3/registers.h"
+#include "interpreter/simple2/execution/execution.h"
+#include "motion/axis.h"
+#include "motion/following.h"
 #include "motion/homing_tables.h"
+#include "motion/move.h"
+#include "motion/ramp.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -1,12 +1,29 @@
 #include "emulator/models/simple2_r3/device.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 
 #include "base/prefetch.h"
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/machine_ahead.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/model.h"
+#include "emulator/models/simple2_r3/options.h"
 #include "emulator/models/simple2_r3/program_machine.h"
-#include "motion/homing_tables.h"
+#include "emulator/models/simple2_r3/registers.h"
+#include "interpreter/simple2/execution/execution.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

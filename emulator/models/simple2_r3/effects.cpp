@@ -1,9 +1,17 @@
 #include "emulator/models/simple2_r3/effects.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/simulated_time.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/registers.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -1,13 +1,30 @@
 // Simple2-R3's memory: what power-up finds and power-off loses, the program's cells, the password.
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
 
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/memory/register_memory.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/language.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/registers.h"
 #include "interpreter/simple2/listing.h"
+#include "interpreter/simple2/program.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -1,14 +1,24 @@
 #include "emulator/models/simple2_r3/model.h"
 
 #include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string_view>
 
+#include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/choices.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/effects.h"
 #include "emulator/models/simple2_r3/language.h"
 #include "emulator/models/simple2_r3/parameters.h"
 #include "emulator/models/simple2_r3/registers.h"
+#include "pty/line_settings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -1,11 +1,21 @@
 #include "emulator/models/simple2_r3/program_machine.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/model.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "interpreter/simple2/dialect.h"
+#include "interpreter/simple2/machine.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

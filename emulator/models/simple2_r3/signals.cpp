@@ -1,9 +1,13 @@
 // What limits and alarms do to velocity, PWM and sync mode, by the table in reactions.h. Position moves and
 // homing meet them in motion/, by AxisSettings and the homing's own table.
-#include <utility>
+#include <cstddef>
 
-#include "emulator/models/simple2_r3/axis_slots.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/options.h"
+#include "emulator/models/simple2_r3/reactions.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 

@@ -1,11 +1,19 @@
 // Simple2-R3's state as bytes, and back.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/simple2_r3/axis_drive.h"
 #include "emulator/models/simple2_r3/axis_slots.h"
 #include "emulator/models/simple2_r3/device.h"
+#include "emulator/models/simple2_r3/registers.h"
 #include "emulator/models/simple2_r3/state_fields.h"
 
 namespace understudy::emulator::models::simple2_r3 {

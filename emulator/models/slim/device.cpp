@@ -1,11 +1,35 @@
 #include "emulator/models/slim/device.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <sstream>
+#include <string>
 #include <utility>
 
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/machine_ahead.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/text/text_device.h"
+#include "emulator/models/slim/chain.h"
+#include "emulator/models/slim/chain_options.h"
+#include "emulator/models/slim/errors.h"
+#include "emulator/models/slim/jobs.h"
+#include "emulator/models/slim/memory.h"
 #include "emulator/models/slim/model.h"
+#include "emulator/models/slim/module.h"
+#include "emulator/models/slim/options.h"
+#include "emulator/models/slim/parameters.h"
+#include "interpreter/slim/command.h"
+#include "interpreter/slim/flow.h"
+#include "interpreter/slim/parse.h"
+#include "interpreter/slim/program.h"
 
 namespace understudy::emulator::models::slim {
 

@@ -1,4 +1,5 @@
 // What SLIM's queries answer.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

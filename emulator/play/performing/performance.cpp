@@ -13,12 +13,12 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/memory/nv_image.h"
-#include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/play/performing/state_text.h"
 #include "emulator/play/results/result.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/stage.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/expression/expression.h"
 #include "emulator/world/expression/tokens.h"
 #include "emulator/world/names/names.h"

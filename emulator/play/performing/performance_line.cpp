@@ -14,7 +14,11 @@
 #include "emulator/play/scenario/requests.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::play {
 

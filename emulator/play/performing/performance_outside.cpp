@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -21,6 +22,7 @@
 #include "emulator/play/performing/performance.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/world/bench/bench.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/world.h"
 
 namespace understudy::emulator::play {

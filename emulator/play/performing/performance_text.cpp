@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "emulator/play/performing/performance.h"
+#include "emulator/play/scenario/scenario.h"
 #include "emulator/world/speech/text_lines_heard.h"
 
 namespace understudy::emulator::play {

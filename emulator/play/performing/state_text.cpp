@@ -13,6 +13,8 @@
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/device/terminals.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/faults/fault.h"

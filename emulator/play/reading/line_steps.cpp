@@ -10,7 +10,6 @@
 
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
-#include "emulator/device/model.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"

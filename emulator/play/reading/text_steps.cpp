@@ -4,10 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "emulator/device/model.h"
 #include "emulator/play/reading/step_forms.h"
 #include "emulator/play/reading/step_readers.h"
 #include "emulator/play/reading/steps_reader.h"
+#include "emulator/play/scenario/scenario.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/speech/text_lines_heard.h"
 

@@ -9,8 +9,15 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/model.h"
 #include "emulator/device/terminals.h"
+#include "emulator/play/report/footage.h"
+#include "emulator/play/results/result.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
 #include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
 
 namespace understudy::emulator::play {
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/play/scenario/scenario.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/stations/server.h"
 

@@ -13,8 +13,18 @@
 #include <vector>
 
 #include "base/simulated_time.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/modbus_host.h"
+#include "emulator/play/stages/stage.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
+#include "pty/line_observer.h"
+#include "pty/line_settings.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::play {
 

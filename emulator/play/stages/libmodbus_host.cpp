@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/stage.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/world/speech/text_lines_heard.h"

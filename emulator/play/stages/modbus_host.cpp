@@ -1,13 +1,13 @@
 #include "emulator/play/stages/modbus_host.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/stages/stage.h"
 #include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"

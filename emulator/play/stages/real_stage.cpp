@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "base/simulated_time.h"
-#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/play/scenario/scenario.h"
 #include "emulator/play/stages/free_stage.h"
 #include "emulator/play/stages/libmodbus_host.h"

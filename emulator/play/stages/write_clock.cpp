@@ -1,6 +1,11 @@
 #include "emulator/play/stages/write_clock.h"
 
+#include <cstddef>
 #include <utility>
+#include "base/simulated_time.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
 
 namespace understudy::emulator::play {
 

@@ -13,6 +13,7 @@
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/serve/control/message_fields.h"

@@ -1,9 +1,17 @@
 #include "emulator/world/bench/bench.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "base/text/parse_real.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
 

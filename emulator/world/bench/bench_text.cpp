@@ -1,8 +1,19 @@
 #include "emulator/world/bench/bench_text.h"
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
 
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/faults/fault.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
+#include "pty/line.h"
+#include "pty/line_settings.h"
 
 namespace understudy::emulator::world {
 

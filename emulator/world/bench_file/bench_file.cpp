@@ -1,13 +1,20 @@
 #include "emulator/world/bench_file/bench_file.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
-#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/bench_names.h"
 #include "emulator/world/bench_file/complaints.h"
@@ -18,7 +25,9 @@
 #include "emulator/world/bench_file/station_fields.h"
 #include "emulator/world/bench_file/wire_fields.h"
 #include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
 #include "emulator/world/view/bench_inventory.h"
 
 namespace understudy::emulator::world {

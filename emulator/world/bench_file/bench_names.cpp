@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
 

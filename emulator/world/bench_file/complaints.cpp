@@ -1,11 +1,16 @@
 #include "emulator/world/bench_file/complaints.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "base/files/file_error.h"
 #include "base/text/one_line.h"
+#include "emulator/device/program_error.h"
 
 namespace understudy::emulator::world {
 

@@ -3,19 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/files/text_file.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_real.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/device.h"
+#include "emulator/device/memory/nv_image.h"
+#include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/setting_entry.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 
 namespace understudy::emulator::world {
 

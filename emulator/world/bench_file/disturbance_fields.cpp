@@ -1,11 +1,22 @@
 #include "emulator/world/bench_file/disturbance_fields.h"
 
-#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/check_fault.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/faults/trigger.h"
 #include "emulator/world/faults/trigger_text.h"
 #include "emulator/world/names/level.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/view/inventory.h"
 
 namespace understudy::emulator::world {
 

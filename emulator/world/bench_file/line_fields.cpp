@@ -1,10 +1,18 @@
 #include "emulator/world/bench_file/line_fields.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/text/one_line.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/device_fields.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+#include "pty/line.h"
 
 namespace understudy::emulator::world {
 

@@ -1,11 +1,21 @@
 #include "emulator/world/bench_file/machine_fields.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/model.h"
 #include "emulator/world/bench_file/bench_form.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/form.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
 

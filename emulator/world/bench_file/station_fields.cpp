@@ -1,10 +1,17 @@
 #include "emulator/world/bench_file/station_fields.h"
 
+#include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
 #include "emulator/world/view/bench_inventory.h"
 
 namespace understudy::emulator::world {

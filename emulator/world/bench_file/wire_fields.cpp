@@ -1,12 +1,19 @@
 #include "emulator/world/bench_file/wire_fields.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/bench_file/bench_names.h"
 #include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/yaml_fields.h"
+#include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
 

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 #include <deque>
 #include <map>
-#include <optional>
+#include <memory>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"

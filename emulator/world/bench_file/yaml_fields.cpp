@@ -1,14 +1,26 @@
 #include "emulator/world/bench_file/yaml_fields.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <set>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "base/files/file_error.h"
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/register_map/register_map.h"
 #include "emulator/world/bench_file/complaints.h"
+#include "emulator/world/bench_file/form.h"
 #include "emulator/world/bench_file/yaml_document.h"
 
 namespace understudy::emulator::world {

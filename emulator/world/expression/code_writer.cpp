@@ -1,7 +1,13 @@
 #include "emulator/world/expression/code_writer.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 
 namespace understudy::emulator::world {
 

@@ -2,8 +2,16 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "emulator/world/expression/code_writer.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
+#include "emulator/world/expression/tokens.h"
 
 namespace understudy::emulator::world {
 

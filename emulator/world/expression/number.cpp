@@ -4,7 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "base/simulated_time.h"
 

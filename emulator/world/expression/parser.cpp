@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
-#include "emulator/device/register_map/register_map.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/expression/term.h"
 
 namespace understudy::emulator::world {
 

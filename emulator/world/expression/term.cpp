@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <string_view>
+#include "emulator/world/expression/number.h"
 
 namespace understudy::emulator::world {
 

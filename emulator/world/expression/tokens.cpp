@@ -4,11 +4,18 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
+#include "emulator/world/expression/number.h"
 
 namespace understudy::emulator::world {
 

@@ -1,7 +1,16 @@
 #include "emulator/world/expression/tolerance.h"
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "base/text/one_line.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/expression/parser.h"
+#include "emulator/world/expression/term.h"
+#include "emulator/world/expression/tokens.h"
 
 namespace understudy::emulator::world {
 

@@ -2,15 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/world/faults/field_values.h"
 #include "emulator/world/faults/kinds.h"
 #include "emulator/world/faults/trigger_text.h"
+#include "emulator/world/names/names.h"
 
 namespace understudy::emulator::world {
 

@@ -1,7 +1,18 @@
 #include "emulator/world/faults/field_values.h"
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
+#include "emulator/device/model.h"
 #include "emulator/world/faults/trigger.h"
 #include "emulator/world/names/level.h"
 #include "emulator/world/names/names.h"

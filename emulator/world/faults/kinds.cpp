@@ -1,6 +1,13 @@
 #include "emulator/world/faults/kinds.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
 
 #include "base/enumerators.h"
+#include "emulator/world/faults/fault.h"
 
 namespace understudy::emulator::world {
 

@@ -1,6 +1,8 @@
 #include "emulator/world/faults/trigger.h"
 
 #include <algorithm>
+#include <cstdint>
+#include "base/simulated_time.h"
 
 namespace understudy::emulator::world {
 

@@ -1,10 +1,18 @@
 #include "emulator/world/faults/trigger_text.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
 #include "emulator/world/faults/field_values.h"
+#include "emulator/world/faults/trigger.h"
 #include "emulator/world/names/names.h"
 
 namespace understudy::emulator::world {

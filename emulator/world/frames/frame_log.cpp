@@ -1,6 +1,14 @@
 #include "emulator/world/frames/frame_log.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+#include "base/simulated_time.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
 
 namespace understudy::emulator::world {
 

@@ -1,6 +1,11 @@
 #include "emulator/world/names/level.h"
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "base/text/parse_integer.h"
+#include "emulator/device/model.h"
 
 namespace understudy::emulator::world {
 

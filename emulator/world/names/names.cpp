@@ -1,9 +1,16 @@
 #include "emulator/world/names/names.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
+#include "emulator/device/model.h"
 
 namespace understudy::emulator::world {
 

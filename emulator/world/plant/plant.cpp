@@ -1,8 +1,11 @@
 #include "emulator/world/plant/plant.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
 
+#include "base/simulated_time.h"
 #include "base/state/state_error.h"
 
 namespace understudy::emulator::world {

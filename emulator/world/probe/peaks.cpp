@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/world/view/world_view.h"
 
 namespace understudy::emulator::world {
 

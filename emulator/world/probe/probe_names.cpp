@@ -2,12 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/text/one_line.h"
 #include "base/text/suggestion.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
 

@@ -1,11 +1,24 @@
 #include "emulator/world/probe/probes.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/device/terminals.h"
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/probe/peaks.h"
+#include "emulator/world/probe/probe_names.h"
+#include "emulator/world/stations/line_station.h"
 
 namespace understudy::emulator::world {
 

@@ -1,10 +1,20 @@
 #include "emulator/world/recording/event_text.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
+#include <string>
 
 #include "base/text/one_line.h"
+#include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/world.h"
+#include "pty/line_settings.h"
 
 namespace understudy::emulator::world {
 

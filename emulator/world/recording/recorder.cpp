@@ -1,12 +1,25 @@
 #include "emulator/world/recording/recorder.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
 #include "pty/line_observer.h"
+#include "pty/line_settings.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::world {
 

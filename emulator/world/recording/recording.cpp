@@ -1,12 +1,24 @@
 #include "emulator/world/recording/recording.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "base/text/one_line.h"
+#include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/strict_json.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
 

@@ -3,10 +3,21 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "base/files/growing_file.h"
+#include "base/files/output_file.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/recording/recorder.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
 

@@ -1,13 +1,28 @@
 #include "emulator/world/recording/replay.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <functional>
+#include <istream>
 #include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "base/simulated_time.h"
+#include "base/state/state_error.h"
 #include "base/version.h"
+#include "emulator/device/model.h"
 #include "emulator/world/bench_file/bench_file.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/snapshot.h"
 #include "emulator/world/snapshot_file.h"
+#include "emulator/world/world.h"
 #include "pty/line_observer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::world {
 

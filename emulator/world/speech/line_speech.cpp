@@ -2,6 +2,8 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
+#include "emulator/device/model.h"
 
 namespace understudy::emulator::world {
 

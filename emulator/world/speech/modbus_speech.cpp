@@ -1,11 +1,26 @@
 // Frames of Modbus RTU: several stations on a line, each with a number.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/world/faults/trigger.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/speech/modbus_words.h"
+#include "emulator/world/stations/frame_faults.h"
+#include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/rtu_station.h"
+#include "pty/capture.h"
+#include "pty/capture_frames.h"
+#include "pty/rtu_framer.h"
 
 namespace understudy::emulator::world {
 

@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "emulator/device/command_window.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/server.h"
 #include "pty/rtu_crc.h"
 

@@ -1,4 +1,8 @@
 #include "emulator/world/speech/text_lines_heard.h"
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "base/text/one_line.h"
 

@@ -1,11 +1,28 @@
 // Lines of text: one device, which may say something unasked.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/text/text_speaker.h"
+#include "emulator/world/faults/fault.h"
 #include "emulator/world/faults/kinds.h"
+#include "emulator/world/faults/trigger.h"
+#include "emulator/world/names/names.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/speech/text_lines_heard.h"
+#include "emulator/world/stations/frame_faults.h"
+#include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/text_station.h"
+#include "pty/capture.h"
+#include "pty/capture_frames.h"
+#include "pty/rtu_framer.h"
 
 namespace understudy::emulator::world {
 

@@ -1,10 +1,17 @@
 #include "emulator/world/stations/faulty_wire.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "emulator/world/stations/frame_faults.h"
 #include "pty/state_reach.h"
+#include "pty/station.h"
+#include "pty/wire_fault.h"
 
 namespace understudy::emulator::world {
 

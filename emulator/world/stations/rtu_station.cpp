@@ -1,12 +1,24 @@
 #include "emulator/world/stations/rtu_station.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
 
+#include "base/state/difference.h"
+#include "base/state/state_bytes.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
+#include "emulator/world/stations/frame_faults.h"
 #include "emulator/world/stations/server.h"
 #include "emulator/world/stations/station_fields.h"
+#include "pty/line_settings.h"
 #include "pty/rtu_crc.h"
+#include "pty/rtu_framer.h"
+#include "pty/station.h"
 
 namespace understudy::emulator::world {
 

@@ -1,8 +1,18 @@
 #include "emulator/world/stations/server.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 
 namespace understudy::emulator::world {
 

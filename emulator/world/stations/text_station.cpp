@@ -1,12 +1,27 @@
 #include "emulator/world/stations/text_station.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
-#include "emulator/device/text/text_device.h"
+#include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/device/device.h"
+#include "emulator/device/text/text_speaker.h"
+#include "emulator/world/stations/faulty_wire.h"
+#include "emulator/world/stations/frame_faults.h"
+#include "emulator/world/stations/line_station.h"
 #include "emulator/world/stations/station_fields.h"
 #include "pty/state_reach.h"
+#include "pty/station.h"
+#include "pty/text_lines.h"
 
 namespace understudy {
 

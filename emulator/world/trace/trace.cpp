@@ -1,10 +1,23 @@
 #include "emulator/world/trace/trace.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/model.h"
 #include "emulator/device/terminals.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/plant/plant.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
 

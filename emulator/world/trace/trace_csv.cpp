@@ -1,3 +1,9 @@
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+#include "base/simulated_time.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/trace/trace.h"
 
 namespace understudy::emulator::world {

@@ -1,6 +1,13 @@
 #include "emulator/world/trace/trace_file.h"
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
+#include "emulator/world/trace/trace.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::world {
 

@@ -1,7 +1,15 @@
 // Value change dumps (IEEE 1364), as GTKWave opens them.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "base/simulated_time.h"
+#include "emulator/world/expression/number.h"
 #include "emulator/world/trace/trace.h"
 
 namespace understudy::emulator::world {

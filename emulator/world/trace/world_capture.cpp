@@ -1,11 +1,16 @@
 #include "emulator/world/trace/world_capture.h"
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
+#include "emulator/world/view/world_view.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
 
 namespace understudy::emulator::world {
 

@@ -1,4 +1,10 @@
 #include "emulator/world/view/bench_inventory.h"
+#include <cstddef>
+#include <memory>
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/world/bench/bench.h"
+#include "emulator/world/plant/plant.h"
 
 namespace understudy::emulator::world {
 

@@ -3,6 +3,10 @@
 #include <cstdint>
 
 #include "base/simulated_time.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "interpreter/simple2/execution/execution.h"
+#include "interpreter/simple2/program.h"
 
 namespace understudy {
 
