@@ -189,12 +189,14 @@ void RsM8194h::update_outputs(Tick tick) {
       lang::run_tick(state_.execution, tick, options_.steps_a_tick, state_.paused, options_.run, *this);
   start_queued_trigger();
   run_fifo(state_.steps_left);
+  state_.touched = false;
   state_.eeprom.step(tick, state_.image);
 }
 
 /// Whether nothing at all goes on, but for FRnet and what waits to be kept.
 bool RsM8194h::rests() const {
-  if (inputs_changed() || !state_.fifo.waiting.empty() || state_.fifo.stop_wait != 0) return false;
+  if (inputs_changed() || state_.touched || !state_.fifo.waiting.empty() || state_.fifo.stop_wait != 0)
+    return false;
   if (state_.steps_left != options_.steps_a_tick || !state_.marks.empty()) return false;
   if (state_.execution.is_alive() || !state_.queued_triggers.empty()) return false;
   for (std::size_t a = 0; a < kAxes; ++a) {

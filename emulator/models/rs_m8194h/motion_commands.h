@@ -35,11 +35,19 @@ Took set_speed(RsM8194h& it, const Command& command) {
   });
   return Took::done;
 }
+/// Homing takes new speeds in its next phase.
+inline void tell_homing(RsM8194h& it, std::size_t axis) {
+  motion::Homing& homing = it.state().motors[axis].homing;
+  if (!homing.active()) return;
+  const AxisUnit& unit = it.state().units[axis];
+  homing.program.speeds = {law_of(unit), law_at(unit, unit.homing.home_pps)};
+}
 /// V, also of what runs.
 inline Took set_drive_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     it.state().units[a].speed.drive_pps = command.values[1];
     it.change_speed(a);
+    tell_homing(it, a);
   });
   return Took::done;
 }
@@ -52,8 +60,10 @@ Took set_vector(RsM8194h& it, const Command& command) {
 }
 
 inline Took home_speed(RsM8194h& it, const Command& command) {
-  for_each_axis(axes_at(command, 0),
-                [&](std::size_t a) { it.state().units[a].homing.home_pps = command.values[1]; });
+  for_each_axis(axes_at(command, 0), [&](std::size_t a) {
+    it.state().units[a].homing.home_pps = command.values[1];
+    tell_homing(it, a);
+  });
   return Took::done;
 }
 inline Took home_limit(RsM8194h& it, const Command& command) {

@@ -196,8 +196,9 @@ void RsM8194h::step_scans() {
 // --- many ticks at once ------------------------------------------------------------------------------------
 
 Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
-  const bool is_simple = !inputs_changed() && state_.marks.empty() && state_.scanning == 0 &&
-                         !state_.paths.together.engaged && state_.steps_left == options_.steps_a_tick;
+  const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
+                         state_.scanning == 0 && !state_.paths.together.engaged &&
+                         state_.steps_left == options_.steps_a_tick;
   if (!is_simple || state_.execution.is_alive() || !state_.queued_triggers.empty()) return done + 1;
   Tick last = std::min(most, state_.eeprom.next_active_tick() - 1);
   if (state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);

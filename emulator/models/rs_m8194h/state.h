@@ -125,7 +125,8 @@ struct State {
   std::array<std::uint16_t, kFrnetGroups> sent{};             // as the last scan has sent them,
   std::array<std::uint16_t, kFrnetGroups> inputs{};           // as it has found them
   Tick powered_at = 0;
-  int steps_left = 0;  // of this tick
+  int steps_left = 0;    // of this tick
+  bool touched = false;  // by a command at once since then: what waits may go on
   // Non-volatile.
   std::array<BasicSettings, kAxes> initial_table{};
   TextBlocks blocks{};  // macros, triggers and the Initial Table, as text

@@ -81,6 +81,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                             field("inputs", &Value::inputs),
                                             field("powered_at", &Value::powered_at),
                                             field("steps_left", &Value::steps_left),
+                                            field("touched", &Value::touched),
                                             field("initial_table", &Value::initial_table),
                                             field("blocks", &Value::blocks),
                                             field("eeprom", &Value::eeprom),

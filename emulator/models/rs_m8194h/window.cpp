@@ -112,6 +112,7 @@ DeviceAnswer RsM8194h::take(const lang::Command& command) {
   if (row.use.refused_while_mp_runs && mp_runs()) return answer_of(lang::Fault::macro_runs);
   if (row.use.real_time != lang::RealTime::queued) {
     carry_out(command);
+    state_.touched = true;
     return Refusal::none;
   }
   if (blocks_of(command) > blocks_left(state_.fifo)) return answer_of(lang::Fault::fifo_full);

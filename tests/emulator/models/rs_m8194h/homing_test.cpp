@@ -91,6 +91,18 @@ TEST(RsM8194hHoming, TheLimitMayBeTheHomeSwitch) {
   EXPECT_EQ(rsm.place(), 4000);
 }
 
+TEST(RsM8194hHoming, NewSpeedsCountFromTheNextPhaseOn) {
+  HomingRsm rsm(4000);
+  rsm.send({"RSM_SET_HOME_MODE X 2 2 1 1 3500", "RSM_HOME_START X"});
+  rsm.run(250);
+  EXPECT_EQ(rsm.get("HOME_STATE_X"), 3);
+  rsm.send({"RSM_SET_V X 2000", "RSM_SET_HV X 250"});
+  EXPECT_GT(rsm.get("CV_X"), 9000);
+  while (rsm.get("HOME_STATE_X") == 3) rsm.run(1);
+  rsm.run(100);
+  EXPECT_EQ(rsm.get("CV_X"), 250);
+}
+
 TEST(RsM8194hHoming, AStopLeavesItsLockAndNoHome) {
   HomingRsm rsm(4000);
   rsm.send({"RSM_SET_HOME_MODE X 2 2 1 1 3500", "RSM_HOME_START X"});

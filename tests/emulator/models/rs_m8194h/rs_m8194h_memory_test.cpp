@@ -152,5 +152,69 @@ TEST(RsM8194hMemory, QuietTicksMayBeCrossed) {
   EXPECT_EQ(stepped.positions(), crossed.positions());
 }
 
+/// A command of a random course: most of what moves, stops, holds and waits.
+std::string random_command(std::uint32_t& seed) {
+  const auto draw = [&](std::uint32_t most) {
+    seed = seed * 1664525 + 1013904223;
+    return (seed >> 8) % most;
+  };
+  constexpr const char* kMasks[] = {"X", "Y", "Z", "U", "XY", "XYZU", "YU"};
+  const std::string axes = kMasks[draw(7)];
+  const std::string distance = std::to_string(static_cast<int>(draw(20000)) - 10000);
+  switch (draw(24)) {
+    case 0: return "RSM_FIXED_MOVE " + axes + " " + distance;
+    case 1: return "RSM_ABS_FIXED_MOVE " + axes + " " + distance;
+    case 2: return "RSM_CONTINUE_MOVE " + axes + " " + distance;
+    case 3: return "RSM_STOP_SLOWLY " + axes;
+    case 4: return "RSM_STOP_SUDDENLY " + axes;
+    case 5: return "RSM_CLEAR_STOP " + axes;
+    case 6: return "RSM_DRV_HOLD " + axes;
+    case 7: return "RSM_DRV_START " + axes;
+    case 8: return "RSM_STOP_WAIT " + axes;
+    case 9: return "RSM_LINE_2D " + distance + " 3000";
+    case 10: return "RSM_ARC_CW 0 " + std::to_string(draw(4000) + 1) + " 0 0";
+    case 11: return "RSM_SET_LP " + axes + " " + distance;
+    case 12: return "RSM_SET_V " + axes + " " + std::to_string(draw(30000));
+    case 13: return "RSM_SET_COMPARE " + axes + " 0 0 " + distance;
+    case 14: return "RSM_MP_CALL 1";
+    case 15: return "RSM_CLEAR_VSTOP";
+    case 16: return "RSM_VSTOP_SLOWLY";
+    case 17: return "RSM_EMERGENCY_STOP 1";
+    case 18:
+    case 19: return "RSM_CLEAR_EMERGENCY_STOP";
+    case 20: return "RSM_HOME_START " + axes;
+    case 21: return "RSM_MP_TERMINATE";
+    case 22: return "RSM_CLEAR_CARD_BUFFER";
+    default: return "RSM_SET_PULSE " + axes + " " + distance;
+  }
+}
+
+TEST(RsM8194hMemory, RandomCoursesAreTheSameSteppedOrCrossed) {
+  const std::string program =
+      "MP 1\nRSM_MACRO_FIXED_MOVE X 500\nRSM_MACRO_TIMER 40\nRSM_MACRO_STOP_WAIT XY\nEND\n"
+      "ISR 1\nRSM_MACRO_FIXED_MOVE U 77\nEND\n";
+  for (std::uint32_t first = 1; first <= 40; ++first) {
+    std::uint32_t seed = first;
+    std::string course;
+    OneRsm stepped({.program = program});
+    OneRsm crossed({.program = program});
+    for (OneRsm* rsm : {&stepped, &crossed}) {
+      rsm->send({"RSM_SET_SV XYZU 1000", "RSM_SET_A XYZU 90000", "RSM_AXIS_ASSIGN X Y 0", "RSM_SET_VV 8000",
+                 "RSM_ENABLE_INT", "RSM_SYNC_ACTION Z U 1 3 1 0 0 1 0 0 0 1"});
+    }
+    for (int i = 0; i < 40; ++i) {
+      const std::string command = random_command(seed);
+      course += command + "\n";
+      ASSERT_EQ(stepped.exception(command), crossed.exception(command)) << course;
+      const Tick ticks = static_cast<Tick>(seed >> 16) % 400 + 1;
+      for (Tick tick = 0; tick < ticks; ++tick) stepped.run(1);
+      crossed.run(ticks);
+      ASSERT_EQ(
+          stepped.device().state_difference(stepped.device().save_state(), crossed.device().save_state()), "")
+          << course << first;
+    }
+  }
+}
+
 }  // namespace rs_m8194h_memory_test
 }  // namespace understudy::emulator::models::rs_m8194h
