@@ -80,7 +80,7 @@ inline constexpr ChoiceRow kChoices[] = {
      "the marks stand in the column of real-time commands as well"},
     {"fifo_block_freed", "4.10", "when a command leaves its blocks", "when_it_begins", kProposal,
      "a STOP_WAIT that has begun waits outside"},
-    {"fifo_during_download", "4.16.1", "the FIFO while a macro is downloaded", "goes_on|held", kProposal,
+    {"fifo_during_download", "4.16.1", "the FIFO while a macro is downloaded", "goes_on", kProposal,
      "nothing says that it stops"},
     {"stops_bypass_fifo", "7.5.3", "whether stops wait in the FIFO", "at_once", kProposal,
      "behind a drive that waits they would come too late"},
