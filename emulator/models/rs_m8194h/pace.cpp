@@ -15,6 +15,7 @@ void RsM8194h::run_fifo(int& steps) {
   for (;;) {
     // While a macro lives, or a trigger has paused everything, nothing begins.
     if (state_.execution.is_alive() || state_.paused) return;
+    if (state_.rsm != lang::State::ready && chose(option("fifo_during_download", "held"))) return;
     if (fifo.stop_wait != 0) {
       if ((driving() & fifo.stop_wait) != 0) return;
       fifo.stop_wait = 0;
