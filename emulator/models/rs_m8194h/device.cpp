@@ -133,8 +133,11 @@ void RsM8194h::reset_card() {
   const auto clear = [&](std::size_t first, std::size_t count) {
     std::fill_n(state_.image.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
   };
-  clear(kFirstBvarSlot, kBvars);
-  clear(kFirstVarSlot, kVars);
+  if (chose(option("reset_card_variables", "cleared"))) {
+    clear(kFirstBvarSlot, kBvars);
+    clear(kFirstVarSlot, kVars);
+  }
+  if (chose(option("reset_card_do", "off"))) state_.outputs.fill(0);
 }
 
 void RsM8194h::load_initial() {

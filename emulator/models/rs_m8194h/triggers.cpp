@@ -13,7 +13,7 @@ bool is_on(const std::array<std::uint16_t, kFrnetGroups>& words, int channel) {
   return (words[static_cast<std::size_t>(channel / kFrnetChannels)] >> (channel % kFrnetChannels) & 1) != 0;
 }
 
-/// `at_start`: the levels are there already, and nothing has changed.
+/// `at_start`: levels that are there already count, though nothing has changed.
 bool fires(lang::TriggerCondition condition, bool was, bool is, bool at_start) {
   switch (condition) {
     case lang::TriggerCondition::none: return false;
@@ -42,11 +42,12 @@ void RsM8194h::enable_triggers(bool on) {
 
 void RsM8194h::heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
   if (state_.image[kEventSlot] == 0) return;
+  const bool levels_fire = at_start && chose(option("trigger_level_at_start", "fires_once"));
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
     const lang::Trigger trigger = triggers()[static_cast<std::size_t>(channel)];
     const bool was = is_on(before, channel);
     const bool is = is_on(state_.inputs, channel);
-    if (fires(trigger.condition, was, is, at_start)) {
+    if (fires(trigger.condition, was, is, levels_fire)) {
       fire(channel, trigger);
       continue;
     }

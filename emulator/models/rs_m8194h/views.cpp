@@ -68,7 +68,9 @@ Value absolute_position(const RsM8194h& it, Cell cell) {
   return absolute_count(unit_of(it, cell), motor_of(it, cell));
 }
 Value current_velocity(const RsM8194h& it, Cell cell) {
-  return static_cast<Value>(std::abs(it.speed_pps(cell.axis)) + 0.5);
+  const double speed_pps = it.speed_pps(cell.axis);
+  const bool is_signed = it.chose(option("cv_sign", "of_the_direction"));
+  return std::llround(is_signed ? speed_pps : std::abs(speed_pps));
 }
 Value current_acceleration(const RsM8194h& it, Cell cell) {
   const motion::Coordinated& together = it.state().paths.together;
@@ -138,8 +140,9 @@ Value module_state(const RsM8194h& it, Cell) {
   constexpr Value kDownloading = 3;
   constexpr Value kRunsMp = 5;
   constexpr Value kRunsIsr = 7;
-  if (it.state().rsm != lang::State::ready) return kDownloading;
-  return it.isr_runs() ? kRunsIsr : it.mp_runs() ? kRunsMp : 0;
+  const Value first = it.chose(option("module_state_numbers", "of_12_1_12")) ? 3 : 0;
+  if (it.state().rsm != lang::State::ready) return first + kDownloading;
+  return first + (it.isr_runs() ? kRunsIsr : it.mp_runs() ? kRunsMp : 0);
 }
 Value illegal_reason(const RsM8194h& it, Cell) { return it.state().illegal_reason; }
 Value download_field(const RsM8194h& it, Cell cell) {
