@@ -15,8 +15,9 @@ namespace {
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
 constexpr std::array<std::string_view, 6> kGaps{
-    "Comparators show whether they are met, but only soft limits (comparators 1 and 2, method 6) stop an "
-    "axis.",
+    "Comparators stop an axis by COUNTER1 (soft limits, and methods 1, 4 and 5 of at most four of them); by "
+    "other sources "
+    "and methods 2 and 3 they only show whether they are met.",
     "Backlash at every start (D9x57 = 2) is none; in a LIN or an arc it comes out at once.",
     "A soft limit that stops at once on one side and by a ramp on the other has the negative side's way.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
