@@ -106,7 +106,6 @@ Grant Super40nc::ask(int number, Request request) {
 
 motion::AxisSettings Super40nc::motor_settings(int number) const {
   const Settings its = registers();
-  const AxisState& state = axis(number);
   const auto reaction = [&](Kept kept) {
     return its.is_on(kept, number) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
   };
@@ -115,6 +114,7 @@ motion::AxisSettings Super40nc::motor_settings(int number) const {
   made.at_limit_plus = made.at_limit_minus = reaction(kept_x(1));
   made.at_alarm = reaction(kept_x(3));
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
+  const std::int64_t counter_lead = machine_pulses(number) - chip(number).travel_pulses;
   constexpr Value kSoftLimit = 6;
   constexpr Value kRamp = 2;
   struct Side {
@@ -129,7 +129,7 @@ motion::AxisSettings Super40nc::motor_settings(int number) const {
     const bool is_limit = its.of(side.method, number) == kSoftLimit && its.of(side.source, number) == 0 &&
                           (action == 1 || action == kRamp);
     if (!is_limit) continue;
-    made.*side.limit = its.raw(side.value, number) - state.command.offset;
+    made.*side.limit = its.raw(side.value, number) - counter_lead;
     made.at_soft_limit = action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
   }
   return made;

@@ -350,6 +350,8 @@ class Super40nc final : public Device,
   bool is_quiet(int axis) const;
 
   // --- signals.cpp: what they meet
+  void set_comparators(int axis);
+  void set_comparator(int axis, std::size_t place, motion::Comparator wanted);
   void look_at_inputs();
   void look_round(int axis);
 

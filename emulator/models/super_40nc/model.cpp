@@ -15,8 +15,9 @@ namespace {
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
 constexpr std::array<std::string_view, 6> kGaps{
-    "Comparators show whether they are met, but only soft limits (comparators 1 and 2, method 6) stop an "
-    "axis.",
+    "Comparators stop an axis by COUNTER1 (soft limits, and methods 1, 4 and 5 of at most four of them); by "
+    "other sources "
+    "and methods 2 and 3 they only show whether they are met.",
     "Backlash at every start (D9x57 = 2) is none; in a LIN or an arc it comes out at once.",
     "A soft limit that stops at once on one side and by a ramp on the other has the negative side's way.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
@@ -52,6 +53,34 @@ constexpr SectionRow kSections[] = {
     {"D8x 特殊暫存器的功用(XYZU 軸用)", "special registers D8x, of the axes"},
     {"D9 參數暫存器的功用(一般用)", "parameters D9, general"},
     {"D9x 參數暫存器的功用(XYZU 軸用)", "parameters D9x, of the axes"},
+    {"ABSC , INCC 指令", "instructions ABSC, INCC"},
+    {"ADD , SUB , MUL , DIV 指令", "instructions ADD, SUB, MUL, DIV"},
+    {"CAL , RET 指令", "instructions CAL, RET"},
+    {"CHK 指令", "instruction CHK"},
+    {"Data 指令一覽表", "list of data instructions"},
+    {"END 指令", "instruction END"},
+    {"F 指令", "instruction F"},
+    {"FMV 指令", "instruction FMV"},
+    {"I/O接線圖", "wiring of inputs and outputs"},
+    {"LD , LDI , OUT , OUTtc 指令", "instructions LD, LDI, OUT, OUTtc"},
+    {"Logic 指令一覽表", "list of logic instructions"},
+    {"MAN(手動)頁操作說明", "the manual page"},
+    {"Motion指令一覽表", "list of motion instructions"},
+    {"PSET 指令", "instruction PSET"},
+    {"STP 指令", "instruction STP"},
+    {"STR 指令", "instruction STR"},
+    {"Sequence指令一覽表", "list of sequence instructions"},
+    {"VDRV 指令", "instruction VDRV"},
+    {"主畫面操作說明", "the main page"},
+    {"人機系統參數設定", "the panel's settings"},
+    {"參數使用說明", "use of parameters"},
+    {"命令範例", "examples of commands"},
+    {"基本參數說明", "base parameters"},
+    {"寫入0x接點的傳輸協定", "frames that write contacts"},
+    {"指令一覽表", "list of instructions"},
+    {"讀取0x接點的傳輸協定", "frames that read contacts"},
+    {"讀取4x暫存器的傳輸協定", "frames that read registers"},
+    {"軟體架構", "structure of the software"},
 };
 
 }  // namespace

@@ -61,6 +61,47 @@ std::int64_t Super40nc::place_pulses(int number) const {
   return motor.inverted ? -motor.travel_pulses : motor.travel_pulses;
 }
 
+/// Comparators that stop the axis by its commanded pulses, to the pulse: = (1), set > count (4), set < count
+/// (5). Soft limits (6) are the axis' own.
+void Super40nc::set_comparators(int number) {
+  struct Row {
+    Kept source, method, action, value;
+  };
+  static constexpr Row kRows[] = {{kept_x(31), kept_x(32), kept_x(33), kept_d(8144)},
+                                  {kept_x(35), kept_x(36), kept_x(37), kept_d(8145)},
+                                  {kept_x(39), kept_x(40), kept_x(41), kept_d(8146)},
+                                  {kept_x(43), kept_x(44), kept_x(45), kept_d(8147)},
+                                  {kept_x(46), kept_x(47), kept_x(48), kept_d(8148)}};
+  using Relation = motion::Comparator::Relation;
+  const Settings its = registers();
+  motion::Axis& motor = chip(number);
+  std::size_t next = 0;
+  for (const Row& row : kRows) {
+    const Value method = its.of(row.method, number);
+    const Value action = its.of(row.action, number);
+    const Relation relation = method == 1   ? Relation::equal
+                              : method == 4 ? Relation::below
+                              : method == 5 ? Relation::at_least
+                                            : Relation::off;
+    const bool acts = (action == 1 || action == 2) && its.of(row.source, number) == 0;
+    if (!acts || relation == Relation::off || next == motor.comparators.size()) continue;
+    set_comparator(number, next++,
+                   {.relation = relation,
+                    .reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down,
+                    .counter = axis(number).command,
+                    .value = its.raw(row.value, number) + (method == 5 ? 1 : 0)});
+  }
+  while (next < motor.comparators.size()) set_comparator(number, next++, {});
+}
+
+/// The same again changes nothing.
+void Super40nc::set_comparator(int number, std::size_t place, motion::Comparator wanted) {
+  const motion::Comparator& present = chip(number).comparators[place];
+  wanted.was_true = present.was_true;
+  if (wanted.relation == motion::Comparator::Relation::off && present.relation == wanted.relation) return;
+  if (wanted != present) chip(number).set_comparator(place, wanted);
+}
+
 void Super40nc::heed_axis(int number, int parameter) {
   const Settings its = registers();
   const auto limit_pulses = [&](Kept kept) {
@@ -84,6 +125,7 @@ void Super40nc::heed_axis(int number, int parameter) {
   }
   const motion::AxisSettings wanted = motor_settings(number);
   if (wanted != chip(number).settings) chip(number).set(wanted);
+  set_comparators(number);
   look_round(number);
 }
 

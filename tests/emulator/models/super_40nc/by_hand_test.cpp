@@ -153,6 +153,39 @@ TEST(Super40ncLimits, SoftLimitStopsAPulseBeyond) {
   }
 }
 
+TEST(Super40ncLimits, ComparatorsStopAtTheirPulse) {
+  struct Case {
+    int method;
+    int action;
+    Value value;
+    Value end;
+  };
+  for (const auto& [method, action, value, end] :
+       {Case{1, 1, 500, 500}, Case{5, 1, 500, 501}, Case{1, 0, 500, 0}, Case{1, 3, 500, 0},
+        Case{0, 1, 500, 0}}) {
+    OneSuper40nc one;
+    one.set("D9140", method);
+    one.set("D9141", action);
+    one.set("D8146", value);
+    one.set("M8103", 1);
+    one.run(1000);
+    EXPECT_EQ(one.on("M8120"), end == 0);
+    EXPECT_EQ(one.get("D8094"), end == 0 ? 0 : 23);
+    if (end != 0) {
+      EXPECT_EQ(one.get("D8140"), end);
+      EXPECT_TRUE(one.on("M8130") && one.on("M8124"));
+    }
+    one.press("M8102");
+    one.press("M8107");  // COUNTER1 is 0 again
+    one.set("M8103", 0);
+    one.run(1);
+    one.set("M8103", 1);
+    one.run(1000);
+    EXPECT_EQ(one.on("M8120"), end == 0);
+    EXPECT_EQ(one.get("D8140") == end, end != 0);
+  }
+}
+
 TEST(Super40ncLimits, SwitchesStopAtOnceOrByARamp) {
   for (const int ramp : {0, 1}) {
     Given given;

@@ -1,0 +1,211 @@
+// SUPER-40NC's parameters at work: direction, mask, backlash, counters and their sources, ramps and sections,
+// units.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "emulator/models/super_40nc/model.h"
+#include "tests/emulator/models/super_40nc/one_super40nc.h"
+
+namespace understudy::emulator::models::super_40nc {
+namespace parameters_test {
+
+Given with_encoder() {
+  world::PlantSetup plant;
+  plant.encoder_counts_per_revolution = 1000;  // a count for 4 pulses
+  plant.pulses_per_revolution = 4000;
+  return {.plant = {{0, plant}}};
+}
+
+/// DRV of the PLC, from rest to rest.
+void drive(OneSuper40nc& one, Value target) {
+  one.set("D100", target);
+  one.press("M0");
+  one.run_while("M8120");
+  one.run(2);
+}
+constexpr const char* kDrive = "AREA PLC\nLD M0\nRPM K500\nDRV D100\nEND\n";
+
+TEST(Super40ncParameters, DirectionTurnsTheMotorOnly) {
+  for (const int mode : {1, 3, 5, 6, 7}) {
+    Given given = with_encoder();
+    given.program = kDrive;
+    OneSuper40nc one(given);
+    one.set("D9100", mode);
+    drive(one, 4000);
+    const bool turned = mode == 3 || mode == 6;
+    EXPECT_EQ(one.get("D8117"), 4000);
+    EXPECT_EQ(one.get("D8141"), turned ? -1000 : 1000) << mode;
+  }
+  Given given = with_encoder();
+  given.program = kDrive;
+  OneSuper40nc one(given);
+  EXPECT_EQ(one.ask(0, "00 06 23 F1 00 01"),
+            "00 06 23 F1 00 01");  // the manual's wrong address: the high half
+  drive(one, 4000);
+  EXPECT_EQ(one.get("D8141"), 1000);
+}
+
+TEST(Super40ncParameters, AMaskedAxisCountsAndStands) {
+  Given given = with_encoder();
+  given.program = kDrive;
+  OneSuper40nc one(given);
+  one.set("D9117", 1);
+  drive(one, 4000);
+  EXPECT_EQ(one.get("D8140"), 4000);
+  EXPECT_EQ(one.get("D8141"), 0);
+}
+
+TEST(Super40ncParameters, CountersHaveTheirSources) {
+  struct Case {
+    std::vector<std::pair<std::string, Value>> set;
+    std::array<Value, 3> counters;  // 2 to 4, behind 4000 pulses
+  };
+  for (const auto& [set, counters] :
+       {Case{{}, {1000, 3000, 4000}}, Case{{{"D9113", 1}}, {-1000, 5000, 4000}},
+        Case{{{"D9119", 1}}, {0, 4000, 4000}}, Case{{{"D9123", 1}, {"D9125", 1}}, {4000, 3000, 1000}},
+        Case{{{"D9125", 3}}, {1000, 3000, 0}}, Case{{{"D9130", 7}}, {0, 0, 0}},
+        Case{{{"D9130", 2}}, {1000, 0, 4000}}, Case{{{"D9126", 1}}, {1000, 3000, 4000}}}) {
+    Given given = with_encoder();
+    given.program = kDrive;
+    OneSuper40nc one(given);
+    for (const auto& [name, value] : set) one.set(name, value);
+    drive(one, 4000);
+    EXPECT_EQ(one.get("D8141"), counters[0]);
+    EXPECT_EQ(one.get("D8142"), counters[1]);
+    EXPECT_EQ(one.get("D8143"), counters[2]);
+  }
+}
+
+TEST(Super40ncParameters, BacklashComesFirstAtAReversal) {
+  for (const int kind : {0, 1}) {
+    Given given = with_encoder();
+    given.program = kDrive;
+    OneSuper40nc one(given);
+    one.set("D9156", 400);
+    one.set("D9157", kind);
+    drive(one, 4000);
+    EXPECT_EQ(one.get("D8141"), 1000);  // the first motion: nobody knows
+    one.set("D100", 0);
+    one.set("M0", 1);
+    one.run(20);
+    EXPECT_EQ(one.get("D8164") == 7, kind == 1);
+    one.run_while("M8120");
+    one.run(2);
+    one.set("M0", 0);
+    EXPECT_EQ(one.get("D8140"), 0);
+    EXPECT_EQ(one.get("D8141"), kind == 1 ? -100 : 0);  // the motor went further
+  }
+}
+
+TEST(Super40ncParameters, LengthsAreRoundedFromTheirAbsoluteTarget) {
+  OneSuper40nc one({.program = "AREA X\nINCC\nLAB K1\nDRV K10\nINC D0\nLD< D0 K30\nCJ K1\nEND\n"});
+  one.set("D9171", 1);
+  one.set("D9172", 36);  // 0.28 pulses each time
+  one.set("M8100", 1);
+  one.run(1);
+  one.run_while("M8100");
+  EXPECT_EQ(one.get("D8140"), 8);  // 300 / 36 = 8.33
+}
+
+TEST(Super40ncParameters, RampsHaveTheirTimesAndSections) {
+  const auto pps = [](double rpm) { return rpm * 4000 / 60; };
+  struct Case {
+    int up_ms;
+    int down_ms;
+    int section;
+  };
+  for (const auto& [up_ms, down_ms, section] :
+       {Case{500, 500, 1}, Case{1000, 500, 1}, Case{500, 1000, 1}, Case{500, 500, 20000}}) {
+    OneSuper40nc one({.program = kDrive});
+    one.set("D9166", up_ms);
+    one.set("D9167", down_ms);
+    one.set("D9168", section);
+    one.set("D9169", section);
+    one.set("D100", 40000);
+    one.set("M0", 1);
+    one.run(1);
+    const Tick took = 1 + one.run_while("M8120");
+    const double top = pps(500);
+    const double start = pps(1);
+    const double step = 300 / std::floor(300 * 65535 / top);
+    const auto ramp_s = [&](int ms) {
+      return (top - start + 2 * section * step) / (pps(5000) / (ms / 1000.0));
+    };
+    const double mean = (top + start) / 2;
+    const double ramps = mean * (ramp_s(up_ms) + ramp_s(down_ms));
+    const double expected = ramp_s(up_ms) + ramp_s(down_ms) + (40000 - ramps) / top;
+    EXPECT_NEAR(static_cast<double>(took), expected * 1000, 3) << up_ms << " " << down_ms << " " << section;
+    EXPECT_EQ(one.get("D8117"), 40000);
+  }
+}
+
+/// Beyond twice the acceleration it is begun too late, and cut off at the target.
+TEST(Super40ncParameters, ALongDecelerationIsCutOff) {
+  OneSuper40nc one({.program = kDrive});
+  one.set("D9167", 2000);
+  one.set("D100", 40000);
+  one.set("M0", 1);
+  one.run(1);
+  double last_pps = 0;
+  while (one.on("M8120")) {
+    last_pps = one.device().axes()->speed_pps(0);
+    one.run(1);
+  }
+  // Reckoned with 1000 ms, slowed down with 2000 ms: half of the speed's square is left.
+  EXPECT_NEAR(last_pps, 33333.0 / std::sqrt(2.0), 300);
+  EXPECT_EQ(one.get("D8117"), 40000);
+}
+
+TEST(Super40ncParameters, TheDefaultSpeedNeedsAPowerCycle) {
+  OneSuper40nc one({.program = "AREA X\nDRV K60000\nEND\n"});
+  const auto speed = [&] {
+    one.set("M8100", 1);
+    one.run(400);
+    const double found = one.device().axes()->speed_pps(0);
+    one.press("M8102");
+    return std::lround(found);
+  };
+  EXPECT_EQ(speed(), 6667);
+  one.set("D9178", 200);
+  EXPECT_EQ(speed(), 6667);
+  one.world().switch_power(0, false);
+  one.world().switch_power(0, true);
+  EXPECT_EQ(speed(), 13333);
+}
+
+TEST(Super40ncParameters, ThePanelsNumbersNameTheirRegisters) {
+  std::map<std::string, const NamedParameterRow*> rows;
+  for (const NamedParameterRow& row : model().named_parameters) rows[std::string(row.number)] = &row;
+  EXPECT_EQ(rows.size(), 20U + 4 * 44U);
+  EXPECT_EQ(rows["C22"]->name, "D9011");
+  EXPECT_EQ(rows["C25"]->name, "D9018");
+  EXPECT_EQ(rows["X14"]->name, "D9178");
+  EXPECT_EQ(rows["X14"]->factory, "100");
+  EXPECT_NE(rows["X14"]->meaning.find("500"), std::string_view::npos);
+  EXPECT_EQ(rows["U61"]->name, "D9465");
+  EXPECT_EQ(rows["C1"]->persistent, false);
+}
+
+/// What the chip's registers show of a start: 500 rpm, from 1 rpm, 666,667 pps a second.
+TEST(Super40ncParameters, AStartIsMirrored) {
+  OneSuper40nc one({.program = kDrive});
+  drive(one, -4000);
+  const double step = 300 / std::floor(300 * 65535 / (500 * 4000 / 60.0));
+  EXPECT_EQ(one.get("D8120"), 0x53);
+  EXPECT_EQ(one.get("D8121"), -4000);
+  EXPECT_EQ(one.get("D8122"), std::lround(4000 / 60.0 / step));
+  EXPECT_EQ(one.get("D8123"), std::lround(500 * 4000 / 60.0 / step));
+  EXPECT_EQ(one.get("D8124"), std::lround(step * 19660800 / (4 * 666666.667)) - 1);
+  EXPECT_EQ(one.get("D8126"), std::lround(300 / step) - 1);
+  EXPECT_EQ(one.get("D8128"), 65);
+  EXPECT_EQ(one.get("D8153"), one.get("D8123"));
+  EXPECT_EQ(one.get("D8158"), 65);
+  one.set("D8121", 7);
+  EXPECT_EQ(one.get("D8121"), 7);
+  drive(one, -4100);
+  EXPECT_EQ(one.get("D8121"), -100);
+}
+
+}  // namespace parameters_test
+}  // namespace understudy::emulator::models::super_40nc
