@@ -16,7 +16,7 @@
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/register_map.h"
-#include "pty/line_settings.h"
+#include "pty/line_settings.h"  // IWYU pragma: export: rows of models have them
 
 namespace understudy::emulator {
 

@@ -18,7 +18,6 @@
 #include "emulator/models/simple2_r3/language.h"
 #include "emulator/models/simple2_r3/parameters.h"
 #include "emulator/models/simple2_r3/registers.h"
-#include "pty/line_settings.h"
 
 namespace understudy::emulator::models::simple2_r3 {
 
