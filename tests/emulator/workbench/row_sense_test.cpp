@@ -23,7 +23,7 @@ constexpr std::string_view kTwo[] = {"X", "Y"};
 
 RegisterRow word(std::string_view name = "Word") { return reg(0, name, Type::u16, Access::read_write); }
 RegisterRow real() { return reg(0, "Real", Type::f32, Access::read_write); }
-RegisterRow command(int words = 5) { return window<take_command>(0, "Command{}", words); }
+RegisterRow command(int words = 5) { return emulator::window<take_command>(0, "Command{}", words); }
 
 struct Case {
   RegisterRow row;

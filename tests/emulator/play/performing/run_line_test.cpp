@@ -25,6 +25,11 @@ class WrittenDown final : public Stage {
     for (const std::uint16_t word : words) requests_.back() += " " + std::to_string(word);
     return stage_->write(line, station, table, first, words);
   }
+  HostReply write_message(std::size_t line, int station, std::uint16_t first,
+                          std::span<const std::uint16_t> words) override {
+    requests_.push_back("message of " + std::to_string(words.size()));
+    return stage_->write_message(line, station, first, words);
+  }
   std::vector<std::uint8_t> exchange(std::size_t line, std::span<const std::uint8_t> bytes,
                                      std::size_t wanted, SimTime within) override {
     requests_.push_back("exchange " + std::to_string(bytes.size()));
