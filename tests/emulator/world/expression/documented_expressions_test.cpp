@@ -4,7 +4,9 @@
 #include <fstream>
 
 #include "emulator/world/expression/tolerance.h"
+#include "emulator/world/probe/probes.h"
 #include "tests/emulator/world/expression/bench_of_names.h"
+#include "tests/emulator/world/two_devices.h"
 
 namespace understudy::emulator::world {
 namespace documented_expressions_test {
@@ -67,6 +69,21 @@ TEST(DocumentedExpressions, EveryLiteralAndNameOnThePageIsAccepted) {
     }
   }
   EXPECT_EQ(taken, 19U + 9U);
+}
+
+/// Of a Simple2-R3's axis with all the switches that it can have; the others are a larger controller's.
+TEST(DocumentedExpressions, EveryNameOfAWorldIsKnown) {
+  const World world = make_world();
+  const Probes probes(world);
+  std::size_t taken = 0;
+  for (const Row& row : table_under("| of a world | is |")) {
+    for (const std::string& code : code_in(row.written)) {
+      if (code.starts_with("mill.")) continue;
+      EXPECT_NO_THROW(probes.resolve(code)) << code;
+      ++taken;
+    }
+  }
+  EXPECT_EQ(taken, 23U);
 }
 
 TEST(DocumentedExpressions, EveryToleranceOnThePageIsAccepted) {
