@@ -178,11 +178,13 @@ void RsM8194h::watch_external(std::size_t axis) {
 
 bool RsM8194h::scans_frnet_at(Tick tick) const {
   const Tick since = tick - state_.powered_at;
-  return since * kTickUnits / kScanUnits > (since - 1) * kTickUnits / kScanUnits;
+  if (since <= 0) return false;
+  const Tick in_round = (since - 1) % kScanUnits + 1;  // as many ticks as a scan has units: whole scans
+  return in_round * kTickUnits / kScanUnits > (in_round - 1) * kTickUnits / kScanUnits;
 }
 
 Tick RsM8194h::next_scan(Tick after) const {
-  for (Tick tick = after + 1;; ++tick) {
+  for (Tick tick = std::max(after, state_.powered_at) + 1;; ++tick) {
     if (scans_frnet_at(tick)) return tick;
   }
 }
