@@ -196,10 +196,10 @@ TEST_F(ServedOnTwoPorts, IsCapturedByLine) {
   const Finished decoded = run({"tshark", "-r", capture(), "-o", "mbrtu.tcp.port:19200", "-T", "fields", "-E",
                                 "separator=|", "-e", "frame.interface_name", "-e", "_ws.col.Info"});
   EXPECT_EQ(decoded.output,
-            "PC|   Query: Unit:   1, Func:   6: Write Single Register\n"
-            "PC|Response: Unit:   1, Func:   6: Write Single Register\n"
-            "HMI|   Query: Unit:   1, Func:   3: Read Holding Registers\n"
-            "HMI|Response: Unit:   1, Func:   3: Read Holding Registers\n")
+            "PC (mill PC)|   Query: Unit:   1, Func:   6: Write Single Register\n"
+            "PC (mill PC)|Response: Unit:   1, Func:   6: Write Single Register\n"
+            "HMI (mill HMI)|   Query: Unit:   1, Func:   3: Read Holding Registers\n"
+            "HMI (mill HMI)|Response: Unit:   1, Func:   3: Read Holding Registers\n")
       << decoded.errors;
 }
 
