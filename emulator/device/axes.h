@@ -27,6 +27,8 @@ class Axes {
   virtual std::size_t pulse_format_number() const { return 0; }
   /// The duty of an axis in PWM mode, 0 in all other modes; nothing if it has no such mode.
   virtual std::optional<int> duty_percent(int /*axis*/) const { return std::nullopt; }
+  /// The machine has an encoder on the axis: told when the world is made, before anything moves.
+  virtual void connect_encoder(int /*axis*/, std::int64_t /*counts*/) {}
   /// The count of the encoder on the axis, absolute, as the plant sees it.
   virtual void set_encoder(int axis, std::int64_t counts) = 0;
 

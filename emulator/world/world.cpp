@@ -68,7 +68,9 @@ World::World(const Bench& bench, const WorldOptions& options,
   }
   keep_together(devices_);
   for (const MachineSetup& machine : bench.machines) {
-    plants_[machine.device][static_cast<std::size_t>(machine.axis)] = PlantAxis(machine.plant);
+    PlantAxis& plant = plants_[machine.device][static_cast<std::size_t>(machine.axis)];
+    plant = PlantAxis(machine.plant);
+    if (plant.has_encoder()) axes_[machine.device]->connect_encoder(machine.axis, plant.encoder_counts());
   }
   for (const LineSetup& setup : bench.lines) {
     const StationSetup& first = setup.stations.front();

@@ -266,6 +266,11 @@ double RsM8194h::speed_pps(int axis) const {
   return motor.moving() ? motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction) : 0;
 }
 
+void RsM8194h::connect_encoder(int axis, std::int64_t counts) {
+  state_.units[static_cast<std::size_t>(axis)].encoder_raw = counts;  // EP counts from here
+  set_encoder(axis, counts);
+}
+
 void RsM8194h::set_encoder(int axis, std::int64_t counts) {
   const auto a = static_cast<std::size_t>(axis);
   const bool is_first = !state_.units[a].has_encoder;

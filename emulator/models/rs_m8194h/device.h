@@ -81,6 +81,7 @@ class RsM8194h final : public Device,
   std::int64_t output_pulses(int terminal) const override;
   std::int64_t pulses_this_tick(int axis) const override;
   double speed_pps(int axis) const override;
+  void connect_encoder(int axis, std::int64_t counts) override;
   void set_encoder(int axis, std::int64_t counts) override;
   bool meets_edges() const override { return true; }
   std::int64_t place_pulses(int axis) const override;
