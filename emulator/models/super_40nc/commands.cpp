@@ -41,7 +41,9 @@ constexpr auto kCommandContacts = [] {
 bool Super40nc::is_on(int number) const { return state_.contacts.on(number, contact(number)); }
 bool Super40nc::rises(int number) const { return state_.contacts.rose(number, contact(number)); }
 
-bool Super40nc::is_stopped_by_emergency() const { return is_on(8002) || state_.emergency; }
+bool Super40nc::is_stopped_by_emergency() const {
+  return is_on(8002) || (state_.emergency && !chose(option("cemg_input", "only_shown")));
+}
 
 bool Super40nc::is_held_in_reset(int number) const {
   return is_stopped_by_emergency() || is_on(of_axis(number, kReset)) || is_pressed(KeyDoes::stop, number);

@@ -1,10 +1,13 @@
 // A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
+#include <algorithm>
+#include <span>
 #include <string>
 
 #include "base/text/one_line.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/language.h"
+#include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "interpreter/super_40nc/listing.h"
 
@@ -126,10 +129,13 @@ void Super40nc::plc_to_run() {
 void Super40nc::plc_to_stop() {
   ProgramMachine machine(*this);
   language::stop(state_.plc, machine);
+  if (!chose(option("plc_stop_outputs", "off"))) return;
+  const std::span outputs = std::span(state_.image).subspan(kept_y(0).slot, kOutputCount);
+  std::fill(outputs.begin(), outputs.end(), 0U);
 }
 
 int Super40nc::line_step(Mover mover) const {
-  if (mover >= Mover::plc) return 0;
+  if (mover >= Mover::plc) return mover == Mover::plc ? plc_step_ : 0;
   const auto area = static_cast<language::Area>(mover);
   const language::StepState& program = state_.steps.programs[language::index_of(area)];
   return program.phase == language::Phase::idle ? 0 : language::base_of(area, options_) + program.step;
