@@ -140,8 +140,10 @@ void Super40nc::prepare(int number) {
   const Settings its = registers();
   AxisState& state = axis(number);
   motion::AxisSettings settings = motor_settings(number);
-  const bool has_backlash = its.of(kept_x(57), number) == 1;
-  settings.backlash_pulses = has_backlash ? its.of(kept_x(56), number) : 0;
+  constexpr Value kSlip = 2;
+  const Value correction = its.of(kept_x(57), number);
+  settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), number) : 0;
+  settings.slips = correction == kSlip;
   const auto creep_rpm = static_cast<double>(its.of(kept_x(80), number));
   settings.backlash_speed_pps = std::min(its.pps(number, creep_rpm), its.top_pps(number));
   chip(number).set(settings);

@@ -49,6 +49,9 @@ void Super40nc::start_wheel(int number, WheelSource source) {
   if (given == Grant::same_or_no && state.wheel != source) report(Code::axis_taken);
   if (given != Grant::starts) return;
   prepare(number);
+  motion::AxisSettings without_backlash = chip(number).settings;
+  without_backlash.backlash_pulses = 0;
+  chip(number).set(without_backlash);
   begun(number, chip(number).follow({}), Holder::wheel);
   if (state.holder != Holder::wheel) return;
   state.wheel = source;
