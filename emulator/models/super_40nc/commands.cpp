@@ -119,7 +119,8 @@ void Super40nc::obey_wheel() {
 void Super40nc::obey_contacts() {
   obey_stops();
   if (rises(8501) && state_.run_switch && !state_.plc.runs) plc_to_run();
-  if (rises(8008)) reset_parameters();
+  const bool needs_rest = chose(option("m8008_running", "void"));
+  if (rises(8008) && !(needs_rest && programs_are_busy())) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {
     if (rises(of_axis(number, kZeroSet))) set_zero(number);
   }

@@ -184,6 +184,7 @@ void Super40nc::step_motion(Tick tick) {
 
 void Super40nc::show_finished(std::size_t signal) {
   const FinishSignal& its = kSignals[signal];
+  if (now() < state_.signal_until[signal] && chose(option("fsh_restart", "time_goes_on"))) return;
   state_.signal_until[signal] = now() + 1 + registers().of(its.time, its.axis);
 }
 

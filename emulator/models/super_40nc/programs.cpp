@@ -101,9 +101,13 @@ void Super40nc::tell(language::Event event, language::Area area) {
 }
 
 bool Super40nc::is_pausing() const {
-  const language::StepState& c = state_.steps.programs[0];
-  const bool rests = c.phase == language::Phase::paused || c.phase == language::Phase::held;
-  return rests && c.is_paused_by_key;
+  const auto pauses = [](const language::StepState& program) {
+    const bool rests = program.phase == language::Phase::paused || program.phase == language::Phase::held;
+    return rests && program.is_paused_by_key;
+  };
+  const auto& all = state_.steps.programs;
+  if (!chose(option("m8022_scope", "every_program"))) return pauses(all[0]);
+  return std::any_of(all.begin(), all.end(), pauses);
 }
 
 void Super40nc::set_pointer(int program, std::int32_t step) {
@@ -118,7 +122,7 @@ void Super40nc::plc_to_run() {
   language::run(state_.plc, ladder_, machine);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   for (const language::AreaRow& row : language::kAreas) {
-    if (row.area == language::Area::plc) continue;
+    if (row.area == language::Area::plc || chose(option("run_resets_steps", "stay"))) continue;
     steps.take(language::Event::plc_run, row.area);
     steps.set_step(row.area, 0);
   }
@@ -152,6 +156,10 @@ void Super40nc::program_broken(Mover mover, int but_for, bool is_awaited) {
 
 /// Saves the C program that is in memory, and takes the one of another file.
 void Super40nc::change_file(std::int32_t number) {
+  if (chose(option("file_number_range", "nearest_one"))) {
+    number = std::clamp(number, 0, std::max(registers().raw(kept_d(9043)) - 1, 0));
+    put(kept_d(9001), number);
+  }
   if (number < 0 || number >= registers().raw(kept_d(9043))) {
     put(kept_d(9001), state_.file);
     report(Code::no_such_file);
