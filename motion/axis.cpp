@@ -135,6 +135,7 @@ Cause Axis::begin(Task what, int way, std::int64_t distance_pulses, const SpeedL
 
 /// How many pulses of play are in the way of a motion in `way`. Before the first motion nobody knows: none.
 std::int64_t Axis::play_before(int way) const {
+  if (settings.slips) return settings.backlash_pulses;
   if (last_direction == 0) return 0;
   const std::int64_t play = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
   return way > 0 ? settings.backlash_pulses - play : play;
@@ -415,8 +416,12 @@ void Axis::switch_servo(bool on) {
 void Axis::set(const AxisSettings& changed) {
   demand_not_negative(static_cast<double>(changed.backlash_pulses), "backlash", "pulses");
   if (changed.backlash_pulses > 0) demand_positive(changed.backlash_speed_pps, "backlash", "speed");
+  // Other backlash is as far taken up in the last direction as the one before was.
+  const bool is_positive = last_direction > 0;
+  const std::int64_t before = is_positive ? settings.backlash_pulses - play_pulses : play_pulses;
   settings = changed;
-  play_pulses = std::clamp<std::int64_t>(play_pulses, 0, settings.backlash_pulses);
+  const std::int64_t left = std::clamp<std::int64_t>(before, 0, settings.backlash_pulses);
+  play_pulses = is_positive ? settings.backlash_pulses - left : left;
   attentive = true;
 }
 

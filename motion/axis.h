@@ -104,6 +104,8 @@ struct AxisSettings {
   // Extra pulses at the beginning of each reversal; they are output, but are not travel.
   std::int64_t backlash_pulses = 0;
   double backlash_speed_pps = 0;  // > 0 where there is backlash
+  // They make up for slip: they come at every start of the drive, whatever its way.
+  bool slips = false;
 
   bool operator==(const AxisSettings&) const = default;
 };

@@ -143,8 +143,10 @@ void Axis::go_by(std::int64_t wanted, Instant at, const Surroundings& here) {
     return;
   }
   drive.direction = way;
-  backlash_sent += play_before(way) * way;
-  play_pulses = way > 0 ? settings.backlash_pulses : 0;
+  if (!settings.slips) {
+    backlash_sent += play_before(way) * way;
+    play_pulses = way > 0 ? settings.backlash_pulses : 0;
+  }
   last_direction = static_cast<std::int8_t>(way);
   const bool too_fast = wanted * way > kMostInATick;
   while (wanted != 0 && task == carried_by && against() == Cause::none) {

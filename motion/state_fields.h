@@ -232,7 +232,8 @@ struct StateOf<motion::AxisSettings> {
                  field("soft_limit_plus", &motion::AxisSettings::soft_limit_plus),
                  field("soft_limit_minus", &motion::AxisSettings::soft_limit_minus),
                  field("backlash_pulses", &motion::AxisSettings::backlash_pulses),
-                 field("backlash_speed_pps", &motion::AxisSettings::backlash_speed_pps)};
+                 field("backlash_speed_pps", &motion::AxisSettings::backlash_speed_pps),
+                 field("slips", &motion::AxisSettings::slips)};
   static void check(const motion::AxisSettings& value) { motion::check_restored(value); }
 };
 

@@ -89,9 +89,10 @@ class Machine {
   virtual Areas stop(Area area) = 0;
 
   // --- the PLC --------------------------------------------------------------------------------------
-  /// Starts each axis that is free; the others are void. `rpm` is the PLC's own.
-  virtual void plc_drive(const Drive& drive) = 0;
-  virtual void plc_home(const HomeSearch& search) = 0;
+  /// Starts each axis that is free; the others are void. `rpm` is the PLC's own, `step` the line's as D8095
+  /// counts.
+  virtual void plc_drive(const Drive& drive, int step) = 0;
+  virtual void plc_home(const HomeSearch& search, int step) = 0;
   /// At the end of each scan in which some axis is, or was in the scan before, to be jogged. Returns whether
   /// anything may change by it.
   virtual bool plc_jog(const Jogs& jogs) = 0;

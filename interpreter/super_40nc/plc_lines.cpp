@@ -98,9 +98,9 @@ bool PlcLines::begin_motion(const Instruction& line, int step) {
   values = movable(values, step);
   if (is_empty(values)) return true;
   if (line.op == Op::drv) {
-    access_.machine().plc_drive({values, plc_.targets, plc_.rpm});
+    access_.machine().plc_drive({values, plc_.targets, plc_.rpm}, step);
   } else {
-    access_.machine().plc_home({chosen_axes(values)});
+    access_.machine().plc_home({chosen_axes(values)}, step);
   }
   return true;
 }

@@ -94,8 +94,8 @@ StepPrograms::Slice StepPrograms::return_(Area area, const Instruction& line) {
 
 StepPrograms::Slice StepPrograms::end(Area area) {
   machine_.program_ended(area);
-  const bool is_continuous = area == Area::c && (machine_.special_contact(named::kContinuous) ||
-                                                 machine_.special_contact(named::kContinuousKey));
+  const bool by_key = options_.continuous_by_key && machine_.special_contact(named::kContinuousKey);
+  const bool is_continuous = area == Area::c && (machine_.special_contact(named::kContinuous) || by_key);
   take(is_continuous ? Event::end_continuous : Event::end, area);
   return Slice::is_over;
 }

@@ -35,6 +35,45 @@ TEST(AxisBacklash, IsNotTakenUpBeforeADirectionIsKnown) {
   }
 }
 
+TEST(AxisBacklash, OneThatComesLaterIsTakenUpInTheLastDirection) {
+  for (const int way : {+1, -1}) {
+    AxisCourse course;
+    course.axis.move(way * 100, constant(10'000), 0);
+    course.until_rest();
+    course.axis.set(kBacklash);
+    course.axis.move(way * 100, constant(10'000), course.now);
+    course.until_rest();
+    EXPECT_EQ(course.axis.backlash_sent, 0);
+    course.axis.move(-way * 100, constant(10'000), course.now);
+    course.until_rest();
+    EXPECT_EQ(course.axis.backlash_sent, -way * kExtra);
+    AxisSettings none = kBacklash;
+    none.backlash_pulses = 0;
+    course.axis.set(none);
+    course.axis.set(kBacklash);
+    course.axis.move(-way * 100, constant(10'000), course.now);
+    course.until_rest();
+    EXPECT_EQ(course.axis.backlash_sent, -way * kExtra);
+  }
+}
+
+TEST(AxisBacklash, SlipComesAtEveryStart) {
+  AxisCourse course;
+  AxisSettings slipping = kBacklash;
+  slipping.slips = true;
+  course.axis.set(slipping);
+  std::int64_t travel = 0;
+  std::int64_t extra = 0;
+  for (const int way : {+1, +1, -1, -1, +1}) {
+    course.axis.move(way * 100, constant(10'000), course.now);
+    course.until_rest();
+    travel += way * 100;
+    extra += way * kExtra;
+    EXPECT_EQ(course.travel(), travel);
+    EXPECT_EQ(course.axis.backlash_sent, extra);
+  }
+}
+
 TEST(AxisBacklash, IsOutputFirstAndIsNoTravel) {
   AxisCourse course = moved_up();
   course.output_pulses = 0;

@@ -100,7 +100,7 @@ void Super40nc::fail(int number, Code code) {
 
 Grant Super40nc::ask(int number, Request request) {
   const Grant given = grant(axis(number).holder, request);
-  if (given == Grant::refused) report(Code::axis_taken);
+  if (given == Grant::refused) report(Code::axis_taken, plc_step_);
   return given;
 }
 
@@ -140,8 +140,10 @@ void Super40nc::prepare(int number) {
   const Settings its = registers();
   AxisState& state = axis(number);
   motion::AxisSettings settings = motor_settings(number);
-  const bool has_backlash = its.of(kept_x(57), number) == 1;
-  settings.backlash_pulses = has_backlash ? its.of(kept_x(56), number) : 0;
+  constexpr Value kSlip = 2;
+  const Value correction = its.of(kept_x(57), number);
+  settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), number) : 0;
+  settings.slips = correction == kSlip;
   const auto creep_rpm = static_cast<double>(its.of(kept_x(80), number));
   settings.backlash_speed_pps = std::min(its.pps(number, creep_rpm), its.top_pps(number));
   chip(number).set(settings);
@@ -223,6 +225,7 @@ void Super40nc::start_home(int number, int order) {
     return;
   }
   prepare(number);
+  const bool limit_stops_at_once = chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), number);
   const motion::SpeedLaw fast = its.law(number, rpm(kept_x(79)));
   const motion::HomingProgram program =
       motion::super40nc_homing({.mode = mode,
@@ -231,7 +234,8 @@ void Super40nc::start_home(int number, int order) {
                                 .creep = its.law(number, rpm(kept_x(80))),
                                 .index_count = static_cast<std::int32_t>(its.of(kept_x(22), number) + 1),
                                 .leave_pulses = its.of(kept_x(93), number),
-                                .offset_pulses = pulses_of(its.scale(number), its.of(kept_x(83), number))});
+                                .offset_pulses = pulses_of(its.scale(number), its.of(kept_x(83), number)),
+                                .limit_stops_at_once = limit_stops_at_once});
   if (chip(number).home(program, before_motion()) != motion::Cause::none) {
     home_ended(number, false, Code::home_failed);
     let_go(number);
@@ -263,7 +267,7 @@ void Super40nc::start_zero(int number, int order) {
 
 void Super40nc::set_zero(int number) {
   AxisState& state = axis(number);
-  if (state.moves()) {
+  if (state.moves() && !chose(option("zero_set_moving", "carried_out"))) {
     report(Code::axis_taken);
     return;
   }

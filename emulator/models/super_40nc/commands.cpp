@@ -41,7 +41,9 @@ constexpr auto kCommandContacts = [] {
 bool Super40nc::is_on(int number) const { return state_.contacts.on(number, contact(number)); }
 bool Super40nc::rises(int number) const { return state_.contacts.rose(number, contact(number)); }
 
-bool Super40nc::is_stopped_by_emergency() const { return is_on(8002) || state_.emergency; }
+bool Super40nc::is_stopped_by_emergency() const {
+  return is_on(8002) || (state_.emergency && !chose(option("cemg_input", "only_shown")));
+}
 
 bool Super40nc::is_held_in_reset(int number) const {
   return is_stopped_by_emergency() || is_on(of_axis(number, kReset)) || is_pressed(KeyDoes::stop, number);
@@ -117,7 +119,8 @@ void Super40nc::obey_wheel() {
 void Super40nc::obey_contacts() {
   obey_stops();
   if (rises(8501) && state_.run_switch && !state_.plc.runs) plc_to_run();
-  if (rises(8008)) reset_parameters();
+  const bool needs_rest = chose(option("m8008_running", "void"));
+  if (rises(8008) && !(needs_rest && programs_are_busy())) reset_parameters();
   for (int number = 0; number < kAxisCount; ++number) {
     if (rises(of_axis(number, kZeroSet))) set_zero(number);
   }

@@ -67,13 +67,16 @@ language::Options Super40nc::chosen_options() const {
   set(option("cal_count", "endless"), made.no_passes, Options::NoPasses::mean_endless);
   set(option("empty_program", "is_an_error"), made.empty_program, Options::EmptyProgram::is_an_error);
   set(option("vdrv_zero_wait", "goes_on"), made.rotation_0_waits, false);
+  set(option("continuous", "m8007_alone"), made.continuous_by_key, false);
   return made;
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
   // D9000 is the number; 0 is one as well, and answers.
   if (address == static_cast<std::uint8_t>(registers().raw(kept_d(9000)))) return Addressing::obey_and_reply;
-  return address == 0 ? Addressing::obey_silently : Addressing::ignore;
+  if (address != 0) return Addressing::ignore;
+  const bool answers = chose(option("station_rule", "0_answered_as_well"));
+  return answers ? Addressing::obey_and_reply : Addressing::obey_silently;
 }
 
 void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) { ++state_.receive_errors[port]; }
@@ -102,6 +105,11 @@ void Super40nc::sample_inputs(Tick) {
   if (!take_inputs_changed()) return;
   const bool was_emergency = state_.emergency;
   look_at_inputs();
+  // What is ON before the first scan is no edge, also where a listing came before the inputs did.
+  if (state_.plc.runs && state_.plc.is_first_scan) {
+    ProgramMachine machine(*this);
+    language::run(state_.plc, ladder_, machine);
+  }
   if (was_emergency != state_.emergency) state_.touched = true;
 }
 
@@ -176,6 +184,7 @@ void Super40nc::step_motion(Tick tick) {
 
 void Super40nc::show_finished(std::size_t signal) {
   const FinishSignal& its = kSignals[signal];
+  if (now() < state_.signal_until[signal] && chose(option("fsh_restart", "time_goes_on"))) return;
   state_.signal_until[signal] = now() + 1 + registers().of(its.time, its.axis);
 }
 

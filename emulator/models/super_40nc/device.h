@@ -211,6 +211,7 @@ class Super40nc final : public Device,
   /// D9001, D9002: another path file or recipe.
   void change_file(std::int32_t number);
   void change_recipe(std::int32_t number);
+  int first_of_recipe() const;
   /// M8022.
   bool is_pausing() const;
   /// D8000, D8x00; programs in the order of their areas.
@@ -222,6 +223,8 @@ class Super40nc final : public Device,
   // --- for programs: program_machine.cpp -------------------------------------------------------------
   void report(Code code, int step = 0, int other_step = 0);
   void clear_error() { state_.error = {}; }
+  /// The line of the PLC that begins a motion, as D8095 counts; 0 between them.
+  void set_plc_step(int step) { plc_step_ = step; }
   /// The step of the line that a step program is at, as D8095 counts.
   int line_step(Mover mover) const;
   Grant ask(int axis, Request request);
@@ -360,6 +363,7 @@ class Super40nc final : public Device,
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
   interpreter::super_40nc::Options options_;
+  int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
 };
 

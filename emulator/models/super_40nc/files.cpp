@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 #include "interpreter/super_40nc/listing.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -23,7 +24,7 @@ std::string why_not_recipe_name(const std::string& name) {
 }
 
 struct RecipeLine {
-  std::size_t place = 0;
+  int number = 0;  // of the register
   std::int32_t value = 0;
 };
 
@@ -37,13 +38,11 @@ bool parse(std::string_view text, Number& number) {
 std::optional<RecipeLine> parse_line(std::string_view line) {
   const std::size_t space = line.find(' ');
   if (line.empty() || line[0] != 'D' || space == std::string_view::npos) return std::nullopt;
-  int number = 0;
   RecipeLine parsed;
-  if (!parse(line.substr(1, space - 1), number) || !parse(line.substr(space + 1), parsed.value) ||
-      number < kFirstOfRecipe || number > kLastOfRecipe) {
+  if (!parse(line.substr(1, space - 1), parsed.number) || !parse(line.substr(space + 1), parsed.value) ||
+      parsed.number < kFirstOfRecipe || parsed.number > kLastOfRecipe) {
     return std::nullopt;
   }
-  parsed.place = static_cast<std::size_t>(number - kFirstOfRecipe);
   return parsed;
 }
 
@@ -114,23 +113,31 @@ std::span<const BlockKind> block_kinds() { return kBlocks; }
 
 std::string recipe_name(std::int32_t number) { return std::to_string(100 + number).substr(1); }
 
-std::string recipe_text(std::span<const std::uint32_t> values) {
+std::string recipe_text(std::span<const std::uint32_t> values, int first) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] == 0) continue;
-    text += "D" + std::to_string(kFirstOfRecipe + static_cast<int>(i)) + " " +
+    text += "D" + std::to_string(first + static_cast<int>(i)) + " " +
             std::to_string(static_cast<std::int32_t>(values[i])) + "\n";
   }
   return text;
 }
 
-void read_recipe(std::string_view text, std::span<std::uint32_t> values) {
+void read_recipe(std::string_view text, std::span<std::uint32_t> values, int first) {
   std::fill(values.begin(), values.end(), 0U);
   for_each_line(text, [&](std::string_view line, int) {
-    if (const auto parsed = parse_line(line))
-      values[parsed->place] = static_cast<std::uint32_t>(parsed->value);
+    const auto parsed = parse_line(line);
+    if (parsed && parsed->number >= first) {
+      values[static_cast<std::size_t>(parsed->number - first)] = static_cast<std::uint32_t>(parsed->value);
+    }
     return true;
   });
+}
+
+/// To D999; three texts of the manual have three ranges.
+int Super40nc::first_of_recipe() const {
+  if (chose(option("recipe_range", "d800_to_d999"))) return 800;
+  return chose(option("recipe_range", "d900_to_d999")) ? 900 : kFirstOfRecipe;
 }
 
 void Super40nc::change_recipe(std::int32_t number) {
@@ -140,8 +147,10 @@ void Super40nc::change_recipe(std::int32_t number) {
     return;
   }
   if (number == state_.recipe) return;
-  const std::span values = std::span(state_.image).subspan(kept_d(kFirstOfRecipe).slot, kRecipeRegisters);
-  const std::string text = recipe_text(values);
+  const int first = first_of_recipe();
+  const auto count = static_cast<std::size_t>(kLastOfRecipe - first + 1);
+  const std::size_t slot = kept_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
+  const std::string text = recipe_text(std::span(state_.image).subspan(slot, count), first);
   if (text.empty()) {
     state_.blocks.erase(kRecipes, recipe_name(state_.recipe));
   } else {
@@ -149,9 +158,9 @@ void Super40nc::change_recipe(std::int32_t number) {
   }
   const SharedText* const stored = state_.blocks.find(kRecipes, recipe_name(number));
   std::array<std::uint32_t, kRecipeRegisters> fresh{};
-  if (stored != nullptr) read_recipe(stored->text(), fresh);
-  for (std::size_t i = 0; i < fresh.size(); ++i) {
-    put({.slot = kept_d(kFirstOfRecipe).slot + i}, static_cast<std::int32_t>(fresh[i]));
+  if (stored != nullptr) read_recipe(stored->text(), fresh, first);
+  for (std::size_t i = 0; i < count; ++i) {
+    put({.slot = slot + i}, static_cast<std::int32_t>(fresh[i]));
   }
   state_.recipe = number;
   state_.file_changed = state_.touched = true;

@@ -24,8 +24,8 @@ std::span<const BlockKind> block_kinds();
 /// "00" to "99".
 std::string recipe_name(std::int32_t number);
 /// The registers from D500 on that are not 0, a line each: "D500 12".
-std::string recipe_text(std::span<const std::uint32_t> values);
+std::string recipe_text(std::span<const std::uint32_t> values, int first);
 /// The reverse, of a text that block_kinds() takes.
-void read_recipe(std::string_view text, std::span<std::uint32_t> values);
+void read_recipe(std::string_view text, std::span<std::uint32_t> values, int first);
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -101,7 +101,8 @@ void Super40nc::follow_order(OrderKey& key, Holder holder, Kept order_of_axis,
                              void (Super40nc::*start)(int, int)) {
   const auto is_under_way = [&](const AxisState& its) { return its.holder == holder && its.order != 0; };
   while (key.runs && std::none_of(state_.axes.begin(), state_.axes.end(), is_under_way)) {
-    if (key.has_failed || key.order == kOrders) {
+    const bool is_given_up = key.has_failed && !chose(option("order_after_failure", "next_number_starts"));
+    if (is_given_up || key.order == kOrders) {
       key = {};
       return;
     }

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 6> kGaps{
     "Comparators stop an axis by COUNTER1 (soft limits, and methods 1, 4 and 5 of at most four of them); by "
     "other sources "
     "and methods 2 and 3 they only show whether they are met.",
-    "Backlash at every start (D9x57 = 2) is none; in a LIN or an arc it comes out at once.",
+    "In a LIN or an arc backlash comes out at once, and slip (D9x57 = 2) is not corrected.",
     "A soft limit that stops at once on one side and by a ramp on the other has the negative side's way.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
     "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",

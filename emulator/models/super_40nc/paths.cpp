@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 #include "motion/path_limits.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -19,7 +20,9 @@ double pulses_per_lu(const Settings& its, int axis) { return its.scale(axis).pul
 double Super40nc::path_feed() const {
   constexpr double kPercent = 100;
   const double feed = std::max<std::int32_t>(state_.path_feed_lu_s, 1);
-  return feed * static_cast<double>(registers().of(kept_d(8005))) / kPercent;
+  auto percent = static_cast<double>(registers().of(kept_d(8005)));
+  if (chose(option("override_range", "0_to_100"))) percent = std::min(percent, kPercent);
+  return feed * percent / kPercent;
 }
 
 Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
@@ -36,6 +39,8 @@ Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
 
 bool Super40nc::begin_path(const PathPlan& plan) {
   const Settings its = registers();
+  const bool takes_default = plan.feed_lu_per_s <= 0 && chose(option("feed_not_positive", "default_feed"));
+  state_.path_feed_lu_s = takes_default ? its.raw(kept_d(9004)) : plan.feed_lu_per_s;
   motion::Coordinated path;
   // What each axis allows along its own direction, in LU a second, and how it speeds up.
   motion::Point most;
@@ -55,13 +60,12 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     const double share = direction[number];
     if (share <= 0) continue;
     target_lu_s = std::min(target_lu_s, its.pps(number, static_cast<double>(its.of(kept_d(9011)))) / ppu);
-    const double pps = share * std::max(plan.feed_lu_per_s, 1) * ppu;
+    const double pps = share * std::max(state_.path_feed_lu_s, 1) * ppu;
     if (pps > fastest_pps) {
       fastest_pps = pps;
       fastest_ppu = ppu;
     }
   }
-  state_.path_feed_lu_s = plan.feed_lu_per_s;
   state_.path_limit_lu_s = motion::speed_within(plan.path, most);
   const double top = std::max(std::min(path_feed(), state_.path_limit_lu_s), 1e-3);
   const double step_lu_s = multiplier_of(std::max(fastest_pps, 1.0)) / fastest_ppu;
@@ -76,7 +80,9 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     const auto n = static_cast<std::size_t>(number);
     if (!plan.takes[n]) continue;
     if (why_not != motion::Cause::none) {
-      if (chip(number).forbidden_anywhere() != motion::Cause::none) fail(number, code_of(why_not));
+      if (chip(number).forbidden_anywhere() == motion::Cause::none) continue;
+      axis(number).has_error = true;
+      report(code_of(why_not), line_step(Mover::c));
       continue;
     }
     begun(number, motion::Cause::none, Holder::move);

@@ -148,10 +148,10 @@ Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
     if ((search.axes >> axis & 1U) != 0) values[axis] = 1;
   }
   return begin_each(by, values, Request::line, [&](int axis, std::int32_t) {
-    device_.start_home(axis);
     AxisState& state = device_.axis(axis);
-    if (state.holder != Holder::home) return false;
     state.mover = mover_of(by);
+    device_.start_home(axis);
+    if (state.holder != Holder::home) return false;
     state.awaited = true;
     return true;
   });
@@ -254,7 +254,8 @@ language::Areas ProgramMachine::stop(Area area) {
 
 // ---- the PLC
 
-void ProgramMachine::plc_drive(const language::Drive& drive) {
+void ProgramMachine::plc_drive(const language::Drive& drive, int step) {
+  device_.set_plc_step(step);
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (!is_set(drive.target_lu, axis) || device_.is_inhibited(axis)) continue;
     if (device_.ask(axis, Request::plc_drv) != Grant::starts) continue;
@@ -263,12 +264,20 @@ void ProgramMachine::plc_drive(const language::Drive& drive) {
     device_.begin_drive(axis, base + value_of_axis(drive.target_lu, axis),
                         drive.rpm[static_cast<std::size_t>(axis)], Mover::plc);
   }
+  device_.set_plc_step(0);
 }
 
-void ProgramMachine::plc_home(const language::HomeSearch& search) {
+void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
+  device_.set_plc_step(step);
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    if ((search.axes >> axis & 1) != 0 && !device_.is_inhibited(axis)) device_.start_home(axis);
+    if ((search.axes >> axis & 1) == 0 || device_.is_inhibited(axis)) continue;
+    AxisState& state = device_.axis(axis);
+    const bool is_free = state.holder == Holder::nobody;
+    if (is_free) state.mover = Mover::plc;  // as long as it begins
+    device_.start_home(axis);
+    if (is_free) state.mover = Mover::hand;
   }
+  device_.set_plc_step(0);
 }
 
 bool ProgramMachine::plc_jog(const language::Jogs& jogs) {

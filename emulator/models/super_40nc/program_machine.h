@@ -44,8 +44,8 @@ class ProgramMachine final : public language::Machine {
   void drop_held(language::Area by) override;
   language::Areas stop(language::Area area) override;
 
-  void plc_drive(const language::Drive& drive) override;
-  void plc_home(const language::HomeSearch& search) override;
+  void plc_drive(const language::Drive& drive, int step) override;
+  void plc_home(const language::HomeSearch& search, int step) override;
   bool plc_jog(const language::Jogs& jogs) override;
   bool set_positions(const language::SetPositions& positions) override;
 

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 #include "motion/homing_tables.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -21,7 +22,8 @@ int way_of(std::int64_t distance) { return distance < 0 ? -1 : +1; }
 
 std::int64_t Super40nc::relative_base_lu(int number) const {
   const AxisState& state = axis(number);
-  return state.stands_on_target ? state.target_lu : work_lu(number);
+  const bool goes_on = state.stands_on_target && !chose(option("relative_base", "present_position"));
+  return goes_on ? state.target_lu : work_lu(number);
 }
 
 std::int64_t Super40nc::distance_to(int number, std::int64_t target_lu) const {
@@ -32,10 +34,14 @@ std::int64_t Super40nc::distance_to(int number, std::int64_t target_lu) const {
 bool Super40nc::begin_drive(int number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(number);
   prepare(number);
+  state.mover = mover;  // whose line D8095 tells, if it cannot begin
   const std::int64_t distance = distance_to(number, target_lu);
   const motion::SpeedLaw law = registers().law(number, rpm);
   begun(number, chip(number).move(distance, law, before_motion()), Holder::move);
-  if (state.holder != Holder::move) return false;
+  if (state.holder != Holder::move) {
+    state.mover = Mover::hand;
+    return false;
+  }
   state.target_lu = target_lu;
   mirror_start(number, kModePositionMove, distance, law);
   if (distance == 0) {
@@ -44,7 +50,6 @@ bool Super40nc::begin_drive(int number, std::int64_t target_lu, std::int32_t rpm
     show_finished(static_cast<std::size_t>(number));
     return true;
   }
-  state.mover = mover;
   state.shows_finish = true;
   state.rest = {.kind = RestKind::move, .travel = chip(number).travel_pulses + distance};
   return true;
@@ -55,6 +60,7 @@ bool Super40nc::begin_mark(int number, std::int64_t distance, std::int64_t searc
   AxisState& state = axis(number);
   const Settings its = registers();
   state.rest = {.kind = RestKind::mark, .marks_positive = search > 0, .rpm = rpm};
+  state.mover = mover;
   look_round(number);
   prepare(number);
   const motion::SpeedLaw fast = its.law(number, rpm);
@@ -69,7 +75,6 @@ bool Super40nc::begin_mark(int number, std::int64_t distance, std::int64_t searc
     return false;
   }
   mirror_start(number, kModePositionMove, distance, fast);
-  state.mover = mover;
   state.shows_finish = true;
   return true;
 }
@@ -77,10 +82,13 @@ bool Super40nc::begin_mark(int number, std::int64_t distance, std::int64_t searc
 bool Super40nc::begin_turning(int number, std::int32_t rpm, Mover mover) {
   AxisState& state = axis(number);
   prepare(number);
+  state.mover = mover;
   const motion::SpeedLaw law = registers().law(number, std::abs(static_cast<double>(rpm)));
   begun(number, chip(number).run(way_of(rpm), law, before_motion()), Holder::vdrv);
-  if (state.holder != Holder::vdrv) return false;
-  state.mover = mover;
+  if (state.holder != Holder::vdrv) {
+    state.mover = Mover::hand;
+    return false;
+  }
   state.rest = {.kind = RestKind::turning, .rpm = rpm};
   mirror_start(number, rpm < 0 ? kModeTurningBack : kModeTurning, 0, law);
   return true;

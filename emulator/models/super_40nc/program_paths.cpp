@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "motion/bad_motion.h"
 
@@ -122,10 +123,13 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
   }
 }
 
-/// C24 to C26 swap the sense in a plane.
+/// C24 to C26 swap the sense in a plane. Seen from the third axis Z comes before X.
 motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane) const {
   const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
-  const bool is_swapped = device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]);
+  const bool is_seen_from_behind =
+      plane == language::Plane::xz && device_.chose(option("arc_axes", "seen_from_the_third_axis"));
+  const bool is_swapped =
+      device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]) != is_seen_from_behind;
   const bool is_clockwise = (turn == language::Turn::clockwise) != is_swapped;
   return is_clockwise ? motion::Turn::clockwise : motion::Turn::counter_clockwise;
 }

@@ -1,10 +1,13 @@
 // A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
+#include <algorithm>
+#include <span>
 #include <string>
 
 #include "base/text/one_line.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/language.h"
+#include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "interpreter/super_40nc/listing.h"
 
@@ -98,9 +101,13 @@ void Super40nc::tell(language::Event event, language::Area area) {
 }
 
 bool Super40nc::is_pausing() const {
-  const language::StepState& c = state_.steps.programs[0];
-  const bool rests = c.phase == language::Phase::paused || c.phase == language::Phase::held;
-  return rests && c.is_paused_by_key;
+  const auto pauses = [](const language::StepState& program) {
+    const bool rests = program.phase == language::Phase::paused || program.phase == language::Phase::held;
+    return rests && program.is_paused_by_key;
+  };
+  const auto& all = state_.steps.programs;
+  if (!chose(option("m8022_scope", "every_program"))) return pauses(all[0]);
+  return std::any_of(all.begin(), all.end(), pauses);
 }
 
 void Super40nc::set_pointer(int program, std::int32_t step) {
@@ -115,7 +122,7 @@ void Super40nc::plc_to_run() {
   language::run(state_.plc, ladder_, machine);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   for (const language::AreaRow& row : language::kAreas) {
-    if (row.area == language::Area::plc) continue;
+    if (row.area == language::Area::plc || chose(option("run_resets_steps", "stay"))) continue;
     steps.take(language::Event::plc_run, row.area);
     steps.set_step(row.area, 0);
   }
@@ -126,10 +133,13 @@ void Super40nc::plc_to_run() {
 void Super40nc::plc_to_stop() {
   ProgramMachine machine(*this);
   language::stop(state_.plc, machine);
+  if (!chose(option("plc_stop_outputs", "off"))) return;
+  const std::span outputs = std::span(state_.image).subspan(kept_y(0).slot, kOutputCount);
+  std::fill(outputs.begin(), outputs.end(), 0U);
 }
 
 int Super40nc::line_step(Mover mover) const {
-  if (mover >= Mover::plc) return 0;
+  if (mover >= Mover::plc) return mover == Mover::plc ? plc_step_ : 0;
   const auto area = static_cast<language::Area>(mover);
   const language::StepState& program = state_.steps.programs[language::index_of(area)];
   return program.phase == language::Phase::idle ? 0 : language::base_of(area, options_) + program.step;
@@ -146,6 +156,10 @@ void Super40nc::program_broken(Mover mover, int but_for, bool is_awaited) {
 
 /// Saves the C program that is in memory, and takes the one of another file.
 void Super40nc::change_file(std::int32_t number) {
+  if (chose(option("file_number_range", "nearest_one"))) {
+    number = std::clamp(number, 0, std::max(registers().raw(kept_d(9043)) - 1, 0));
+    put(kept_d(9001), number);
+  }
   if (number < 0 || number >= registers().raw(kept_d(9043))) {
     put(kept_d(9001), state_.file);
     report(Code::no_such_file);

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -48,6 +49,9 @@ void Super40nc::start_wheel(int number, WheelSource source) {
   if (given == Grant::same_or_no && state.wheel != source) report(Code::axis_taken);
   if (given != Grant::starts) return;
   prepare(number);
+  motion::AxisSettings without_backlash = chip(number).settings;
+  without_backlash.backlash_pulses = 0;
+  chip(number).set(without_backlash);
   begun(number, chip(number).follow({}), Holder::wheel);
   if (state.holder != Holder::wheel) return;
   state.wheel = source;
@@ -64,7 +68,9 @@ void Super40nc::feed_wheel(std::int32_t edges) {
     if (state.holder != Holder::wheel) continue;
     follow_ratio(number);
     static constexpr std::array<std::int32_t, 4> kEdgesOfACount{4, 2, 1, 1};
-    const std::int32_t each = kEdgesOfACount[static_cast<std::size_t>(registers().of(kept_x(15), number))];
+    const bool is_decoded = chose(option("wheel_input", "counts"));
+    const auto decoding = static_cast<std::size_t>(registers().of(kept_x(15), number));
+    const std::int32_t each = is_decoded ? 1 : kEdgesOfACount[decoding];
     const std::int64_t sum = std::int64_t{state.wheel_edges} + edges;
     const std::int64_t counts = (sum - ((sum % each) + each) % each) / each;
     state.wheel_edges = static_cast<std::int32_t>(sum - counts * each);

@@ -48,8 +48,8 @@ class PlainMachine : public Machine {
   void go_on(Area) override {}
   void drop_held(Area) override {}
   Areas stop(Area) override { return 0; }
-  void plc_drive(const Drive&) override {}
-  void plc_home(const HomeSearch&) override {}
+  void plc_drive(const Drive&, int) override {}
+  void plc_home(const HomeSearch&, int) override {}
   bool plc_jog(const Jogs&) override { return false; }
   bool set_positions(const SetPositions&) override { return false; }
 

@@ -122,11 +122,13 @@ class ScriptedMachine : public Machine {
     return lost;
   }
 
-  void plc_drive(const Drive& drive) override {
+  void plc_drive(const Drive& drive, int) override {
     say(Area::plc,
         "DRV" + text_of(drive.target_lu) + mode(drive.targets) + speeds(drive.target_lu, drive.rpm));
   }
-  void plc_home(const HomeSearch& search) override { say(Area::plc, "HOM " + std::to_string(search.axes)); }
+  void plc_home(const HomeSearch& search, int) override {
+    say(Area::plc, "HOM " + std::to_string(search.axes));
+  }
   bool plc_jog(const Jogs& jogs) override {
     say(Area::plc, "JOG " + std::to_string(jogs.positive) + ' ' + std::to_string(jogs.negative));
     return false;

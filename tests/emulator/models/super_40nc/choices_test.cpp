@@ -1,6 +1,7 @@
 // Every choice of the SUPER-40NC that can be made otherwise shows its effect.
 #include "emulator/models/super_40nc/choices.h"
 
+#include <functional>
 #include <set>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
@@ -13,6 +14,7 @@ using Writes = std::vector<std::pair<std::string, Value>>;
 struct Step {
   Writes writes;
   Tick ticks = 1;
+  std::vector<std::pair<std::string, std::int32_t>> inputs{};
 };
 
 struct Case {
@@ -22,6 +24,7 @@ struct Case {
   std::vector<Step> steps;
   std::string shown;                                     // a register
   std::vector<std::pair<std::string, Value>> by_option;  // ours first
+  std::function<Value(OneSuper40nc&)> look{};            // instead of `shown`
 };
 
 /// A block that is ON, covered by so many that are OFF; then all of them joined.
@@ -30,6 +33,11 @@ std::string blocks_over(int count, const std::string& output) {
   for (int i = 0; i < count; ++i) text += "LD M1\nOUT Y1\n";
   for (int i = 0; i < count; ++i) text += "ORB\n";
   return text + "OUT " + output + "\nEND";
+}
+
+/// Whether a request to station 0 is answered.
+Value answers_at_zero(OneSuper40nc& one) {
+  return one.ask(OneSuper40nc::kRs232, "00 01 00 00 00 01").empty() ? 0 : 1;
 }
 
 const std::vector<Case>& cases() {
@@ -203,6 +211,127 @@ const std::vector<Case>& cases() {
        {{{{"M8560", 1}}, 5}},
        "M8103",
        {{"keys", 0}, {"nothing", 1}}},
+      {"station_rule",
+       "",
+       {{"D9000", 5}},
+       {},
+       "the answer",
+       {{"own_number_answered_0_obeyed_in_silence", 0}, {"0_answered_as_well", 1}},
+       answers_at_zero},
+      {"cemg_input",
+       "",
+       {},
+       {{{{"M8103", 1}}, 50}, {{}, 5, {{"CEMG", 1}}}},
+       "M8120",
+       {{"as_m8002_while_on", 0}, {"only_shown", 1}}},
+      {"zero_set_moving",
+       "",
+       {},
+       {{{{"M8103", 1}}, 100}, {{{"M8107", 1}}, 5}},
+       "D8094",
+       {{"void", 21}, {"carried_out", 0}}},
+      {"plc_stop_outputs",
+       "AREA PLC\nLD M8003\nOUT Y10\nEND",
+       {},
+       {{{}, 5}, {{}, 5, {{"PLC_RUN", 0}}}},
+       "Y10",
+       {{"stay", 1}, {"off", 0}}},
+      {"feed_not_positive",
+       "AREA C\nF K0\nLIN K5000\nEND",
+       {{"D9003", 1}},
+       {{{{"M8000", 1}}, 600}},
+       "M8000",
+       {{"1_lu_s", 1}, {"default_feed", 0}}},
+      {"arc_axes",
+       "AREA C\nXZP\nF K20000\nCW K10000 K10000 K10000 K0\nEND",
+       {{"D9003", 3}},
+       {{{{"M8000", 1}}, 300}},
+       "M8344",
+       {{"first_to_second_axis_c24_to_c26_swap", 0}, {"seen_from_the_third_axis", 1}}},
+      {"relative_base",
+       "AREA X\nINCC\nRPM K500\nDRV K120000\nDRV K120000\nDRV K120000\nEND",
+       {{"D9171", 1}, {"D9172", 36}},
+       {{{{"M8100", 1}}, 1000}},
+       "D8140",
+       {{"last_commanded_lu_while_standing_on_it", 10000}, {"present_position", 9999}}},
+      {"continuous",
+       "AREA C\nINC D0\nEND",
+       {{"M8600", 1}},
+       {{{{"M8000", 1}}, 20}},
+       "M8000",
+       {{"either_on_c_starts_again_at_end", 1}, {"m8007_alone", 0}}},
+      {"home_el_stop",
+       "",
+       {{"D9121", 6}},
+       {{{{"M8105", 1}}, 200}, {{}, 5, {{"X1", 1}}}},
+       "M8144",
+       {{"ramp", 0}, {"by_d9x01", 1}}},
+      {"wheel_input",
+       "",
+       {{"D9115", 0}, {"M8108", 1}},
+       {{{}, 5}, {{}, 5, {{"MPG", 100}}}},
+       "D8117",
+       {{"edges", 25}, {"counts", 100}}},
+      {"override_range",
+       "AREA C\nF K20000\nLIN K30000\nEND",
+       {{"D9003", 1}, {"D8005", 150}},
+       {{{{"M8000", 1}}, 1300}},
+       "M8000",
+       {{"0_to_200", 0}, {"0_to_100", 1}}},
+      {"recipe_range",
+       "",
+       {},
+       {{{{"D500", 7}, {"D800", 8}, {"D900", 9}}, 1}, {{{"D9002", 1}}, 1}},
+       "D500",
+       {{"d500_to_d999", 0}, {"d800_to_d999", 7}, {"d900_to_d999", 7}}},
+      {"recipe_range",
+       "",
+       {},
+       {{{{"D500", 7}, {"D800", 8}, {"D900", 9}}, 1}, {{{"D9002", 1}}, 1}},
+       "D800",
+       {{"d500_to_d999", 0}, {"d800_to_d999", 0}, {"d900_to_d999", 8}}},
+      {"recipe_range",
+       "",
+       {},
+       {{{{"D500", 7}, {"D800", 8}, {"D900", 9}}, 1}, {{{"D9002", 1}}, 1}, {{{"D9002", 0}}, 1}},
+       "D900",
+       {{"d500_to_d999", 9}, {"d800_to_d999", 9}, {"d900_to_d999", 9}}},
+      {"m8022_scope",
+       "AREA X\nTMR K10000\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}, {{{"M8588", 1}}, 5}},
+       "M8022",
+       {{"c_only", 0}, {"every_program", 1}}},
+      {"file_number_range",
+       "",
+       {},
+       {{{{"D9001", 25}}, 5}},
+       "D9001",
+       {{"old_one_restored_code_20", 0}, {"nearest_one", 19}}},
+      {"order_after_failure",
+       "",
+       {{"D9399", 1}, {"D9199", 2}},
+       {{{}, 5, {{"ALM_Z", 1}}}, {{{"M8592", 1}}, 5}},
+       "M8197",
+       {{"others_of_its_number_finish_next_number_does_not_start", 0}, {"next_number_starts", 1}}},
+      {"fsh_restart",
+       "AREA X\nDRV K0\nTMR K60\nDRV K0\nEND",
+       {{"D9191", 100}},
+       {{{{"M8100", 1}}, 130}},
+       "Y0",
+       {{"time_starts_again", 1}, {"time_goes_on", 0}}},
+      {"m8008_running",
+       "AREA X\nTMR K10000\nEND",
+       {{"D9179", 77}},
+       {{{{"M8100", 1}}, 5}, {{{"M8008", 1}}, 5}},
+       "D9179",
+       {{"carried_out", 500}, {"void", 77}}},
+      {"run_resets_steps",
+       "AREA X\nNOP\nNOP\nEND",
+       {},
+       {{{}, 5}, {{{"D8100", 1}}, 5, {{"PLC_RUN", 0}}}, {{}, 5, {{"PLC_RUN", 1}}}},
+       "D8100",
+       {{"cleared_where_the_program_does_not_run", 0}, {"stay", 1}}},
       {"edge_contacts_fall", "", {}, {{{{"M8107", 1}}, 5}}, "M8107", {{"no", 1}, {"when_served", 0}}},
   };
   return all;
@@ -230,9 +359,11 @@ TEST(Super40ncChoices, ShowTheirEffects) {
       OneSuper40nc one({.set = each.set, .program = each.program, .choices = {{each.id, option}}});
       for (const Step& step : each.steps) {
         for (const auto& [name, written] : step.writes) one.set(name, written);
+        for (const auto& [terminal, level] : step.inputs) one.input(terminal, level);
         one.run(step.ticks);
       }
-      EXPECT_EQ(one.get(each.shown), value) << each.id << ": " << option << ", " << each.shown;
+      EXPECT_EQ(each.look ? each.look(one) : one.get(each.shown), value)
+          << each.id << ": " << option << ", " << each.shown;
     }
   }
 }

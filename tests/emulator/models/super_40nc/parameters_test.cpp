@@ -98,6 +98,47 @@ TEST(Super40ncParameters, BacklashComesFirstAtAReversal) {
   }
 }
 
+TEST(Super40ncParameters, TheWheelKnowsNoBacklash) {
+  OneSuper40nc one(with_encoder());
+  one.set("D9156", 400);
+  one.set("D9157", 1);
+  one.set("M8108", 1);
+  one.run(2);
+  one.input("MPG", 80);
+  one.run(5);
+  one.input("MPG", 40);
+  one.run(5);
+  EXPECT_EQ(one.get("D8117"), 40);
+  EXPECT_EQ(one.get("D8141"), 10);
+  one.set("M8108", 0);
+  one.run(2);
+  one.set("M8103", 1);  // the other way: 400 pulses come first
+  one.run(20);
+  EXPECT_EQ(one.get("D8164"), 7);
+  EXPECT_EQ(one.get("D8117"), 40);
+}
+
+/// 400 pulses at 20 rpm (1333 pps) come before each of two moves in one direction, and before the way back.
+TEST(Super40ncParameters, SlipComesFirstAtEveryStart) {
+  OneSuper40nc one(with_encoder());
+  one.set("D9156", 400);
+  one.set("D9157", 2);
+  one.it().load_program("AREA X\nRPM K100\nDRV D100\nEND");
+  Value encoder = 0;
+  for (const Value target : {4000, 8000, 0}) {
+    const Value before = one.get("D8117");
+    one.set("D100", target);
+    one.set("M8100", 1);
+    one.run(20);
+    EXPECT_EQ(one.get("D8164"), 7) << target;
+    one.run_while("M8100");
+    one.run(2);
+    EXPECT_EQ(one.get("D8117"), target);
+    encoder += (target - before + (target > before ? 400 : -400)) / 4;
+    EXPECT_EQ(one.get("D8141"), encoder) << target;
+  }
+}
+
 TEST(Super40ncParameters, LengthsAreRoundedFromTheirAbsoluteTarget) {
   OneSuper40nc one({.program = "AREA X\nINCC\nLAB K1\nDRV K10\nINC D0\nLD< D0 K30\nCJ K1\nEND\n"});
   one.set("D9171", 1);

@@ -154,6 +154,61 @@ TEST(Super40ncPrograms, ProgramsWaitForAnAxisAndThePlcDoesNot) {
   EXPECT_EQ(one.get("D8117"), 1000);
 }
 
+TEST(Super40ncPrograms, AStartThatIsRefusedTellsItsLine) {
+  struct Case {
+    const char* program;
+    const char* start;
+    Value step;
+  };
+  for (const auto& [program, start, step] :
+       {Case{"AREA X\nRPM K100\nDRV K1000\nEND", "M8100", 1504},
+        Case{"AREA X\nVDRV K100\nEND", "M8100", 1500}, Case{"AREA X\nNOP\nMRK K1000\nEND", "M8100", 1501},
+        Case{"AREA C\nF K20000\nLIN K1000\nEND", "M8000", 1}}) {
+    OneSuper40nc one(
+        {.set = {{"D9003", std::string(start) == "M8000" ? 1 : 0}, {"D9190", -100}}, .program = program});
+    one.input("X1", 1);
+    one.run(2);
+    one.set(start, 1);
+    one.run(5);
+    EXPECT_EQ(one.get("D8094"), 11) << program;
+    EXPECT_EQ(one.get("D8095"), step) << program;
+    EXPECT_FALSE(one.on(start)) << program;
+  }
+}
+
+TEST(Super40ncPrograms, AStartOfThePlcThatIsRefusedTellsItsLine) {
+  for (const auto& [line, code] : {std::pair{"DRV K1000", 11}, std::pair{"HOM K1", 15}}) {
+    OneSuper40nc one({.program = std::string("AREA PLC\nLD M1\n") + line + "\nEND"});
+    one.input("X1", 1);
+    one.run(2);
+    one.set("M1", 1);
+    one.run(5);
+    EXPECT_EQ(one.get("D8094"), code) << line;
+    EXPECT_EQ(one.get("D8095"), 3501) << line;
+  }
+  OneSuper40nc taken({.program = "AREA PLC\nLD M1\nDRV K1000\nEND"});
+  taken.set("M8103", 1);
+  taken.run(50);
+  taken.set("M1", 1);
+  taken.run(5);
+  EXPECT_EQ(taken.get("D8094"), 21);
+  EXPECT_EQ(taken.get("D8095"), 3501);
+}
+
+TEST(Super40ncPrograms, WhatIsOnAtPowerUpIsNoEdge) {
+  OneSuper40nc one({.program = "AREA PLC\nLDP X12\nINC D1\nLD X12\nOUT C0 K10\nEND"});
+  one.input("X12", 1);
+  one.run(5);
+  EXPECT_EQ(one.get("D1"), 0);
+  EXPECT_EQ(one.get("holding.C0"), 0);
+  one.input("X12", 0);
+  one.run(5);
+  one.input("X12", 1);
+  one.run(5);
+  EXPECT_EQ(one.get("D1"), 1);
+  EXPECT_EQ(one.get("holding.C0"), 1);
+}
+
 TEST(Super40ncPrograms, PathFilesAreChangedByD9001) {
   OneSuper40nc one({.set = kOfC, .program = "AREA C\nMOV K1 D0\nEND\nFILE 3\nMOV K3 D0\nEND\n"});
   const auto play = [&] {
