@@ -87,15 +87,16 @@ void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count) {
   motor.set_encoder(divided(axis.basic, raw_count - axis.encoder_zero));
 }
 
-void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings) {
+void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
+                 const AxisOptions& options) {
   const BasicSettings before = axis.basic;
   axis.basic = settings;
   motion::AxisSettings changed = motor.settings;
   changed.at_limit_plus = changed.at_limit_minus = limit_reaction(settings);
-  changed.at_soft_limit = motion::Reaction::slow_down;
-  changed.at_alarm = changed.at_emergency = motion::Reaction::stop_at_once;
+  changed.at_soft_limit = options.at_soft_limit;
+  changed.at_alarm = changed.at_emergency = options.at_alarm;
   changed.needs_servo = false;
-  changed.waits_for_in_position = settings.in_position;
+  changed.waits_for_in_position = settings.in_position && options.drives_wait_for_in_position;
   motor.set(changed);
   if (before.ring != settings.ring || before.ring_top != settings.ring_top) {
     const auto range = settings.ring ? Counter::Range::ring : Counter::Range::bits32;
@@ -166,20 +167,24 @@ motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& mo
   return motion::Cause::none;
 }
 
-std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving) {
+std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper) {
   const auto is_on = [&](Pin pin) { return (axis.pins.passed & bit_of(pin)) != 0; };
   const BasicSettings& basic = axis.basic;
+  // IN3 has no setting of its active level.
+  const auto upper_bit = [&](Pin pin, std::uint8_t level_setting) {
+    return upper == UpperBits::line_levels ? !is_on(pin) : is_active(is_on(pin), level_setting);
+  };
   const bool bits[] = {
       is_driving,
       is_active(is_on(Pin::limit_plus), basic.forward_limit_level),
       is_active(is_on(Pin::limit_minus), basic.reverse_limit_level),
       emergency_is_on,
       basic.alarm && is_active(is_on(Pin::alarm), basic.alarm_level),
-      !is_on(Pin::home),
-      !is_on(Pin::near_home),
-      !is_on(Pin::in3),
-      !is_on(Pin::in_position),
-      !is_on(Pin::index),
+      upper_bit(Pin::home, basic.home_level),
+      upper_bit(Pin::near_home, basic.near_home_level),
+      upper_bit(Pin::in3, 0),
+      upper_bit(Pin::in_position, basic.in_position_level),
+      upper_bit(Pin::index, basic.index_level),
   };
   std::uint16_t word = 0;
   for (std::size_t i = 0; i < std::size(bits); ++i) word |= static_cast<std::uint16_t>(bits[i] ? 1U << i : 0);

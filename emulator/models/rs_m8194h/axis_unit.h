@@ -133,8 +133,16 @@ void set_encoder_position(AxisUnit& axis, motion::Axis& motor, std::int32_t valu
 /// The bench's encoder has come to this count of edges.
 void tell_encoder(AxisUnit& axis, motion::Axis& motor, std::int64_t raw_count);
 
+/// What the manual leaves open about an axis (choices.h).
+struct AxisOptions {
+  motion::Reaction at_soft_limit = motion::Reaction::slow_down;
+  motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // and at the EMG input
+  bool drives_wait_for_in_position = true;
+};
+
 /// Puts the basic settings in force, beside what runs.
-void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings);
+void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& settings,
+                 const AxisOptions& options);
 /// What of an axis's events somebody waits for.
 struct Asked {
   motion::Events events = 0;
@@ -147,8 +155,10 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked);
 /// may not go on.
 motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way);
 
+/// Bits 5 to 9 of DI_ALL: the levels of the lines, or whether they are active by their settings.
+enum class UpperBits : std::uint8_t { line_levels, active };
 /// DI_ALL (4.6.2) and DI_SIGNAL (4.7.2).
-std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving);
+std::uint16_t di_all_word(const AxisUnit& axis, bool emergency_is_on, bool is_driving, UpperBits upper);
 std::uint16_t di_signal_word(const AxisUnit& axis);
 /// Whether a pin is at the level that a setting calls active: 0 is low, and on is low.
 constexpr bool is_active(bool is_on, std::uint8_t level_setting) { return is_on == (level_setting == 0); }

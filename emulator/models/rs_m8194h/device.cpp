@@ -31,7 +31,8 @@ RsM8194h::RsM8194h(const DeviceSettings& given)
     : Device(rs_m8194h::model(), given),
       RegisterBankOf(*this, *rs_m8194h::model().registers, given.firmware),
       KeptMemory(rs_m8194h::model().name, given.firmware),
-      options_(rs_m8194h::language_options(given)) {
+      options_(rs_m8194h::language_options(given)),
+      machine_(rs_m8194h::machine_options(given)) {
   state_.blocks = TextBlocks(block_kinds());
   state_.eeprom = factory_memory();
   blank();
@@ -40,6 +41,8 @@ RsM8194h::RsM8194h(const DeviceSettings& given)
 // --- power ---------------------------------------------------------------------------------------------
 
 void RsM8194h::blank_module() {
+  constexpr std::uint32_t kUsualPps = 1000;
+  const bool has_usual_speeds = chose(option("power_on_values", "1000_pps"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     // The motor stands where it is, and the bench's encoder too.
     const motion::Axis before = state_.motors[a];
@@ -57,10 +60,12 @@ void RsM8194h::blank_module() {
     set_logic_position(blank, motor, 0);
     set_absolute_position(blank, motor, 0);
     set_encoder_position(blank, motor, 0);
-    apply_basic(blank, motor, state_.initial_table[a]);
+    apply_basic(blank, motor, state_.initial_table[a], machine_.axis);
+    if (has_usual_speeds) blank.speed.start_pps = blank.speed.drive_pps = blank.homing.home_pps = kUsualPps;
   }
   state_.sync = {};
   state_.paths = {};
+  if (has_usual_speeds) state_.paths.vector.start_pps = state_.paths.vector.drive_pps = kUsualPps;
   state_.scans = {};
   state_.scanning = 0;
   state_.fifo = {};
@@ -91,7 +96,7 @@ void RsM8194h::blank() {
   std::size_t next = 0;
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && !row.is_view; ++i, ++next) {
-      made.image[next] = row.persistent && next < made.eeprom.kept().size()
+      made.image[next] = keeps(row) && next < made.eeprom.kept().size()
                              ? made.eeprom.kept()[next]
                              : static_cast<std::uint32_t>(row.factory);
     }
@@ -142,7 +147,7 @@ void RsM8194h::reset_card() {
 
 void RsM8194h::load_initial() {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    apply_basic(state_.units[a], state_.motors[a], state_.initial_table[a]);
+    apply_basic(state_.units[a], state_.motors[a], state_.initial_table[a], machine_.axis);
     state_.units[a].external.mode = motion::ExternalDrive::Mode::off;
     look_again(a);
   }

@@ -58,6 +58,7 @@ class RsM8194h final : public Device,
   bool low_word_first() const override { return state_.image[kWordOrderSlot] == 1; }
   DeviceAnswer admits(const RegisterRequest& request, Checked checked) const override;
   void exception_answered(const RefusedRequest& request) override;
+  bool keeps(const RegisterRow& row) const override;
   void register_written(const RegisterRow& row, std::size_t slot) override;
   void mention_unmodelled(const RegisterRow& row) const override {
     Device::mention_unmodelled(row.name, row.unmodelled);
@@ -106,6 +107,12 @@ class RsM8194h final : public Device,
 
   /// A checked command from the window: at once, or into the FIFO.
   DeviceAnswer take(const lang::Command& command);
+  /// Why a request is refused, with the number that input 102 then shows.
+  DeviceAnswer answer_of(lang::Fault fault) const;
+  std::uint8_t reason_of(lang::Fault fault) const;
+  /// Blocks of the FIFO that a command takes, and that are free.
+  int fifo_blocks_of(const lang::Command& command) const;
+  int free_blocks() const;
   /// Into the FIFO; the room has been found.
   void queue(const lang::Command& command);
   /// Carries it out now, or says that it has to wait.
@@ -148,6 +155,7 @@ class RsM8194h final : public Device,
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
   const LanguageOptions& language_options() const { return options_; }
+  const MachineOptions& machine_options() const { return machine_; }
   int running_mp() const { return lang::running_mp(state_.execution); }
   bool mp_runs() const { return state_.execution.mp.is_alive(); }
   bool isr_runs() const { return !state_.execution.isrs.empty(); }
@@ -183,6 +191,7 @@ class RsM8194h final : public Device,
   void watch_external(std::size_t axis);
   void step_axes(Tick tick);
   void heed_ends();
+  void heed_home(std::size_t axis);
   void heed_path_end();
   void act_on_events(Tick tick);
   void act_together(Tick tick);
@@ -221,6 +230,7 @@ class RsM8194h final : public Device,
   void compile() const;
   int isr_of(const IsrMark& mark) const;
   const LanguageOptions options_;
+  const MachineOptions machine_;
 
   std::array<MachineEdges, kAxes> edges_{};  // not state: they are told again
 };

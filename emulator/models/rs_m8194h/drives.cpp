@@ -32,14 +32,17 @@ std::uint16_t error_of(motion::Cause cause) {
 
 int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
 
-motion::HomingProgram homing_of(const AxisUnit& unit) {
+motion::HomingProgram homing_of(const AxisUnit& unit, bool fails_at_limit_in_step_1) {
   motion::Rsm8194hHoming how;
   for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
   how.drive = law_of(unit);
   how.home = law_at(unit, unit.homing.home_pps);
   how.offset_pulses = unit.homing.offset_pulses;
   how.limit_is_home = unit.homing.limit_is_home;
-  return motion::rsm8194h_homing(how);
+  motion::HomingProgram program = motion::rsm8194h_homing(how);
+  const bool has_step_1 = how.ways[0] != 0;
+  if (has_step_1 && fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
+  return program;
 }
 
 /// Of an axis on a path, whose cause is that of the one that met something.
@@ -94,6 +97,7 @@ bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle) const {
     case Obstacle::path_lock: return unit.path_locked;
     case Obstacle::emergency_input: return is_active(axis, motion::Signal::emergency);
     case Obstacle::alarm: return is_active(axis, motion::Signal::alarm);
+    case Obstacle::servo_off: return machine_.drives_need_servo && !unit.basic.servo;
     case Obstacle::hold: return unit.held;
   }
   return false;
@@ -134,6 +138,7 @@ void RsM8194h::note_obstacles(AxisMask axes) {
 }
 
 Took RsM8194h::drive(AxisMask axes, const Drive& what) {
+  const bool is_first_kept = chose(option("second_held_drive", "is_void"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a) && may_start(a, Starter::command) == Start::waits) return Took::waits;
   }
@@ -143,7 +148,8 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
       case Start::starts: start(a, what); break;
       case Start::is_void: note_obstacles(mask_of(a)); break;
       case Start::is_held:
-        // The later one replaces what was held of this axis.
+        // The later one replaces what was held of this axis, or comes too late.
+        if (is_first_kept && state_.units[a].held_drive.what != Drive::What::none) break;
         state_.units[a].held_drive = what;
         if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
           state_.held_paths.clear();
@@ -170,7 +176,7 @@ void RsM8194h::start(std::size_t axis, const Drive& what) {
   const int way = distance < 0 ? -1 : +1;
   motion::Cause refused = motion::Cause::none;
   if (what.what == Drive::What::home) {
-    refused = motor.home(homing_of(unit), now());
+    refused = motor.home(homing_of(unit, chose(option("home_step_1_limit", "fails"))), now());
   } else if (const auto beyond = soft_limit_by_encoder(unit, motor, way); beyond != motion::Cause::none) {
     refused = beyond;
   } else if (what.what == Drive::What::endless) {
@@ -212,13 +218,25 @@ void RsM8194h::start_held() {
   follow_path(path);
 }
 
+void RsM8194h::heed_home(std::size_t axis) {
+  AxisUnit& unit = state_.units[axis];
+  note_factor(axis, Factor::homed);
+  if (chose(option("home_error_bit", "also_at_home"))) unit.error_code |= bit_of(ErrorBit::home);
+  if (chose(option("home_clears_counters", "zero"))) {
+    set_logic_position(unit, state_.motors[axis], 0);
+    set_encoder_position(unit, state_.motors[axis], 0);
+    set_absolute_position(unit, state_.motors[axis], 0);
+    look_again(axis);
+  }
+}
+
 /// What ended in this tick leaves its cause in the error code.
 void RsM8194h::heed_ends() {
   const bool was_on_path = state_.paths.runs != Paths::Runs::nothing;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const motion::Axis& motor = state_.motors[a];
     AxisUnit& unit = state_.units[a];
-    if ((motor.events & motion::bit(motion::Event::homed)) != 0) note_factor(a, Factor::homed);
+    if ((motor.events & motion::bit(motion::Event::homed)) != 0) heed_home(a);
     if ((motor.events & motion::bit(motion::Event::ended)) == 0) continue;
     motion::Cause cause = motor.cause;
     if (cause == motion::Cause::homing_failed) {

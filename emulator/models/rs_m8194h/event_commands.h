@@ -140,7 +140,10 @@ inline Took stop_axes(RsM8194h& it, const Command& command) {
 /// The axes of what interpolates; if nothing does, those of AXIS_ASSIGN.
 inline Took stop_path(RsM8194h& it, const Command& command) {
   const Paths& paths = it.state().paths;
-  it.halt(paths.together.engaged ? paths.axes : mask_of_codes(paths.assigned), stop_row(command.verb()));
+  AxisMask axes = paths.together.engaged ? paths.axes : mask_of_codes(paths.assigned);
+  if (!paths.together.engaged && it.chose(option("vstop_idle", "nothing"))) axes = 0;
+  if (!paths.together.engaged && it.chose(option("vstop_idle", "locks_all_axes"))) axes = kAllAxes;
+  it.halt(axes, stop_row(command.verb()));
   return Took::done;
 }
 inline Took emergency_stop(RsM8194h& it, const Command& command) {

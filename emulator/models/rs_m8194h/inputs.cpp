@@ -20,8 +20,9 @@ constexpr std::array<std::uint8_t, kPinsOfAxis> kFilterBits{0, 0, 0, 0, 1, 4, 3,
 constexpr Tick kScanUnits = 288;
 constexpr Tick kTickUnits = 100;
 
-Tick filter_ticks(const AxisUnit& unit, int pin) {
-  const bool filters = (unit.basic.filtered >> kFilterBits[static_cast<std::size_t>(pin)] & 1) != 0;
+Tick filter_ticks(const AxisUnit& unit, int pin, const MachineOptions& options) {
+  const bool filters =
+      options.filters_delay && (unit.basic.filtered >> kFilterBits[static_cast<std::size_t>(pin)] & 1) != 0;
   return filters ? kFilterTicks[unit.basic.filter_time] : 0;
 }
 
@@ -42,14 +43,14 @@ constexpr PinFunction kFunctions[] = {
 };
 
 /// Whether a pin is active while on; nothing where it is not looked at.
-std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin) {
+std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const MachineOptions& options) {
   switch (pin) {
     case Pin::limit_plus: return basic.forward_limit_level == 0;
     case Pin::limit_minus: return basic.reverse_limit_level == 0;
     case Pin::near_home: return basic.near_home_level == 0;
     case Pin::home: return basic.home_level == 0;
     case Pin::index: return basic.index_level == 0;
-    case Pin::in3: return false;  // the line's level: high while off
+    case Pin::in3: return options.in3_rises_when_it_closes;  // else the line's level: high while off
     case Pin::in_position: return basic.in_position_level == 0;
     case Pin::alarm: return basic.alarm ? std::optional(basic.alarm_level == 0) : std::nullopt;
     case Pin::external_plus:
@@ -75,12 +76,12 @@ void RsM8194h::pass_pins(Tick tick) {
         unit.pins.since[static_cast<std::size_t>(i)] = tick;
       }
       const bool differs = ((unit.pins.raw ^ unit.pins.passed) & bit) != 0;
-      if (differs && tick - unit.pins.since[static_cast<std::size_t>(i)] >= filter_ticks(unit, i)) {
+      if (differs && tick - unit.pins.since[static_cast<std::size_t>(i)] >= filter_ticks(unit, i, machine_)) {
         unit.pins.passed ^= bit;
       }
     }
   }
-  state_.emergency_input = input(kEmergencyPin) != 0;
+  state_.emergency_input = (input(kEmergencyPin) != 0) != machine_.emergency_while_off;
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
@@ -89,10 +90,10 @@ void RsM8194h::look_round(std::size_t axis) {
   const MachineEdges& edges = edges_[axis];
   motion::Surroundings found;
   for (const PinFunction& function : kFunctions) {
-    const auto active = active_while_on(unit.basic, function.pin);
+    const auto active = active_while_on(unit.basic, function.pin, machine_);
     if (!active) continue;
     const int number = terminal(axis, function.pin);
-    const bool is_filtered = filter_ticks(unit, static_cast<int>(function.pin)) > 0;
+    const bool is_filtered = filter_ticks(unit, static_cast<int>(function.pin), machine_) > 0;
     if (const MachineEdges::Span* const span = is_filtered ? nullptr : edges.span_of(number)) {
       const bool is_inside = span->level_inside == *active;
       (is_inside ? found.add(function.signal, span->first, span->last, span->slack)
@@ -177,6 +178,7 @@ void RsM8194h::watch_external(std::size_t axis) {
 }
 
 bool RsM8194h::scans_frnet_at(Tick tick) const {
+  if (machine_.frnet_every_tick) return true;
   const Tick since = tick - state_.powered_at;
   if (since <= 0) return false;
   const Tick in_round = (since - 1) % kScanUnits + 1;  // as many ticks as a scan has units: whole scans

@@ -20,8 +20,16 @@ inline constexpr std::size_t kGoings = 4;
 // --- starting: rows in the order in which they are asked, the first that holds decides --------------------
 
 /// What stands against a drive, beside its axis being in motion.
-enum class Obstacle : std::uint8_t { emergency_state, lock, path_lock, emergency_input, alarm, hold };
-inline constexpr std::size_t kObstacles = 6;
+enum class Obstacle : std::uint8_t {
+  emergency_state,
+  lock,
+  path_lock,
+  emergency_input,
+  alarm,
+  servo_off,  // where drives need it, which is a choice
+  hold
+};
+inline constexpr std::size_t kObstacles = 7;
 
 enum class Starter : std::uint8_t {
   command,   // a drive of single axes, or a path, from the FIFO or a macro
@@ -44,6 +52,7 @@ inline constexpr std::array<ObstacleRow, kObstacles> kObstacleRows{{
     {Obstacle::path_lock, Start::is_void, Start::is_void, false, ErrorBit::soft_stop},
     {Obstacle::emergency_input, Start::is_void, Start::is_void, true, ErrorBit::emergency},
     {Obstacle::alarm, Start::is_void, Start::is_void, true, ErrorBit::alarm},
+    {Obstacle::servo_off, Start::is_void, Start::is_void, false, ErrorBit::reserved},
     {Obstacle::hold, Start::is_held, Start::starts, false, ErrorBit::reserved},
 }};
 

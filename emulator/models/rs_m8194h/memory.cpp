@@ -85,14 +85,24 @@ constexpr BlockKind kKinds[] = {
 
 std::span<const BlockKind> block_kinds() { return kKinds; }
 
+bool RsM8194h::keeps(const RegisterRow& row) const {
+  if (row.table == Table::holding && row.address == kEventAddress) {
+    return chose(option("trigger_enable_kept", "kept"));
+  }
+  if (row.table == Table::holding && row.address == kWordOrderAddress) {
+    return chose(option("word_order_kept", "kept"));
+  }
+  return row.persistent;
+}
+
 Eeprom RsM8194h::factory_memory() const {
   std::vector<std::uint32_t> factory;
   const auto is_kept = std::make_unique<bool[]>(kSlotCount);
   const auto at_once = std::make_unique<bool[]>(kSlotCount);
   for (const RegisterRow& row : kRegisters) {
     for (int i = 0; i < row.count && !row.is_view; ++i) {
-      is_kept[factory.size()] = row.persistent;
-      at_once[factory.size()] = row.needs_no_time;
+      // What is kept needs no time to be written.
+      is_kept[factory.size()] = at_once[factory.size()] = keeps(row);
       factory.push_back(static_cast<std::uint32_t>(row.factory));
     }
   }

@@ -6,6 +6,7 @@
 
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/models/rs_m8194h/choices.h"
+#include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/registers.h"
@@ -53,6 +54,7 @@ const Model& model() {
       .title = "4-axis motion controller with macros, Modbus RTU",
       .firmwares = kFirmwares,
       .registers = &registers,
+      .window = &command_names(),
       .language = &language(),
       .choices = kChoices,
       .terminals = terminal_tables().rows,

@@ -93,6 +93,7 @@ inline Took set_pulse(RsM8194h& it, const Command& command) {
     if (it.going(a) != Going::single || motor.task != motion::Task::move) return;
     const std::int64_t given = command.signed_value(1);
     const bool is_against = given != 0 && (given < 0) != (motor.drive.direction < 0);
+    if (is_against && it.chose(option("set_pulse_sign", "is_ignored"))) return;
     motor.change_distance(is_against ? 0 : std::abs(given), true, it.now());
   });
   return Took::done;

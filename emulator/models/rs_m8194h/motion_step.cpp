@@ -43,7 +43,11 @@ void RsM8194h::step_axes(Tick tick) {
     if (motor.moving() && motor.drive.direction != 0 && !motor.slowing) {
       const motion::Cause beyond =
           soft_limit_by_encoder(state_.units[a], motor, static_cast<int>(motor.drive.direction));
-      if (beyond != motion::Cause::none) motor.slow_down(tick - 1, beyond);
+      if (beyond != motion::Cause::none && machine_.axis.at_soft_limit == motion::Reaction::slow_down) {
+        motor.slow_down(tick - 1, beyond);
+      } else if (beyond != motion::Cause::none) {
+        motor.stop(beyond);
+      }
     }
     pulses[a] = motor.step(tick, state_.here[a]);
   }
@@ -77,9 +81,11 @@ void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
 
 void RsM8194h::heed_factors(std::size_t axis, Tick tick) {
   const AxisUnit& unit = state_.units[axis];
+  const bool is_noted_always = chose(option("factors_noted", "enabled_ones"));
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
     const bool is_asked = (unit.factors >> i & 1) != 0;
     if (!is_asked || (state_.motors[axis].events & motion::bit(kFactorEvents[i])) == 0) continue;
+    if (!is_noted_always && !state_.interrupts) continue;
     note_factor(axis, static_cast<Factor>(i));
     if (state_.interrupts) mark_isr(axis, static_cast<std::uint8_t>(i), tick);
   }
@@ -178,14 +184,18 @@ void RsM8194h::step_scans() {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
     const std::int64_t count = scan_count(a);
-    const std::int64_t spacing = std::abs(std::int64_t{scan.pitch}) + 1;
+    const bool is_as_printed = machine_.pitch_is_distance && scan.pitch > 0;
+    const std::int64_t spacing = std::abs(std::int64_t{scan.pitch}) + (is_as_printed ? 0 : 1);
     const std::int64_t passed = std::abs(count - scan.begin) / spacing;
     if (passed > scan.triggered) {
       const std::int64_t given = std::min(passed - scan.triggered, kMostTriggersOfATick);
       if (a < static_cast<std::size_t>(kOuts)) state_.units[a].out.pulses += given;
       scan.triggered = passed;
     }
-    if (!is_driving(a)) scan = LineScan{};
+    if (!is_driving(a)) {
+      const bool lasts = chose(option("scan_setting_lasts", "until_the_next_setting"));
+      scan = lasts ? LineScan{.set = true, .type = scan.type, .pitch = scan.pitch} : LineScan{};
+    }
   }
   if (state_.scanning != 0 && (driving() & state_.scanning) == 0) {
     state_.scanning = 0;

@@ -37,4 +37,25 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   return options;
 }
 
+MachineOptions machine_options(const DeviceSettings& settings) {
+  const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
+  const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
+  MachineOptions options;
+  if (chose(option("soft_limit_stop", "at_once"))) {
+    options.axis.at_soft_limit = motion::Reaction::stop_at_once;
+  }
+  if (chose(option("alarm_stop", "slows_down"))) options.axis.at_alarm = motion::Reaction::slow_down;
+  options.axis.drives_wait_for_in_position = !chose(option("inpos", "is_only_read"));
+  options.emergency_while_off = chose(option("emg_level", "while_off"));
+  options.in3_rises_when_it_closes = chose(option("in3_edges", "the_contact_closes"));
+  options.filters_delay = !chose(option("filter_delay", "none"));
+  options.frnet_every_tick = chose(option("frnet_scan", "every_ms"));
+  options.drives_need_servo = chose(option("drives_need_servo", "are_void"));
+  options.fifo_waits_for_download = chose(option("fifo_during_download", "held"));
+  options.one_block_each = chose(option("fifo_cost", "one_each"));
+  options.stops_wait = chose(option("stops_bypass_fifo", "wait_like_others"));
+  options.pitch_is_distance = chose(option("scan_positive_pitch", "pitch"));
+  return options;
+}
+
 }  // namespace understudy::emulator::models::rs_m8194h

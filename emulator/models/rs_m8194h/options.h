@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "emulator/device/model.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/choices.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/download.h"
@@ -25,5 +26,20 @@ struct LanguageOptions {
   bool isrs_are_bound_at_the_event = false;
 };
 LanguageOptions language_options(const DeviceSettings& settings);
+
+/// What of them inputs, axes and the FIFO ask for.
+struct MachineOptions {
+  AxisOptions axis = {};
+  bool emergency_while_off = false;  // the EMG input
+  bool in3_rises_when_it_closes = false;
+  bool filters_delay = true;
+  bool frnet_every_tick = false;
+  bool drives_need_servo = false;
+  bool fifo_waits_for_download = false;
+  bool one_block_each = false;
+  bool stops_wait = false;
+  bool pitch_is_distance = false;
+};
+MachineOptions machine_options(const DeviceSettings& settings);
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -1,13 +1,23 @@
 // The FIFO: commands in their order, as many as a tick has room for.
+#include <algorithm>
+
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
-int blocks_left(const Fifo& fifo) {
+int RsM8194h::fifo_blocks_of(const lang::Command& command) const {
+  const lang::CommandRow& row = command.row();
+  const bool waits = row.use.real_time == lang::RealTime::queued ||
+                     (machine_.stops_wait && row.use.real_time == lang::RealTime::stop);
+  if (!waits) return 0;
+  return machine_.one_block_each ? 1 : row.cost;
+}
+
+int RsM8194h::free_blocks() const {
   int free = kFifoBlocks;
-  for (const lang::Command& command : fifo.waiting) free -= blocks_of(command);
-  return free;
+  for (const lang::Command& command : state_.fifo.waiting) free -= fifo_blocks_of(command);
+  return std::max(free, 0);
 }
 
 void RsM8194h::run_fifo(int& steps) {
@@ -15,6 +25,7 @@ void RsM8194h::run_fifo(int& steps) {
   for (;;) {
     // While a macro lives, or a trigger has paused everything, nothing begins.
     if (state_.execution.is_alive() || state_.paused) return;
+    if (machine_.fifo_waits_for_download && state_.rsm != lang::State::ready) return;
     if (fifo.stop_wait != 0) {
       if ((driving() & fifo.stop_wait) != 0) return;
       fifo.stop_wait = 0;

@@ -209,8 +209,14 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
   const PathRow& row = row_of_path(command.verb());
   Paths& paths = state_.paths;
   const bool is_stream = row.runs == Paths::Runs::stream;
-  const auto first_axis = static_cast<std::size_t>(axis_of_code(codes[0]));
-  const SpeedRange range = speed_range(state_.units[first_axis].basic.max_v, kHighest[row.dimensions - 2]);
+  const auto max_v_of = [&](std::size_t coordinate) {
+    return state_.units[static_cast<std::size_t>(axis_of_code(codes[coordinate]))].basic.max_v;
+  };
+  std::uint32_t max_v = max_v_of(0);
+  for (int i = 1; i < row.dimensions && chose(option("vector_max_v", "the_least")); ++i) {
+    max_v = std::min(max_v, max_v_of(static_cast<std::size_t>(i)));
+  }
+  const SpeedRange range = speed_range(max_v, kHighest[row.dimensions - 2]);
   const auto number = [&](std::size_t i) { return static_cast<double>(command.signed_value(i)); };
   const Tick now_tick = now();
 
@@ -259,12 +265,15 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
              .offset_pulses = 0};
     shape = {.constant = settings.constant};
   }
+  motion::ArcOptions arc_options = kArcOptions;
+  if (chose(option("arc_end_off_circle", "ends_at_its_end")))
+    arc_options.off_circle = motion::OffCircle::blend;
   double speed_factor = 1;
   switch (draws) {
     case Draws::line: drawing.add(motion::line(begin, point(first_value)), now_tick); break;
     case Draws::arc:
       shape.s_curve = false;
-      drawing.add(motion::arc_by_centre(begin, point(first_value), point(first_value + 2), turn, kArcOptions),
+      drawing.add(motion::arc_by_centre(begin, point(first_value), point(first_value + 2), turn, arc_options),
                   now_tick);
       break;
     case Draws::circle:
@@ -314,7 +323,7 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
       drawing.add(motion::arc_by_sweep(begin, centre, sweep, rise, kArcOptions), now_tick);
       const double circle = std::abs(sweep) * std::sqrt(centre[0] * centre[0] + centre[1] * centre[1]);
       // VV is the speed of the circle.
-      speed_factor = drawing.length / circle;
+      if (chose(option("helix_speed", "of_its_circle"))) speed_factor = drawing.length / circle;
       speed = {.drive_pps = command.values[4], .offset_pulses = 0};
       shape = {.constant = true};
       break;

@@ -297,8 +297,10 @@ consteval std::size_t slot(std::uint16_t holding_address) {
   throw "no register is stored there";
 }
 inline constexpr std::size_t kCallMpSlot = slot(8);
-inline constexpr std::size_t kEventSlot = slot(9);
-inline constexpr std::size_t kWordOrderSlot = slot(14);
+inline constexpr std::uint16_t kEventAddress = 9;
+inline constexpr std::uint16_t kWordOrderAddress = 14;
+inline constexpr std::size_t kEventSlot = slot(kEventAddress);
+inline constexpr std::size_t kWordOrderSlot = slot(kWordOrderAddress);
 inline constexpr std::size_t kFirstBvarSlot = slot(128);
 inline constexpr std::size_t kFirstVarSlot = slot(300);
 inline constexpr std::size_t kFirstMdSlot = slot(3000);

@@ -33,7 +33,7 @@ inline Took set_basic(RsM8194h& it, const Command& command) {
     }
     BasicSettings settings = it.state().units[a].basic;
     apply_setting(settings, command);
-    apply_basic(it.state().units[a], it.state().motors[a], settings);
+    apply_basic(it.state().units[a], it.state().motors[a], settings, it.machine_options().axis);
     it.look_again(a);
   });
   if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table);
@@ -78,6 +78,10 @@ inline Took reset_card(RsM8194h& it, const Command&) {
 inline Took clear_buffer(RsM8194h& it, const Command&) {
   // A STOP_WAIT that has begun is not in the buffer any more, and goes on.
   it.state().fifo.waiting.clear();
+  if (it.chose(option("clear_buffer_held_drives", "dropped"))) {
+    for (AxisUnit& unit : it.state().units) unit.held_drive = {};
+    it.state().held_paths.clear();
+  }
   return Took::done;
 }
 

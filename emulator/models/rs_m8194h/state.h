@@ -39,9 +39,6 @@ struct Fifo {
   bool operator==(const Fifo&) const = default;
 };
 
-inline int blocks_of(const lang::Command& command) { return command.row().fifo_blocks(); }
-int blocks_left(const Fifo& fifo);
-
 /// Whether it is an interpolation (path_commands.cpp).
 bool is_path(const lang::Command& command);
 

@@ -20,10 +20,14 @@ struct StateOf<emulator::models::rs_m8194h::Fifo> {
   static constexpr auto fields =
       std::tuple{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
   static void check(const Value& fifo) {
-    demand_state(emulator::models::rs_m8194h::blocks_left(fifo) >= 0, "the FIFO holds more than it can");
+    // How many blocks they take is a choice: each takes one at least.
+    demand_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
+                 "the FIFO holds more than it can");
     for (const auto& command : fifo.waiting) {
       const bool waits = interpreter::rs_m8194h::find_code(command.code) != nullptr &&
-                         !command.is_macro_line() && command.row().fifo_blocks() > 0;
+                         !command.is_macro_line() &&
+                         (command.row().fifo_blocks() > 0 ||
+                          command.row().use.real_time == interpreter::rs_m8194h::RealTime::stop);
       demand_state(waits, "a command in the FIFO is not one that waits there");
     }
   }

@@ -8,6 +8,10 @@ namespace understudy::emulator::models::rs_m8194h {
 
 void RsM8194h::halt(AxisMask axes, const StopRow& row) {
   Paths& paths = state_.paths;
+  const bool locks_whole_path = chose(option("stop_one_of_path", "all_end_and_are_locked"));
+  AxisMask locked_with_it = 0;
+  const bool keeps_held =
+      row.verb == lang::Verb::emergency_stop && chose(option("emergency_drops_holds", "kept"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = state_.units[a];
@@ -27,16 +31,24 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
       motor.stop();
     }
     if (paths.open && !paths.together.engaged && has(paths.axes, a)) paths.open = false;
+    if (row.locks && halt != Halt::goes_on && going_now == Going::path && locks_whole_path) {
+      locked_with_it |= paths.axes;
+    }
     unit.locked = unit.locked || row.locks;
     unit.path_locked = unit.path_locked || row.locks_path;
-    if (row.drops_held_drive) {
+    if (row.drops_held_drive && !keeps_held) {
       unit.held_drive = {};
       if (!state_.held_paths.empty() && has(axes_of_path(state_.held_paths.front()), a)) {
         state_.held_paths.clear();
       }
     }
-    if (row.drops_hold) unit.held = false;
+    if (row.drops_hold && !keeps_held) unit.held = false;
     unit.error_code |= bit_of(row.error);
+  }
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (!has(locked_with_it, a)) continue;
+    state_.units[a].locked = true;
+    state_.units[a].error_code |= bit_of(row.error);
   }
 }
 

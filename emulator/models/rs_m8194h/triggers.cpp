@@ -68,6 +68,8 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
     case lang::TriggerEvent::call_mp: {
       const auto number = static_cast<std::uint8_t>(channel);
       auto& queue = state_.queued_triggers;
+      const bool has_no_room = !queue.empty() && chose(option("trigger_queue", "one_in_all"));
+      if (has_no_room) break;
       if (std::find(queue.begin(), queue.end(), number) == queue.end()) queue.push_back(number);
       break;
     }
@@ -83,6 +85,7 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
       }
       state_.fifo.stop_wait = 0;
       lang::drop_wait(state_.execution, *this);
+      if (chose(option("trigger_abort_command", "drops_what_waits"))) break;
       if (state_.paths.together.engaged) {
         state_.paths.together.slow_down(now());
         state_.paths.open = false;

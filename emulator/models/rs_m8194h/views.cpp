@@ -18,7 +18,9 @@ const motion::Axis& motor_of(const RsM8194h& it, Cell cell) { return it.state().
 std::size_t group_of(int number) { return static_cast<std::size_t>(number); }
 
 std::uint16_t all_of(const RsM8194h& it, Cell cell) {
-  return di_all_word(unit_of(it, cell), it.state().emergency_input, it.is_driving(axis_number(cell)));
+  const bool is_active = it.chose(option("di_all_levels", "active_by_setting"));
+  return di_all_word(unit_of(it, cell), it.state().emergency_input, it.is_driving(axis_number(cell)),
+                     is_active ? UpperBits::active : UpperBits::line_levels);
 }
 
 /// A command of the table that a plain write stands for.
@@ -113,7 +115,7 @@ Value error_state(const RsM8194h& it, Cell) {
   }
   return 0;
 }
-Value free_blocks(const RsM8194h& it, Cell) { return blocks_left(it.state().fifo); }
+Value free_blocks(const RsM8194h& it, Cell) { return it.free_blocks(); }
 Value rint_word(const RsM8194h& it, Cell cell) {
   return it.state().rint | (error_state(it, cell) != 0 ? bit_of(Rint::axes) : 0);
 }

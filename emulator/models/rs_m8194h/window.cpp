@@ -13,16 +13,6 @@ namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
 
-DeviceAnswer answer_of(lang::Fault fault) {
-  const lang::FaultRow& row = lang::row_of(fault);
-  const Refusal refusal = row.exception == 0   ? Refusal::none
-                          : row.exception == 2 ? Refusal::no_register
-                          : row.exception == 4 ? Refusal::failure
-                          : row.exception == 6 ? Refusal::busy
-                                               : Refusal::bad_value;
-  return {refusal, row.reason_4_16_2};
-}
-
 lang::Fault fault_of(Cause cause) {
   switch (cause) {
     case Cause::none: return lang::Fault::none;
@@ -83,6 +73,21 @@ bool calls_mp(const RegisterRequest& request) {
 
 }  // namespace
 
+std::uint8_t RsM8194h::reason_of(lang::Fault fault) const {
+  const lang::FaultRow& row = lang::row_of(fault);
+  return chose(option("illegal_reason_numbers", "of_12_1_12")) ? row.reason_12_1_12 : row.reason_4_16_2;
+}
+
+DeviceAnswer RsM8194h::answer_of(lang::Fault fault) const {
+  const lang::FaultRow& row = lang::row_of(fault);
+  const Refusal refusal = row.exception == 0   ? Refusal::none
+                          : row.exception == 2 ? Refusal::no_register
+                          : row.exception == 4 ? Refusal::failure
+                          : row.exception == 6 ? Refusal::busy
+                                               : Refusal::bad_value;
+  return {refusal, reason_of(fault)};
+}
+
 DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) const {
   if (module_is_absent()) {
     for (std::size_t i = 0; i < request.count; ++i) {
@@ -94,28 +99,27 @@ DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) c
   if (state_.rsm != lang::State::ready) return answer_of(lang::Fault::real_time_in_macro);
   if (checked != Checked::everything) return Refusal::none;
   if (calls_mp(request) && mp_runs()) return answer_of(lang::Fault::macro_runs);
-  return commands > blocks_left(state_.fifo) ? answer_of(lang::Fault::fifo_full) : Refusal::none;
+  return commands > free_blocks() ? answer_of(lang::Fault::fifo_full) : Refusal::none;
 }
 
 void RsM8194h::exception_answered(const RefusedRequest& request) {
   const Objection& objection = request.objection;
-  state_.illegal_reason =
-      objection.reason != 0 ? objection.reason : lang::row_of(fault_of(objection.cause)).reason_4_16_2;
+  state_.illegal_reason = objection.reason != 0 ? objection.reason : reason_of(fault_of(objection.cause));
 }
 
 void RsM8194h::register_written(const RegisterRow& row, std::size_t slot) {
-  if (row.persistent) state_.eeprom.write(slot, state_.image[slot], 0, now());
+  if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
 DeviceAnswer RsM8194h::take(const lang::Command& command) {
   const lang::CommandRow& row = command.row();
   if (row.use.refused_while_mp_runs && mp_runs()) return answer_of(lang::Fault::macro_runs);
-  if (row.use.real_time != lang::RealTime::queued) {
+  if (fifo_blocks_of(command) == 0) {
     carry_out(command);
     state_.touched = true;
     return Refusal::none;
   }
-  if (blocks_of(command) > blocks_left(state_.fifo)) return answer_of(lang::Fault::fifo_full);
+  if (fifo_blocks_of(command) > free_blocks()) return answer_of(lang::Fault::fifo_full);
   queue(command);
   return Refusal::none;
 }
@@ -132,9 +136,9 @@ DeviceAnswer take_message(RsM8194h& it, Cell, std::span<const std::uint16_t> wor
   const bool is_ready = it.state().rsm == lang::State::ready;
   if (!is_ready ||
       (decoded.fault == lang::Fault::none && lang::is_one_of(decoded.command.verb(), lang::kDownloadVerbs))) {
-    return answer_of(it.take_download(decoded));
+    return it.answer_of(it.take_download(decoded));
   }
-  if (decoded.fault != lang::Fault::none) return answer_of(decoded.fault);
+  if (decoded.fault != lang::Fault::none) return it.answer_of(decoded.fault);
   return it.take(decoded.command);
 }
 

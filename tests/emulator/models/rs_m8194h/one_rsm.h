@@ -26,6 +26,7 @@ struct GivenRsm {
   std::map<std::string, bool> dip{};
   std::map<int, world::PlantSetup> plant{};  // by axis
   std::string program{};
+  std::map<std::string, std::string> choices{};
 };
 
 /// The PDU of a command: FC16 to 8000.
@@ -108,6 +109,7 @@ class OneRsm {
     device.settings.address = 1;
     device.settings.dip = given.dip;
     device.settings.program = given.program;
+    device.settings.choices = given.choices;
     bench.devices.push_back(device);
     bench.lines.push_back({.name = "com", .link = {}, .timing = pty::Timing::instant, .stations = {0}});
     for (const auto& [axis, plant] : given.plant) {
