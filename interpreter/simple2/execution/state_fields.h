@@ -9,6 +9,17 @@
 #include "interpreter/simple2/execution/execution.h"
 #include "interpreter/simple2/program.h"
 
+namespace understudy::interpreter::simple2 {
+
+/// By which two programs are told apart.
+struct ToldProgram {
+  Lines lines{};
+  FlagRules flag_rules{};
+  FlagLines flag_lines{};
+};
+
+}  // namespace understudy::interpreter::simple2
+
 namespace understudy {
 
 template <>
@@ -76,14 +87,21 @@ struct StateOf<interpreter::simple2::Execution> {
   static void check(const Value& value);
 };
 
-/// Its lines, and what they do not tell of its flags.
+/// A program's lines, and what they do not tell of its flags.
+template <>
+struct StateOf<interpreter::simple2::ToldProgram> {
+  using Value = interpreter::simple2::ToldProgram;
+  static constexpr auto fields =
+      std::tuple{field("lines", &Value::lines), field("flag_rules", &Value::flag_rules),
+                 field("flag_lines", &Value::flag_lines)};
+};
+
 template <>
 struct StateOf<interpreter::simple2::Program> {
   static void write(const interpreter::simple2::Program& program, StateWriter& writer);
   static void read(interpreter::simple2::Program& program, StateReader& reader);
-  /// By which two are told apart.
-  static const interpreter::simple2::Lines& told(const interpreter::simple2::Program& program) {
-    return program.lines();
+  static interpreter::simple2::ToldProgram told(const interpreter::simple2::Program& program) {
+    return {program.lines(), program.flag_rules(), program.flag_lines()};
   }
 };
 
