@@ -107,7 +107,8 @@ DeviceAnswer hear(Declared& device, Cell, std::span<const std::uint16_t> words) 
 
 RegisterRow row_of(const Declaration& fact, int number) {
   const auto address = static_cast<std::uint16_t>(fact.address);
-  if (fact.held == "window") return emulator::window<hear>(address, fact.name, fact.count).also("Sub_Function_Code");
+  if (fact.held == "window")
+    return emulator::window<hear>(address, fact.name, fact.count).also("Sub_Function_Code");
   const Access access = fact.access == "R"   ? Access::read
                         : fact.access == "W" ? Access::write
                                              : Access::read_write;
