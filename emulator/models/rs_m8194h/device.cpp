@@ -2,15 +2,36 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "emulator/device/device_of.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/device/terminals.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/model.h"
-#include "emulator/models/rs_m8194h/state_fields.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/state_fields.h"  // IWYU pragma: keep, write() goes through the fields
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -28,7 +49,7 @@ std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
 }  // namespace
 
 RsM8194h::RsM8194h(const DeviceSettings& given)
-    : Device(rs_m8194h::model(), given),
+    : DeviceOf(rs_m8194h::model(), given),
       RegisterBankOf(*this, *rs_m8194h::model().registers, given.firmware),
       KeptMemory(rs_m8194h::model().name, given.firmware),
       options_(rs_m8194h::language_options(given)),

@@ -12,6 +12,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -29,7 +30,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 using lang::Took;
 
-class RsM8194h final : public Device,
+class RsM8194h final : public DeviceOf<RsM8194h>,
                        public RegisterBankOf<RsM8194h>,
                        public ModbusStation,
                        public KeptMemory,
@@ -39,18 +40,6 @@ class RsM8194h final : public Device,
                        private lang::Machine {
  public:
   explicit RsM8194h(const DeviceSettings& given);
-
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   // --- registers ---------------------------------------------------------------------------------
   std::span<std::uint32_t> image() override { return state_.image; }

@@ -1,11 +1,34 @@
 #include "emulator/models/super_40nc/device.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/simulated_time.h"
+#include "emulator/device/choices.h"
+#include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/model.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/plc.h"
+#include "interpreter/super_40nc/step_programs.h"
+#include "motion/axis.h"
+#include "motion/tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -31,7 +54,7 @@ constexpr std::array<FinishSignal, kSignalCount> kSignals{{{kept_y(0), kept_x(91
 }  // namespace
 
 Super40nc::Super40nc(const DeviceSettings& given)
-    : Device(super_40nc::model(), given),
+    : DeviceOf(super_40nc::model(), given),
       RegisterBankOf(*this, *Device::model().registers, given.firmware),
       KeptMemory(Device::model().name, given.firmware) {
   options_ = chosen_options();

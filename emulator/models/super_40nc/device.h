@@ -10,6 +10,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
@@ -104,7 +105,7 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-class Super40nc final : public Device,
+class Super40nc final : public DeviceOf<Super40nc>,
                         public RegisterBankOf<Super40nc>,
                         public ModbusStation,
                         public KeptMemory,
@@ -113,18 +114,6 @@ class Super40nc final : public Device,
                         public Axes {
  public:
   explicit Super40nc(const DeviceSettings& given);
-
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   // --- registers -----------------------------------------------------------------------------------
   std::span<std::uint32_t> image() override { return state_.image; }
