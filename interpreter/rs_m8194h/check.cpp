@@ -1,6 +1,5 @@
 #include "interpreter/rs_m8194h/check.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,8 +7,10 @@
 #include <string_view>
 
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/operators.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/complete_table.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/machine.h"
@@ -14,6 +15,7 @@
 #include "interpreter/rs_m8194h/operators.h"
 #include "interpreter/rs_m8194h/resolve.h"
 #include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {

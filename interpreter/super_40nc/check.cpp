@@ -12,7 +12,14 @@
 
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/structure.h"
 
 namespace understudy::interpreter::super_40nc {

@@ -6,7 +6,13 @@
 #include <span>
 
 #include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/ladder.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/plc_lines.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {

@@ -3,8 +3,15 @@
 #include <cstddef>
 #include <utility>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/ladder.h"
+#include "interpreter/super_40nc/numbers.h"
 #include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::interpreter::super_40nc {
 

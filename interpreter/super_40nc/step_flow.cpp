@@ -1,8 +1,17 @@
 // The lines of a step program that are not motion. (Manual, Sequence 指令一覽表.)
 #include <cstddef>
+#include <cstdint>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/requests.h"
 #include "interpreter/super_40nc/step_programs.h"
 #include "interpreter/super_40nc/structure.h"
 

@@ -1,10 +1,21 @@
 // The motion instructions of a step program: what they ask of the machine, and whether the program waits.
 // (Manual, Motion 指令一覽表.)
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/requests.h"
 #include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy::interpreter::super_40nc {

@@ -1,7 +1,16 @@
 #include "interpreter/super_40nc/step_programs.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::interpreter::super_40nc {
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "motion/move.h"
 #include "motion/ramp.h"
 
 namespace understudy::emulator::models::rs_m8194h {

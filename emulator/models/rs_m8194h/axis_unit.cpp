@@ -4,7 +4,11 @@
 #include <cstdint>
 #include <iterator>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
+#include "motion/counter.h"
+#include "motion/move.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

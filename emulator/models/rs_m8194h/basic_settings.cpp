@@ -1,12 +1,22 @@
 // The settings of section 3: what a command changes, and the Initial Table as the commands that make it.
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "base/complete_table.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/registers.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

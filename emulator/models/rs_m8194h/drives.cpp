@@ -4,8 +4,17 @@
 #include <cstdlib>
 #include <utility>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/homing_tables.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

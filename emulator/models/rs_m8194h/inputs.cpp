@@ -5,7 +5,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/simulated_time.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "motion/axis.h"
+#include "motion/external_drive.h"
+#include "motion/surroundings.h"
+#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -2,15 +2,35 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/complete_table.h"
-#include "emulator/models/rs_m8194h/commands.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/terminals.h"
 #include "emulator/models/rs_m8194h/views.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/listing.h"
+#include "interpreter/rs_m8194h/machine.h"
+#include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/macro_store.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/triggers.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -1,10 +1,16 @@
 #include "emulator/models/rs_m8194h/model.h"
 
 #include <array>
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
+#include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/choices.h"
 #include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"

@@ -4,9 +4,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
+#include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/move.h"
+#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -4,6 +4,10 @@
 #include <vector>
 
 #include "emulator/device/choices.h"
+#include "emulator/device/model.h"
+#include "emulator/models/rs_m8194h/choices.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

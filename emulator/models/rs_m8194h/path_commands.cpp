@@ -6,12 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 
+#include "base/simulated_time.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/paths.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/elementary.h"
+#include "motion/move.h"
 #include "motion/path.h"
+#include "motion/path_run.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -2,7 +2,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/paths.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -1,9 +1,17 @@
 // Triggers: FRnet inputs that start macros and events without a host (10, 5.4).
+#include "interpreter/rs_m8194h/triggers.h"
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

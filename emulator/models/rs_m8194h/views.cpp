@@ -1,9 +1,24 @@
 #include "emulator/models/rs_m8194h/views.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "interpreter/rs_m8194h/window.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/homing.h"
+#include "motion/profile.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -3,10 +3,18 @@
 #include <cstdint>
 #include <span>
 
-#include "emulator/models/rs_m8194h/commands.h"
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/views.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {

@@ -1,12 +1,25 @@
 // What moves the axes of a SUPER-40NC by hand: jog, HOME and ZERO, and what comes of it.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/homing_tables.h"
 #include "motion/ramp.h"
+#include "motion/surroundings.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 

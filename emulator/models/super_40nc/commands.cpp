@@ -1,7 +1,18 @@
 // What a scan does with command contacts, in this order: emergency, resets, STOP keys, M8008, ZERO SET, HOME,
 // ZERO, jog, hand-wheel. Levels that stay ON after they were void, or after a stop, need to go OFF first.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/keys.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -1,10 +1,22 @@
 // Many ticks in one step, where a SUPER-40NC only counts on: the PLC has settled, no step program is at work,
 // and axes meet nothing.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "interpreter/super_40nc/plc.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::super_40nc {
 

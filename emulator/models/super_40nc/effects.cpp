@@ -1,9 +1,14 @@
 #include "emulator/models/super_40nc/effects.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 

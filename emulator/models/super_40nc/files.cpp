@@ -3,10 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
 
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/text_blocks.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/listing.h"
 
 namespace understudy::emulator::models::super_40nc {

@@ -3,9 +3,15 @@
 #include "emulator/models/super_40nc/keys.h"
 
 #include <algorithm>
+#include <cstdint>
 
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
 
 namespace understudy::emulator::models::super_40nc {
 

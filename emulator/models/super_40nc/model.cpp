@@ -1,12 +1,22 @@
 #include "emulator/models/super_40nc/model.h"
 
 #include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string_view>
 
+#include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/choices.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/parameters.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -1,11 +1,24 @@
 // LIN and arcs of the C program: one profile along the path, with the least slope among its axes
 // (《C11./C12.》 to 《C22.》), no faster than X12 of any axis, and the feed override at once.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
+#include "base/simulated_time.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/move.h"
+#include "motion/path.h"
 #include "motion/path_limits.h"
 
 namespace understudy::emulator::models::super_40nc {

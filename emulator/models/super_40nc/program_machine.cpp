@@ -1,10 +1,22 @@
 #include "emulator/models/super_40nc/program_machine.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -4,9 +4,17 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/homing_tables.h"
+#include "motion/move.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 

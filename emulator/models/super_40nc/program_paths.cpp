@@ -1,13 +1,22 @@
 // The geometry of LIN and arcs, as programs ask for it (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR
 // , CCWR 指令》).
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/requests.h"
 #include "motion/bad_motion.h"
+#include "motion/path.h"
 
 namespace understudy::emulator::models::super_40nc {
 

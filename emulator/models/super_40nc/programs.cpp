@@ -1,15 +1,31 @@
 // A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "base/text/one_line.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/program_error.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/plc.h"
+#include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/step_code.h"
+#include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy::emulator::models::super_40nc {
 

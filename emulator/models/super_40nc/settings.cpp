@@ -1,6 +1,10 @@
 #include "emulator/models/super_40nc/settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include "emulator/models/super_40nc/registers.h"
+#include "motion/move.h"
+#include "motion/ramp.h"
 
 namespace understudy::emulator::models::super_40nc {
 

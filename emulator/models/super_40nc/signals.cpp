@@ -1,5 +1,17 @@
 // What the axes of a SUPER-40NC meet: switches along their way, the drive's alarm, the encoder's index.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include "emulator/device/machine_edges.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -1,10 +1,20 @@
 // SUPER-40NC's state as bytes, and back.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "base/simulated_time.h"
 #include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/state_fields.h"
 
 namespace understudy::emulator::models::super_40nc {

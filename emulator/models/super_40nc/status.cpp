@@ -1,8 +1,20 @@
 // What a SUPER-40NC shows of its axes, and how its counters count (《M8x 特殊接點的功用(XYZU 軸用)》,
 // 《D8x 特殊暫存器的功用(XYZU 軸用)》).
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/effects.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "motion/axis.h"
+#include "motion/profile.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+#include "motion/following.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 
