@@ -151,6 +151,11 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked) {
                                      motion::bit(motion::Event::constant_started) |
                                      motion::bit(motion::Event::constant_ended);
   changed.raises = asked.events & kCostly;
+  const auto stops_by = [&](motion::Event edge) {
+    return (asked.stopping & motion::bit(edge)) != 0 ? asked.stop : motion::Reaction::ignore;
+  };
+  changed.at_mark_on = stops_by(motion::Event::mark_on);
+  changed.at_mark_off = stops_by(motion::Event::mark_off);
   changed.soft_limit_plus.reset();
   changed.soft_limit_minus.reset();
   const bool by_pulses = axis.basic.soft_limit_source == 0 || !axis.has_encoder;
