@@ -271,6 +271,15 @@ void PathRun::replan(Tick now) {
   begin_tick_ = from;
 }
 
+std::size_t PathRun::queued_after(Tick tick) const {
+  if (chain_count_ == 0) return count_;
+  const double along_u = sample(tick).position_u;
+  if (along_u >= chain_end_u_) return count_ - chain_count_;
+  std::size_t passed = 0;
+  while (passed + 1 < chain_count_ && along_u >= pieces_[(head_ + passed + 1) % kMaxPaths].begin_u) ++passed;
+  return count_ - passed;
+}
+
 void PathRun::drop_front() {
   last_place_ = piece(0).path.end;
   head_ = (head_ + 1) % kMaxPaths;

@@ -52,6 +52,8 @@ class PathRun {
   void append(const Path& path, Joint joint, Tick now);
   bool full() const { return count_ == kMaxPaths; }
   std::size_t queued() const { return count_; }
+  /// How many will be left after `tick`, if nothing is changed until then.
+  std::size_t queued_after(Tick tick) const;
 
   /// The speed of what runs and what comes. Before a run begins, and at any time after, from `now` on. Throws
   /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with. Acceleration
