@@ -135,6 +135,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
