@@ -17,7 +17,7 @@ namespace understudy::motion {
 
 namespace {
 
-/// Half away from zero. Beyond 1e18 nobody counts: it stays there.
+/// Half away from zero. Nobody counts beyond 1e18: it stays there.
 std::int64_t nearest(double value) {
   const double size = std::abs(value);
   const auto whole = size < 1e18 ? static_cast<std::int64_t>(size + 0.5) : 1'000'000'000'000'000'000;

@@ -35,7 +35,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Devices that are made one after the other lie one behind the other, with what belongs to them between.
+/// Devices that are made one after another lie one behind another, with what belongs to them in between.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
   constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between

@@ -97,7 +97,7 @@ class World final : public WorldView {
   void remove_observer(std::size_t line, pty::LineObserver& observer) {
     lines_[line]->line.remove_observer(observer);
   }
-  /// Lets them know of it; nothing else comes of it.
+  /// Lets them know of it; it has no other effect.
   void tell_strike(std::size_t line, const pty::StruckMessage& message) {
     lines_[line]->line.tell_strike(message);
   }

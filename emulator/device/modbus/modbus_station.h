@@ -1,4 +1,4 @@
-// What a device offers that is spoken to in Modbus, beside its registers: which addresses it listens to, and
+// What a device that speaks Modbus offers beside its registers: which addresses it listens to, and
 // whether it refuses, and that it counts what was wrong. A facet: Device::modbus() is null where a device
 // speaks something else.
 #pragma once

@@ -83,7 +83,7 @@ std::string take_author(Json& message) {
 }  // namespace
 
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make) {
-  // Names and programs come from outside and may be no UTF-8.
+  // Names and programs come from outside and may not be UTF-8.
   const auto say = [&](const Json& made) {
     reply(made.dump(-1, ' ', false, Json::error_handler_t::replace));
   };
