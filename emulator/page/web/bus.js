@@ -1,0 +1,71 @@
+// The bus: what goes over the lines, in words; send by hand; drop the next like this; keep as a capture.
+import { html, useState } from './preact.js';
+import { ask, isReadOnly, store } from './store.js';
+import { Button, Choice, Field, save, seconds } from './small.js';
+import { pcapng } from './pcapng.js';
+
+const kShown = 200;
+
+function deviceOn(lineName) {
+  return store.bench?.lines.find((line) => line.name === lineName)?.stations ?? [];
+}
+
+function dropNext(frame) {
+  const fault = { drop: frame.line, nth: 1, times: 1 };
+  const isText = store.bench?.lines.find((line) => line.name === frame.line)?.text;
+  if (!isText && frame.bytes?.length >= 4) {
+    fault.function = parseInt(frame.bytes.slice(2, 4), 16) & 0x7f;
+    fault.station = parseInt(frame.bytes.slice(0, 2), 16);
+    if (fault.station === 0) delete fault.station;
+  }
+  return ask({ do: 'inject', fault });
+}
+
+function Frame({ frame }) {
+  const kind = frame.exception ? 'bad' : frame.remark ? 'odd' : '';
+  const latency = frame.latency_ns !== undefined ? `${(frame.latency_ns / 1e6).toFixed(2)} ms` : '';
+  return html`<tr class=${`${frame.way} ${kind}`} title=${frame.bytes}>
+    <td class="figure">${seconds(frame.time_ns)}</td><td>${frame.line}</td>
+    <td aria-label=${frame.way === 'in' ? 'from the host' : 'to the host'}>${frame.way === 'in' ? '→' : '←'}</td>
+    <td class="words">${frame.text} ${frame.remark && html`<em>${frame.remark}</em>`}</td>
+    <td class="figure">${latency}</td>
+    <td>${frame.way === 'in' && html`<${Button} kind="small" title="drop the next request like this" disabled=${isReadOnly()}
+      does=${() => dropNext(frame)}>drop next<//>`}</td></tr>`;
+}
+
+function ByHand() {
+  const lines = store.bench?.lines ?? [];
+  const [line, setLine] = useState('');
+  const chosen = lines.find((it) => it.name === line) ?? lines[0];
+  if (!chosen) return null;
+  const send = async (text) => (await ask(chosen.text
+    ? { do: 'send', line: chosen.name, text }
+    : { do: 'send', line: chosen.name, bytes: text, checksum: true })).ok;
+  return html`<div class="bar"><span>Send by hand:</span>
+    <${Choice} label="line" value=${chosen.name} options=${lines.map((it) => it.name)} takes=${setLine} />
+    <${Field} label=${chosen.text ? 'a line of text' : 'bytes of a request, without its checksum'} size="40"
+      placeholder=${chosen.text ? 'text' : '01 03 00 00 00 01'} disabled=${isReadOnly()} takes=${send} />
+    <small>while no host has the line open (${deviceOn(chosen.name).map((it) => `${it.device}${it.address !== undefined ? ` ${it.address}` : ''}`).join(', ')})</small></div>`;
+}
+
+export function Bus() {
+  const [filter, setFilter] = useState('');
+  const [what, setWhat] = useState('all');
+  const [held, hold] = useState(null);
+  const frames = held ?? store.frames;
+  const fits = (frame) => (filter === '' || `${frame.line} ${frame.text} ${frame.remark ?? ''}`.toLowerCase().includes(filter.toLowerCase())) &&
+    (what === 'all' || (what === 'exceptions' ? frame.exception : what === 'dropped' ? frame.remark : frame.way === what));
+  const shown = frames.filter(fits);
+  return html`<div class="bar">
+      <input type="search" aria-label="find in frames" placeholder="find" value=${filter} onInput=${(event) => setFilter(event.target.value)} />
+      <${Choice} label="which frames" value=${what} takes=${setWhat} options=${[['all', 'all'], ['in', 'requests'], ['out', 'replies'],
+        ['exceptions', 'exceptions'], ['dropped', 'dropped or remarked']]} />
+      <${Button} title="hold the list still" pressed=${held !== null} does=${() => hold(held ? null : [...store.frames])}>pause<//>
+      <${Button} title="save these frames as a capture" does=${() => save('bus.pcapng', [pcapng(shown, store.bench?.lines ?? [])],
+        'application/x-pcapng')}>pcapng<//>
+      <small class="figure">${shown.length} of ${frames.length}${store.framesLost ? `, ${store.framesLost} not kept` : ''}</small>
+    </div>
+    <${ByHand} />
+    <div class="scroll"><table class="frames"><thead><tr><th>time</th><th>line</th><th></th><th>what</th><th>latency</th><th></th></tr></thead>
+      <tbody>${shown.slice(-kShown).reverse().map((frame) => html`<${Frame} key=${frame.number} frame=${frame} />`)}</tbody></table></div>`;
+}

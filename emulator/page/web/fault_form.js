@@ -1,0 +1,61 @@
+// A fault, put together from what the program itself says about faults.
+import { html, useState } from './preact.js';
+import { ask, store } from './store.js';
+import { Button, Choice } from './small.js';
+
+/// Where a kind may be, as names.
+function placesFor(place) {
+  const lines = (store.bench?.lines ?? []).map((line) => line.name);
+  return Object.values(store.devices).flatMap((device) => {
+    switch (place) {
+      case 'axis': return device.axes.map((axis) => `${device.name}.${axis.name}`);
+      case 'wheel':
+        return device.axes.filter((axis) => axis.machine.encoder?.wheel).map((axis) => `${device.name}.${axis.name}`)
+          .concat(device.terminals.filter((it) => it.kind === 'counted_in').map((it) => `${device.name}.${it.name}`));
+      case 'input':
+        return device.terminals.filter((it) => it.kind === 'digital_in').map((it) => `${device.name}.${it.name}`);
+      default: return [device.name];
+    }
+  }).concat(place === 'device_or_line' ? lines : []);
+}
+
+function Line({ field, values, setValues }) {
+  const set = (event) => setValues({ ...values, [field.name]: event.target.value });
+  const range = field.lowest !== undefined ? ` (${field.lowest} to ${field.highest})` : '';
+  return html`<label title=${field.doc}><span>${field.name}${field.required ? ' *' : ''}</span>
+    <input value=${values[field.name] ?? ''} placeholder=${(field.form ?? '') + range} onInput=${set}
+      spellcheck="false" autocomplete="off" /></label>`;
+}
+
+/// `places`: the kinds to offer, all without it. `place`: where, if it is settled.
+export function FaultForm({ places, place, done, given = {} }) {
+  const kinds = store.kinds.filter((kind) => !places || places.includes(kind.place));
+  const [kindName, setKind] = useState(given.kind ?? kinds[0]?.name);
+  const [where, setWhere] = useState(given.where ?? '');
+  const [values, setValues] = useState(given.values ?? {});
+  const [withTrigger, setTrigger] = useState(Object.keys(given.values ?? {}).length > 0);
+  const kind = kinds.find((it) => it.name === kindName) ?? kinds[0];
+  if (!kind) return null;
+  const options = placesFor(kind.place);
+  const at = place ?? (options.includes(where) ? where : options[0]);
+  const fields = withTrigger ? [...kind.fields, ...store.trigger] : kind.fields;
+  const inject = async () => {
+    const fault = { [kind.name]: at };
+    for (const { name } of fields) {
+      const text = (values[name] ?? '').trim();
+      if (text !== '') fault[name] = /^-?\d+(\.\d+)?$/.test(text) ? Number(text) : text;
+    }
+    if ((await ask({ do: 'inject', fault })).ok) done?.();
+  };
+  return html`<form class="fault_form" onSubmit=${(event) => { event.preventDefault(); inject(); }}>
+    <${Choice} label="kind of fault" value=${kind.name} options=${kinds.map((it) => it.name)} takes=${setKind} />
+    ${!place && html`<${Choice} label="where" value=${at} options=${options} takes=${setWhere} />`}
+    <small>${kind.doc}</small>
+    <div class="fields">${fields.map((field) => html`<${Line} key=${field.name} field=${field} values=${values}
+      setValues=${setValues} />`)}</div>
+    <label class="check"><input type="checkbox" checked=${withTrigger}
+      onChange=${(event) => setTrigger(event.target.checked)} /> at a moment, a frame or a condition</label>
+    <button type="submit">inject</button>
+    ${done && html`<${Button} title="close" does=${done}>close<//>`}
+  </form>`;
+}

@@ -1,0 +1,163 @@
+// What the page knows of the bench that it shows. Panels read it; nothing but this file writes what the server told.
+import { Wire } from './wire.js';
+
+const kMostFrames = 1000;
+const kMostEvents = 500;
+const kFlash_ms = 1200;
+
+export const store = {
+  link: 'looking for the server',  // '' while all is well
+  hello: null,
+  number: 0,        // which bench is shown
+  states: [],       // of each: there, silent, gone, unknown
+  bench: null,      // the reply to `bench`
+  devices: {},      // by name: the reply to `bench` with a device
+  kinds: [],        // of faults
+  trigger: [],
+  values: {},
+  frames: [],
+  events: [],
+  framesLost: 0,
+  status: null,
+  look: null,       // time_ns, paused, speed, advancing
+  changes: {},      // by name: when it changed last, and by whom
+  heard: new Set(), // names that the host has spoken of
+  said: null,       // the last thing that went wrong: { text, at }
+};
+
+const listeners = new Set();
+export const onLook = (listener) => { listeners.add(listener); return () => listeners.delete(listener); };
+
+let asked = false;
+let drawn = () => {};
+export function drawBy(draw) { drawn = draw; }
+export function draw() {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => { asked = false; drawn(); });
+}
+
+// Names that the panels in view want, by panel.
+const wanted = new Map();
+let lastWatch = '';
+export function want(panel, names) {
+  wanted.set(panel, names);
+  watch();
+}
+export function unwant(panel) {
+  wanted.delete(panel);
+  watch();
+}
+function watch() {
+  const names = [...new Set([...wanted.values()].flat())].slice(0, 2000);
+  const wish = JSON.stringify([store.number, names]);
+  if (wish === lastWatch) return;
+  lastWatch = wish;
+  wire.watch(store.number, { names, frames: true, events: true, status: true });
+}
+
+const wire = new Wire({
+  hello: (hello) => {
+    store.link = '';
+    store.hello = hello;
+    store.states = hello.benches.map((bench) => bench.state);
+    show(Math.min(store.number, hello.benches.length - 1));
+  },
+  bench: (bench) => {
+    store.states[bench.bench] = bench.state;
+    if (bench.bench === store.number && bench.state === 'there') learn();
+    draw();
+  },
+  lost: (why) => {
+    store.link = why ? `closed: ${why}` : 'the page has lost its server; trying again';
+    draw();
+  },
+  error: (error) => complain(error.error),
+  look: take,
+});
+
+function take(look) {
+  if (look.bench !== store.number) return;
+  const now = performance.now();
+  store.look = look;
+  for (const [name, value] of Object.entries(look.values ?? {})) {
+    if (name in store.values && store.values[name] !== value) {
+      const last = store.changes[name];
+      if (!last || now - last.at > 300 || !last.by) store.changes[name] = { at: now, by: '' };
+    }
+    store.values[name] = value;
+  }
+  for (const event of look.events ?? []) {
+    if (event.what === 'write' && event.name) {
+      store.changes[`${event.device}.${event.name}`] = { at: now, by: event.by };
+      if (event.by === 'host') store.heard.add(`${event.device}.${event.name}`);
+    }
+  }
+  for (const frame of look.frames ?? []) {
+    for (const name of frame.text.matchAll(/[A-Za-z_][\w-]*\.[A-Za-z_][\w.]*/g)) store.heard.add(name[0]);
+  }
+  store.frames = store.frames.concat(look.frames ?? []).slice(-kMostFrames);
+  store.events = store.events.concat(look.events ?? []).slice(-kMostEvents);
+  store.framesLost += look.frames_lost ?? 0;
+  if (look.status) store.status = look.status;
+  for (const listener of listeners) listener(look);
+  draw();
+}
+
+/// Another bench, or the same once more.
+export function show(number) {
+  const isOther = number !== store.number;
+  store.number = number;
+  if (isOther) forget();
+  lastWatch = '';
+  watch();
+  if (store.states[number] === 'there') learn();
+  draw();
+}
+
+function forget() {
+  Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
+                         changes: {}, framesLost: 0, heard: new Set() });
+}
+
+async function learn() {
+  const number = store.number;
+  forget();
+  const { bench } = await wire.ask(number, { do: 'bench' });
+  const kinds = await wire.ask(number, { do: 'faults' });
+  if (number !== store.number || !bench) return;
+  store.kinds = kinds.kinds ?? [];
+  store.trigger = kinds.trigger ?? [];
+  for (const device of bench.devices) {
+    const reply = await wire.ask(number, { do: 'bench', device: device.name });
+    if (reply.device) store.devices[device.name] = reply.device;
+  }
+  store.bench = bench;
+  lastWatch = '';
+  watch();
+  draw();
+}
+
+export function complain(text) {
+  store.said = { text, at: performance.now() };
+  setTimeout(draw, 6100);
+  draw();
+}
+
+/// A message to the bench that is shown; what is refused is said in the page's own words line.
+export async function ask(message) {
+  const reply = await wire.ask(store.number, message);
+  if (!reply.ok) complain(reply.error ?? 'refused');
+  return reply;
+}
+/// The same for those who look for themselves whether it worked.
+export const askQuietly = (message) => wire.ask(store.number, message);
+
+export const isReadOnly = () => store.hello?.read_only ?? false;
+export const valueOf = (name) => store.values[name];
+/// 'host', 'page', 'control', 'device' for a moment after a change; '' otherwise.
+export function flashOf(name) {
+  const change = store.changes[name];
+  if (!change || performance.now() - change.at > kFlash_ms) return '';
+  return change.by || 'device';
+}
