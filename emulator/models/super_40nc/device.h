@@ -135,6 +135,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
@@ -351,6 +352,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
+  NamedBlocks::mapped_type ready_texts_;  // that those two are made of
   interpreter::super_40nc::Options options_;
   int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again

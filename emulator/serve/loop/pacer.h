@@ -62,6 +62,8 @@ class Pacer {
   WallTime woke(WallTime planned, WallTime wall);
 
   void pause(WallTime wall);
+  /// From now on.
+  void set_speed(const Speed& speed, WallTime wall);
   void resume(WallTime wall);
   bool paused() const { return paused_; }
   /// The clock stands: paused, or manual.
