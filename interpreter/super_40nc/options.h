@@ -40,6 +40,7 @@ struct Options {
   enum class Product : std::uint8_t { wraps, saturates } product = Product::wraps;
 
   // --- the PLC --------------------------------------------------------------------------------------
+  int scan_ms = 1;  // how often the machine calls
   int timer_unit_ms = 1;
   /// A counter stops at its preset, or counts on.
   bool counts_beyond_preset = false;

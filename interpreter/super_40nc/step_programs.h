@@ -93,6 +93,12 @@ class StepPrograms : public StepControl {
   bool is_single_step(Area area) const {
     return machine_.special_contact(row_of(area).run_contact - 8000 + named::kSingleStep);
   }
+  /// M8002, or M8x02 of the axis: what stands behind the line that switched it ON is not run.
+  bool is_stopped_short(Area area) const {
+    const int axis = axis_of(area);
+    return machine_.special_contact(named::kEmergencyStop) ||
+           (axis >= 0 && machine_.special_contact(named::kReset + 100 * axis));
+  }
   bool is_inhibited() const { return machine_.special_contact(named::kMotionInhibit); }
   void report(Area area, Code code);
   void fail(Area area, Code code);

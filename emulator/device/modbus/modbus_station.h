@@ -20,6 +20,8 @@ enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
 class ModbusStation {
  public:
   virtual Addressing addressing(std::uint8_t address) const = 0;
+  /// Of those of its model.
+  virtual bool knows(std::uint8_t /*function*/) const { return true; }
   /// Whether a request that it refuses gets an exception, or no answer.
   virtual bool answers_refusals() const { return true; }
   /// What came in by that port was not a frame; it gets no answer. Only while the device has power.

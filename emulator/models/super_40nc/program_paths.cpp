@@ -127,6 +127,11 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
   try {
     return begin_on_path(frame.takes, frame.end_lu, feed, mode, geometry);
   } catch (const motion::BadMotion&) {
+    if (reports && device_.chose(option("arc_off_circle", "a_line_to_the_end"))) {
+      return begin_on_path(
+          frame.takes, frame.end_lu, feed, kModeLine,
+          [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
+    }
     if (reports) device_.report(Code::arc_impossible, device_.line_step(Mover::c));
     return Begun::void_;
   }
@@ -137,8 +142,9 @@ motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane)
   const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
   const bool is_seen_from_behind =
       plane == language::Plane::xz && device_.chose(option("arc_axes", "seen_from_the_third_axis"));
-  const bool is_swapped =
-      device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]) != is_seen_from_behind;
+  const bool is_swapped_by_parameter = !device_.chose(option("plane_swap_registers", "none")) &&
+                                       device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]);
+  const bool is_swapped = is_swapped_by_parameter != is_seen_from_behind;
   const bool is_clockwise = (turn == language::Turn::clockwise) != is_swapped;
   return is_clockwise ? motion::Turn::clockwise : motion::Turn::counter_clockwise;
 }
