@@ -77,6 +77,7 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
 
 void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
   const Tick ticks = tick - done;
+  state_.has_ticked = true;
   if (!ladder_.is_empty() && state_.plc.runs) {
     ProgramMachine machine(*this);
     language::cross(state_.plc, ladder_, machine, ticks, options_);

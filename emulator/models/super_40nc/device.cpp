@@ -142,13 +142,14 @@ void Super40nc::look_at_inputs() {
     state_.analog[static_cast<std::size_t>(i)] = input(kFirstAnalogIn + i);
   }
   state_.emergency = input(kEmergencyTerminal) != 0;
+  for (int number = 0; number < kAxisCount; ++number) look_round(number);
+  see_first_signals();
   const bool runs = input(kRunSwitch) != 0;
   if (runs != state_.run_switch) {
     state_.run_switch = runs;
     state_.logo_at = runs && !state_.logo_over ? now() + state_.logo_ms : kNever;
     runs ? plc_to_run() : plc_to_stop();
   }
-  for (int number = 0; number < kAxisCount; ++number) look_round(number);
 }
 
 void Super40nc::sample_inputs(Tick) {
@@ -208,6 +209,7 @@ bool Super40nc::programs_are_busy() const {
 }
 
 void Super40nc::step_motion(Tick tick) {
+  state_.has_ticked = true;
   const auto turned = static_cast<std::int32_t>(static_cast<std::uint32_t>(input(kWheelTerminal)) -
                                                 static_cast<std::uint32_t>(state_.wheel_edges));
   state_.wheel_edges = input(kWheelTerminal);

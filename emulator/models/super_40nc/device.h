@@ -70,6 +70,7 @@ struct State {
   bool touched = true;      // something was written since the last scan
   bool run_switch = false;  // PLC_RUN, as looked at in this tick
   bool emergency = false;   // CEMG
+  bool has_ticked = false;  // since power-up
   bool emergency_obeyed = false;
   std::array<bool, kAxisCount> were_held{};  // in reset, in the last scan
   bool was_inhibited = false;                // by M8004
@@ -381,6 +382,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
 
   // --- signals.cpp: what they meet
   void look_at_inputs();
+  void see_first_signals();
   void look_round(int axis);
 
   State state_;

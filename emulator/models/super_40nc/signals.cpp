@@ -68,6 +68,14 @@ void Super40nc::look_round(int number) {
   here(number) = seen;
 }
 
+/// What is ON at power-up is no edge of a contact that shows it.
+void Super40nc::see_first_signals() {
+  if (state_.has_ticked) return;
+  for (int number = 0; number < kAxisCount; ++number) {
+    chip(number).signals = here(number).at(chip(number).travel_pulses, chip(number).signals);
+  }
+}
+
 void Super40nc::set_edges(int number, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(number)] = edges;
   look_round(number);

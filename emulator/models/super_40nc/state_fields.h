@@ -136,6 +136,7 @@ struct StateOf<emulator::models::super_40nc::State> {
                  field("touched", &Value::touched),
                  field("run_switch", &Value::run_switch),
                  field("emergency", &Value::emergency),
+                 field("has_ticked", &Value::has_ticked),
                  field("emergency_obeyed", &Value::emergency_obeyed),
                  field("were_held", &Value::were_held),
                  field("was_inhibited", &Value::was_inhibited),
