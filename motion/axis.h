@@ -96,6 +96,8 @@ struct AxisSettings {
   std::optional<Reaction> at_soft_limit_minus = std::nullopt;  // nothing: the same
   Reaction at_alarm = Reaction::stop_at_once;
   Reaction at_emergency = Reaction::stop_at_once;
+  Reaction at_mark_on = Reaction::ignore;  // the edges of the mark; the cause is `stopped`
+  Reaction at_mark_off = Reaction::ignore;
   bool needs_servo = true;             // commands are refused and motion ends while the servo is off
   bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
   // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.

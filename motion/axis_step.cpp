@@ -181,6 +181,8 @@ void Axis::see(Signals now_on, Instant at) {
     const Event edge = (now_on & bit(Signal::mark)) != 0 ? Event::mark_on : Event::mark_off;
     events_between |= bit(edge);
     event_at[static_cast<std::size_t>(edge)] = at;
+    const bool is_on = edge == Event::mark_on;
+    react(is_on ? settings.at_mark_on : settings.at_mark_off, Cause::stopped, at);
   }
   if (homing.active() && changed != 0) homing_sees(changed, at);
   const auto is_on = [&](Signal signal) { return (now_on & bit(signal)) != 0 && !homing_takes(signal); };

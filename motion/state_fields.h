@@ -227,6 +227,8 @@ struct StateOf<motion::AxisSettings> {
                  field("at_soft_limit_minus", &motion::AxisSettings::at_soft_limit_minus),
                  field("at_alarm", &motion::AxisSettings::at_alarm),
                  field("at_emergency", &motion::AxisSettings::at_emergency),
+                 field("at_mark_on", &motion::AxisSettings::at_mark_on),
+                 field("at_mark_off", &motion::AxisSettings::at_mark_off),
                  field("needs_servo", &motion::AxisSettings::needs_servo),
                  field("waits_for_in_position", &motion::AxisSettings::waits_for_in_position),
                  field("raises", &motion::AxisSettings::raises),

@@ -239,8 +239,12 @@ void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t s
     const std::int64_t preset = access.value(ladder.line(timer.line).fields[1]);
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
-    cells[timer.c] = static_cast<std::uint32_t>(present + scans);
-    if ((timer.flags & kKept) != 0) machine.kept_cell_written(timer.c);
+    const bool is_kept = (timer.flags & kKept) != 0;
+    // The memory tells how often it has changed: of a latched timer, as often as scan by scan.
+    for (std::int64_t scan = is_kept ? 1 : scans; scan <= scans; ++scan) {
+      cells[timer.c] = static_cast<std::uint32_t>(present + scan);
+      if (is_kept) machine.kept_cell_written(timer.c);
+    }
   }
 }
 

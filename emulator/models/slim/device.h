@@ -102,6 +102,7 @@ class Slim final : public DeviceOf<Slim>,
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
   /// What is wrong with a text, for a device made like this one.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 

@@ -23,6 +23,7 @@ namespace {
 /// M8x00 + number.
 constexpr int of_axis(int axis, int number) { return 8100 + 100 * axis + number; }
 
+constexpr int kRun = 0;
 constexpr int kReset = 2;
 constexpr int kJogPlus = 3;
 constexpr int kJogMinus = 4;
@@ -121,12 +122,15 @@ void Super40nc::obey_stops() {
     const bool is_reset = is_on(of_axis(number, kReset));
     if (is_reset) axis(number).has_error = false;
     if (is_reset) tell(Event::reset, language::area_of_axis(number));
-    if (is_pressed(KeyDoes::stop, number)) tell(Event::stop, language::area_of_axis(number));
+    if (!is_pressed(KeyDoes::stop, number)) continue;
+    tell(Event::stop, language::area_of_axis(number));
+    set_contact(of_axis(number, kRun), false);  // a start in the same scan, too
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
     for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::main_stop);
     state_.homing_by_key = state_.zeroing_by_key = {};
     tell(Event::stop, Area::c);
+    set_contact(8000, false);
   }
   if (rises(8006)) tell(Event::hold, Area::c);
   for (int number = 0; number < kAxisCount; ++number) {

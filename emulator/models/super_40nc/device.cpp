@@ -127,6 +127,12 @@ bool Super40nc::knows(std::uint8_t function) const {
   return function != kSeveralCoils || !chose(option("coils_at_once", "exception_1"));
 }
 
+/// The usual one is 3.5 characters.
+pty::SimTime Super40nc::end_silence(pty::SimTime usual) const {
+  if (chose(option("frame_gap", "10_ms"))) return std::chrono::milliseconds(10);
+  return chose(option("frame_gap", "1_5_characters")) ? usual * 3 / 7 : usual;
+}
+
 bool Super40nc::answers_refusals() const { return !chose(option("exceptions", "no_answer")); }
 
 void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) { ++state_.receive_errors[port]; }

@@ -128,6 +128,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   Addressing addressing(std::uint8_t address) const override;
   bool knows(std::uint8_t function) const override;
   bool answers_refusals() const override;
+  pty::SimTime end_silence(pty::SimTime usual) const override;
   void receive_failed(std::size_t port, pty::ReceiveError error) override;
 
   // --- memory --------------------------------------------------------------------------------------
@@ -141,6 +142,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
 
   // --- time ----------------------------------------------------------------------------------------
   void sample_inputs(Tick tick) override;
@@ -389,6 +391,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
+  NamedBlocks::mapped_type ready_texts_;  // that those two are made of
   interpreter::super_40nc::Options options_;
   bool lines_wait_ = false;                       // a choice that is asked for often
   bool multiplies_by_x12_ = false;                // likewise

@@ -50,6 +50,8 @@ std::optional<language::AreaProgram> stored_area(const TextBlocks& blocks, std::
 }  // namespace
 
 void Super40nc::make_programs_ready() {
+  const auto texts = state_.blocks.all().find(kPrograms);
+  ready_texts_ = texts == state_.blocks.all().end() ? NamedBlocks::mapped_type{} : texts->second;
   ProgramMachine machine(*this);
   for (const language::AreaRow& row : language::kAreas) {
     const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);

@@ -80,7 +80,10 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
     state_ = *restored;
-    make_programs_ready();
+    const auto texts = state_.blocks.all().find(kPrograms);
+    const bool has_texts = texts != state_.blocks.all().end();
+    const bool are_ready = has_texts ? texts->second == ready_texts_ : ready_texts_.empty();
+    if (!are_ready) make_programs_ready();
   };
 }
 
