@@ -135,6 +135,7 @@ class StepPrograms : public StepControl {
   Slice begin_arc(Area area, const Instruction& line);
   template <class Request>
   Slice begin_motion(Area area, const Instruction& line, const Request& request, bool waits);
+  bool goes_on_by_path(Area area, const Instruction& line) const;
   AxisValues values_of(Area area, const Instruction& line) const;
   bool drop_what_it_may_not_move(Area area, AxisValues& values);
   std::int32_t feed() const { return machine_.special_register(named::kFeed); }

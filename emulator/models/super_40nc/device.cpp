@@ -103,6 +103,7 @@ language::Options Super40nc::chosen_options() const {
   set(option("cj_without_group", "takes_the_last_result"), made.loose_groups,
       Options::LooseGroups::take_last_result);
   set(option("if_depth", "1"), made.if_depth, 1);
+  set(option("continuous_path", "corners_are_run_through"), made.joins_paths, true);
   set(option("mset", "refused_at_load"), made.knows_mset, false);
   return made;
 }

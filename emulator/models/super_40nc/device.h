@@ -275,6 +275,13 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// What its axes get together.
   Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
   bool begin_path(const PathPlan& plan);
+  /// Whether a path that runs is to be gone on with (D9005).
+  bool joins_paths() const;
+  /// For one more with the same axes.
+  bool has_room_on_path(const std::array<bool, kAxisCount>& takes) const;
+  void join_path(const PathPlan& plan);
+  /// Where a LIN or an arc begins that comes now.
+  std::int64_t path_base_lu(int axis) const;
   bool is_on_path(int axis) const { return state_.path.takes(static_cast<std::size_t>(axis)); }
   void hold_path();
   void go_on_path();

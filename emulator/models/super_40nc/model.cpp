@@ -24,14 +24,13 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
-constexpr std::array<std::string_view, 5> kGaps{
+constexpr std::array<std::string_view, 4> kGaps{
     "Comparators meet COUNTER1 to the pulse by methods 1, 4, 5 and as soft limits, four of them at once; by "
     "other "
     "numbers, and by methods 2 and 3, they stop an axis when the tick is over.",
     "In a LIN or an arc backlash comes out at once, and slip (D9x57 = 2) is not corrected.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
     "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",
-    "A continuous path (D9005 = 1), of which only the name is printed: each LIN and arc ends at rest.",
 };
 
 constexpr std::array<int, 1> kBauds{19200};

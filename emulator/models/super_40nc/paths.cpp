@@ -139,6 +139,41 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   return true;
 }
 
+bool Super40nc::joins_paths() const {
+  return options_.joins_paths && state_.path.engaged && registers().is_on(kept_d(9005));
+}
+
+bool Super40nc::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (takes[static_cast<std::size_t>(number)] != is_on_path(number)) return false;
+  }
+  return !state_.path_is_held && state_.path.slowing_for == motion::Cause::none &&
+         state_.path.run.queued() <= 1;
+}
+
+/// Without slowing down, whatever the corner; the feed is its own from now on.
+void Super40nc::join_path(const PathPlan& plan) {
+  const Settings its = registers();
+  motion::Point most;
+  most.setConstant(std::numeric_limits<double>::infinity());
+  state_.path.run.append(plan.path, {.rule = motion::Joint::Rule::join}, now());
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    if (!plan.takes[n]) continue;
+    most[number] = its.top_pps(number) / pulses_per_lu(its, number);
+    AxisState& state = axis(number);
+    state.target_lu = plan.target_lu[n];
+    state.rest.travel = state_.path.travel_at(n, plan.path.end[number]);
+  }
+  state_.path_feed_lu_s = std::max<std::int32_t>(plan.feed_lu_per_s, 1);
+  state_.path_limit_lu_s = std::min(state_.path_limit_lu_s, motion::speed_within(plan.path, most));
+  heed_override();
+}
+
+std::int64_t Super40nc::path_base_lu(int number) const {
+  return joins_paths() && is_on_path(number) ? axis(number).target_lu : relative_base_lu(number);
+}
+
 void Super40nc::heed_override() {
   if (!state_.path.engaged) return;
   const double feed = path_feed();
@@ -206,7 +241,10 @@ void Super40nc::path_ended() {
   state_.path_is_held = false;
   state_.touched = true;
   if (has_arrived) show_finished(kPathSignal);
-  if (code != Code::none) program_broken(Mover::c, -1, true, why);
+  using interpreter::super_40nc::Phase;
+  const Phase phase = state_.steps.programs[0].phase;
+  const bool is_awaited = phase == Phase::moving || phase == Phase::held;  // not where paths are joined
+  if (code != Code::none) program_broken(Mover::c, -1, is_awaited, why);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

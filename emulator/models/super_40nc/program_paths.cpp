@@ -36,7 +36,9 @@ constexpr double kOffCircleLu = 10;
 Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
                                     const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
                                     int mode, const Geometry& geometry) {
-  switch (device_.ask_for_path(takes)) {
+  const bool joins = device_.joins_paths();
+  if (joins && !device_.has_room_on_path(takes)) return Begun::taken;
+  switch (joins ? Grant::starts : device_.ask_for_path(takes)) {
     case Grant::waits: return Begun::taken;
     case Grant::refused: return Begun::void_;
     case Grant::nothing:
@@ -51,7 +53,7 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
     const auto n = static_cast<std::size_t>(axis);
     if (!takes[n]) continue;
     const std::int64_t offset = device_.axis(axis).offset_lu;
-    from[axis] = static_cast<double>(device_.relative_base_lu(axis) - offset);
+    from[axis] = static_cast<double>(device_.path_base_lu(axis) - offset);
     to[axis] = static_cast<double>(target_lu[n] - offset);
   }
   const Super40nc::PathPlan plan{.path = geometry(from, to),
@@ -63,6 +65,10 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
     device_.show_finished(kPathSignal);
     return Begun::done;
   }
+  if (joins) {
+    device_.join_path(plan);
+    return Begun::runs;
+  }
   return device_.begin_path(plan) ? Begun::runs : Begun::refused;
 }
 
@@ -73,7 +79,7 @@ Begun ProgramMachine::begin(Area, const language::LinearMove& move) {
     const auto n = static_cast<std::size_t>(axis);
     takes[n] = move.target_lu[n].has_value();
     const bool is_relative = move.targets == language::Targets::relative;
-    targets[n] = move.target_lu[n].value_or(0) + (is_relative ? device_.relative_base_lu(axis) : 0);
+    targets[n] = move.target_lu[n].value_or(0) + (is_relative ? device_.path_base_lu(axis) : 0);
   }
   return begin_on_path(
       takes, targets, move.feed_lu_per_s, kModeLine,
@@ -109,7 +115,7 @@ ProgramMachine::ArcFrame ProgramMachine::frame_of(language::Plane plane, languag
     const auto n = static_cast<std::size_t>(frame.axes[i]);
     frame.takes[n] = true;
     frame.offset_lu[n] = device_.axis(frame.axes[i]).offset_lu;
-    frame.base_lu[n] = device_.relative_base_lu(frame.axes[i]);
+    frame.base_lu[n] = device_.path_base_lu(frame.axes[i]);
     frame.end_lu[n] = target_of(frame, i, targets, end[i]);
   }
   return frame;
