@@ -224,6 +224,7 @@ struct StateOf<motion::AxisSettings> {
       std::tuple{field("at_limit_plus", &motion::AxisSettings::at_limit_plus),
                  field("at_limit_minus", &motion::AxisSettings::at_limit_minus),
                  field("at_soft_limit", &motion::AxisSettings::at_soft_limit),
+                 field("at_soft_limit_minus", &motion::AxisSettings::at_soft_limit_minus),
                  field("at_alarm", &motion::AxisSettings::at_alarm),
                  field("at_emergency", &motion::AxisSettings::at_emergency),
                  field("at_mark_on", &motion::AxisSettings::at_mark_on),

@@ -133,7 +133,7 @@ class Slim final : public DeviceOf<Slim>,
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
   void write_memory(NvImage& image) const override;
-  void read_memory(const NvImage& image) override;
+  void read_memory(const NvImage& given) override;
 
  private:
   /// What a command has to say.
@@ -226,7 +226,7 @@ class Slim final : public DeviceOf<Slim>,
     return number == user_unit().pulses || number == user_unit().units;
   }
   Error set_scale(int module, std::size_t number, double value);
-  Error set_parameter(int module, std::string_view name, double value);
+  Error set_parameter(int module, std::string_view given_name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
   Error assign_axis(Letter letter, int module);
