@@ -25,13 +25,14 @@ struct Verb {
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
 };
-constexpr std::array<Verb, 19> kVerbs{{{"status", status_message},
+constexpr std::array<Verb, 20> kVerbs{{{"status", status_message},
                                        {"identify", identify_message},
                                        {"get", get_message},
                                        {"eval", eval_message},
                                        {"set", set_message},
                                        {"input", input_message},
                                        {"turn", turn_message},
+                                       {"command", command_message},
                                        {"power", power_message},
                                        {"program", program_message},
                                        {"inject", inject_message},
