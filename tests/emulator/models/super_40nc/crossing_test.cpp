@@ -1,11 +1,12 @@
 // Many ticks in one step are the same as one by one: random courses of jogs, zero returns, writes, inputs and
-// timers. UNDERSTUDY_SEED overrides.
+// timers. UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <random>
 
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
+#include "tests/emulator/world/same_world.h"
 
 namespace understudy::emulator::models::super_40nc {
 namespace crossing_test {
@@ -38,10 +39,15 @@ Act draw(std::mt19937_64& random) {
   }
 }
 
+std::uint64_t number_from(const char* name, std::uint64_t usual) {
+  const char* const given = std::getenv(name);
+  return given != nullptr ? std::strtoull(given, nullptr, 10) : usual;
+}
+
 TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
-  const char* const given_seed = std::getenv("UNDERSTUDY_SEED");
-  const std::uint64_t first = given_seed != nullptr ? std::stoull(given_seed) : 1;
-  for (std::uint64_t seed = first; seed < first + 60; ++seed) {
+  const std::uint64_t first = number_from("UNDERSTUDY_SEED", 1);
+  std::uint64_t ticks_crossed = 0;
+  for (std::uint64_t seed = first; seed < first + number_from("UNDERSTUDY_COURSES", 60); ++seed) {
     std::mt19937_64 random(seed);
     Given given{.set = {{"D9128", 0}}, .program = seed % 3 == 0 ? "" : seed % 3 == 1 ? kPlc : kCuriousPlc};
     world::PlantSetup plant;
@@ -55,6 +61,7 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
     given.plant[1] = plant;
     OneSuper40nc single(given);
     OneSuper40nc crossed(given);
+    single.world().set_bulk_ticks(false);
     for (int acts = 0; acts < 30; ++acts) {
       const Act act = draw(random);
       for (OneSuper40nc* const one : {&single, &crossed}) {
@@ -65,13 +72,17 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
         }
       }
       const Tick ticks = std::uniform_int_distribution<Tick>(1, acts % 5 == 0 ? 3000 : 200)(random);
-      for (Tick i = 0; i < ticks; ++i) single.run(1);
+      single.run(ticks);
       crossed.run(ticks);
       const auto a = single.device().save_state();
       const auto b = crossed.device().save_state();
       ASSERT_EQ(single.device().state_difference(a, b), "") << "seed " << seed << ", " << act.name;
+      ASSERT_TRUE(world::same_state(single.world(), crossed.world())) << "seed " << seed << ", " << act.name;
     }
+    ticks_crossed += crossed.world().ticks_crossed();
+    EXPECT_EQ(single.world().ticks_crossed(), 0U);
   }
+  EXPECT_GT(ticks_crossed, 10'000U) << "worth something only if much is";
 }
 
 /// A settled PLC and standing axes cost next to nothing: an hour of it.
