@@ -75,7 +75,7 @@ TEST(Page, ShowsWhatAHostWritesAndHoldsWhatIsClicked) {
   }
   browser->say({{"do", "ask"}, {"id", 1}, {"message", {{"do", "input"}, {"values", {{"device.DIN_3", 1}}}}}});
   EXPECT_EQ(browser->hear_one("answer")["reply"]["ok"], true);
-  EXPECT_EQ(server.ctl({"get", "DIN_3"}).output, "DIN_3 = 1\n");
+  EXPECT_EQ(server.ctl({"get", "DIN_3"}).output, "DIN_3 1\n");
   for (bool is_held = false; !is_held;) {
     look = browser->hear_one("look");
     ASSERT_FALSE(look.is_null());
