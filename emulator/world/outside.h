@@ -26,6 +26,8 @@ class OutsideListener {
   virtual void on_program(std::size_t device, std::string_view text, bool is_refused) = 0;
   /// A command by its name, past the line.
   virtual void on_command(std::size_t device, std::string_view text) = 0;
+  /// A fault of the machine or of a device begins or ends. It follows from the rest: not for recordings.
+  virtual void on_fault(std::size_t /*number*/, bool /*in_force*/) {}
 };
 
 }  // namespace understudy::emulator::world

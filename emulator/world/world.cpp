@@ -36,7 +36,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Devices that are made one after the other lie one behind the other, with what belongs to them between.
+/// Devices that are made one after another lie one behind another, with what belongs to them in between.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
   constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
@@ -351,7 +351,7 @@ void World::latch_wires() {
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
   begin_act();
-  if (listener_ != nullptr) listener_->on_input(device, terminal, level);
+  tell([&](OutsideListener& listener) { listener.on_input(device, terminal, level); });
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
   tell_edges(device);
@@ -375,7 +375,7 @@ void World::begin_act() {
 
 Refusal World::write(std::size_t device, const PreparedWrite& write) {
   begin_act();
-  if (listener_ != nullptr) listener_->on_write(device, write);
+  tell([&](OutsideListener& listener) { listener.on_write(device, write); });
   return write_prepared(*devices_[device]->register_bank(), write);
 }
 
@@ -384,7 +384,7 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
   NamedValues* const values = devices_[device]->named_values();
   if (values == nullptr) return "cannot be set; expected a name of the device";
   if (auto complaint = values->assign(name, value)) return complaint;
-  if (listener_ != nullptr) listener_->on_assign(device, name, value);
+  tell([&](OutsideListener& listener) { listener.on_assign(device, name, value); });
   look_for_speech(now_);
   return std::nullopt;
 }
@@ -392,31 +392,31 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
   // Also one that is refused, for its text or for what the device is doing: the device may show that it was.
-  const bool is_heard = listener_ != nullptr && devices_[device]->user_program() != nullptr;
-  const auto tell = [&](bool is_refused) {
-    if (is_heard) listener_->on_program(device, text, is_refused);
+  const bool takes_any = devices_[device]->user_program() != nullptr;
+  const auto tell_of = [&](bool is_refused) {
+    if (takes_any) tell([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });
     look_for_speech(now_);
   };
   try {
     emulator::load_program(*devices_[device], text);
   } catch (const ProgramError&) {
-    tell(true);
+    tell_of(true);
     throw;
   }
-  tell(false);
+  tell_of(false);
 }
 
 Objection World::command(std::size_t device, std::string_view text) {
   begin_act();
   const auto [first, words] = window_message(*devices_[device], text);
-  if (listener_ != nullptr) listener_->on_command(device, text);
+  tell([&](OutsideListener& listener) { listener.on_command(device, text); });
   return write_request(*devices_[device]->register_bank(), Table::holding, first, words);
 }
 
 void World::switch_power(std::size_t device, bool on) {
   if (supplies_[device].is_switched_on == on) return;
   begin_act();
-  if (listener_ != nullptr) listener_->on_power(device, on);
+  tell([&](OutsideListener& listener) { listener.on_power(device, on); });
   supplies_[device].is_switched_on = on;
   settle_power(device);
 }

@@ -97,8 +97,7 @@ constexpr auto kSettingVerbs = [] {
 }();
 constexpr CompleteTable<Verb, Change> kTable(kSettingVerbs, kChanges);
 
-std::string lines_of(const BasicSettings& settings, std::uint32_t axis) {
-  const BasicSettings factory;
+std::string lines_of(const BasicSettings& settings, const BasicSettings& factory, std::uint32_t axis) {
   std::string text;
   const auto line = [&](Verb verb, std::initializer_list<std::uint32_t> values) {
     Command command{.code = lang::real_time_code(verb)};
@@ -142,10 +141,10 @@ void apply_setting(BasicSettings& settings, const Command& command) {
   if (kTable.has(command.verb())) kTable[command.verb()](settings, command);
 }
 
-void keep_initial_table(TextBlocks& blocks, const InitialTable& table) {
+void keep_initial_table(TextBlocks& blocks, const InitialTable& table, const BasicSettings& factory) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     const std::string name(kAxisNames[a]);
-    std::string text = lines_of(table[a], mask_of(a));
+    std::string text = lines_of(table[a], factory, mask_of(a));
     if (text.empty()) {
       blocks.erase(kInitialBlocks, name);
     } else {
@@ -154,8 +153,9 @@ void keep_initial_table(TextBlocks& blocks, const InitialTable& table) {
   }
 }
 
-InitialTable initial_table_of(const TextBlocks& blocks) {
-  InitialTable table{};
+InitialTable initial_table_of(const TextBlocks& blocks, const BasicSettings& factory) {
+  InitialTable table;
+  table.fill(factory);
   for (std::size_t a = 0; a < kAxes; ++a) {
     const SharedText* const text = blocks.find(kInitialBlocks, std::string(kAxisNames[a]));
     if (text == nullptr) continue;

@@ -353,9 +353,9 @@ bool Slim::same_state(const Device& other) const {
 
 // --- terminals and axes ----------------------------------------------------------------------------
 
-bool Slim::output(int number) const {
-  const int module = number / kTerminalsOfModule;
-  const int which = number % kTerminalsOfModule;
+bool Slim::output(int terminal) const {
+  const int module = terminal / kTerminalsOfModule;
+  const int which = terminal % kTerminalsOfModule;
   return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
 }
 

@@ -102,6 +102,7 @@ class Slim final : public DeviceOf<Slim>,
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
   /// What is wrong with a text, for a device made like this one.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 
@@ -132,7 +133,7 @@ class Slim final : public DeviceOf<Slim>,
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
   std::function<void(NvImage&)> memory_writer() const override;
-  void read_memory(const NvImage& image) override;
+  void read_memory(const NvImage& given) override;
 
  private:
   /// What a command has to say.
@@ -225,7 +226,7 @@ class Slim final : public DeviceOf<Slim>,
     return number == user_unit().pulses || number == user_unit().units;
   }
   Error set_scale(int module, std::size_t number, double value);
-  Error set_parameter(int module, std::string_view name, double value);
+  Error set_parameter(int module, std::string_view given_name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
   Error assign_axis(Letter letter, int module);

@@ -65,7 +65,6 @@ void StateOf<State>::check(const State& state) {
   demand_within(state.recipe, 0, kRecipeCount - 1);
   demand_within(state.homing_by_key.order, 0, 4);
   demand_within(state.zeroing_by_key.order, 0, 4);
-  for (const std::int64_t counts : state.encoders_seen) demand_within(counts, -kFar, kFar);
 }
 
 }  // namespace understudy
@@ -81,7 +80,10 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
     state_ = *restored;
-    make_programs_ready();
+    const auto texts = state_.blocks.all().find(kPrograms);
+    const bool has_texts = texts != state_.blocks.all().end();
+    const bool are_ready = has_texts ? texts->second == ready_texts_ : ready_texts_.empty();
+    if (!are_ready) make_programs_ready();
   };
 }
 
