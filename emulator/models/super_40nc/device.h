@@ -362,7 +362,8 @@ class Super40nc final : public Device,
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
-  NamedBlocks::mapped_type ready_texts_;  // that those two are made of
+  std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
+  NamedBlocks::mapped_type ready_texts_;        // that those two are made of
   interpreter::super_40nc::Options options_;
   int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again

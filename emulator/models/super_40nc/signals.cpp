@@ -1,4 +1,6 @@
 // What the axes of a SUPER-40NC meet: switches along their way, the drive's alarm, the encoder's index.
+#include <utility>
+
 #include "emulator/models/super_40nc/device.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -53,7 +55,8 @@ void Super40nc::look_round(int number) {
 
 void Super40nc::set_edges(int number, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(number)] = edges;
-  look_round(number);
+  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  if (!std::exchange(is_restored_[static_cast<std::size_t>(number)], false)) look_round(number);
 }
 
 std::int64_t Super40nc::place_pulses(int number) const {
