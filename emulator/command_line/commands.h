@@ -56,7 +56,8 @@ struct ServeArguments {
   std::string trace;  // a file: .csv or .vcd
   std::vector<std::string> trace_also;
   bool lint = false;
-  std::string version;  // of this program
+  std::optional<int> page;  // the port of a live page beside it; 0: any
+  std::string version;      // of this program
 };
 int serve(ModelList models, const ServeArguments& arguments);
 
@@ -147,6 +148,19 @@ struct FramesArguments {
 };
 /// What goes over the lines, a line for each frame.
 int follow_frames(const FramesArguments& arguments);
+
+struct PageArguments {
+  std::vector<std::string> sockets;  // control sockets; none: the only daemon there is
+  int port = 0;                      // 0: any
+  std::string listen = "127.0.0.1";
+  std::vector<std::string> hosts;  // names of this machine besides the loopback's
+  bool read_only = false;
+  std::string folder;  // with the page's files instead of the program's own
+};
+/// Serves the live page until it is ended.
+int show_page(const PageArguments& arguments);
+/// The same in a process of its own, which ends with this one.
+void start_page_beside(const std::string& control, int port);
 
 struct PollArguments {
   std::string port;

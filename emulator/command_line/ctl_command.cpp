@@ -11,6 +11,7 @@
 #include "base/text/parse_real.h"
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/ctl_looks.h"
 #include "emulator/command_line/text_argument.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/value_text.h"
@@ -166,7 +167,7 @@ Json message_for(const ControlArguments& arguments) {
     }
     message["condition"] = arguments.operands[0];
     message["within"] = arguments.within;
-  } else if (!arguments.operands.empty()) {
+  } else if (!add_look_words(arguments, message) && !arguments.operands.empty()) {
     throw UsageError("ctl " + verb + ": " + understudy::quoted(arguments.operands[0]) +
                      " is one word too many; expected nothing after it");
   }
@@ -248,6 +249,7 @@ int control(const ControlArguments& arguments) {
     } else if (!accepted) {
       std::fprintf(stderr, "understudy: ctl %s: %s\n", arguments.verb.c_str(),
                    one_line(reply.at("error").get<std::string>()).c_str());
+    } else if (print_look(reply)) {
     } else if (reply.contains("status")) {
       print_status(reply.at("status"));
     } else if (reply.contains("values")) {

@@ -42,6 +42,7 @@ struct CommandLine {
   ControlArguments control;
   WatchArguments watched;
   FramesArguments frames;
+  PageArguments page;
   PollArguments poll;
   PlotArguments plot;
   ProgramTextArguments program;
@@ -63,6 +64,7 @@ struct CommandLine {
     add_run();
     add_replay();
     add_control();
+    add_page();
     add_poll();
     add_plot();
     add_program_text();
@@ -150,6 +152,9 @@ struct CommandLine {
   void add_serve() {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     add_serving_flags(*command, serve);
+    command->add_option("--page", serve.page, "Show the bench in a browser as well, at this port [any]")
+        ->expected(0, 1)
+        ->default_str("0");
     command->callback(
         [this] { chosen = [this] { return understudy::emulator::command_line::serve(models, serve); }; });
   }
@@ -329,6 +334,39 @@ struct CommandLine {
         ->capture_default_str();
     add("pause", "Stop simulated time", nullptr, nullptr);
     add("resume", "Let it run again", nullptr, nullptr);
+    add("step", "Move simulated time on by ticks, where the clock stands", "TICKS", "How many [1]");
+    add("speed", "Change how simulated time follows the clock", "SPEED", "real, free, manual, or a factor");
+    add("bench", "What there is: lines, devices, wires; or of a device its axes and terminals", "DEVICE",
+        "Its name");
+    add("registers", "A device's registers, page by page", "WHAT", "DEVICE, section=N, find=TEXT, from=N");
+    add("choices", "The choices in force of a device", "DEVICE", "Its name");
+    add("events", "What has happened: writes and who made them, faults, exceptions", "LAST",
+        "How many [200]");
+    add("where", "Which line a device's programs are at, and what they wait for", "DEVICE", "Its name");
+    add("scope", "Keep names at every tick around a moment", "WHAT",
+        "NAME..., when=CONDITION, before=1s, after=1s; off; nothing: how far it is");
+    add("send", "Put a request on a line that no host has open", "WHAT",
+        "LINE, and bytes in hexadecimal or text=TEXT");
+  }
+
+  void add_page() {
+    CLI::App* command = app.add_subcommand("page", "Show running benches in a browser");
+    command->add_option("--control", page.sockets, "Control sockets, one a bench [that of the only one]")
+        ->check(kNotEmpty)
+        ->allow_extra_args(false);
+    command->add_option("--port", page.port, "Its port; 0: any")->capture_default_str();
+    command->add_option("--listen", page.listen, "The address to listen on")
+        ->capture_default_str()
+        ->check(kNotEmpty);
+    command
+        ->add_option("--host", page.hosts,
+                     "A name by which browsers may call this machine, besides localhost")
+        ->check(kNotEmpty)
+        ->allow_extra_args(false);
+    command->add_flag("--read-only", page.read_only, "Browsers look, and change nothing");
+    command->add_option("--web", page.folder, "Take the page's files from this folder, to work on them")
+        ->check(kNotEmpty);
+    command->callback([this] { chosen = [this] { return show_page(page); }; });
   }
 
   void add_poll() {

@@ -128,7 +128,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   const Model& model = demand_model(models, arguments.model);
   if (!model.rtu || model.registers == nullptr) {
     throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
-                     ", no Modbus; expected a model with registers, or a terminal program");
+                     ", not Modbus; expected a model with registers, or a terminal program");
   }
   const auto found = find_register(model, what, model.firmwares.back());
   if (!found) {

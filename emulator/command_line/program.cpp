@@ -14,6 +14,7 @@
 #include "emulator/command_line/flags.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
+#include "emulator/page/web.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/ports/tty_shim.h"
 #include "emulator/world/bench_file/bench_file.h"
@@ -62,6 +63,8 @@ int run_program(int argc, char** argv, ModelList models) {
   } catch (const understudy::pty::PortError& error) {
     return complain(error, kExitNoResource);
   } catch (const serve::ControlError& error) {
+    return complain(error, kExitNoResource);
+  } catch (const page::WebError& error) {
     return complain(error, kExitNoResource);
   } catch (const world::RecordingError& error) {
     std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());

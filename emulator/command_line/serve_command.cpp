@@ -23,6 +23,11 @@ int serve(ModelList models, const ServeArguments& arguments) {
   say_ready(daemon);
   std::optional<play::Lint> lint;
   if (arguments.lint) lint.emplace(daemon.world());
+  if (arguments.page) {
+    if (daemon.control_path().empty())
+      throw UsageError("serve: --page: there is no control socket; expected --control");
+    start_page_beside(daemon.control_path(), *arguments.page);
+  }
   serve::notify_service_manager("READY=1");
   daemon.run();
   serve::notify_service_manager("STOPPING=1");

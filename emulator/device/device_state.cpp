@@ -1,4 +1,4 @@
-// What of a device's state is every model's: its inputs, its power, its time.
+// The part of a device's state that all models share: its inputs, its power, its time.
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
-// Where along an axis the switches of its machine change the levels of inputs: what a device is told that
-// meets edges at the pulse where they lie (Axes::meets_edges()). An input that is not here has its level,
-// wherever the axis is: it is wired to no switch, or held, stuck, or on by a wire as well; or pulses are
-// being lost.
+// Where along an axis the switches of its machine change the levels of inputs: this is what a device that
+// meets edges at the pulse where they lie is told (Axes::meets_edges()). An input that is not here has its
+// level, wherever the axis is: it is wired to no switch, or held, stuck, or on by a wire as well; or pulses
+// are being lost.
 #pragma once
 
 #include <array>

@@ -23,6 +23,8 @@ class OutsideListener {
   /// A value given by name to a device without registers.
   virtual void on_assign(std::size_t device, std::string_view name, double value) = 0;
   virtual void on_program(std::size_t device, std::string_view text) = 0;
+  /// A fault of the machine or of a device begins or ends. It follows from the rest: not for recordings.
+  virtual void on_fault(std::size_t /*number*/, bool /*in_force*/) {}
 };
 
 }  // namespace understudy::emulator::world

@@ -35,7 +35,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Devices that are made one after the other lie one behind the other, with what belongs to them between.
+/// Devices that are made one after another lie one behind another, with what belongs to them in between.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
   constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
@@ -350,7 +350,7 @@ void World::latch_wires() {
 
 void World::set_external_input(std::size_t device, int terminal, std::int32_t level) {
   begin_act();
-  if (listener_ != nullptr) listener_->on_input(device, terminal, level);
+  tell([&](OutsideListener& listener) { listener.on_input(device, terminal, level); });
   inputs_[device][static_cast<std::size_t>(terminal)].external = level;
   apply_input(device, terminal);
   tell_edges(device);
@@ -374,7 +374,7 @@ void World::begin_act() {
 
 Refusal World::write(std::size_t device, const PreparedWrite& write) {
   begin_act();
-  if (listener_ != nullptr) listener_->on_write(device, write);
+  tell([&](OutsideListener& listener) { listener.on_write(device, write); });
   return write_prepared(*devices_[device]->register_bank(), write);
 }
 
@@ -383,7 +383,7 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
   NamedValues* const values = devices_[device]->named_values();
   if (values == nullptr) return "cannot be set; expected a name of the device";
   if (auto complaint = values->assign(name, value)) return complaint;
-  if (listener_ != nullptr) listener_->on_assign(device, name, value);
+  tell([&](OutsideListener& listener) { listener.on_assign(device, name, value); });
   look_for_speech(now_);
   return std::nullopt;
 }
@@ -391,8 +391,9 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
   // Also one that will be refused: a device may show that it was.
-  if (listener_ != nullptr && devices_[device]->user_program() != nullptr)
-    listener_->on_program(device, text);
+  if (devices_[device]->user_program() != nullptr) {
+    tell([&](OutsideListener& listener) { listener.on_program(device, text); });
+  }
   try {
     emulator::load_program(*devices_[device], text);
   } catch (const ProgramError&) {
@@ -405,7 +406,7 @@ void World::load_program(std::size_t device, std::string_view text) {
 void World::switch_power(std::size_t device, bool on) {
   if (supplies_[device].is_switched_on == on) return;
   begin_act();
-  if (listener_ != nullptr) listener_->on_power(device, on);
+  tell([&](OutsideListener& listener) { listener.on_power(device, on); });
   supplies_[device].is_switched_on = on;
   settle_power(device);
 }

@@ -62,8 +62,9 @@ class World final : public WorldView {
   /// For a watcher, while it is shown a tick: advance_to() ends there, once all have seen it.
   void stop_here() { stops_here_ = true; }
 
-  /// One at most; null: nobody.
-  void set_listener(OutsideListener* listener) { listener_ = listener; }
+  /// Until it is removed; several are told in the order in which they were added.
+  void add_listener(OutsideListener& listener) { listeners_.push_back(&listener); }
+  void remove_listener(OutsideListener& listener) { std::erase(listeners_, &listener); }
 
   // --- lines ---------------------------------------------------------------------------------
   std::size_t line_count() const override { return lines_.size(); }
@@ -96,7 +97,7 @@ class World final : public WorldView {
   void remove_observer(std::size_t line, pty::LineObserver& observer) {
     lines_[line]->line.remove_observer(observer);
   }
-  /// Lets them know of it; nothing else comes of it.
+  /// Lets them know of it; it has no other effect.
   void tell_strike(std::size_t line, const pty::StruckMessage& message) {
     lines_[line]->line.tell_strike(message);
   }
@@ -115,6 +116,16 @@ class World final : public WorldView {
   void set_external_input(std::size_t device, int terminal, std::int32_t level);
   /// What set_external_input() gave it.
   std::int32_t external_input(std::size_t device, int terminal) const;
+  /// Who drives an input. What is stuck hides the rest.
+  struct Input {
+    std::int32_t external = 0;
+    bool wired = false;
+    bool plant = false;
+    std::optional<bool> stuck{};
+  };
+  const Input& input(std::size_t device, int terminal) const {
+    return inputs_[device][static_cast<std::size_t>(terminal)];
+  }
   /// Writes a register without the line.
   Refusal write(std::size_t device, const PreparedWrite& write);
   /// Sets a value by its name, for a device without registers. Returns nothing, or why not, and then nothing
@@ -125,6 +136,8 @@ class World final : public WorldView {
   /// Between two ticks. What a device without power was saying ends at once. One whose power is cut has none
   /// until that is over, and then only if it is switched on.
   void switch_power(std::size_t device, bool on);
+
+  const std::vector<WireSetup>& wires() const { return wires_; }
 
   // --- faults --------------------------------------------------------------------------------
   /// In force from the next tick on, or when its trigger says so; the number is for clear_fault(). Throws
@@ -139,13 +152,6 @@ class World final : public WorldView {
  private:
   template <class T>
   friend struct understudy::StateOf;  // state_fields.h: which of these are state
-
-  struct Input {
-    std::int32_t external = 0;
-    bool wired = false;
-    bool plant = false;
-    std::optional<bool> stuck{};
-  };
 
   /// A contact of the machine on an axis, and its device's input to which it is wired.
   struct ContactWire {
@@ -189,6 +195,10 @@ class World final : public WorldView {
     bool is_switched_on = true;
   };
 
+  template <class Tell>
+  void tell(Tell what) const {
+    for (OutsideListener* listener : listeners_) what(*listener);
+  }
   void begin_act();
   void run_tick();
   Tick last_alike() const;
@@ -249,7 +259,7 @@ class World final : public WorldView {
   std::vector<WireSetup> wires_;
   std::vector<TickWatcher*> watchers_;
   bool stops_here_ = false;
-  OutsideListener* listener_ = nullptr;
+  std::vector<OutsideListener*> listeners_;
   std::map<std::size_t, ArmedFault> faults_;  // by number
   std::size_t next_fault_ = 1;
   std::unique_ptr<FaultWatch> fault_watch_;  // null: no fault waits for anything

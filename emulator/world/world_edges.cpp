@@ -1,4 +1,4 @@
-// What devices are told that meet edges between ticks: where along an axis its machine's switches change the
+// What devices that meet edges between ticks are told: where along an axis its machine's switches change the
 // levels of inputs. It is told when it changes: when the machine loses pulses or finds them again, is pushed,
 // when a switch comes on or lets go, when an input is held, stuck or on by a wire.
 #include <algorithm>

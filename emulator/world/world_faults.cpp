@@ -17,7 +17,7 @@ namespace understudy::emulator::world {
 std::size_t World::inject(const Fault& fault) {
   check_fault(*this, fault);
   begin_act();
-  if (listener_ != nullptr) listener_->on_inject(fault);
+  tell([&](OutsideListener& listener) { listener.on_inject(fault); });
   disturbed_ = true;
   const std::size_t number = next_fault_++;
   if (is_done_at_once(fault.kind) && !waits(fault)) {
@@ -60,7 +60,7 @@ void World::clear_faults() {
 /// Whoever looks after the others is to be armed anew afterwards.
 void World::remove_fault(std::map<std::size_t, ArmedFault>::iterator fault) {
   begin_act();
-  if (listener_ != nullptr) listener_->on_clear_fault(fault->first);
+  tell([&](OutsideListener& listener) { listener.on_clear_fault(fault->first); });
   const std::size_t device = fault->second.fault.device;
   faults_.erase(fault);
   disturbed_ = true;
@@ -110,6 +110,9 @@ void World::settle_faults() {
     if (!course.is_news) continue;
     course.is_news = false;
     disturbed_ = true;
+    tell([&, which = number, in_force = course.in_force](OutsideListener& listener) {
+      listener.on_fault(which, in_force);
+    });
     switch (fault.kind) {
       case Fault::Kind::slip:
       case Fault::Kind::turn: move_by_hand(fault); break;

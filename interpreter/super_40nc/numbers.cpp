@@ -8,6 +8,12 @@
 #include <limits>
 
 #include "base/complete_table.h"
+#include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {

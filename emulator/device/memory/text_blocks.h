@@ -20,7 +20,7 @@ struct BlockKind {
   std::string_view name;    // "files": a key of the image
   std::size_t most = 0;     // entries
   std::size_t longest = 0;  // bytes of one
-  /// Why an entry cannot be called so; empty if it can. Null: any name.
+  /// Why an entry cannot have that name; empty if it can. Null: any name.
   std::string (*why_not_called)(const std::string& name) = nullptr;
   /// What is wrong with a text, "line 3: ..."; empty if nothing is. Null: any text.
   std::string (*why_not_text)(const std::string& text) = nullptr;

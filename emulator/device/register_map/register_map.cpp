@@ -72,8 +72,9 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
       const int address = row.address + index * row.stride + word;
       Entry& entry = table.entries.at(static_cast<std::size_t>(address));
       if (entry.row_number != 0) {
-        throw std::logic_error("register map: " + name_of(row, index) +
-                               " shares its address with another register");
+        const RegisterRow& other = rows_[entry.row_number - 1U];
+        throw std::logic_error("register map: " + name_of(row, index) + " shares its address with " +
+                               name_of(other, entry.index_and_part / 2));
       }
       entry = {static_cast<std::uint16_t>(row_number), static_cast<std::uint16_t>(index * 2 + word)};
       table.end = std::max(table.end, address + 1);

@@ -53,6 +53,9 @@ enum class Factor : std::uint8_t {
 inline constexpr std::size_t kIsrFactors = 8;
 inline constexpr std::size_t kFactors = 10;
 
+/// The bit of what a motion ends by, or is kept from beginning by (drives.cpp).
+std::uint16_t error_of(motion::Cause cause);
+
 /// A drive of one axis that a command asks for.
 struct Drive {
   enum class What : std::uint8_t { none, fixed, absolute, endless, home, scan };
@@ -118,10 +121,10 @@ struct AxisUnit {
   bool operator==(const AxisUnit&) const = default;
 };
 
-SpeedRange range_of(const AxisUnit& axis);
+SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules);
 /// The law of a drive at another speed than V.
-motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps);
-motion::SpeedLaw law_of(const AxisUnit& axis);
+motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules);
+motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules);
 
 /// The three counters.
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
@@ -138,6 +141,9 @@ struct AxisOptions {
   motion::Reaction at_soft_limit = motion::Reaction::slow_down;
   motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // and at the EMG input
   bool drives_wait_for_in_position = true;
+  bool ring_takes_absolute = false;
+  bool homing_heeds_soft_limits = true;
+  bool comparisons_fire_when_armed = false;
 };
 
 /// Puts the basic settings in force, beside what runs.
@@ -150,7 +156,7 @@ struct Asked {
   motion::Reaction stop = motion::Reaction::ignore;
 };
 /// Limits and comparators as the motor watches them: again whenever a counter or one of them is set.
-void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked);
+void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const AxisOptions& options);
 /// Of a soft limit on a bench's encoder, which the motor does not watch: the cause of a motion in `way` that
 /// may not go on.
 motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way);

@@ -5,7 +5,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/simulated_time.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "motion/axis.h"
+#include "motion/external_drive.h"
+#include "motion/surroundings.h"
+#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -139,7 +150,12 @@ void RsM8194h::look_again(std::size_t axis) {
     if (action == Action::stop_at_once) asked.stop = motion::Reaction::stop_at_once;
     if (action == Action::slow_down) asked.stop = motion::Reaction::slow_down;
   }
-  arm(unit, state_.motors[axis], asked);
+  // A scan has C+ for itself (7.4.12).
+  const LineScan& scan = state_.scans[axis];
+  constexpr motion::Events kOfPlus =
+      motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);
+  if (scan.set) asked.events &= static_cast<motion::Events>(~kOfPlus);
+  arm(unit, state_.motors[axis], asked, machine_.axis);
   look_round(axis);
 }
 
@@ -170,8 +186,10 @@ void RsM8194h::watch_external(std::size_t axis) {
       const bool is_run = order.what == What::run;
       const auto speed = static_cast<std::int32_t>(std::min<std::uint32_t>(unit.external_pps, INT32_MAX));
       const std::uint32_t drive_pps = unit.speed.drive_pps;  // the input's speed does not replace V
-      start(axis, {.what = is_run ? Drive::What::endless : Drive::What::fixed,
-                   .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)});
+      start(axis,
+            {.what = is_run ? Drive::What::endless : Drive::What::fixed,
+             .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)},
+            chose(option("exd_speed", "v_without_ramps")));
       unit.speed.drive_pps = drive_pps;
     }
   }

@@ -1,15 +1,30 @@
 #include "emulator/models/rs_m8194h/memory.h"
 
-#include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "emulator/device/device.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/memory/register_memory.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/triggers.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -8,6 +8,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
@@ -117,7 +118,7 @@ struct alignas(64) State {
 /// would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis);
 
-class Simple2R3 final : public Device,
+class Simple2R3 final : public DeviceOf<Simple2R3>,
                         public RegisterBankOf<Simple2R3>,
                         public ModbusStation,
                         public KeptMemory,
@@ -126,18 +127,6 @@ class Simple2R3 final : public Device,
                         public Axes {
  public:
   explicit Simple2R3(const DeviceSettings& given);
-
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
@@ -157,6 +146,7 @@ class Simple2R3 final : public Device,
   void settle_memory() override { state_.eeprom.settle(state_.image); }
   void load_program(std::string_view listing) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
 
   Addressing addressing(std::uint8_t address) const override;
   pty::LineSettings line_settings(std::size_t port) const override;

@@ -11,12 +11,12 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
-#include "emulator/device/text/text_device.h"
 #include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/chain_options.h"
 #include "emulator/models/slim/errors.h"
@@ -34,7 +34,7 @@
 namespace understudy::emulator::models::slim {
 
 Slim::Slim(const DeviceSettings& settings)
-    : TextDevice(slim::model(), settings),
+    : DeviceOf(slim::model(), settings),
       KeptMemory(slim::model().name, settings.firmware),
       modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();

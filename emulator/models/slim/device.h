@@ -15,10 +15,12 @@
 #include <vector>
 
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/terminals.h"
-#include "emulator/device/text/text_device.h"
+#include "emulator/device/text/text_speaker.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/chain.h"
@@ -70,7 +72,8 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-class Slim final : public TextDevice,
+class Slim final : public DeviceOf<Slim>,
+                   public TextSpeaker,
                    public NamedValues,
                    public KeptMemory,
                    public UserProgram,
@@ -79,16 +82,6 @@ class Slim final : public TextDevice,
                    private lang::Machine {
  public:
   explicit Slim(const DeviceSettings& settings);
-
-  NamedValues* named_values() override { return this; }
-  const NamedValues* named_values() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   // --- the dialogue ---
   TextRules text_rules() const override;
@@ -109,6 +102,7 @@ class Slim final : public TextDevice,
   void settle_memory() override;
   void load_program(std::string_view text) override;
   std::string program_text() const override;
+  std::vector<ProgramPlace> places() const override;
   /// What is wrong with a text, for a device made like this one.
   std::vector<ProgramMistake> mistakes_in(std::string_view text) const { return read_program(text).mistakes; }
 

@@ -69,7 +69,7 @@ LineManners::LineManners(world::World& world, std::size_t line)
     : world_(world),
       number_(line),
       options_(world.line(line).line.options()),
-      // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
+      // Whatever the devices make of it: it must hear frames that a strict one would not, to say why.
       framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
   const world::WorldLine& watched = world_.line(line);
   const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };

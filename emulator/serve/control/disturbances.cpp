@@ -66,11 +66,6 @@ Json course_of(std::size_t number, const world::ArmedFault& armed, const world::
   return entry;
 }
 
-std::size_t demand_device(const Daemon& daemon, const Json& message) {
-  return world::find_device(daemon.world().known(),
-                            message.contains("device") ? demand_text(message, "device") : std::string());
-}
-
 /// The first mistake for people, and all of them.
 Json refusal_of(const ProgramError& error) {
   Json mistakes = Json::array();

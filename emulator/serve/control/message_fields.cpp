@@ -36,4 +36,18 @@ std::string demand_text(const Json& message, const char* key) {
   return text.get<std::string>();
 }
 
+std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t most) {
+  const Json& value = message[key];
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+    throw MessageError(std::string(key) + ": expected a whole number" +
+                       (most == UINT64_MAX ? "" : " of at most " + std::to_string(most)));
+  }
+  return value.get<std::uint64_t>();
+}
+
+std::size_t demand_device(const Daemon& daemon, const Json& message) {
+  return world::find_device(daemon.world().known(),
+                            message.contains("device") ? demand_text(message, "device") : std::string());
+}
+
 }  // namespace understudy::emulator::serve

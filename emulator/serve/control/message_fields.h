@@ -2,6 +2,8 @@
 // compile.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -30,6 +32,11 @@ const Json& demand(const Json& message, const char* key);
 /// A whole number as an integer, any other as a real number.
 Json json_of(double value);
 std::string demand_text(const Json& message, const char* key);
+
+/// A whole number from 0 to `most`.
+std::uint64_t demand_count(const Json& message, const char* key, std::uint64_t most = UINT64_MAX);
+/// By its name; the only one if there is none under "device".
+std::size_t demand_device(const Daemon& daemon, const Json& message);
 
 /// The faults, and what they have done.
 Json faults_message_part(const world::World& world);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/text/one_line.h"
+#include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
@@ -25,8 +26,18 @@ struct Verb {
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
 };
-constexpr std::array<Verb, 19> kVerbs{{{"status", status_message},
+constexpr std::array<Verb, 31> kVerbs{{{"status", status_message},
                                        {"identify", identify_message},
+                                       {"look", look_message},
+                                       {"bench", bench_message},
+                                       {"registers", registers_message},
+                                       {"choices", choices_message},
+                                       {"faults", faults_message},
+                                       {"events", events_message},
+                                       {"where", where_message},
+                                       {"scope", scope_message},
+                                       {"send", send_message},
+                                       {"snapshots", snapshots_message},
                                        {"get", get_message},
                                        {"eval", eval_message},
                                        {"set", set_message},
@@ -43,7 +54,9 @@ constexpr std::array<Verb, 19> kVerbs{{{"status", status_message},
                                        {"advance", nullptr, advance_message},
                                        {"run-until", nullptr, run_until_message},
                                        {"pause", pause_message},
-                                       {"resume", resume_message}}};
+                                       {"resume", resume_message},
+                                       {"speed", speed_message},
+                                       {"step", nullptr, step_message}}};
 
 const Verb& demand_verb(const Json& message) {
   if (!message.is_object() || !message.contains("do") || !message["do"].is_string()) {
@@ -58,10 +71,19 @@ const Verb& demand_verb(const Json& message) {
   throw MessageError(understudy::quoted(word) + " is not a command; expected one of " + names);
 }
 
+/// Whom onlookers are told: whoever asks may say that it is a page.
+std::string take_author(Json& message) {
+  if (!message.contains("as")) return "control";
+  const std::string author = demand_text(message, "as");
+  if (author != "page" && author != "control") throw MessageError("as: expected page or control");
+  message.erase("as");
+  return author;
+}
+
 }  // namespace
 
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make) {
-  // Names and programs come from outside and may be no UTF-8.
+  // Names and programs come from outside and may not be UTF-8.
   const auto say = [&](const Json& made) {
     reply(made.dump(-1, ' ', false, Json::error_handler_t::replace));
   };
@@ -81,13 +103,15 @@ void answer(const ControlServer::Reply& reply, const std::function<Json()>& make
 void handle_message(Daemon& daemon, const std::string& line,
                     const std::function<void(const std::string&)>& reply) {
   answer(reply, [&]() -> Json {
-    const Json message = world::parse_strict_json<Json>(
+    Json message = world::parse_strict_json<Json>(
         line,
         [](const std::string& key) {
           return MessageError(understudy::quoted(key) + " appears twice; expected it once");
         },
         kDeepest);
     const Verb& verb = demand_verb(message);
+    const std::string author = take_author(message);
+    daemon.onlookers().events.set_author(author);
     if (verb.answer != nullptr) return verb.answer(daemon, message);
     verb.answer_later(daemon, message, reply);
     return nullptr;

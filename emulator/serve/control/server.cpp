@@ -151,7 +151,8 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
-  if (client->is_awaiting || client->has_said_all) return drop(descriptor);  // not read from: it has hung up
+  if (client->is_awaiting || client->has_said_all)
+    return drop(descriptor);  // nothing is read from it: it has hung up
   std::array<char, 4096> bytes;
   ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
   if (count > 0) {
@@ -185,7 +186,8 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
     alive->is_awaiting = false;
     send(alive, reply);
   });
-  if (client->descriptor >= 0 && client->is_awaiting) write_out(*client);  // it is not read from meanwhile
+  if (client->descriptor >= 0 && client->is_awaiting)
+    write_out(*client);  // nothing is read from it meanwhile
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {

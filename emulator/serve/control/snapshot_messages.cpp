@@ -10,6 +10,7 @@
 #include "base/files/text_file.h"
 #include "base/state/state_error.h"
 #include "base/text/one_line.h"
+#include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/verbs.h"
@@ -21,7 +22,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Absolute, because the daemon runs in another folder than who asks.
+/// Absolute, because the daemon may run in another folder than whoever asks.
 std::string demand_file(const Json& message) {
   demand_keys(message, {"do", "file"});
   const std::string path = demand_text(message, "file");
@@ -53,6 +54,7 @@ std::string written(const std::string& path, const world::WorldState& state, std
 }  // namespace
 
 void snapshot_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  if (message.contains("name")) return answer(reply, [&] { return snapshot_by_name(daemon, message); });
   const std::string path = demand_file(message);
   if (const std::string why = daemon.files().objection_to(path); !why.empty()) {
     throw MessageError(path + ": file: " + why);
@@ -87,7 +89,7 @@ world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_has
 }
 
 Json restored(Daemon& daemon, const std::string& path, const world::WorldState& state) {
-  demand_restorable(daemon);  // it may have become otherwise
+  demand_restorable(daemon);  // that may have changed
   try {
     daemon.restore(state);
   } catch (const StateError& error) {
@@ -99,6 +101,7 @@ Json restored(Daemon& daemon, const std::string& path, const world::WorldState& 
 }  // namespace
 
 void restore_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  if (message.contains("name")) return answer(reply, [&] { return restore_by_name(daemon, message); });
   const std::string path = demand_file(message);
   demand_restorable(daemon);
   daemon.do_aside([&daemon, path, reply, hash = daemon.bench_hash()]() -> std::function<void()> {

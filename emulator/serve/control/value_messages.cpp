@@ -16,6 +16,7 @@
 #include "emulator/device/register_map/refusal.h"
 #include "emulator/device/register_map/register_map.h"
 #include "emulator/device/register_map/row.h"
+#include "emulator/serve/control/look_messages.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
@@ -47,7 +48,7 @@ bool is_real_register(const world::KnownDevices& known, const std::string& name)
   try {
     return world::find_register(known, name).place.is_real();
   } catch (const world::NameError&) {
-    return false;  // it is complained of where it is looked up
+    return false;  // the complaint comes where it is looked up
   }
 }
 
@@ -155,6 +156,9 @@ void demand_possible(const world::World& world,
 }  // namespace
 
 Json get_message(Daemon& daemon, const Json& message) {
+  for (const char* key : {"device", "section", "find", "from"}) {
+    if (message.contains(key)) return get_page_message(daemon, message);
+  }
   demand_keys(message, {"do", "names"});
   const Json& names = demand(message, "names");
   if (!names.is_array() || names.empty()) throw MessageError("names: expected a list of names");

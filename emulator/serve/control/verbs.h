@@ -51,6 +51,8 @@ Json pause_message(Daemon& daemon, const Json& message);
 Json resume_message(Daemon& daemon, const Json& message);
 /// {"do":"advance","by":"250ms"}. The reply comes when simulated time is there.
 void advance_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
+/// {"do":"step","ticks":10}: to the end of the tenth tick from now, where the clock stands.
+void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);
 /// {"do":"run-until","condition":"feeder.STATUS.4 == 0","within":"10s"}. The reply comes at the end of the
 /// first tick at which it is true, or when the time is over; "reached" says which.
 void run_until_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply);

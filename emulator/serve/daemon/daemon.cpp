@@ -79,6 +79,7 @@ Daemon::Daemon(const world::Bench& bench, const DaemonOptions& options,
     : log_(std::move(log)),
       world_(bench, world_options(options), log_),
       frames_(world_, kFramesKept),
+      onlookers_(world_, frames_),
       bench_path_(options.bench_path),
       bench_hash_(world::bench_hash(bench)),
       files_(options.files),
@@ -230,7 +231,7 @@ void Daemon::catch_up(WallTime longest) {
   if (world_.now() >= target) {
     behind_since_.reset();
   } else if (is_free) {
-    pacer_.moved_to(world_.now(), wall_now());  // as fast as it goes: what it could not do is not a debt
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as possible: what it could not do is not a debt
   } else if (!behind_since_) {
     behind_since_ = now;
   }
@@ -268,6 +269,16 @@ void Daemon::pause() {
   catch_up();                                 // to the moment at which the clock stopped,
   pacer_.moved_to(world_.now(), wall_now());  // or as far as the world has come
   behind_since_.reset();
+}
+
+bool Daemon::set_speed(const Speed& speed) {
+  if (advance_done_) return false;
+  judge_stall();
+  catch_up();
+  pacer_.set_speed(speed, wall_now());
+  pacer_.moved_to(world_.now(), wall_now());  // what it could not do at the speed before is not a debt
+  behind_since_.reset();
+  return true;
 }
 
 bool Daemon::resume() {
@@ -344,6 +355,7 @@ std::string_view Daemon::why_no_restore() const {
 void Daemon::restore(const world::WorldState& state) {
   world::restore(world_, state);
   frames_.begin_anew();
+  onlookers_.events.restored();
   planned_.reset();
   behind_since_.reset();
   pacer_.moved_to(world_.now(), wall_now());

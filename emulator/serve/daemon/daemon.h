@@ -13,6 +13,7 @@
 #include "base/files/helper_thread.h"
 #include "emulator/serve/daemon/door.h"
 #include "emulator/serve/daemon/nv_keeper.h"
+#include "emulator/serve/daemon/onlookers.h"
 #include "emulator/serve/loop/event_loop.h"
 #include "emulator/serve/loop/pacer.h"
 #include "emulator/serve/ports/port.h"
@@ -79,11 +80,17 @@ class Daemon {
   const std::string& bench_path() const { return bench_path_; }
   /// The last frames that went over the lines.
   const world::FrameLog& frames() const { return frames_; }
+  /// What is there for those who look on.
+  Onlookers& onlookers() { return onlookers_; }
 
   /// An advance that is under way ends here.
   void pause();
   /// False while an advance is under way.
   bool resume();
+  /// How simulated time follows the wall clock from now on. False while an advance is under way. How long
+  /// half a frame is waited for stays as the speed at the beginning had it.
+  bool set_speed(const Speed& speed);
+  bool is_advancing() const { return advance_done_ != nullptr; }
   /// Moves simulated time on by `duration`, or to the end of the first tick at which `is_there` is true
   /// (asked at the end of every tick), then calls `done`. Only if the clock stands; returns false otherwise,
   /// or while another advance is under way.
@@ -124,6 +131,7 @@ class Daemon {
   std::function<void(const std::string&)> log_;
   world::World world_;
   world::FrameLog frames_;
+  Onlookers onlookers_;
   std::string bench_path_;
   std::uint64_t bench_hash_;
   FileClaims files_;

@@ -101,6 +101,11 @@ void Pacer::pause(WallTime wall) {
   paused_ = true;
 }
 
+void Pacer::set_speed(const Speed& speed, WallTime wall) {
+  moved_to(target(wall), wall);
+  speed_ = speed;
+}
+
 void Pacer::resume(WallTime wall) {
   if (!paused_) return;
   paused_ = false;

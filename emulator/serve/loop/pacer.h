@@ -16,7 +16,7 @@ namespace understudy::emulator::serve {
 struct Speed {
   enum class Kind : std::uint8_t {
     factor,  // simulated seconds a second; 1 is real time
-    free,    // as fast as it goes, up to kFreest
+    free,    // as fast as possible, up to kFreest
     manual,  // only when told to
   } kind = Kind::factor;
   double factor = 1.0;
@@ -62,6 +62,8 @@ class Pacer {
   WallTime woke(WallTime planned, WallTime wall);
 
   void pause(WallTime wall);
+  /// From now on.
+  void set_speed(const Speed& speed, WallTime wall);
   void resume(WallTime wall);
   bool paused() const { return paused_; }
   /// The clock stands: paused, or manual.

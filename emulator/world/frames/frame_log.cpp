@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -66,7 +67,8 @@ FrameLog::Told FrameLog::told(std::size_t place) const {
             .line = line.line.name(),
             .way = frame.way,
             .text = {},
-            .remark = frame.comment};
+            .remark = frame.comment,
+            .bytes = frame.bytes};
   if (frame.bytes.empty()) return told;  // only what a fault has done
   if (frame.way == pty::Way::from_host) {
     told.text = line.request_text(frame.bytes);
@@ -74,6 +76,8 @@ FrameLog::Told FrameLog::told(std::size_t place) const {
   }
   const Frame* const request = request_before(place);
   const auto bytes = request == nullptr ? std::span<const std::uint8_t>() : request->bytes;
+  told.is_refusal = line.speech.is_refusal(frame.bytes);
+  if (request != nullptr) told.latency = frame.time - request->time;
   told.text = line.reply_text(bytes, frame.bytes);
   return told;
 }
@@ -85,6 +89,18 @@ std::vector<FrameLog::Told> FrameLog::since(std::uint64_t number, std::size_t mo
     all.push_back(told(next - first));
   }
   return all;
+}
+
+std::optional<FrameLog::Told> FrameLog::request_of(std::uint64_t number) const {
+  const std::uint64_t first = next_number_ - frames_.size();
+  if (number < first || number >= next_number_) return std::nullopt;
+  const std::size_t place = number - first;
+  if (frames_[place].way == pty::Way::from_host) return std::nullopt;
+  const Frame* const request = request_before(place);
+  for (std::size_t i = place; request != nullptr && i-- > 0;) {
+    if (&frames_[i] == request) return told(i);
+  }
+  return std::nullopt;
 }
 
 std::vector<std::string> FrameLog::last(std::size_t most) {

@@ -4,6 +4,8 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,10 +32,15 @@ class FrameLog {
     std::string line;
     pty::Way way = pty::Way::from_host;
     std::string text;
-    std::string remark;  // why it was dropped, and the like
+    std::string remark;                     // why it was dropped, and the like
+    std::span<const std::uint8_t> bytes{};  // for as long as nothing more is remembered
+    bool is_refusal = false;                // an answer that says that nothing was done
+    std::optional<SimTime> latency{};       // of an answer: since its request began
   };
   /// At most `most` of the remembered ones, from that number on.
   std::vector<Told> since(std::uint64_t number, std::size_t most) const;
+  /// A remembered one's request; nothing if it is none's answer, or that is forgotten.
+  std::optional<Told> request_of(std::uint64_t number) const;
   /// Of the frame that comes next.
   std::uint64_t next_number() const { return next_number_; }
 

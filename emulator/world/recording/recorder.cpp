@@ -79,12 +79,12 @@ Recorder::Recorder(World& world, const RecordingHeader& header, std::function<vo
     : world_(world), take_(std::move(take)) {
   take_(to_line(header) + "\n");
   for (std::size_t i = 0; i < world.line_count(); ++i) ears_.push_back(std::make_unique<LineEar>(*this, i));
-  world_.set_listener(this);
+  world_.add_listener(*this);
 }
 
 Recorder::~Recorder() {
   end_with({});
-  world_.set_listener(nullptr);
+  world_.remove_listener(*this);
 }
 
 void Recorder::finish() {

@@ -43,7 +43,7 @@ class LineSpeech {
   virtual bool may_be_unasked() const { return false; }
 
   // --- hosts -------------------------------------------------------------------------------------
-  /// Whether the steps fit it that send and hear text.
+  /// Whether steps that send and hear text fit it.
   virtual bool carries_text() const { return false; }
   /// Whether a host leaves a silence between its messages.
   virtual bool is_framed_by_silence() const { return false; }

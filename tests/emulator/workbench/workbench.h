@@ -15,6 +15,7 @@
 #include "base/state/state_bytes.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
@@ -69,7 +70,7 @@ struct StateOf<emulator::workbench::WorkbenchState> {
 
 namespace understudy::emulator::workbench {
 
-class Workbench final : public Device,
+class Workbench final : public DeviceOf<Workbench>,
                         public RegisterBankOf<Workbench>,
                         public ModbusStation,
                         public UserProgram,
@@ -77,7 +78,7 @@ class Workbench final : public Device,
                         public Axes {
  public:
   Workbench(const Model& model, const DeviceSettings& settings)
-      : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
+      : DeviceOf(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
     for (const RegisterRow& row : model.registers->rows()) {
       const auto slots = static_cast<std::size_t>(row.is_view ? 0 : row.count);
       state.image.insert(state.image.end(), slots, static_cast<std::uint32_t>(row.factory));
@@ -85,16 +86,6 @@ class Workbench final : public Device,
     state.kept = factory_kept(*model.registers);
   }
 
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
-
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
   /// Its areas and files are kept as blocks; what it sets is set at once.
   void load_program(std::string_view text) override {
     ProgramReader read = WorkbenchLanguage::read(text, settings());

@@ -1,0 +1,195 @@
+#include "emulator/command_line/ctl_looks.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "base/text/parse_integer.h"
+#include "emulator/command_line/commands.h"
+
+namespace understudy::emulator::command_line {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+UsageError stray_word(const ControlArguments& arguments, const std::string& word, const char* expected) {
+  return UsageError{"ctl " + arguments.verb + ": " + understudy::quoted(word) +
+                    " is not understood; expected " + expected};
+}
+
+std::int64_t demand_whole(const ControlArguments& arguments, const std::string& word, const char* expected) {
+  const auto number = parse_integer(word);
+  if (!number || *number < 0) throw stray_word(arguments, word, expected);
+  return *number;
+}
+
+/// "find=speed": the key, and what stands behind it; nothing without "=".
+struct KeyedWord {
+  std::string key;
+  std::string value;
+};
+std::optional<KeyedWord> keyed(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos) return std::nullopt;
+  return KeyedWord{word.substr(0, equals), word.substr(equals + 1)};
+}
+
+void add_one_device(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "one device");
+  if (!arguments.operands.empty()) message["device"] = arguments.operands[0];
+}
+
+void add_page_words(const ControlArguments& arguments, Json& message) {
+  constexpr const char* kExpected = "DEVICE, section=N, find=TEXT or from=N";
+  for (const std::string& word : arguments.operands) {
+    const auto pair = keyed(word);
+    if (!pair) {
+      message["device"] = word;
+    } else if (pair->key == "find") {
+      message["find"] = pair->value;
+    } else if (pair->key == "section" || pair->key == "from") {
+      message[pair->key] = demand_whole(arguments, pair->value, kExpected);
+    } else {
+      throw stray_word(arguments, word, kExpected);
+    }
+  }
+}
+
+void add_scope_words(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.empty()) return;
+  if (arguments.operands[0] == "off") {
+    message["off"] = true;
+    return;
+  }
+  message["names"] = Json::array();
+  for (const std::string& word : arguments.operands) {
+    const auto pair = keyed(word);
+    if (word.starts_with("when=")) {
+      message["condition"] = word.substr(5);
+    } else if (pair && (pair->key == "before" || pair->key == "after")) {
+      message[pair->key] = pair->value;
+    } else {
+      message["names"].push_back(word);
+    }
+  }
+}
+
+void add_send_words(const ControlArguments& arguments, Json& message) {
+  if (arguments.operands.empty() || arguments.operands.size() > 2) {
+    throw UsageError("ctl send: expected a line, and bytes in hexadecimal digits or text=TEXT");
+  }
+  if (arguments.operands.size() == 2) message["line"] = arguments.operands[0];
+  const std::string& what = arguments.operands.back();
+  if (what.starts_with("text=")) {
+    message["text"] = what.substr(5) + "\r";
+  } else {
+    message["bytes"] = what;
+    message["checksum"] = true;
+  }
+}
+
+std::string time_text(const Json& entry) {
+  return format_duration(SimTime{entry.at("time_ns").get<std::int64_t>()});
+}
+
+void print_events(const Json& events) {
+  for (const Json& event : events) {
+    std::string text = time_text(event) + " " + event.at("what").get<std::string>();
+    for (const char* key : {"name", "device", "line"}) {
+      if (!event.contains(key)) continue;
+      text += " " + event.at(key).get<std::string>();
+      break;
+    }
+    if (event.contains("value")) text += " = " + event.at("value").dump();
+    if (event.contains("text")) text += ": " + event.at("text").get<std::string>();
+    if (event.contains("by")) text += "  (" + event.at("by").get<std::string>() + ")";
+    std::printf("%s\n", one_line(text).c_str());
+  }
+}
+
+void print_programs(const Json& programs) {
+  for (const Json& place : programs) {
+    std::string text = place.value("program", std::string());
+    text += (text.empty() ? "" : " ") + place.at("state").get<std::string>();
+    if (place.contains("line")) text += ", line " + place.at("line").dump();
+    if (place.contains("text")) text += ": " + place.at("text").get<std::string>();
+    if (place.contains("waits_for")) text += "; waits for " + place.at("waits_for").get<std::string>();
+    if (place.contains("why")) text += "; " + place.at("why").get<std::string>();
+    std::printf("%s\n", one_line(text).c_str());
+  }
+}
+
+void print_registers(const Json& reply) {
+  for (const Json& row : reply.at("registers")) {
+    std::string text =
+        row.contains("address") ? row.at("address").get<std::string>() : row.at("number").get<std::string>();
+    text += " " + row.at("name").get<std::string>() + " " + row.at("access").get<std::string>();
+    if (row.contains("min")) text += " " + row.at("min").dump() + " to " + row.at("max").dump();
+    if (row.contains("unit")) text += " " + row.at("unit").get<std::string>();
+    if (row.at("kept").get<bool>()) text += ", kept";
+    std::printf("%s\n", one_line(text).c_str());
+  }
+  if (reply.contains("next")) {
+    std::printf("... of %s; from=%s goes on\n", reply.at("of").dump().c_str(),
+                reply.at("next").dump().c_str());
+  }
+}
+
+}  // namespace
+
+bool add_look_words(const ControlArguments& arguments, Json& message) {
+  const std::string& verb = arguments.verb;
+  if (verb == "bench" || verb == "where" || verb == "choices") {
+    add_one_device(arguments, message);
+  } else if (verb == "registers") {
+    add_page_words(arguments, message);
+  } else if (verb == "events") {
+    if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "how many");
+    if (!arguments.operands.empty())
+      message["last"] = demand_whole(arguments, arguments.operands[0], "how many");
+  } else if (verb == "step") {
+    if (arguments.operands.size() > 1) throw stray_word(arguments, arguments.operands[1], "how many ticks");
+    if (!arguments.operands.empty())
+      message["ticks"] = demand_whole(arguments, arguments.operands[0], "how many ticks");
+  } else if (verb == "speed") {
+    if (arguments.operands.size() != 1)
+      throw UsageError("ctl speed: expected real, free, manual or a factor");
+    message["to"] = arguments.operands[0];
+  } else if (verb == "scope") {
+    add_scope_words(arguments, message);
+  } else if (verb == "send") {
+    add_send_words(arguments, message);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool print_look(const Json& reply) {
+  if (reply.contains("events")) {
+    print_events(reply.at("events"));
+  } else if (reply.contains("programs")) {
+    print_programs(reply.at("programs"));
+  } else if (reply.contains("registers")) {
+    print_registers(reply);
+  } else if (reply.contains("next_frame")) {
+    std::printf("frame %s\n", reply.at("next_frame").dump().c_str());
+  } else {
+    for (const char* key : {"bench", "device", "choices", "scope"}) {
+      if (!reply.contains(key)) continue;
+      std::printf("%s\n", reply.at(key).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+      return true;
+    }
+    return false;
+  }
+  return true;
+}
+
+}  // namespace understudy::emulator::command_line

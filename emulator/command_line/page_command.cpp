@@ -1,0 +1,55 @@
+// `understudy page`: the live page of running benches, and the same beside a `serve`.
+#include <sys/prctl.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/command_line/choose_daemon.h"
+#include "emulator/command_line/commands.h"
+#include "emulator/page/page.h"
+
+namespace understudy::emulator::command_line {
+
+int show_page(const PageArguments& arguments) {
+  page::PageOptions options{.address = {.address = arguments.listen},
+                            .sockets = arguments.sockets,
+                            .hosts = arguments.hosts,
+                            .is_read_only = arguments.read_only,
+                            .folder = arguments.folder};
+  if (arguments.port < 0 || arguments.port > 65535) throw UsageError("page: --port: expected 0 to 65535");
+  options.address.port = static_cast<std::uint16_t>(arguments.port);
+  if (options.sockets.empty()) options.sockets.push_back(choose_daemon({}));
+  std::signal(SIGPIPE, SIG_IGN);
+  page::Page shown(options);
+  std::printf("page %s\n", shown.address().c_str());
+  std::fflush(stdout);
+  shown.run(true);
+  return kExitWell;
+}
+
+void start_page_beside(const std::string& control, int port) {
+  std::signal(SIGCHLD, SIG_IGN);  // it may end before we do
+  const pid_t parent = getpid();
+  std::vector<std::string> words{"understudy", "page", "--control", control, "--port", std::to_string(port)};
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  if (fork() != 0) return;
+  // It ends with us, by whatever we end.
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (getppid() != parent) _exit(0);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  std::signal(SIGCHLD, SIG_DFL);
+  execv("/proc/self/exe", pointers.data());
+  _exit(kExitNoResource);
+}
+
+}  // namespace understudy::emulator::command_line

@@ -1,0 +1,72 @@
+// Where its macros are, for onlookers.
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/user_program.h"
+#include "emulator/models/rs_m8194h/device.h"
+#include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/text.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+
+namespace {
+
+std::string_view awaited_by(lang::Hold hold) {
+  switch (hold) {
+    case lang::Hold::nothing: return "";
+    case lang::Hold::begin: return "its first tick";
+    case lang::Hold::timer: return "its time";
+    case lang::Hold::axes: return "axes to stop";
+    case lang::Hold::frnet: return "an input of the FRnet";
+    case lang::Hold::machine: return "the drive to take it";
+  }
+  return "";
+}
+
+/// The line of the text behind the one that begins the macro: "MP 21".
+int line_in(std::string_view text, const std::string& head, int number) {
+  int line = 1;
+  for (std::size_t at = 0; at < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (text.substr(at, end - at) == head) return line + 1 + number;
+    at = end + 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<ProgramPlace> RsM8194h::places() const {
+  std::vector<ProgramPlace> all;
+  std::string text;
+  const auto tell = [&](const lang::Run& run) {
+    if (!run.is_alive()) return;
+    if (text.empty()) text = program_text();
+    const lang::Level& level = run.levels.back();
+    // An ISR may call an MP: what is at the bottom says which of them it is.
+    const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};
+    ProgramPlace place{.program = to_string(name),
+                       .state = run.hold == lang::Hold::nothing ? ProgramPlace::State::running
+                                                                : ProgramPlace::State::waiting,
+                       .waits_for = std::string(awaited_by(run.hold))};
+    const lang::Macro* const found = macro(name);
+    if (found != nullptr && level.line < found->size()) {
+      place.text = lang::text_of(found->lines[level.line]);
+      place.line =
+          line_in(text, std::string(name.is_isr ? "ISR " : "MP ") + std::to_string(name.number), level.line);
+    }
+    const bool is_timed = run.hold == lang::Hold::begin || run.hold == lang::Hold::timer;
+    if (is_timed) place.until = time_of(run.until_ms);
+    all.push_back(std::move(place));
+  };
+  tell(state_.execution.mp);
+  for (const lang::Run& isr : state_.execution.isrs) tell(isr);
+  return all;
+}
+
+}  // namespace understudy::emulator::models::rs_m8194h

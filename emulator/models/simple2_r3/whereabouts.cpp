@@ -1,0 +1,88 @@
+// Where its program is, for onlookers.
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/user_program.h"
+#include "emulator/models/simple2_r3/device.h"
+#include "interpreter/simple2/execution/execution.h"
+#include "interpreter/simple2/listing.h"
+#include "interpreter/simple2/program.h"
+
+namespace understudy::emulator::models::simple2_r3 {
+
+namespace {
+
+using interpreter::simple2::Ending;
+using interpreter::simple2::Phase;
+
+std::string_view why_of(Ending ending) {
+  switch (ending) {
+    case Ending::not_started: return "";
+    case Ending::end_instruction: return "END";
+    case Ending::past_last_line: return "behind the last line";
+    case Ending::nested_loop: return "a Loop within a Loop";
+    case Ending::unknown_command: return "an unknown command";
+    case Ending::undefined_operand: return "an operand that does not exist";
+    case Ending::stopped: return "stopped from outside";
+    case Ending::wait_cut_short: return "a wait was cut short";
+  }
+  return "";
+}
+
+bool is_failure(Ending ending) {
+  return ending == Ending::nested_loop || ending == Ending::unknown_command ||
+         ending == Ending::undefined_operand;
+}
+
+/// The line of the listing that shows this line of the program, and what it says. A line of zeros may have
+/// none.
+std::pair<int, std::string> listed(const interpreter::simple2::Program& program, std::size_t number) {
+  interpreter::simple2::Lines lines = program.lines();
+  if (lines[number] == interpreter::simple2::Line{}) return {0, "NOP"};
+  // What stands behind it does not change what is in front.
+  std::fill(lines.begin() + static_cast<std::ptrdiff_t>(number) + 1, lines.end(),
+            interpreter::simple2::Line{});
+  std::string text = disassemble(lines);
+  text.pop_back();
+  const auto count = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  const std::size_t begin = text.find_last_of('\n');
+  text.erase(0, begin == std::string::npos ? 0 : begin + 1);
+  text.erase(0, text.find_first_not_of(' '));
+  return {count, text};
+}
+
+}  // namespace
+
+std::vector<ProgramPlace> Simple2R3::places() const {
+  const interpreter::simple2::Execution& execution = state_.execution;
+  ProgramPlace place;
+  if (execution.running || execution.ending != Ending::not_started) {
+    std::tie(place.line, place.text) = listed(state_.program, execution.now_line);
+  }
+  if (!execution.running) {
+    place.state = is_failure(execution.ending) ? ProgramPlace::State::failed : ProgramPlace::State::stopped;
+    place.why = why_of(execution.ending);
+    return {place};
+  }
+  place.state = ProgramPlace::State::waiting;
+  if (execution.phase == Phase::delay) {
+    place.waits_for = "its delay";
+    place.until = time_of(execution.delay_until_ms);
+  } else if (execution.phase == Phase::move) {
+    place.waits_for = execution.waits_for_a && execution.waits_for_b ? "axes A and B to stop"
+                      : execution.waits_for_a                        ? "axis A to stop"
+                                                                     : "axis B to stop";
+  } else if (execution.waits || execution.held.command != 0) {
+    place.waits_for = place.text;
+  } else {
+    place.state = ProgramPlace::State::running;
+  }
+  return {place};
+}
+
+}  // namespace understudy::emulator::models::simple2_r3

@@ -1,0 +1,76 @@
+// Where its step programs are, for onlookers.
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/device/user_program.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/program_machine.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/step_programs.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// The first line of a listing that begins so, behind an area's head; 0 if there is none.
+int line_of_step(std::string_view text, std::string_view area, const std::string& begin) {
+  const std::string head = "AREA " + std::string(area);
+  bool is_inside = false;
+  int line = 1;
+  for (std::size_t at = 0; at < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view one = text.substr(at, end - at);
+    if (one.starts_with("AREA ") || one.starts_with("FILE ")) {
+      is_inside = one == head || one.starts_with(head + " ");
+    } else if (is_inside && one == begin) {
+      return line;
+    }
+    at = end + 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<ProgramPlace> Super40nc::places() const {
+  std::vector<ProgramPlace> all;
+  const std::string text = program_text();
+  for (int i = 0; i < language::kStepProgramCount; ++i) {
+    const language::AreaRow& row = language::kAreas[static_cast<std::size_t>(i)];
+    const language::StepState& step = state_.steps.programs[static_cast<std::size_t>(i)];
+    const language::StepCode& code = codes_[static_cast<std::size_t>(i)];
+    if (code.is_empty()) continue;
+    ProgramPlace place;
+    place.program = std::string(row.name);
+    if (const int line = code.line_at(step.step); line >= 0 && step.phase != language::Phase::idle) {
+      place.text = language::text_of(code.line(line));
+      for (const int base : {row.base, row.older_base, 0}) {
+        if (place.line == 0) {
+          place.line = line_of_step(text, row.name, std::to_string(base + step.step) + " " + place.text);
+        }
+      }
+    }
+    switch (step.phase) {
+      case language::Phase::idle: break;
+      case language::Phase::executing: place.state = ProgramPlace::State::running; break;
+      case language::Phase::moving: place.waits_for = "its motion to end"; break;
+      case language::Phase::homing: place.waits_for = "its axes to be home"; break;
+      case language::Phase::waiting: place.waits_for = place.text; break;
+      case language::Phase::paused: place.waits_for = "its start (paused)"; break;
+      case language::Phase::held: place.waits_for = "its start (held)"; break;
+    }
+    if (!place.waits_for.empty()) place.state = ProgramPlace::State::waiting;
+    const bool is_timed = step.phase == language::Phase::waiting && step.left_ms > 0;
+    if (is_timed) place.until = time_of(now() + step.left_ms);
+    all.push_back(std::move(place));
+  }
+  return all;
+}
+
+}  // namespace understudy::emulator::models::super_40nc

@@ -1,0 +1,225 @@
+#include "emulator/page/page_bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/page/page_verbs.h"
+#include "emulator/page/web.h"
+
+namespace understudy::emulator::page {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostInAnUpdate = 200;  // frames, and events
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string quoted_json(const std::string& text) { return text_of(Json(text)); }
+
+/// `"frames":[...],"next_frame":N` of those from `next` on; how many were not kept is told as well.
+template <class Ring>
+std::string listed(const Ring& ring, std::uint64_t& next, const std::string& key) {
+  if (ring.empty() || ring.back().number < next) return {};
+  const std::uint64_t first = ring.front().number;
+  const std::uint64_t lost = next != 0 && first > next ? first - next : 0;
+  std::string text = ",\"" + key + "\":[";
+  std::size_t count = 0;
+  const auto begin =
+      std::lower_bound(ring.begin(), ring.end(), next,
+                       [](const auto& one, std::uint64_t number) { return one.number < number; });
+  for (auto it = begin; it != ring.end() && count < kMostInAnUpdate; ++it, ++count) {
+    text += (count > 0 ? "," : "") + it->text;
+    next = it->number + 1;
+  }
+  return text + "]" + (lost > 0 ? ",\"" + key + "_lost\":" + std::to_string(lost) : "");
+}
+
+}  // namespace
+
+PageBench::PageBench(Web& web, std::string socket, Hears hears)
+    : web_(web), socket_(std::move(socket)), hears_(std::move(hears)), wire_(web.wire(socket_)) {}
+
+void PageBench::want(Wanted wanted) {
+  for (const std::string& name : wanted.names) values_.try_emplace(name);
+  std::erase_if(values_, [&](const auto& known) { return !wanted.names.contains(known.first); });
+  if (!wanted.frames) frames_.clear();
+  if (!wanted.events) events_.clear();
+  wanted_ = std::move(wanted);
+  if (wanted_.anybody) plan(kTurn);
+}
+
+void PageBench::ask(std::string message, ControlWire::Answered answered) {
+  asks_.push_back({std::move(message), std::move(answered)});
+  plan(kTurn);
+}
+
+/// A turn, this long after the last one.
+void PageBench::plan(std::chrono::milliseconds time) {
+  if (std::exchange(is_planned_, true)) return;
+  const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - last_turn_);
+  web_.after(std::max(std::chrono::milliseconds(0), time - since),
+             [this, alive = std::weak_ptr<bool>(alive_)] {
+               if (alive.expired()) return;
+               is_planned_ = false;
+               turn();
+             });
+}
+
+void PageBench::turn() {
+  last_turn_ = Clock::now();
+  send_asks();
+  if (wanted_.anybody) {
+    if (looks_under_way_ == 0) {
+      look();
+    } else if (last_turn_ - asked_at_ > kPatience) {
+      be(State::silent);
+    }
+  }
+  if (wanted_.anybody || !asks_.empty()) plan(state_ == State::gone ? kRetry : kTurn);
+}
+
+void PageBench::send_asks() {
+  for (std::size_t i = 0; i < kAsksATurn && !asks_.empty(); ++i) {
+    Ask ask = std::move(asks_.front());
+    asks_.pop_front();
+    // Each on a wire of its own: some are answered only when simulated time is there.
+    const std::uint64_t number = ++last_ask_;
+    auto& wire = ask_wires_[number] = web_.wire(socket_);
+    wire->ask(std::move(ask.message),
+              [this, number, answered = std::move(ask.answered)](std::optional<std::string> reply) {
+                answered(std::move(reply));
+                web_.after(std::chrono::milliseconds(0), [this, number, alive = std::weak_ptr<bool>(alive_)] {
+                  if (!alive.expired()) ask_wires_.erase(number);
+                });
+              });
+  }
+}
+
+/// One message, or several where there are many names: frames and events come with the first.
+void PageBench::look() {
+  asked_at_ = last_turn_;
+  std::vector<std::vector<std::string>> parts(1);
+  std::size_t bytes = 0;
+  for (const std::string& name : wanted_.names) {
+    if (parts.back().size() == kNamesAMessage || bytes + name.size() > kBytesAMessage) {
+      parts.emplace_back();
+      bytes = 0;
+    }
+    bytes += name.size() + 8;
+    parts.back().push_back(name);
+  }
+  looks_under_way_ = parts.size();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Json message{{"do", "look"}};
+    if (!parts[i].empty()) message["names"] = parts[i];
+    if (i == 0) {
+      if (wanted_.frames) message["frames"] = next_frame_;
+      if (wanted_.events) message["events"] = next_event_;
+      if (wanted_.status && last_turn_ - last_status_ >= kStatus) {
+        message["status"] = true;
+        last_status_ = last_turn_;
+      }
+    }
+    const bool is_last = i + 1 == parts.size();
+    wire_->ask(text_of(message),
+               [this, names = std::move(parts[i]), is_last](std::optional<std::string> reply) {
+                 if (looks_under_way_ > 0) --looks_under_way_;
+                 if (!reply) return lose();
+                 take_look(*reply, names, is_last);
+               });
+  }
+}
+
+void PageBench::take_look(const std::string& reply, const std::vector<std::string>& names, bool is_last) {
+  Json look;
+  try {
+    look = Json::parse(reply);
+    if (!look.at("ok").get<bool>()) return lose();
+    const std::uint64_t who = look.at("pid").get<std::uint64_t>();
+    if (who != who_) {
+      who_ = who;
+      ++epoch_;
+      next_frame_ = next_event_ = 0;
+      frames_.clear();
+      events_.clear();
+      be(State::unknown);
+    }
+    be(State::there);
+    const std::string time =
+        "\"time_ns\":" + text_of(look.at("simulated_time_ns")) + ",\"paused\":" + text_of(look.at("paused")) +
+        ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing"));
+    if (time != time_text_) {
+      time_text_ = time;
+      time_changed_ = looks_;
+    }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto known = values_.find(names[i]);
+      if (known == values_.end()) continue;
+      std::string text = text_of(look.at("values").at(i));
+      if (text == known->second.text && known->second.changed != 0) continue;
+      known->second = {std::move(text), looks_};
+    }
+    const auto take_list = [&](const char* key, const char* next_key, std::deque<Numbered>& ring,
+                               std::uint64_t& next) {
+      if (!look.contains(key)) return;
+      for (const Json& one : look[key]) ring.push_back({one.at("number").get<std::uint64_t>(), text_of(one)});
+      while (ring.size() > kFramesKept) ring.pop_front();
+      next = look.at(next_key).get<std::uint64_t>();
+    };
+    take_list("frames", "next_frame", frames_, next_frame_);
+    take_list("events", "next_event", events_, next_event_);
+    if (look.contains("status")) {
+      status_ = text_of(look["status"]);
+      status_changed_ = looks_;
+    }
+  } catch (const Json::exception&) {
+    return lose();  // not an understudy
+  }
+  if (!is_last) return;
+  ++looks_;
+  hears_.looked();
+}
+
+void PageBench::lose() {
+  who_ = 0;
+  be(State::gone);
+}
+
+void PageBench::be(State state) {
+  if (state_ == state) return;
+  const bool is_told = state != State::unknown;
+  state_ = state;
+  if (is_told) hears_.state_changed();
+}
+
+std::string PageBench::news_for(Watching& watching) const {
+  std::string values;
+  for (const std::string& name : watching.names) {
+    const auto known = values_.find(name);
+    if (known == values_.end() || known->second.changed <= watching.seen) continue;
+    values += (values.empty() ? "" : ",") + quoted_json(name) + ":" + known->second.text;
+  }
+  std::string news;
+  if (!values.empty()) news += ",\"values\":{" + values + "}";
+  if (watching.frames) news += listed(frames_, watching.next_frame, "frames");
+  if (watching.events) news += listed(events_, watching.next_event, "events");
+  if (watching.status && status_changed_ > watching.status_seen) {
+    news += ",\"status\":" + status_;
+    watching.status_seen = status_changed_;
+  }
+  const bool is_later = time_changed_ > watching.seen;
+  watching.seen = looks_ - 1;
+  if (news.empty() && !is_later) return {};
+  return time_text_ + news;
+}
+
+}  // namespace understudy::emulator::page

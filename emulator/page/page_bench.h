@@ -1,0 +1,132 @@
+// A bench as the page sees it: what its control socket was last heard to say, and who wants to know what of
+// it.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "emulator/page/web.h"
+
+namespace understudy::emulator::page {
+
+/// What a browser wants of a bench, and what it has been sent of it.
+struct Watching {
+  std::vector<std::string> names;
+  bool frames = false;
+  bool events = false;
+  bool status = false;
+  // Sent so far; `seen` counts looks.
+  std::uint64_t seen = 0;
+  std::uint64_t epoch = 0;
+  std::uint64_t next_frame = 0;
+  std::uint64_t next_event = 0;
+  std::uint64_t status_seen = 0;
+};
+
+class PageBench {
+ public:
+  /// How often the socket is asked at most.
+  static constexpr std::chrono::milliseconds kTurn{34};
+  static constexpr std::chrono::milliseconds kRetry{500};  // for one that does not answer
+  static constexpr std::chrono::milliseconds kStatus{500};
+  static constexpr std::chrono::milliseconds kPatience{2'000};  // then it is said to be silent
+  static constexpr std::size_t kFramesKept = 1024;
+  static constexpr std::size_t kAsksATurn = 16;
+  static constexpr std::size_t kMostNames = 4'000;  // of all browsers together
+  static constexpr std::size_t kNamesAMessage = 1'000;
+  static constexpr std::size_t kBytesAMessage = 48 * 1024;  // of names
+
+  enum class State : std::uint8_t { unknown, there, silent, gone };
+
+  struct Hears {
+    std::function<void()> looked;  // there is something new
+    std::function<void()> state_changed;
+  };
+  PageBench(Web& web, std::string socket, Hears hears);
+
+  const std::string& socket() const { return socket_; }
+  State state() const { return state_; }
+  /// Grows whenever another daemon, or the same one anew, answers: numbers of frames and events begin again.
+  std::uint64_t epoch() const { return epoch_; }
+
+  /// From now on this is looked at. Nobody watches: it is left alone.
+  struct Wanted {
+    std::set<std::string> names;
+    bool frames = false;
+    bool events = false;
+    bool status = false;
+    bool anybody = false;
+  };
+  void want(Wanted wanted);
+
+  /// A message of a browser's, at the next turn; a line of JSON. Nothing: nobody answers.
+  void ask(std::string message, ControlWire::Answered answered);
+
+  /// What has come since the browser was last sent something, as the members of a JSON object; empty if
+  /// nothing has.
+  std::string news_for(Watching& watching) const;
+
+ private:
+  struct Known {
+    std::string text = "null";  // as JSON
+    std::uint64_t changed = 0;  // in which look
+  };
+  struct Numbered {
+    std::uint64_t number = 0;
+    std::string text;
+  };
+
+  void turn();
+  void plan(std::chrono::milliseconds time);
+  void look();
+  void send_asks();
+  void take_look(const std::string& reply, const std::vector<std::string>& names, bool is_last);
+  void be(State state);
+  void lose();
+
+  Web& web_;
+  std::string socket_;
+  Hears hears_;
+  State state_ = State::unknown;
+  std::uint64_t epoch_ = 0;
+  Wanted wanted_;
+  bool is_planned_ = false;
+  std::chrono::steady_clock::time_point last_turn_{};
+  std::chrono::steady_clock::time_point last_status_{};
+  std::chrono::steady_clock::time_point asked_at_{};
+  std::size_t looks_under_way_ = 0;
+
+  std::uint64_t looks_ = 1;
+  std::string time_text_;  // members that every update has
+  std::uint64_t time_changed_ = 0;
+  std::map<std::string, Known> values_;
+  std::deque<Numbered> frames_;
+  std::deque<Numbered> events_;
+  std::uint64_t next_frame_ = 0;
+  std::uint64_t next_event_ = 0;
+  std::string status_;
+  std::uint64_t status_changed_ = 0;
+  std::uint64_t who_ = 0;  // which process answers
+
+  struct Ask {
+    std::string message;
+    ControlWire::Answered answered;
+  };
+  std::deque<Ask> asks_;
+  std::map<std::uint64_t, std::unique_ptr<ControlWire>> ask_wires_;  // one for each that is under way
+  std::uint64_t last_ask_ = 0;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  // for what comes later
+  std::unique_ptr<ControlWire> wire_;                           // for looks
+};
+
+}  // namespace understudy::emulator::page

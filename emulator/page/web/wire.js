@@ -1,0 +1,61 @@
+// The WebSocket to the page's server (docs/page.md): asks, watches, and connects again when it breaks.
+export class Wire {
+  constructor(hears) {
+    this.hears = hears;  // { hello, bench, look, lost }
+    this.token = location.hash.slice(1);
+    this.watched = new Map();
+    this.waiting = new Map();
+    this.lastId = 0;
+    this.pause = 250;
+    this.open();
+  }
+
+  open() {
+    const socket = new WebSocket(`ws://${location.host}/ws`);
+    this.socket = socket;
+    socket.onopen = () => socket.send(JSON.stringify({ token: this.token }));
+    socket.onmessage = (event) => this.take(JSON.parse(event.data));
+    socket.onclose = (event) => {
+      for (const answer of this.waiting.values()) answer({ ok: false, error: 'the page lost its server' });
+      this.waiting.clear();
+      this.isKnown = false;
+      this.hears.lost?.(event.reason);
+      setTimeout(() => this.open(), this.pause);
+      this.pause = Math.min(this.pause * 2, 4000);
+    };
+  }
+
+  take(message) {
+    if (message.is === 'answer') {
+      this.waiting.get(message.id)?.(message.reply);
+      this.waiting.delete(message.id);
+      return;
+    }
+    if (message.is === 'hello') {
+      this.isKnown = true;
+      this.pause = 250;
+      for (const [bench, wanted] of this.watched) this.say({ do: 'watch', bench, ...wanted });
+    }
+    this.hears[message.is]?.(message);
+  }
+
+  say(message) {
+    if (this.isKnown) this.socket.send(JSON.stringify(message));
+  }
+
+  // What this browser wants to be told of a bench from now on: { names: [...], frames, events, status }.
+  watch(bench, wanted) {
+    this.watched.set(bench, wanted);
+    this.say({ do: 'watch', bench, ...wanted });
+  }
+
+  // A message of docs/control.md; resolves with its reply.
+  ask(bench, message) {
+    if (!this.isKnown) return Promise.resolve({ ok: false, error: 'the page has no server' });
+    const id = ++this.lastId;
+    return new Promise((resolve) => {
+      this.waiting.set(id, resolve);
+      this.say({ do: 'ask', bench, id, message });
+    });
+  }
+}

@@ -1,0 +1,18 @@
+// The page's own files, which the build puts into the program (embed.cmake).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace understudy::emulator::page {
+
+struct EmbeddedFile {
+  std::string_view name;  // "index.html"
+  std::string_view bytes;
+};
+std::span<const EmbeddedFile> embedded_files();
+
+/// By the ending of a name: "text/javascript; charset=utf-8".
+std::string_view type_of(std::string_view name);
+
+}  // namespace understudy::emulator::page

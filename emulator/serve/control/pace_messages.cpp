@@ -1,0 +1,137 @@
+// Messages about the pace of time, and what programs do meanwhile.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/device/device.h"
+#include "emulator/device/user_program.h"
+#include "emulator/serve/control/look_messages.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/loop/pacer.h"
+#include "emulator/world/snapshot.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+constexpr std::uint64_t kMostTicks = 3'600'000;  // an hour
+constexpr std::size_t kLongestName = 64;
+
+std::string_view state_word(ProgramPlace::State state) {
+  switch (state) {
+    case ProgramPlace::State::stopped: return "stopped";
+    case ProgramPlace::State::running: return "running";
+    case ProgramPlace::State::waiting: return "waiting";
+    case ProgramPlace::State::failed: return "failed";
+  }
+  return {};
+}
+
+std::string demand_name(const Json& message) {
+  demand_keys(message, {"do", "name"});
+  std::string name = demand_text(message, "name");
+  if (name.empty() || name.size() > kLongestName) throw MessageError("name: expected 1 to 64 bytes");
+  return name;
+}
+
+Json time_of_now(const Daemon& daemon) {
+  return Json{{"ok", true}, {"simulated_time_ns", daemon.world().now().count()}};
+}
+
+}  // namespace
+
+Json where_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "device"});
+  daemon.catch_up();
+  const Device& device = daemon.world().device(demand_device(daemon, message));
+  Json programs = Json::array();
+  if (device.powered() && device.user_program() != nullptr) {
+    for (const ProgramPlace& place : device.user_program()->places()) {
+      Json entry{{"state", state_word(place.state)}};
+      if (!place.program.empty()) entry["program"] = place.program;
+      if (place.line > 0) entry["line"] = place.line;
+      if (!place.text.empty()) entry["text"] = place.text;
+      if (!place.waits_for.empty()) entry["waits_for"] = place.waits_for;
+      if (!place.why.empty()) entry["why"] = place.why;
+      if (place.until) entry["until_ns"] = place.until->count();
+      programs.push_back(std::move(entry));
+    }
+  }
+  return Json{
+      {"ok", true}, {"simulated_time_ns", daemon.world().now().count()}, {"programs", std::move(programs)}};
+}
+
+Json speed_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "to"});
+  const std::string text = demand_text(message, "to");
+  const auto speed = parse_speed(text);
+  if (!speed) {
+    throw MessageError("to: " + understudy::quoted(text) +
+                       " is not a speed; expected real, free, manual or a factor");
+  }
+  if (!daemon.set_speed(*speed)) throw MessageError("time is being advanced; expected `speed` after that");
+  daemon.onlookers().events.note("speed", format_speed(*speed));
+  Json reply = time_of_now(daemon);
+  reply["speed"] = format_speed(*speed);
+  return reply;
+}
+
+void step_message(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) {
+  demand_keys(message, {"do", "ticks"});
+  const std::uint64_t ticks = message.contains("ticks") ? demand_count(message, "ticks", kMostTicks) : 1;
+  const SimTime now = daemon.world().now();
+  const SimTime end = time_of(tick_at(now) + static_cast<Tick>(ticks));
+  if (ticks == 0 || end > kHorizon) throw MessageError("ticks: expected 1 to " + std::to_string(kMostTicks));
+  const bool begun = daemon.advance(end - now, [&daemon, reply] { reply(time_of_now(daemon).dump()); });
+  if (!begun) {
+    throw MessageError(
+        "time runs by itself, or is being advanced already; expected --speed manual, or `pause` first");
+  }
+}
+
+Json snapshots_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "drop"});
+  auto& kept = daemon.onlookers().snapshots;
+  if (message.contains("drop") && kept.erase(demand_text(message, "drop")) == 0) {
+    throw MessageError("drop: there is no snapshot of that name");
+  }
+  Json snapshots = Json::array();
+  for (const auto& [name, one] : kept)
+    snapshots.push_back({{"name", name}, {"time_ns", one.at.count()}});
+  return Json{{"ok", true}, {"snapshots", std::move(snapshots)}};
+}
+
+Json snapshot_by_name(Daemon& daemon, const Json& message) {
+  const std::string name = demand_name(message);
+  auto& kept = daemon.onlookers().snapshots;
+  if (kept.size() >= Onlookers::kMostSnapshots && !kept.contains(name)) {
+    throw MessageError("name: there are " + std::to_string(kept.size()) +
+                       " snapshots already; expected one dropped first");
+  }
+  daemon.catch_up();
+  kept.insert_or_assign(name, Onlookers::Kept{daemon.world().now(), world::save(daemon.world())});
+  return time_of_now(daemon);
+}
+
+Json restore_by_name(Daemon& daemon, const Json& message) {
+  const std::string name = demand_name(message);
+  const auto& kept = daemon.onlookers().snapshots;
+  const auto found = kept.find(name);
+  if (found == kept.end()) {
+    throw MessageError("name: " + understudy::quoted(name) +
+                       " is not a snapshot; expected one of `snapshots`");
+  }
+  if (const std::string_view why = daemon.why_no_restore(); !why.empty())
+    throw MessageError(std::string(why));
+  daemon.restore(found->second.state);
+  return time_of_now(daemon);
+}
+
+}  // namespace understudy::emulator::serve

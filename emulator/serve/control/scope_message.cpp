@@ -1,0 +1,171 @@
+// An oscilloscope's single shot, and bytes that are put on a line by hand.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "base/text/one_line.h"
+#include "emulator/serve/control/look_messages.h"
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/ports/port.h"
+#include "emulator/world/look/scope.h"
+#include "emulator/world/world.h"
+#include "pty/line.h"
+#include "pty/rtu_crc.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+constexpr std::size_t kMostSamples = 500;  // of each name, in a reply
+constexpr std::size_t kMostBytes = 512;
+
+std::string_view state_word(world::Scope::State state) {
+  switch (state) {
+    case world::Scope::State::armed: return "armed";
+    case world::Scope::State::triggered: return "triggered";
+    case world::Scope::State::done: return "done";
+  }
+  return {};
+}
+
+Tick ticks_of(const Json& message, const char* key, Tick otherwise) {
+  if (!message.contains(key)) return otherwise;
+  const auto time = message[key].is_string() ? parse_duration(message[key].get<std::string>()) : std::nullopt;
+  if (!time || *time < SimTime{0} || *time > time_of(world::ScopeSetup::kMostTicks)) {
+    throw MessageError(std::string(key) + ": expected a duration of at most 10s, such as \"500ms\"");
+  }
+  return tick_at(*time);
+}
+
+world::ScopeSetup scope_setup(const Json& message) {
+  demand_keys(message, {"do", "names", "condition", "before", "after"});
+  world::ScopeSetup setup;
+  const Json& names = message["names"];
+  if (!names.is_array() || names.empty() || names.size() > world::ScopeSetup::kMostNames) {
+    throw MessageError("names: expected a list of 1 to " + std::to_string(world::ScopeSetup::kMostNames) +
+                       " names");
+  }
+  for (const Json& name : names) {
+    if (!name.is_string()) throw MessageError("names: expected a list of names");
+    setup.names.push_back(name.get<std::string>());
+  }
+  if (message.contains("condition")) setup.condition = demand_text(message, "condition");
+  setup.before = ticks_of(message, "before", setup.before);
+  setup.after = ticks_of(message, "after", setup.after);
+  return setup;
+}
+
+Json course_of_scope(const world::Scope& scope) {
+  Json told{{"state", state_word(scope.state())},   {"names", scope.setup().names},
+            {"condition", scope.setup().condition}, {"from_ns", time_of(scope.first_tick()).count()},
+            {"step_ns", kTickLength.count()},       {"count", scope.count()}};
+  if (scope.state() != world::Scope::State::armed) told["trigger_ns"] = time_of(scope.trigger_tick()).count();
+  if (!scope.complaint().empty()) told["error"] = scope.complaint();
+  return told;
+}
+
+std::optional<std::vector<std::uint8_t>> bytes_of(std::string_view text) {
+  std::vector<std::uint8_t> bytes;
+  int digits = 0;
+  unsigned value = 0;
+  for (const char letter : text) {
+    if (letter == ' ') {
+      if (digits == 1) return std::nullopt;
+      continue;
+    }
+    const std::size_t digit = std::string_view("0123456789abcdef0123456789ABCDEF").find(letter);
+    if (digit == std::string_view::npos) return std::nullopt;
+    value = value << 4U | digit % 16;
+    if (++digits < 2) continue;
+    bytes.push_back(static_cast<std::uint8_t>(value));
+    digits = 0;
+    value = 0;
+  }
+  if (digits != 0 || bytes.empty() || bytes.size() > kMostBytes) return std::nullopt;
+  return bytes;
+}
+
+const Port& demand_port(const Daemon& daemon, const Json& message) {
+  const auto& ports = daemon.ports();
+  if (!message.contains("line") && ports.size() == 1) return *ports.front();
+  const std::string name = demand_text(message, "line");
+  for (const auto& port : ports) {
+    if (daemon.world().line(port->line_number()).line.name() == name) return *port;
+  }
+  throw MessageError("line: " + understudy::quoted(name) + " is unknown; expected one of `bench`");
+}
+
+}  // namespace
+
+Json scope_message(Daemon& daemon, const Json& message) {
+  auto& scope = daemon.onlookers().scope;
+  if (message.contains("names")) {
+    world::ScopeSetup setup = scope_setup(message);
+    daemon.catch_up();
+    auto armed = std::make_unique<world::Scope>(daemon.world(), std::move(setup));
+    scope = std::move(armed);
+    return Json{{"ok", true}, {"scope", course_of_scope(*scope)}};
+  }
+  demand_keys(message, {"do", "from", "off"});
+  daemon.catch_up();
+  if (message.contains("off")) scope.reset();
+  if (!scope) return Json{{"ok", true}, {"scope", nullptr}};
+  Json reply{{"ok", true}, {"scope", course_of_scope(*scope)}};
+  if (!message.contains("from")) return reply;
+  const std::uint64_t from = demand_count(message, "from");
+  const std::uint64_t end = std::min<std::uint64_t>(scope->count(), from + kMostSamples);
+  Json samples = Json::array();
+  for (std::size_t name = 0; name < scope->setup().names.size(); ++name) {
+    Json row = Json::array();
+    for (std::uint64_t place = from; place < end; ++place) row.push_back(json_of(scope->sample(name, place)));
+    samples.push_back(std::move(row));
+  }
+  reply["samples"] = std::move(samples);
+  if (end < scope->count()) reply["next"] = end;
+  return reply;
+}
+
+Json send_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "line", "bytes", "text", "checksum"});
+  const Port& port = demand_port(daemon, message);
+  world::World& world = daemon.world();
+  const world::WorldLine& line = world.line(port.line_number());
+  std::vector<std::uint8_t> bytes;
+  if (message.contains("text")) {
+    const std::string text = demand_text(message, "text");
+    if (message.contains("bytes") || text.empty() || text.size() > kMostBytes) {
+      throw MessageError("text: expected 1 to " + std::to_string(kMostBytes) + " bytes, without \"bytes\"");
+    }
+    bytes.assign(text.begin(), text.end());
+  } else {
+    const auto parsed = bytes_of(demand_text(message, "bytes"));
+    if (!parsed) throw MessageError("bytes: expected hexadecimal digits, such as \"01 03 00 00 00 01\"");
+    bytes = *parsed;
+  }
+  if (message.contains("checksum") && message["checksum"] == true) understudy::pty::append_rtu_crc(bytes);
+  daemon.catch_up_for_bytes();
+  const std::string& name = line.line.name();
+  if (port.host_present()) {
+    throw MessageError(
+        name + ": a host has the line open, which would take the answer for its own; expected it closed");
+  }
+  if (line.line.due() || line.line.room() < bytes.size()) {
+    throw MessageError(name + ": something is on its way there; expected a line at rest");
+  }
+  // As from a host that has closed: the answer is seen in `frames`, and goes to nobody.
+  const std::uint64_t next = daemon.frames().next_number();
+  world.receive_departed(port.line_number(), bytes);
+  world.advance_to(world.now());
+  return Json{{"ok", true}, {"next_frame", next}};
+}
+
+}  // namespace understudy::emulator::serve

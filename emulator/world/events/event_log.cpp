@@ -1,0 +1,279 @@
+#include "emulator/world/events/event_log.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/device/device.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/world/expression/number.h"
+#include "emulator/world/faults/fault.h"
+#include "emulator/world/frames/frame_log.h"
+#include "emulator/world/stations/server.h"
+#include "emulator/world/world.h"
+#include "pty/capture.h"
+
+namespace understudy::emulator::world {
+
+namespace {
+
+std::string real_text(double value) { return number_text(finite_number(value)); }
+
+/// Of one request that writes: the function code and what stands behind it.
+struct WriteRequest {
+  Table table = Table::holding;
+  std::uint16_t first = 0;
+  std::vector<std::uint16_t> words{};
+};
+
+std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t place) {
+  return static_cast<std::uint16_t>(bytes[place] << 8U | bytes[place + 1]);
+}
+
+std::optional<WriteRequest> parse_write(std::span<const std::uint8_t> pdu) {
+  if (pdu.size() < 5) return std::nullopt;
+  for (const FunctionRow& row : kModbusFunctions) {
+    if (row.code != pdu[0] || row.kind == FunctionRow::Kind::read) continue;
+    WriteRequest request{.table = row.table, .first = word_at(pdu, 1)};
+    const bool are_bits = is_table_of_bits(row.table);
+    if (row.kind == FunctionRow::Kind::write_one) {
+      const std::uint16_t word = word_at(pdu, 3);
+      request.words.push_back(are_bits ? static_cast<std::uint16_t>(word != 0) : word);
+      return request;
+    }
+    const std::size_t count = word_at(pdu, 3);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t place = 6 + (are_bits ? i / 8 : i * 2);
+      if (place + (are_bits ? 0 : 1) >= pdu.size()) return std::nullopt;
+      request.words.push_back(are_bits ? static_cast<std::uint16_t>(pdu[place] >> i % 8 & 1)
+                                       : word_at(pdu, place));
+    }
+    return request;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<WrittenRegister> written_registers(const Device& device, Table table, std::uint16_t first,
+                                               std::span<const std::uint16_t> words) {
+  std::vector<WrittenRegister> written;
+  const RegisterBank* const bank = device.register_bank();
+  if (bank == nullptr) return written;
+  std::optional<Place> before;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Place place = bank->at(table, static_cast<std::uint16_t>(first + i));
+    if (!place) continue;
+    const std::string name = device.name() + "." + bank->map().unique_name(*place.row, place.index);
+    const bool completes = before && before->is_same_register(place);
+    before = place;
+    if (completes) {
+      const bool low_first = bank->low_word_first();
+      const std::uint32_t bits = (low_first ? std::uint32_t{words[i]} << 16U | words[i - 1]
+                                            : std::uint32_t{words[i - 1]} << 16U | words[i]);
+      written.back() = {name, value_text(value_of(bits, place.row->type), place.row->type)};
+      continue;
+    }
+    const bool is_half = place.part != Place::Part::whole;
+    written.push_back({name, is_half ? std::to_string(words[i])
+                                     : value_text(value_of(words[i], place.row->type), place.row->type)});
+  }
+  return written;
+}
+
+EventLog::EventLog(World& world, const FrameLog& frames) : world_(world), frames_(frames) {
+  world_.add_listener(*this);
+}
+
+EventLog::~EventLog() { world_.remove_listener(*this); }
+
+void EventLog::note(Event event) {
+  event.time = world_.now();
+  if (noted_.size() == kKept) noted_.pop_front();
+  noted_.push_back({frames_.next_number(), std::move(event)});
+}
+
+void EventLog::note(std::string_view what, std::string text) {
+  note({.what = what, .by = author_, .text = std::move(text)});
+}
+
+void EventLog::restored() { note("restored", {}); }
+
+void EventLog::on_input(std::size_t device, int terminal, std::int32_t level) {
+  const Device& of = world_.device(device);
+  const TerminalRow& row = of.model().terminals[static_cast<std::size_t>(terminal)];
+  note({.what = "input",
+        .by = author_,
+        .device = of.name(),
+        .name = of.name() + "." + std::string(row.name),
+        .value = std::to_string(level)});
+}
+
+void EventLog::on_power(std::size_t device, bool on) {
+  note({.what = "power", .by = author_, .device = world_.device(device).name(), .value = on ? "1" : "0"});
+}
+
+void EventLog::on_inject(const Fault& fault) {
+  note({.what = "inject",
+        .by = author_,
+        .device = world_.device(fault.device).name(),
+        .text = to_text(world_.known(), fault)});
+}
+
+void EventLog::on_clear_fault(std::size_t number) {
+  note({.what = "clear", .by = author_, .value = std::to_string(number), .text = fault_text_of(number)});
+}
+
+void EventLog::on_fault(std::size_t number, bool in_force) {
+  const auto found = world_.faults().find(number);
+  const std::string device =
+      found == world_.faults().end() ? std::string() : world_.device(found->second.fault.device).name();
+  note({.what = "fault",
+        .by = {},
+        .device = device,
+        .value = std::to_string(number),
+        .text = fault_text_of(number) + (in_force ? ": begins" : ": is over")});
+}
+
+void EventLog::on_write(std::size_t device, const PreparedWrite& write) {
+  const Device& of = world_.device(device);
+  const auto words = std::span(write.words).first(write.count);
+  for (WrittenRegister& one : written_registers(of, write.table, write.first, words)) {
+    note({.what = "write",
+          .by = author_,
+          .device = of.name(),
+          .name = std::move(one.name),
+          .value = std::move(one.value)});
+  }
+}
+
+void EventLog::on_assign(std::size_t device, std::string_view name, double value) {
+  const std::string& of = world_.device(device).name();
+  note({.what = "write",
+        .by = author_,
+        .device = of,
+        .name = of + "." + std::string(name),
+        .value = real_text(value)});
+}
+
+void EventLog::on_program(std::size_t device, std::string_view text) {
+  note({.what = "program",
+        .by = author_,
+        .device = world_.device(device).name(),
+        .text = std::to_string(std::count(text.begin(), text.end(), '\n')) + " lines"});
+}
+
+std::string EventLog::fault_text_of(std::size_t number) const {
+  const auto found = world_.faults().find(number);
+  return "fault " + std::to_string(number) +
+         (found == world_.faults().end() ? "" : " " + to_text(world_.known(), found->second.fault));
+}
+
+void EventLog::add(Event event) {
+  event.number = next_number_++;
+  if (events_.size() == kKept) events_.pop_front();
+  events_.push_back(std::move(event));
+}
+
+/// What a host has written: told when the answer says that it was done, or at once where nobody answers.
+void EventLog::add_writes(const FrameLog::Told& request, SimTime at) {
+  for (std::size_t l = 0; l < world_.line_count(); ++l) {
+    const WorldLine& line = world_.line(l);
+    if (line.line.name() != request.line) continue;
+    for (const auto& station : line.stations) {
+      const Device& device = station->device();
+      if (request.bytes[0] != 0 && device.station_number() != int{request.bytes[0]}) continue;
+      const auto write = parse_write(request.bytes.subspan(1, request.bytes.size() - 3));
+      if (!write) return;
+      for (WrittenRegister& one : written_registers(device, write->table, write->first, write->words)) {
+        add({.time = at,
+             .what = "write",
+             .by = "host",
+             .line = request.line,
+             .device = device.name(),
+             .name = std::move(one.name),
+             .value = std::move(one.value)});
+      }
+    }
+  }
+}
+
+void EventLog::take_frame(const FrameLog::Told& frame) {
+  const bool is_request = frame.way == pty::Way::from_host;
+  if (!frame.remark.empty()) {
+    add({.time = frame.time, .what = "dropped", .by = {}, .line = frame.line, .text = frame.remark});
+    if (is_request) return;
+  }
+  const auto is_modbus = [](std::span<const std::uint8_t> bytes) { return bytes.size() >= 4; };
+  if (is_request) {
+    if (is_modbus(frame.bytes) && frame.bytes[0] == 0) add_writes(frame, frame.time);
+    return;
+  }
+  const auto request = frames_.request_of(frame.number);
+  if (frame.is_refusal) {
+    add({.time = frame.time,
+         .what = "exception",
+         .by = "host",
+         .line = frame.line,
+         .text = (request ? request->text + ": " : "") + frame.text});
+  } else if (request && is_modbus(request->bytes)) {
+    add_writes(*request, frame.time);
+  }
+}
+
+/// Makes events of all that has come since, in its order.
+void EventLog::collect() {
+  const std::uint64_t end = frames_.next_number();
+  constexpr std::size_t kAtOnce = 256;
+  while (next_frame_ < end || !noted_.empty()) {
+    while (!noted_.empty() && noted_.front().next_frame <= next_frame_) {
+      add(std::move(noted_.front().event));
+      noted_.pop_front();
+    }
+    if (next_frame_ >= end) {
+      if (noted_.empty()) return;
+      next_frame_ = std::max(next_frame_, noted_.front().next_frame);
+      continue;
+    }
+    const auto some = frames_.since(next_frame_, kAtOnce);
+    if (some.empty()) {
+      next_frame_ = end;
+      continue;
+    }
+    for (const FrameLog::Told& frame : some) {
+      while (!noted_.empty() && noted_.front().next_frame <= frame.number) {
+        add(std::move(noted_.front().event));
+        noted_.pop_front();
+      }
+      take_frame(frame);
+      next_frame_ = frame.number + 1;
+    }
+  }
+}
+
+std::vector<Event> EventLog::since(std::uint64_t number, std::size_t most) {
+  collect();
+  std::vector<Event> some;
+  const std::uint64_t first = next_number_ - events_.size();
+  for (std::uint64_t next = std::max(number, first); next < next_number_ && some.size() < most; ++next) {
+    some.push_back(events_[next - first]);
+  }
+  return some;
+}
+
+std::uint64_t EventLog::next_number() {
+  collect();
+  return next_number_;
+}
+
+}  // namespace understudy::emulator::world

@@ -1,0 +1,72 @@
+// What some names were at each tick around the moment at which a condition became true: an oscilloscope's
+// single shot. It watches the world, which then shows it every tick, only until it has all it wants.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "emulator/world/expression/expression.h"
+#include "emulator/world/probe/probes.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+struct ScopeSetup {
+  static constexpr std::size_t kMostNames = 16;
+  static constexpr Tick kMostTicks = 10'000;  // before and after, each
+
+  std::vector<std::string> names;
+  std::string condition;  // empty: at once
+  Tick before = 1'000;
+  Tick after = 1'000;
+};
+
+class Scope final : private TickWatcher {
+ public:
+  enum class State : std::uint8_t { armed, triggered, done };
+
+  /// Throws NameError, ExpressionError.
+  Scope(World& world, ScopeSetup setup);
+  ~Scope() override;
+  Scope(const Scope&) = delete;
+  Scope& operator=(const Scope&) = delete;
+
+  const ScopeSetup& setup() const { return setup_; }
+  State state() const { return state_; }
+  /// Of the samples that are there: the tick of the first, and how many.
+  Tick first_tick() const { return next_tick_ - static_cast<Tick>(count_); }
+  std::size_t count() const { return count_; }
+  /// Only if it has triggered.
+  Tick trigger_tick() const { return trigger_tick_; }
+  /// Why the condition had no result, which ended it; else empty.
+  const std::string& complaint() const { return complaint_; }
+  /// Of a name, `place` samples behind the first. A device without power reads as 0.
+  double sample(std::size_t name, std::size_t place) const;
+
+ private:
+  void on_tick(Tick tick) override;
+  Tick next_look(Tick done) const override;
+  void on_rest(Tick last) override;
+  void push(Tick tick);
+  bool is_there();
+  void end();
+
+  World& world_;
+  ScopeSetup setup_;
+  Probes probes_;
+  Expression condition_;
+  std::vector<std::int32_t> handles_;
+  std::vector<double> present_;
+  std::vector<double> ring_;  // a row of names for each tick
+  std::size_t rows_ = 0;      // that it has room for
+  std::size_t count_ = 0;
+  Tick next_tick_ = 0;
+  State state_ = State::armed;
+  Tick trigger_tick_ = 0;
+  bool is_watching_ = true;
+  std::string complaint_;
+};
+
+}  // namespace understudy::emulator::world

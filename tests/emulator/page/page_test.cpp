@@ -1,0 +1,333 @@
+// The page's server: who gets in, what benches and browsers hear of each other.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "emulator/page/web_files.h"
+#include "tests/emulator/page/page_rig.h"
+
+namespace understudy::emulator::page {
+namespace page_test {
+
+using Clock = std::chrono::steady_clock;
+
+/// A bench whose value counts looks.
+std::string counting(const TestJson& message) {
+  static std::atomic<int> count = 0;
+  if (message["do"] != "look") return TestJson{{"ok", true}, {"echo", message}}.dump();
+  ++count;
+  TestJson reply{{"ok", true},      {"pid", 7},        {"simulated_time_ns", count * 1000},
+                 {"paused", false}, {"speed", "real"}, {"advancing", false}};
+  if (message.contains("names")) {
+    reply["values"] = TestJson::array();
+    for (const TestJson& name : message["names"]) {
+      reply["values"].push_back(name == "fixed"  ? TestJson(5)
+                                : name == "none" ? TestJson()
+                                                 : TestJson(count.load()));
+    }
+  }
+  if (message.contains("frames")) {
+    const int first = std::max(message["frames"].get<int>(), 1);
+    reply["frames"] = TestJson::array();
+    for (int i = first; i <= 300 && i < first + 200; ++i)
+      reply["frames"].push_back({{"number", i}, {"text", "frame"}});
+    reply["next_frame"] = std::min(first + 200, 301);
+  }
+  if (message.contains("status")) reply["status"] = {{"alive", true}};
+  return reply.dump();
+}
+
+TEST(PageFiles, AreServedWithTheirTypesAndAStrictPolicy) {
+  PageRig rig;
+  const std::string at = std::to_string(rig.page.port());
+  for (const auto& [path, type] :
+       std::vector<std::pair<std::string, std::string>>{{"/", "text/html"},
+                                                        {"/index.html", "text/html"},
+                                                        {"/preact.js", "text/javascript"},
+                                                        {"/uplot.js", "text/javascript"},
+                                                        {"/uplot.css", "text/css"},
+                                                        {"/page.js?x=1", "text/javascript"}}) {
+    TestBrowser browser(rig.page.port());
+    EXPECT_EQ(browser.ask("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + at + "\r\n"), "HTTP/1.1 200")
+        << path;
+    EXPECT_NE(browser.head().find("Content-Type: " + type), std::string::npos) << browser.head();
+    for (const char* policy :
+         {"default-src 'self'", "frame-ancestors 'none'", "X-Content-Type-Options: nosniff",
+          "Cache-Control: no-store", "Referrer-Policy: no-referrer"}) {
+      EXPECT_NE(browser.head().find(policy), std::string::npos) << policy;
+    }
+    EXPECT_FALSE(browser.read_all().empty());
+  }
+  std::size_t bytes = 0;
+  for (const EmbeddedFile& file : embedded_files()) bytes += file.bytes.size();
+  EXPECT_LT(bytes, 200'000U);
+}
+
+TEST(PageFiles, HoldNoOtherFileAndNoSecret) {
+  PageRig rig;
+  const std::string host = "Host: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n";
+  for (const char* path : {"/../etc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd", "/web/index.html", "/.",
+                           "/..", "/none", "*", "http://127.0.0.1/", "/index.html/", "/ws"}) {
+    TestBrowser browser(rig.page.port());
+    EXPECT_EQ(browser.ask("GET " + std::string(path) + " HTTP/1.1\r\n" + host), "HTTP/1.1 404") << path;
+    EXPECT_EQ(browser.read_all().find(rig.page.token()), std::string::npos);
+  }
+  TestBrowser head(rig.page.port());
+  EXPECT_EQ(head.ask("HEAD / HTTP/1.1\r\n" + host), "HTTP/1.1 200");
+  EXPECT_EQ(head.read_all(), "");
+}
+
+struct RequestCase {
+  std::string request;  // PORT stands for the port; without the empty line
+  const char* answer;   // empty: it is closed
+};
+
+TEST(PageRequests, ThatAreWrongAreRefused) {
+  PageRig rig;
+  const std::string upgrade =
+      "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+      "dGhlIHNhbXBsZSBub25jZQ==\r\n";
+  const std::vector<RequestCase> cases{
+      {"GET / HTTP/1.1\r\n", "HTTP/1.1 403"},
+      {"GET / HTTP/1.1\r\nHost: evil.example:PORT\r\n", "HTTP/1.1 403"},
+      {"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n", "HTTP/1.1 403"},
+      {"GET / HTTP/1.1\r\nHost: 127.0.0.1:PORT.evil.example\r\n", "HTTP/1.1 403"},
+      {"GET / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nHost: evil.example\r\n", "HTTP/1.1 403"},
+      {"GET / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nOrigin: http://evil.example\r\n", "HTTP/1.1 403"},
+      {"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\n" + upgrade, "HTTP/1.1 403"},
+      {"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nOrigin: null\r\n" + upgrade, "HTTP/1.1 403"},
+      {"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nOrigin: http://evil.example:PORT\r\n" + upgrade,
+       "HTTP/1.1 403"},
+      {"GET /ws HTTP/1.1\r\nHost: evil.example:PORT\r\nOrigin: http://evil.example:PORT\r\n" + upgrade,
+       "HTTP/1.1 403"},
+      {"GET /ws HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nOrigin: https://127.0.0.1:PORT\r\n" + upgrade,
+       "HTTP/1.1 403"},
+      {"GET /other HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nOrigin: http://127.0.0.1:PORT\r\n" + upgrade,
+       "HTTP/1.1 404"},
+      {"POST / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\n", "HTTP/1.1 405"},
+      {"PUT /page.js HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\n", "HTTP/1.1 405"},
+      {"DELETE / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\n", "HTTP/1.1 405"},
+      {"OPTIONS / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\n", "HTTP/1.1 405"},
+      {"POST / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nContent-Length: 10\r\n", "HTTP/1.1 413"},
+      {"GET / HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nX: " + std::string(20'000, 'x') + "\r\n", "HTTP/1.1 431"},
+      {"nonsense\r\n", "HTTP/1.1 400"},
+      {std::string("\0\1\2\3\r\n", 6), "HTTP/1.1 400"},
+  };
+  for (const RequestCase& one : cases) {
+    std::string request = one.request;
+    for (std::size_t at; (at = request.find("PORT")) != std::string::npos;)
+      request.replace(at, 4, std::to_string(rig.page.port()));
+    SCOPED_TRACE(request.substr(0, 200));
+    TestBrowser browser(rig.page.port());
+    EXPECT_EQ(browser.ask(request), one.answer);
+  }
+}
+
+TEST(PageSockets, WithoutTheTokenAreClosedAndHearNothing) {
+  PageRig rig;
+  std::string wrong = rig.page.token();
+  wrong.back() = wrong.back() == '0' ? '1' : '0';
+  for (const std::string& first :
+       {TestJson{{"token", wrong}}.dump(), TestJson{{"token", ""}}.dump(), TestJson{{"token", 7}}.dump(),
+        std::string("{}"), std::string("nonsense"), std::string(), rig.page.token(),
+        TestJson{{"do", "ask"}, {"id", 1}, {"message", {{"do", "bench"}}}}.dump()}) {
+    TestBrowser browser(rig.page.port());
+    ASSERT_TRUE(browser.open_socket(rig.page.port()));
+    browser.write(TestBrowser::frame(first));
+    EXPECT_TRUE(browser.hear().is_null()) << first;
+    EXPECT_EQ(browser.why(), "the token is not this page's") << first;
+  }
+  EXPECT_EQ(rig.browser()->why(), "");
+  EXPECT_EQ(rig.hello["read_only"], false);
+  EXPECT_EQ(rig.hello["benches"].size(), 1U);
+}
+
+TEST(PageSockets, ThatSayTooMuchAreClosed) {
+  PageRig rig;
+  const auto browser = rig.browser();
+  browser->write(TestBrowser::frame(std::string(65 * 1024, ' ')));
+  EXPECT_TRUE(browser->hear().is_null());
+}
+
+TEST(PageSockets, AreSixteen) {
+  PageRig rig;
+  std::vector<std::unique_ptr<TestBrowser>> all;
+  for (int i = 0; i < 16; ++i) all.push_back(rig.browser());
+  TestBrowser one_more(rig.page.port());
+  ASSERT_TRUE(one_more.open_socket(rig.page.port()));
+  one_more.say({{"token", rig.page.token()}});
+  EXPECT_TRUE(one_more.hear().is_null());
+  EXPECT_EQ(one_more.why(), "too many browsers");
+  all.pop_back();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(rig.browser()->why(), "");
+}
+
+TEST(PageConnections, ByTheThousandLeaveItAlive) {
+  PageRig rig([](PageOptions& options) { options.limits.request = std::chrono::milliseconds(500); });
+  const auto begin = Clock::now();
+  std::vector<std::unique_ptr<TestBrowser>> all;
+  for (int i = 0; i < 1'000; ++i) {
+    all.push_back(std::make_unique<TestBrowser>(rig.page.port()));
+    if (i % 3 == 0) all.back()->write("GET / HTTP/1.1\r\nHost: 127");  // half a request
+    if (i % 3 == 1) all.back()->hang_up();
+  }
+  // Those that say nothing are let go, and there is room again.
+  for (int i = 0; i < 50; ++i) {
+    TestBrowser browser(rig.page.port());
+    if (browser.ask("GET / HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(rig.page.port()) + "\r\n") ==
+        "HTTP/1.1 200")
+      break;
+    ASSERT_LT(i, 49);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(20));
+}
+
+TEST(PageLooks, AreOneForAllBrowsersAndAtMostThirtyASecond) {
+  PageRig rig;
+  MadeUpBench bench(rig.socket(), counting);
+  std::vector<std::unique_ptr<TestBrowser>> all;
+  for (int i = 0; i < 8; ++i) {
+    all.push_back(rig.browser());
+    all.back()->say({{"do", "watch"}, {"bench", 0}, {"names", {"a", "fixed", "b" + std::to_string(i)}}});
+  }
+  for (const auto& browser : all) ASSERT_FALSE(browser->hear_one("look").is_null());
+  const int before = bench.looks();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2'000));
+  const int looks = bench.looks() - before;
+  EXPECT_LE(looks, 62);
+  EXPECT_GE(looks, 5);  // a loaded machine
+  all.clear();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const int last = bench.looks();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(bench.looks(), last) << "nobody watches";
+}
+
+TEST(PageLooks, TellOnlyWhatHasChanged) {
+  PageRig rig;
+  MadeUpBench bench(rig.socket(), counting);
+  const auto browser = rig.browser();
+  browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"a", "fixed", "none"}}, {"status", true}});
+  const TestJson first = browser->hear_one("look");
+  ASSERT_FALSE(first.is_null());
+  EXPECT_EQ(first["values"]["fixed"], 5);
+  EXPECT_TRUE(first["values"].contains("none") && first["values"]["none"].is_null());
+  EXPECT_TRUE(first["values"].contains("a"));
+  const TestJson second = browser->hear_one("look");
+  ASSERT_FALSE(second.is_null());
+  EXPECT_TRUE(second["values"].contains("a"));
+  EXPECT_FALSE(second["values"].contains("fixed"));
+  EXPECT_GT(second["time_ns"], first["time_ns"]);
+}
+
+TEST(PageLooks, TellEveryFrameOnce) {
+  PageRig rig;
+  MadeUpBench bench(rig.socket(), counting);
+  for (int i = 0; i < 2; ++i) {  // the second browser gets those that were there before as well
+    const auto browser = rig.browser();
+    browser->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
+    int expected = 1;
+    while (expected <= 300) {
+      const TestJson look = browser->hear_one("look");
+      ASSERT_FALSE(look.is_null()) << expected;
+      if (!look.contains("frames")) continue;
+      EXPECT_LE(look["frames"].size(), 200U);
+      for (const TestJson& frame : look["frames"]) EXPECT_EQ(frame["number"], expected++);
+    }
+  }
+}
+
+TEST(PageAsks, ArePassedOnAndAnsweredById) {
+  PageRig rig;
+  MadeUpBench bench(rig.socket(), counting);
+  const auto browser = rig.browser();
+  browser->say({{"do", "ask"}, {"bench", 0}, {"id", 41}, {"message", {{"do", "bench"}}}});
+  const TestJson answer = browser->hear_one("answer");
+  ASSERT_FALSE(answer.is_null());
+  EXPECT_EQ(answer["id"], 41);
+  EXPECT_EQ(answer["reply"]["echo"], (TestJson{{"do", "bench"}, {"as", "page"}}));
+  browser->say({{"do", "ask"}, {"id", 42}, {"message", {{"do", "snapshot"}, {"file", "/etc/passwd"}}}});
+  EXPECT_EQ(browser->hear_one("answer")["reply"]["ok"], false);
+  EXPECT_EQ(bench.asked().size(), 1U);
+  browser->write(TestBrowser::frame("nonsense"));
+  EXPECT_EQ(browser->hear_one("error").value("is", ""), "error");
+}
+
+TEST(PageAsks, OfAReadOnlyPageChangeNothing) {
+  PageRig rig([](PageOptions& options) { options.is_read_only = true; });
+  MadeUpBench bench(rig.socket(), counting);
+  const auto browser = rig.browser();
+  EXPECT_EQ(rig.hello["read_only"], true);
+  browser->say({{"do", "ask"}, {"id", 1}, {"message", {{"do", "set"}, {"values", {{"a", 1}}}}}});
+  EXPECT_EQ(browser->hear_one("answer")["reply"]["ok"], false);
+  EXPECT_TRUE(bench.asked().empty());
+}
+
+TEST(PageBenches, ThatGoAndComeBackAreSaidAtOnce) {
+  PageRig rig;
+  const auto browser = rig.browser();
+  browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"a"}}});
+  EXPECT_EQ(browser->hear_one("bench")["state"], "gone");
+  std::uint64_t epoch = 0;
+  for (int i = 0; i < 2; ++i) {
+    {
+      MadeUpBench bench(rig.socket(), counting);
+      const TestJson state = browser->hear_one("bench");
+      ASSERT_FALSE(state.is_null());
+      EXPECT_EQ(state["state"], "there");
+      EXPECT_GT(state["epoch"], epoch);
+      epoch = state["epoch"];
+      EXPECT_TRUE(browser->hear_one("look")["values"].contains("a"));
+      browser->say({{"do", "ask"}, {"id", i}, {"message", {{"do", "bench"}}}});
+      EXPECT_EQ(browser->hear_one("answer")["reply"]["ok"], true);
+    }
+    EXPECT_EQ(browser->hear_one("bench")["state"], "gone");
+  }
+  browser->say({{"do", "ask"}, {"id", 9}, {"message", {{"do", "bench"}}}});
+  EXPECT_EQ(browser->hear_one("answer")["reply"]["ok"], false);
+}
+
+TEST(PageBenches, ThatSayNothingAreSaidToBeSilent) {
+  PageRig rig;
+  MadeUpBench bench(rig.socket(), [](const TestJson&) { return std::string(); });
+  const auto browser = rig.browser();
+  browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"a"}}});
+  EXPECT_EQ(browser->hear_one("bench", 8'000)["state"], "silent");
+}
+
+TEST(PageBenches, ThatSayNonsenseAreGone) {
+  for (const char* nonsense :
+       {"nonsense", "{}", "[]", R"({"ok":true})", R"({"ok":true,"pid":-1})", R"({"ok":false,"error":"x"})"}) {
+    PageRig rig;
+    MadeUpBench bench(rig.socket(), [&](const TestJson&) { return std::string(nonsense); });
+    const auto browser = rig.browser();
+    browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"a"}}});
+    EXPECT_EQ(browser->hear_one("bench")["state"], "gone") << nonsense;
+  }
+}
+
+TEST(PageBrowsers, ThatNeverReadHoldNobodyUp) {
+  PageRig rig;
+  MadeUpBench bench(rig.socket(), counting);
+  TestBrowser stuck(rig.page.port());
+  const int little = 4'096;
+  setsockopt(stuck.descriptor(), SOL_SOCKET, SO_RCVBUF, &little, sizeof(little));
+  ASSERT_TRUE(stuck.open_socket(rig.page.port()));
+  stuck.say({{"token", rig.page.token()}});
+  stuck.say({{"do", "watch"}, {"bench", 0}, {"names", {"a"}}, {"frames", true}});
+  for (int i = 0; i < 2'000; ++i)
+    stuck.say({{"do", "ask"}, {"id", i}, {"message", {{"do", "bench"}, {"device", std::string(500, 'x')}}}});
+  const auto browser = rig.browser();
+  browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"a"}}});
+  for (int i = 0; i < 20; ++i) ASSERT_FALSE(browser->hear_one("look").is_null());
+}
+
+}  // namespace page_test
+}  // namespace understudy::emulator::page
