@@ -103,7 +103,8 @@ struct ReplayArguments {
   std::vector<std::string> trace_also;
   std::string capture;
   std::string report;
-  std::string version;  // of this program
+  std::optional<int> page;  // the port of a live page of it; 0: any
+  std::string version;      // of this program
 };
 int replay_recording(ModelList models, const ReplayArguments& arguments);
 
