@@ -47,11 +47,7 @@ std::vector<ProgramPlace> Super40nc::places() const {
     const language::StepCode& code = codes_[static_cast<std::size_t>(i)];
     if (code.is_empty()) continue;
     ProgramPlace place;
-<<<<<<< HEAD
-    place.program = std::string(row.name);
-=======
     place.program = row.name;
->>>>>>> 58dfb1c58290cab6360a64401580c7cc489c1b3b
     if (const int line = code.line_at(step.step); line >= 0 && step.phase != language::Phase::idle) {
       place.text = language::text_of(code.line(line));
       for (const int base : {row.base, row.older_base, 0}) {
