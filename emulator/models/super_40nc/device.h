@@ -398,7 +398,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
-  NamedBlocks::mapped_type ready_texts_;  // that those two are made of
+  std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
+  NamedBlocks::mapped_type ready_texts_;        // that those two are made of
   interpreter::super_40nc::Options options_;
   bool lines_wait_ = false;                       // a choice that is asked for often
   bool multiplies_by_x12_ = false;                // likewise

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
+
 #include "emulator/device/machine_edges.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
@@ -80,7 +82,8 @@ void Super40nc::see_first_signals() {
 
 void Super40nc::set_edges(int number, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(number)] = edges;
-  look_round(number);
+  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  if (!std::exchange(is_restored_[static_cast<std::size_t>(number)], false)) look_round(number);
 }
 
 std::int64_t Super40nc::place_pulses(int number) const {

@@ -138,6 +138,24 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
   EXPECT_GT(ticks_crossed, 10'000U) << "worth something only if much is";
 }
 
+/// Also where an input has changed since the last tick.
+TEST(Super40ncCrossing, ARestoredWorldIsTheOneThatWasSaved) {
+  for (const std::string input : {"X0", "X1", "X4", "X7", "X20", "ALM_Y", "CEMG", "PLC_RUN"}) {
+    OneSuper40nc one(drawn(7));
+    one.set("M8103", 1);
+    one.run(300);
+    one.input(input, input == "PLC_RUN" ? 0 : 1);
+    const world::WorldState saved = world::save(one.world());
+    world::restore(one.world(), saved);
+    EXPECT_EQ(world::difference(one.world(), saved, world::save(one.world())), "") << input;
+    OneSuper40nc other(drawn(7));
+    world::restore(other.world(), saved);
+    EXPECT_EQ(world::difference(one.world(), saved, world::save(other.world())), "") << input;
+    for (OneSuper40nc* each : {&one, &other}) each->run(100);
+    EXPECT_EQ(world::hash(one.world()), world::hash(other.world())) << input;
+  }
+}
+
 /// A settled PLC and standing axes cost next to nothing: an hour of it.
 TEST(Super40ncCrossing, ASettledDeviceCostsNoTicks) {
   OneSuper40nc one({.program = kPlc});
