@@ -50,10 +50,11 @@ std::vector<ProgramPlace> RsM8194h::places() const {
     const lang::Level& level = run.levels.back();
     // An ISR may call an MP: what is at the bottom says which of them it is.
     const lang::MacroName name{run.is_isr && run.levels.size() == 1, level.number};
-    ProgramPlace place{.program = to_string(name),
-                       .state = run.hold == lang::Hold::nothing ? ProgramPlace::State::running
-                                                                : ProgramPlace::State::waiting,
-                       .waits_for = std::string(awaited_by(run.hold))};
+    ProgramPlace place;
+    place.program = to_string(name);
+    place.state =
+        run.hold == lang::Hold::nothing ? ProgramPlace::State::running : ProgramPlace::State::waiting;
+    place.waits_for = awaited_by(run.hold);
     const lang::Macro* const found = macro(name);
     if (found != nullptr && level.line < found->size()) {
       place.text = lang::text_of(found->lines[level.line]);
