@@ -85,7 +85,7 @@ Cause Axis::forbidden(int way, Signals ignored) const {
     }
   } else {
     if (blocks(Signal::limit_minus, settings.at_limit_minus)) return Cause::limit_minus;
-    if (settings.at_soft_limit != Reaction::ignore && settings.soft_limit_minus &&
+    if (settings.at_soft_limit_of_minus() != Reaction::ignore && settings.soft_limit_minus &&
         travel_pulses <= *settings.soft_limit_minus) {
       return Cause::soft_limit_minus;
     }

@@ -169,7 +169,7 @@ void Axis::meet(const Surroundings& here, Instant at) {
     react(settings.at_soft_limit, Cause::soft_limit_plus, at);
   }
   if (settings.soft_limit_minus && travel_pulses < *settings.soft_limit_minus && drive.direction < 0) {
-    react(settings.at_soft_limit, Cause::soft_limit_minus, at);
+    react(settings.at_soft_limit_of_minus(), Cause::soft_limit_minus, at);
   }
   if (homing.active()) homing_comes_to_its_place(at);
 }

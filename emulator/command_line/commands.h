@@ -172,6 +172,7 @@ struct PollArguments {
   std::string model;
   int function = 3;
   std::string type = "u16";
+  std::string word_order;  // "low" or "high" first; empty: the model's, or the device's
   std::string timeout = "1s";
   std::string every;
   int times = 1;

@@ -317,8 +317,8 @@ struct CommandLine {
     add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
     add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
         "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
-    add("turn", "Turn hand wheels and what else is counted", "NAME=COUNTS",
-        "Such as mill.MPG=400, and in=2s for the time that it takes");
+    add("turn", "Turn hand wheels and what else is counted", "NAME=COUNTS", "Such as mill.MPG=400 in=2s");
+    add("command", "Give a device a command by its name", "WHAT", "DEVICE, and 'MOVE X 1000' in quotes");
     add("power", "Switch a device off or on, or off and on again", "WHAT", "DEVICE, and on, off or cycle");
     add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
     add("inject", "Break something", "FAULT",
@@ -374,13 +374,13 @@ struct CommandLine {
     command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
-    command
-        ->add_option("--command", poll.commands,
-                     "A command by the model's name for it, sent before the items")
+    command->add_option("--command", poll.commands, "A command by the model's name, sent before the items")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
     command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
+    command->add_option("--word-order", poll.word_order, "low or high word first; else as the device has it")
+        ->check(kNotEmpty);
     command->add_option("--baud", poll.baud, "Line speed; without it the model's, or 19200");
     command->add_option("--parity", poll.parity, "even, odd or none; without it the model's, or even")
         ->check(kNotEmpty);

@@ -259,6 +259,11 @@ class Checker {
       if (!number) break;
       return read_number(token, letter, *number);
     }
+    if (first == 'S' && decimal(token.text.substr(1))) {
+      fail(token, Code::unknown, "step relay " + upper_case(token.text) + " cannot stand in a program",
+           "X, Y, M, T, C, D or K and a number, or *");
+      return {};
+    }
     fail(token, Code::unknown, quoted(token.text) + " is not an operand", "a letter and a number, or *");
     return {};
   }

@@ -211,6 +211,7 @@ void StepPrograms::run_slice(Area area) {
   }
   for (int executed = 0; executed < options_.slice || is_in_group(area); ++executed) {
     if (program.phase != Phase::executing && program.phase != Phase::waiting) return;
+    if (is_stopped_short(area)) return;  // the contacts are obeyed before the next slice
     if (!contact_is_on(area)) return take(Event::contact_off, area);
     const int line = code(area).line_at(program.step);
     if (line < 0) return fail(area, Code::unknown);

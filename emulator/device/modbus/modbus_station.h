@@ -20,6 +20,8 @@ enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
 class ModbusStation {
  public:
   virtual Addressing addressing(std::uint8_t address) const = 0;
+  /// Of those of its model.
+  virtual bool knows(std::uint8_t /*function*/) const { return true; }
   /// The silence that ends a frame for it; the model's is the usual one.
   virtual pty::SimTime end_silence(pty::SimTime usual) const { return usual; }
   /// Whether a request that it refuses gets an exception, or no answer.

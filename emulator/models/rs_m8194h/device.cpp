@@ -270,7 +270,8 @@ bool RsM8194h::rests() const {
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
     if (state_.scans[a].running) return false;
   }
-  return state_.scanning == 0 && !state_.paths.together.engaged && state_.held_paths.empty();
+  return state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
+         state_.held_paths.empty();
 }
 
 Tick RsM8194h::next_active_tick(Tick done) const {

@@ -176,7 +176,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
  private:

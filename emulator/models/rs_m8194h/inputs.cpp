@@ -126,6 +126,8 @@ void RsM8194h::look_round(std::size_t axis) {
       found.index_period = index.period;
       found.index_at = is_inside ? index.at : index.at + index.width;
       found.index_width = is_inside ? index.width : index.period - index.width;
+      found.index_from = index.first;
+      found.index_to = index.last;
     } else {
       found.set_steady(function.signal, ((unit.pins.passed & bit_of(function.pin)) != 0) == *active);
     }

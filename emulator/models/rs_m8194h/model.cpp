@@ -53,7 +53,8 @@ const Model& model() {
                                                            .write_only = MapPolicy::WriteOnly::refused,
                                                            .halves = MapPolicy::Halves::come_whole,
                                                            .read_halves = MapPolicy::ReadHalves::come_whole,
-                                                           .low_word_first = false});
+                                                           .low_word_first = false,
+                                                           .word_order_in = "WORD_ORDER"});
   static const Model model{
       .name = "rs-m8194h",
       .title = "4-axis motion controller with macros, Modbus RTU",

@@ -262,7 +262,7 @@ void RsM8194h::step_scans(Tick tick) {
 
 Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
   const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
-                         state_.scanning == 0 && !state_.paths.together.engaged &&
+                         state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
                          state_.steps_left == options_.steps_a_tick;
   if (!is_simple || is_resetting() || state_.execution.is_alive() || !state_.queued_triggers.empty())
     return done + 1;

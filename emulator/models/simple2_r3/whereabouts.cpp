@@ -17,26 +17,24 @@ namespace understudy::emulator::models::simple2_r3 {
 
 namespace {
 
-using interpreter::simple2::Ending;
-using interpreter::simple2::Phase;
-
-std::string_view why_of(Ending ending) {
+std::string_view why_of(interpreter::simple2::Ending ending) {
   switch (ending) {
-    case Ending::not_started: return "";
-    case Ending::end_instruction: return "END";
-    case Ending::past_last_line: return "behind the last line";
-    case Ending::nested_loop: return "a Loop within a Loop";
-    case Ending::unknown_command: return "an unknown command";
-    case Ending::undefined_operand: return "an operand that does not exist";
-    case Ending::stopped: return "stopped from outside";
-    case Ending::wait_cut_short: return "a wait was cut short";
+    case interpreter::simple2::Ending::not_started: return "";
+    case interpreter::simple2::Ending::end_instruction: return "END";
+    case interpreter::simple2::Ending::past_last_line: return "behind the last line";
+    case interpreter::simple2::Ending::nested_loop: return "a Loop within a Loop";
+    case interpreter::simple2::Ending::unknown_command: return "an unknown command";
+    case interpreter::simple2::Ending::undefined_operand: return "an operand that does not exist";
+    case interpreter::simple2::Ending::stopped: return "stopped from outside";
+    case interpreter::simple2::Ending::wait_cut_short: return "a wait was cut short";
   }
   return "";
 }
 
-bool is_failure(Ending ending) {
-  return ending == Ending::nested_loop || ending == Ending::unknown_command ||
-         ending == Ending::undefined_operand;
+bool is_failure(interpreter::simple2::Ending ending) {
+  return ending == interpreter::simple2::Ending::nested_loop ||
+         ending == interpreter::simple2::Ending::unknown_command ||
+         ending == interpreter::simple2::Ending::undefined_operand;
 }
 
 /// The line of the listing that shows this line of the program, and what it says. A line of zeros may have
@@ -61,7 +59,7 @@ std::pair<int, std::string> listed(const interpreter::simple2::Program& program,
 std::vector<ProgramPlace> Simple2R3::places() const {
   const interpreter::simple2::Execution& execution = state_.execution;
   ProgramPlace place;
-  if (execution.running || execution.ending != Ending::not_started) {
+  if (execution.running || execution.ending != interpreter::simple2::Ending::not_started) {
     std::tie(place.line, place.text) = listed(state_.program, execution.now_line);
   }
   if (!execution.running) {
@@ -70,10 +68,10 @@ std::vector<ProgramPlace> Simple2R3::places() const {
     return {place};
   }
   place.state = ProgramPlace::State::waiting;
-  if (execution.phase == Phase::delay) {
+  if (execution.phase == interpreter::simple2::Phase::delay) {
     place.waits_for = "its delay";
     place.until = time_of(execution.delay_until_ms);
-  } else if (execution.phase == Phase::move) {
+  } else if (execution.phase == interpreter::simple2::Phase::move) {
     place.waits_for = execution.waits_for_a && execution.waits_for_b ? "axes A and B to stop"
                       : execution.waits_for_a                        ? "axis A to stop"
                                                                      : "axis B to stop";

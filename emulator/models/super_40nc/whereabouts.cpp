@@ -46,7 +46,8 @@ std::vector<ProgramPlace> Super40nc::places() const {
     const language::StepState& step = state_.steps.programs[static_cast<std::size_t>(i)];
     const language::StepCode& code = codes_[static_cast<std::size_t>(i)];
     if (code.is_empty()) continue;
-    ProgramPlace place{.program = std::string(row.name)};
+    ProgramPlace place;
+    place.program = row.name;
     if (const int line = code.line_at(step.step); line >= 0 && step.phase != language::Phase::idle) {
       place.text = language::text_of(code.line(line));
       for (const int base : {row.base, row.older_base, 0}) {
