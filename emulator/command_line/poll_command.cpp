@@ -188,6 +188,24 @@ constexpr std::array kBauds{110,     300,     600,     1200,    2400,    4800,  
                             38400,   57600,   115200,  230400,  460800,  500000,  576000,  921600,
                             1000000, 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
 
+/// What was not said of the line, as a device of the model has it.
+PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
+  pty::LineSettings line;
+  if (!arguments.model.empty()) {
+    const PortRow& port = demand_model(models, arguments.model).line.ports.front();
+    line = port.settings;
+    line.baud = port.bauds.front();
+  }
+  if (arguments.baud == 0) arguments.baud = line.baud;
+  if (arguments.stop_bits == 0) arguments.stop_bits = line.stop_bits;
+  if (arguments.parity.empty()) {
+    arguments.parity = line.parity == pty::Parity::none  ? "none"
+                       : line.parity == pty::Parity::odd ? "odd"
+                                                         : "even";
+  }
+  return arguments;
+}
+
 Context connect(const PollArguments& arguments) {
   const char parity = arguments.parity == "even"   ? 'E'
                       : arguments.parity == "odd"  ? 'O'
@@ -346,7 +364,8 @@ void keep_silent(const PollArguments& arguments) {
 
 }  // namespace
 
-int poll_port(ModelList models, const PollArguments& arguments) {
+int poll_port(ModelList models, const PollArguments& given) {
+  const PollArguments arguments = with_line_of_model(models, given);
   if (arguments.items.empty() && arguments.commands.empty())
     throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
   std::vector<Item> items = items_of(models, arguments, given_word_order(arguments));

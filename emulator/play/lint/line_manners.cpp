@@ -77,7 +77,9 @@ LineManners::LineManners(world::World& world, std::size_t line)
   if (has_time()) {
     longest_gap_ = one_and_a_half_characters(options_.settings);
     for (const auto& station : watched.stations) {
-      const SimTime end_silence = station->device().model().rtu->end_silence;
+      const Device& device = station->device();
+      if (device.modbus() == nullptr) continue;
+      const SimTime end_silence = device.modbus()->end_silence(device.model().rtu->end_silence);
       silence_ = std::max(silence_, end_silence);
       longest_gap_ = std::min(longest_gap_, end_silence);
     }
