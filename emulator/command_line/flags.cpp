@@ -16,20 +16,13 @@
 #include "emulator/command_line/choose_daemon.h"
 #include "emulator/command_line/commands.h"
 #include "emulator/command_line/completion.h"
+#include "emulator/command_line/ctl_words.h"
+#include "emulator/command_line/serving_flags.h"
 #include "emulator/device/model.h"
 
 namespace understudy::emulator::command_line {
 
 namespace {
-
-/// `--link "$UNSET"` is a slip, not a wish for the default.
-const CLI::Validator kNotEmpty(
-    [](const std::string& value) { return value.empty() ? std::string("is empty; expected a value") : ""; },
-    "");
-
-constexpr const char* kTraceAlsoHelp =
-    "More for the trace: registers and anything else that conditions can name, such as feeder.Cord_A";
-constexpr const char* kLintHelp = "Report at the end what a real controller would not forgive its host";
 
 struct CommandLine {
   ModelList models;
@@ -92,63 +85,6 @@ struct CommandLine {
     command->callback([this] { chosen = [this] { return describe_model(models, describe); }; });
   }
 
-  /// Those of everything that serves a bench.
-  static void add_serving_flags(CLI::App& command, ServeArguments& serving) {
-    serving.version = UNDERSTUDY_VERSION;
-    command.add_option("BENCH", serving.bench, "A bench file; or else --model");
-    command.add_option("--model", serving.model, "One device of this model on one line")->check(kNotEmpty);
-    command.add_option("--station", serving.station,
-                       "Its station number (with --model) [1, or its memory's]");
-    command.add_option("--modules", serving.modules,
-                       "How many modules it has, if it is a chain (with --model)");
-    command.add_option("--firmware", serving.firmware, "Its firmware version (with --model) [newest]")
-        ->check(kNotEmpty);
-    command.add_option("--baud", serving.baud, "Its line speed (with --model) [the factory's]");
-    command
-        .add_option("--link", serving.link,
-                    "Path of the link to its port (with --model); further ports are at PATH.NAME "
-                    "[a private one]")
-        ->check(kNotEmpty);
-    command.add_option("--links", serving.links, "Folder for links that are relative, or that nobody named")
-        ->check(kNotEmpty);
-    command.add_option("--group", serving.group, "Group that may open the ports, such as dialout [none]")
-        ->check(kNotEmpty);
-    command
-        .add_option("--timing", serving.timing,
-                    "wire: bytes take their time; instant: none [wire, or the bench's]")
-        ->check(kNotEmpty);
-    command.add_flag("--strict-framing", serving.strict_framing,
-                     "Only silence ends a frame, as on a real line");
-    command.add_flag("--ignore-baud", serving.ignore_baud,
-                     "Hear hosts that set another speed or other stop bits");
-    command
-        .add_option("--baud-tolerance", serving.baud_tolerance,
-                    "How much faster or slower a host may be and still be heard [2%, or the bench's]")
-        ->check(kNotEmpty);
-    command.add_option("--speed", serving.speed, "real, free, manual, or a factor such as 10x")
-        ->capture_default_str();
-    command.add_option("--control", serving.control, "Path of the control socket [a private one]")
-        ->check(kNotEmpty);
-    command
-        .add_option("--nv", serving.nv,
-                    "Folder for the devices' non-volatile memories [they last as long as the run]")
-        ->check(kNotEmpty);
-    command
-        .add_option("--capture", serving.capture,
-                    "Write what goes over the lines to this file: FILE.pcapng for Wireshark, else a text log")
-        ->check(kNotEmpty);
-    command
-        .add_option("--record", serving.record,
-                    "Write everything that comes from outside to this file, for `understudy replay`")
-        ->check(kNotEmpty);
-    command
-        .add_option("--trace", serving.trace,
-                    "Write what moves and switches to this file: FILE.csv, or FILE.vcd for GTKWave")
-        ->check(kNotEmpty);
-    command.add_option("--trace-also", serving.trace_also, kTraceAlsoHelp)->delimiter(',')->check(kNotEmpty);
-    command.add_flag("--lint", serving.lint, kLintHelp);
-  }
-
   void add_serve() {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     add_serving_flags(*command, serve);
@@ -208,6 +144,11 @@ struct CommandLine {
         ->check(kNotEmpty);
     command->add_option("--report", replay.report, "Write a page about it to this file, as HTML")
         ->check(kNotEmpty);
+    command
+        ->add_option("--page", replay.page,
+                     "Open it in a browser, to go to and fro in it, at this port [any]")
+        ->expected(0, 1)
+        ->default_str("0");
     command->callback([this] {
       replay.version = UNDERSTUDY_VERSION;
       chosen = [this] { return replay_recording(models, replay); };
@@ -310,43 +251,12 @@ struct CommandLine {
       });
       return sub;
     };
-    add("status", "Time, lateness, lines, stations, machines", nullptr, nullptr);
-    add("get", "Read registers, axes, inputs: all that conditions can name", "NAME",
-        "Such as feeder.Cord_A, feeder.STATUS.4, feeder.0x1000, feeder.A.position, time");
-    add("eval", "Work out an expression", "EXPRESSION", "Such as 'feeder.Cord_A / 3200'");
-    add("set", "Write registers, as the wire would", "NAME=VALUE", "Such as feeder.Aaxis_Speed=200");
-    add("input", "Hold inputs on or let them go; set analog inputs and DIP switches", "NAME=LEVEL",
-        "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on");
-    add("turn", "Turn hand wheels and what else is counted", "NAME=COUNTS",
-        "Such as mill.MPG=400, and in=2s for the time that it takes");
-    add("power", "Switch a device off or on, or off and on again", "WHAT", "DEVICE, and on, off or cycle");
-    add("program", "Load a program, or print the one there is", "WHAT", "DEVICE, and a listing to load");
-    add("inject", "Break something", "FAULT",
-        "stall AXIS, lost_steps AXIS one_in=N, slip AXIS pulses=N, alarm AXIS, or stuck INPUT level=N");
-    add("clear", "Mend it", "NUMBER", "The fault's number, or all");
-    add("list", "List the faults, those in force and those that wait", nullptr, nullptr);
-    add("snapshot", "Write the state of everything to a file", "FILE", "Replaced if it exists");
-    add("restore", "Restore everything to what it was", "FILE", "Of the same bench, by the same version");
-    add("advance", "Move simulated time on, where the clock stands", "DURATION", "Such as 250ms");
-    add("run-until", "Move simulated time on until a condition is true, where the clock stands", "CONDITION",
-        "Such as 'feeder.STATUS.4 == 0'")
-        ->add_option("--within", control.within, "Simulated time after which to give up")
-        ->capture_default_str();
-    add("pause", "Stop simulated time", nullptr, nullptr);
-    add("resume", "Let it run again", nullptr, nullptr);
-    add("step", "Move simulated time on by ticks, where the clock stands", "TICKS", "How many [1]");
-    add("speed", "Change how simulated time follows the clock", "SPEED", "real, free, manual, or a factor");
-    add("bench", "What there is: lines, devices, wires; or of a device its axes and terminals", "DEVICE",
-        "Its name");
-    add("registers", "A device's registers, page by page", "WHAT", "DEVICE, section=N, find=TEXT, from=N");
-    add("choices", "The choices in force of a device", "DEVICE", "Its name");
-    add("events", "What has happened: writes and who made them, faults, exceptions", "LAST",
-        "How many [200]");
-    add("where", "Which line a device's programs are at, and what they wait for", "DEVICE", "Its name");
-    add("scope", "Keep names at every tick around a moment", "WHAT",
-        "NAME..., when=CONDITION, before=1s, after=1s; off; nothing: how far it is");
-    add("send", "Put a request on a line that no host has open", "WHAT",
-        "LINE, and bytes in hexadecimal or text=TEXT");
+    for (const ControlWord& word : kControlWords) {
+      CLI::App* const sub = add(word.verb, word.help, word.operand, word.operand_help);
+      if (std::string_view(word.verb) != "run-until") continue;
+      sub->add_option("--within", control.within, "Simulated time after which to give up")
+          ->capture_default_str();
+    }
   }
 
   void add_page() {
@@ -374,16 +284,17 @@ struct CommandLine {
     command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
-    command
-        ->add_option("--command", poll.commands,
-                     "A command by the model's name for it, sent before the items")
+    command->add_option("--command", poll.commands, "A command by the model's name, sent before the items")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
     command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
-    command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
-    command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
-    command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
+    command->add_option("--word-order", poll.word_order, "low or high word first; else as the device has it")
+        ->check(kNotEmpty);
+    command->add_option("--baud", poll.baud, "Line speed; without it the model's, or 19200");
+    command->add_option("--parity", poll.parity, "even, odd or none; without it the model's, or even")
+        ->check(kNotEmpty);
+    command->add_option("--stop-bits", poll.stop_bits, "1 or 2; without it the model's, or 1");
     command
         ->add_option(
             "--function", poll.function,

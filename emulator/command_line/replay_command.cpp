@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/files/text_file.h"
 #include "base/simulated_time.h"
@@ -22,6 +23,7 @@
 #include "emulator/play/report/page.h"
 #include "emulator/play/results/result.h"
 #include "emulator/serve/control/control_door.h"
+#include "emulator/serve/control/timeline_door.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/recording/recording.h"
@@ -34,7 +36,7 @@ namespace {
 
 /// The recorded world as it was then, with a clock that stands, until a signal ends it.
 int serve_from(const world::Replayed& replayed, const world::WorldState& state, const std::string& recording,
-               const std::string& control) {
+               const serve::DoorMaker& door, std::optional<int> page) {
   signal(SIGPIPE, SIG_IGN);  // whoever reads the log may go away
   world::Bench bench = replayed.bench;
   for (world::LineSetup& line : bench.lines)
@@ -44,7 +46,7 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   options.strict_framing = replayed.header.options.strict_framing;
   options.patience = replayed.header.options.patience;
   options.enforce_settings = replayed.header.options.enforce_settings;
-  options.door = serve::control_door(control);
+  options.door = door;
   options.bench_path = std::filesystem::weakly_canonical(recording).string();
   options.files.add({recording, "the recording itself"});
   serve::Daemon daemon(bench, options, log_line);
@@ -53,8 +55,40 @@ int serve_from(const world::Replayed& replayed, const world::WorldState& state, 
   std::printf("the clock stands at %s: understudy ctl --control %s status\n",
               format_duration(daemon.world().now()).c_str(), daemon.control_path().c_str());
   std::fflush(stdout);
+  if (page) start_page_beside(daemon.control_path(), *page);
   daemon.run();
   return kExitWell;
+}
+
+/// Remembers what it sees, to go to and fro in it.
+class Rememberer final : public world::ReplayWatcher {
+ public:
+  Rememberer(world::World& world, std::optional<world::WorldState>& begin,
+             std::vector<world::RecordedEvent>& events)
+      : events_(events) {
+    begin = world::save(world);
+  }
+  void happened(const world::RecordedEvent& event, std::size_t) override {
+    if (event.what != world::RecordedEvent::What::end) events_.push_back(event);
+  }
+
+ private:
+  std::vector<world::RecordedEvent>& events_;
+};
+
+/// The whole of it, and then any moment of it; one that differs as far as it goes.
+int travel_in(ModelList models, const ReplayArguments& arguments) {
+  std::ifstream file(arguments.recording, std::ios::binary);
+  std::optional<world::WorldState> begin;
+  std::vector<world::RecordedEvent> events;
+  const world::Replayed replayed =
+      world::replay(models, file, arguments.recording, {},
+                    [&](world::World& world) { return std::make_unique<Rememberer>(world, begin, events); });
+  if (!replayed.result.difference.empty())
+    log_line(arguments.recording + ": differs: " + replayed.result.difference);
+  const auto door =
+      serve::timeline_door(arguments.control, *begin, std::move(events), replayed.result.reached);
+  return serve_from(replayed, *begin, arguments.recording, door, arguments.page);
 }
 
 }  // namespace
@@ -70,6 +104,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
   if (const std::string why = why_not_readable(arguments.recording); !why.empty()) {
     throw world::RecordingError(arguments.recording + ":1: recording: " + why + "; expected a recording");
   }
+  if (arguments.page) return travel_in(models, arguments);
   FileClaims claims;
   claims.add({arguments.recording, "the recording itself"});
   demand_looks(arguments, claims);
@@ -104,7 +139,7 @@ int replay_recording(ModelList models, const ReplayArguments& arguments) {
               static_cast<unsigned long long>(result.bytes_said), format_duration(result.reached).c_str(),
               seconds, result.has_end || until ? "" : "; it breaks off before its end");
   if (result.verdict != world::ReplayResult::Verdict::stopped) return kExitWell;
-  return serve_from(replayed, *state, arguments.recording, arguments.control);
+  return serve_from(replayed, *state, arguments.recording, serve::control_door(arguments.control), {});
 }
 
 }  // namespace understudy::emulator::command_line

@@ -51,8 +51,15 @@ PageBench::PageBench(Web& web, std::string socket, Hears hears)
 void PageBench::want(Wanted wanted) {
   for (const std::string& name : wanted.names) values_.try_emplace(name);
   std::erase_if(values_, [&](const auto& known) { return !wanted.names.contains(known.first); });
-  if (!wanted.frames) frames_.clear();
-  if (!wanted.events) events_.clear();
+  // Whoever wants them later gets those that the daemon has kept.
+  if (!wanted.frames) {
+    frames_.clear();
+    next_frame_ = 0;
+  }
+  if (!wanted.events) {
+    events_.clear();
+    next_event_ = 0;
+  }
   wanted_ = std::move(wanted);
   if (wanted_.anybody) plan(kTurn);
 }
@@ -144,19 +151,21 @@ void PageBench::take_look(const std::string& reply, const std::vector<std::strin
   try {
     look = Json::parse(reply);
     if (!look.at("ok").get<bool>()) return lose();
+    const std::string time =
+        "\"time_ns\":" + text_of(look.at("simulated_time_ns")) + ",\"paused\":" + text_of(look.at("paused")) +
+        ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing"));
     const std::uint64_t who = look.at("pid").get<std::uint64_t>();
     if (who != who_) {
       who_ = who;
       ++epoch_;
       next_frame_ = next_event_ = 0;
+      for (auto& [name, known] : values_) known = {};
+      status_changed_ = 0;
       frames_.clear();
       events_.clear();
       be(State::unknown);
     }
     be(State::there);
-    const std::string time =
-        "\"time_ns\":" + text_of(look.at("simulated_time_ns")) + ",\"paused\":" + text_of(look.at("paused")) +
-        ",\"speed\":" + text_of(look.at("speed")) + ",\"advancing\":" + text_of(look.at("advancing"));
     if (time != time_text_) {
       time_text_ = time;
       time_changed_ = looks_;

@@ -19,7 +19,7 @@ struct PassedVerb {
   bool changes = false;
   std::array<std::string_view, 2> only_with{};
 };
-constexpr std::array<PassedVerb, 30> kPassedVerbs{{{"status"},
+constexpr std::array<PassedVerb, 32> kPassedVerbs{{{"status"},
                                                    {"identify"},
                                                    {"bench"},
                                                    {"registers"},
@@ -48,7 +48,9 @@ constexpr std::array<PassedVerb, 30> kPassedVerbs{{{"status"},
                                                    {"step", true},
                                                    {"pause", true},
                                                    {"resume", true},
-                                                   {"speed", true}}};
+                                                   {"speed", true},
+                                                   {"timeline"},
+                                                   {"seek"}}};
 
 constexpr int kDeepest = 8;
 constexpr std::size_t kMostNames = 2'000;

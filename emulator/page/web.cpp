@@ -4,12 +4,8 @@
 #include <boost/asio/error.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/local/stream_protocol.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/read_until.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/beast/core/basic_stream.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -33,6 +29,8 @@
 #include <string_view>
 #include <utility>
 
+#include "emulator/page/unix_wire.h"
+
 namespace understudy::emulator::page {
 
 namespace {
@@ -49,8 +47,6 @@ using TcpStream = beast::basic_stream<Tcp, Executor>;
 using Socket = websocket::stream<TcpStream, false>;  // uncompressed: it is the same machine
 using Timer = net::basic_waitable_timer<std::chrono::steady_clock,
                                         net::wait_traits<std::chrono::steady_clock>, Executor>;
-using Local = net::local::stream_protocol;
-using LocalSocket = net::basic_stream_socket<Local, Executor>;
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
@@ -232,6 +228,8 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
   }
 
   void begin() {
+    Error ignored;
+    stream_.socket().set_option(Tcp::no_delay(true), ignored);
     stream_.expires_after(inside_.limits.request);
     http::async_read(stream_, input_, parser_,
                      [self = shared_from_this()](Error error, std::size_t) { self->have_read(error); });
@@ -310,9 +308,9 @@ Web::Inside::Inside(const WebAddress& address, const WebLimits& given, WebEvents
   demand("cannot be opened");
   acceptor.set_option(net::socket_base::reuse_address(true), error);
   acceptor.bind(endpoint, error);
-  demand("cannot be had");
+  demand("cannot be opened");
   acceptor.listen(64, error);
-  demand("cannot be had");
+  demand("cannot be opened");
 }
 
 void Web::Inside::accept() {
@@ -327,102 +325,6 @@ void Web::Inside::accept() {
     accept();
   });
 }
-
-// --- control sockets ---------------------------------------------------------------------------------
-
-namespace {
-
-class Wire final : public ControlWire {
- public:
-  Wire(net::io_context& io, std::string path, std::size_t most)
-      : link_(std::make_shared<Link>(io, std::move(path), most)) {}
-  ~Wire() override { link_->end(); }
-  void ask(std::string message, Answered answered) override {
-    link_->ask(std::move(message), std::move(answered));
-  }
-
- private:
-  struct Link : std::enable_shared_from_this<Link> {
-    Link(net::io_context& io, std::string to, std::size_t most)
-        : socket(io), path(std::move(to)), input(most) {}
-
-    void ask(std::string message, Answered answered) {
-      asked.push_back({std::move(message) + "\n", std::move(answered)});
-      if (asked.size() > 1) return;
-      if (is_connected) return write();
-      connect();
-    }
-
-    void connect() {
-      if (path.size() >= sizeof(sockaddr_un::sun_path)) return fail();
-      socket.async_connect(Local::endpoint(path), [self = shared_from_this()](Error error) {
-        if (self->is_over) return;
-        if (error) return self->fail();
-        self->is_connected = true;
-        self->write();
-      });
-    }
-
-    void write() {
-      net::async_write(socket, net::buffer(asked.front().message),
-                       [self = shared_from_this()](Error error, std::size_t) {
-                         if (self->is_over) return;
-                         if (error) return self->fail();
-                         self->read();
-                       });
-    }
-
-    void read() {
-      net::async_read_until(socket, input, '\n', [self = shared_from_this()](Error error, std::size_t count) {
-        if (self->is_over) return;
-        if (error) return self->fail();
-        const auto* const bytes = static_cast<const char*>(self->input.data().data());
-        std::string reply(bytes, count - 1);
-        self->input.consume(count);
-        const Answered answered = std::move(self->asked.front().answered);
-        self->asked.pop_front();
-        if (!self->asked.empty()) self->write();
-        answered(std::move(reply));
-      });
-    }
-
-    /// None of them is answered; the next one connects again. Never from within ask(): the caller is not
-    /// done.
-    void fail() {
-      Error ignored;
-      socket.close(ignored);
-      is_connected = false;
-      input.consume(input.size());
-      net::post(socket.get_executor(), [self = shared_from_this(), failed = std::exchange(asked, {})] {
-        for (const Asked& one : failed) {
-          if (!self->is_over) one.answered(std::nullopt);
-        }
-      });
-    }
-
-    void end() {
-      is_over = true;
-      Error ignored;
-      socket.close(ignored);
-      asked.clear();
-    }
-
-    struct Asked {
-      std::string message;
-      Answered answered;
-    };
-    LocalSocket socket;
-    std::string path;
-    beast::flat_buffer input;
-    std::deque<Asked> asked;
-    bool is_connected = false;
-    bool is_over = false;
-  };
-
-  std::shared_ptr<Link> link_;
-};
-
-}  // namespace
 
 // --- outside ---------------------------------------------------------------------------------------
 
@@ -472,7 +374,7 @@ void Web::after(std::chrono::milliseconds time, std::function<void()> act) {
 }
 
 std::unique_ptr<ControlWire> Web::wire(const std::string& socket) {
-  return std::make_unique<Wire>(inside_->io, socket, inside_->limits.reply_bytes);
+  return std::make_unique<UnixWire>(inside_->io, socket, inside_->limits.reply_bytes);
 }
 
 }  // namespace understudy::emulator::page

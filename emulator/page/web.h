@@ -19,7 +19,7 @@
 
 namespace understudy::emulator::page {
 
-/// The port cannot be had: one line.
+/// The port cannot be opened: one line.
 struct WebError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -132,7 +132,7 @@ class Slim final : public DeviceOf<Slim>,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& given) override;
 
  private:
@@ -257,7 +257,6 @@ class Slim final : public DeviceOf<Slim>,
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
   bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
-  void write_history(NvImage& image) const;
   std::array<Errors, kModules> read_history(NvImage& image) const;
   /// By PZ.
   bool program_is_held() const {

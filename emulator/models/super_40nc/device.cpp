@@ -141,6 +141,7 @@ void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) { ++state_.r
 // ---- the tick
 
 void Super40nc::look_at_inputs() {
+  is_restored_ = {};
   for (int i = 0; i < kInputCount; ++i) {
     state_.image[kept_at(Table::discrete, 0).slot + static_cast<std::size_t>(i)] =
         static_cast<std::uint32_t>(input(i));

@@ -298,7 +298,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
  private:
@@ -398,7 +398,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
-  NamedBlocks::mapped_type ready_texts_;  // that those two are made of
+  std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
+  NamedBlocks::mapped_type ready_texts_;        // that those two are made of
   interpreter::super_40nc::Options options_;
   bool lines_wait_ = false;                       // a choice that is asked for often
   bool multiplies_by_x12_ = false;                // likewise

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
+
 #include "emulator/device/machine_edges.h"
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
@@ -58,6 +60,8 @@ void Super40nc::look_round(int number) {
       seen.index_period = edges.index.period;
       seen.index_at = edges.index.at;
       seen.index_width = edges.index.width;
+      seen.index_from = edges.index.first;
+      seen.index_to = edges.index.last;
     } else {
       seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
     }
@@ -78,7 +82,8 @@ void Super40nc::see_first_signals() {
 
 void Super40nc::set_edges(int number, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(number)] = edges;
-  look_round(number);
+  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  if (!std::exchange(is_restored_[static_cast<std::size_t>(number)], false)) look_round(number);
 }
 
 std::int64_t Super40nc::place_pulses(int number) const {

@@ -80,6 +80,7 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
     state_ = *restored;
+    is_restored_.fill(true);
     const auto texts = state_.blocks.all().find(kPrograms);
     const bool has_texts = texts != state_.blocks.all().end();
     const bool are_ready = has_texts ? texts->second == ready_texts_ : ready_texts_.empty();

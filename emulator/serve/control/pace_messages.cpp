@@ -103,8 +103,7 @@ Json snapshots_message(Daemon& daemon, const Json& message) {
     throw MessageError("drop: there is no snapshot of that name");
   }
   Json snapshots = Json::array();
-  for (const auto& [name, one] : kept)
-    snapshots.push_back({{"name", name}, {"time_ns", one.at.count()}});
+  for (const auto& [name, one] : kept) snapshots.push_back({{"name", name}, {"time_ns", one.at.count()}});
   return Json{{"ok", true}, {"snapshots", std::move(snapshots)}};
 }
 

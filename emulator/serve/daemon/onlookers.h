@@ -22,7 +22,7 @@ struct Onlookers {
 
   world::EventLog events;
   world::LookedNames names;
-  std::unique_ptr<world::Scope> scope;                 // null: nobody has armed one
+  std::unique_ptr<world::Scope> scope;  // null: nobody has armed one
   struct Kept {
     SimTime at{0};
     world::WorldState state;

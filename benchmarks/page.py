@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""What the live page costs a bench of fifteen stations, and how soon it tells of a change.
+
+usage: page.py UNDERSTUDY [ROUNDS [SECONDS]]
+
+The bench runs and a host talks to it all the time; the page, with a browser that watches everything, works and is stopped
+by turns, so that both halves are of the same run. Prints ratios: processor time and lateness with the page against without
+it, and how long a register's change takes to its event at the browser. (Lateness is what a host meets: the time of an
+exchange, since the daemon's own figures are over its last 4,096 wakes.)
+"""
+import base64
+import json
+import os
+import select
+import signal
+import socket
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+import termios
+import threading
+import time
+import tty
+
+STATIONS = 15
+
+
+def crc(frame):
+    value = 0xFFFF
+    for byte in frame:
+        value ^= byte
+        for _ in range(8):
+            value = value >> 1 ^ 0xA001 if value & 1 else value >> 1
+    return struct.pack("<H", value)
+
+
+class Host:
+    def __init__(self, port):
+        self.descriptor = os.open(port, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self.descriptor)
+        settings = termios.tcgetattr(self.descriptor)
+        settings[4] = settings[5] = termios.B115200
+        termios.tcsetattr(self.descriptor, termios.TCSANOW, settings)
+
+    def exchange(self, request, size):
+        begin = time.monotonic()
+        os.write(self.descriptor, request + crc(request))
+        reply = b""
+        while len(reply) < size:
+            if not select.select([self.descriptor], [], [], 2)[0]:
+                raise RuntimeError("no reply")
+            reply += os.read(self.descriptor, 256)
+        return time.monotonic() - begin
+
+
+class Browser:
+    """A WebSocket with what the page needs of it (RFC 6455)."""
+
+    def __init__(self, address):
+        place, self.token = address.split("/#")
+        host, port = place.removeprefix("http://").split(":")
+        self.socket = socket.create_connection((host, int(port)))
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.socket.sendall((f"GET /ws HTTP/1.1\r\nHost: {host}:{port}\r\nOrigin: http://{host}:{port}\r\n"
+                             "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                             f"Sec-WebSocket-Key: {key}\r\n\r\n").encode())
+        self.input = b""
+        while b"\r\n\r\n" not in self.input:
+            self.input += self.socket.recv(4096)
+        head, self.input = self.input.split(b"\r\n\r\n", 1)
+        if b" 101 " not in head.split(b"\r\n")[0]:
+            raise RuntimeError(head.decode())
+        self.say({"token": self.token})
+
+    def frame(self, opcode, payload):
+        head = bytes([0x80 | opcode])
+        if len(payload) < 126:
+            head += bytes([0x80 | len(payload)])
+        else:
+            head += bytes([0x80 | 126]) + struct.pack(">H", len(payload))
+        self.socket.sendall(head + bytes(4) + payload)
+
+    def say(self, message):
+        self.frame(1, json.dumps(message).encode())
+
+    def need(self, count):
+        while len(self.input) < count:
+            more = self.socket.recv(65536)
+            if not more:
+                raise RuntimeError("the page has closed")
+            self.input += more
+
+    def hear(self):
+        while True:
+            self.need(2)
+            opcode, size, begin = self.input[0] & 15, self.input[1], 2
+            if size == 126:
+                self.need(4)
+                size, begin = struct.unpack(">H", self.input[2:4])[0], 4
+            elif size == 127:
+                self.need(10)
+                size, begin = struct.unpack(">Q", self.input[2:10])[0], 10
+            self.need(begin + size)
+            payload, self.input = self.input[begin:begin + size], self.input[begin + size:]
+            if opcode == 9:
+                self.frame(10, payload)
+            elif opcode == 8:
+                raise RuntimeError(payload[2:].decode())
+            elif opcode == 1:
+                return json.loads(payload)
+
+
+def processor_seconds(pid):
+    with open(f"/proc/{pid}/stat", encoding="ascii") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def main():
+    program = sys.argv[1]
+    rounds = int(sys.argv[2]) if len(sys.argv) > 2 else 5
+    seconds = float(sys.argv[3]) if len(sys.argv) > 3 else 4
+    folder = tempfile.mkdtemp(prefix="understudy-page-")
+    bench = os.path.join(folder, "bench.yaml")
+    control = os.path.join(folder, "control")
+    with open(bench, "w", encoding="utf-8") as file:
+        file.write("understudy: 1\nlines:\n  rs485:\n    link: ./bench.port\n    timing: instant\n    stations:\n")
+        for i in range(1, STATIONS + 1):
+            file.write(f"      - {{ name: d{i}, model: simple2-r3, address: {i} }}\n")
+    daemon = subprocess.Popen([program, "serve", bench, "--ignore-baud", "--control", control], stdout=subprocess.PIPE, text=True)
+    daemon.stdout.readline()
+    page = subprocess.Popen([program, "page", "--control", control], stdout=subprocess.PIPE, text=True)
+    address = page.stdout.readline().split()[1]
+    host = Host(os.path.join(folder, "bench.port"))
+    for i in range(1, STATIONS + 1):  # every axis A moves for days
+        for register, value in ((0x1014, 1), (0x1000, 0), (0x1001, 0x7000), (0x1002, 100), (0x1005, 1)):
+            host.exchange(struct.pack(">BBHH", i, 6, register, value), 8)
+
+    browser = Browser(address)
+    names = [f"d{i}.{name}" for i in range(1, STATIONS + 1)
+             for name in ("A.position", "A.speed", "A.lost", "B.position", "STATUS", "DIN_1", "DIN_1@by", "DOUT_1")]
+    browser.say({"do": "watch", "bench": 0, "names": names, "frames": True, "events": True, "status": True})
+    events, heard = {}, {"looks": 0}
+
+    def listen():
+        try:
+            while True:
+                message = browser.hear()
+                if message["is"] != "look":
+                    continue
+                heard["looks"] += 1
+                for event in message.get("events", []):
+                    if event["what"] == "write":
+                        events.setdefault((event["name"], event.get("value")), time.monotonic())
+        except (RuntimeError, OSError, ValueError):
+            pass
+
+    threading.Thread(target=listen, daemon=True).start()
+    shares = {True: [], False: []}
+    exchanges = {True: [], False: []}
+    read = struct.pack(">BBHH", 1, 3, 0x0E04, 2)
+    for turn in range(2 * rounds):
+        works = turn % 2 == 0
+        os.kill(page.pid, signal.SIGCONT if works else signal.SIGSTOP)
+        time.sleep(0.2)
+        begin, before = time.monotonic(), processor_seconds(daemon.pid)
+        while time.monotonic() - begin < seconds:
+            exchanges[works].append(host.exchange(read, 9))
+            time.sleep(0.005)
+        shares[works].append((processor_seconds(daemon.pid) - before) / (time.monotonic() - begin) * 100)
+    os.kill(page.pid, signal.SIGCONT)
+    time.sleep(0.5)
+
+    delays = []
+    for value in range(1000, 1100):
+        host.exchange(struct.pack(">BBHH", 2, 6, 0x8000, value), 8)
+        begin = time.monotonic()
+        deadline = begin + 2
+        while time.monotonic() < deadline:
+            times = [at for (name, told), at in list(events.items()) if told == value]
+            if times:
+                delays.append(times[0] - begin)
+                break
+            time.sleep(0.0005)
+        time.sleep(0.013)
+    for process in (page, daemon):
+        process.terminate()
+        process.wait()
+
+    def line(what, with_it, without):
+        print(f"{what:44} {with_it:9.3f} {without:9.3f} {with_it / without if without else float('nan'):7.3f}")
+
+    print(f"{'':44} {'with':>9} {'without':>9} {'ratio':>7}")
+    line("daemon's processor time, % of one", statistics.median(shares[True]), statistics.median(shares[False]))
+    for name, rank in (("median", 0.5), ("99th percentile", 0.99)):
+        at = {works: sorted(all_)[int(rank * len(all_))] * 1e6 for works, all_ in exchanges.items()}
+        line(f"an exchange, {name}, us", at[True], at[False])
+    print(f"{heard['looks']} looks at the browser")
+    if delays:
+        delays.sort()
+        print(f"change to event at the browser: median {delays[len(delays) // 2] * 1000:.1f} ms, 99th percentile "
+              f"{delays[int(len(delays) * 0.99)] * 1000:.1f} ms, of {len(delays)} (bar: median below 50 ms)")
+    else:
+        print("NOT MET: no event came")
+
+
+main()

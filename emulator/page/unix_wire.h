@@ -1,0 +1,119 @@
+// A control socket as web.cpp asks it. Included there only: Asio is slow to compile.
+#pragma once
+
+#include <sys/un.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/read_until.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "emulator/page/web.h"
+
+namespace understudy::emulator::page {
+
+class UnixWire final : public ControlWire {
+ public:
+  UnixWire(boost::asio::io_context& io, std::string path, std::size_t most)
+      : link_(std::make_shared<Link>(io, std::move(path), most)) {}
+  ~UnixWire() override { link_->end(); }
+  void ask(std::string message, Answered answered) override {
+    link_->ask(std::move(message), std::move(answered));
+  }
+
+ private:
+  struct Link : std::enable_shared_from_this<Link> {
+    Link(boost::asio::io_context& io, std::string to, std::size_t most)
+        : socket(io), path(std::move(to)), input(most) {}
+
+    void ask(std::string message, Answered answered) {
+      asked.push_back({std::move(message) + "\n", std::move(answered)});
+      if (asked.size() > 1) return;
+      if (is_connected) return write();
+      connect();
+    }
+
+    void connect() {
+      if (path.size() >= sizeof(sockaddr_un::sun_path)) return fail();
+      socket.async_connect(boost::asio::local::stream_protocol::endpoint(path),
+                           [self = shared_from_this()](boost::system::error_code error) {
+                             if (self->is_over) return;
+                             if (error) return self->fail();
+                             self->is_connected = true;
+                             self->write();
+                           });
+    }
+
+    void write() {
+      boost::asio::async_write(socket, boost::asio::buffer(asked.front().message),
+                               [self = shared_from_this()](boost::system::error_code error, std::size_t) {
+                                 if (self->is_over) return;
+                                 if (error) return self->fail();
+                                 self->read();
+                               });
+    }
+
+    void read() {
+      boost::asio::async_read_until(
+          socket, input, '\n',
+          [self = shared_from_this()](boost::system::error_code error, std::size_t count) {
+            if (self->is_over) return;
+            if (error) return self->fail();
+            const auto* const bytes = static_cast<const char*>(self->input.data().data());
+            std::string reply(bytes, count - 1);
+            self->input.consume(count);
+            const Answered answered = std::move(self->asked.front().answered);
+            self->asked.pop_front();
+            if (!self->asked.empty()) self->write();
+            answered(std::move(reply));
+          });
+    }
+
+    /// None of them is answered; the next one connects again. Never from within ask(): the caller is not
+    /// done.
+    void fail() {
+      boost::system::error_code ignored;
+      socket.close(ignored);
+      is_connected = false;
+      input.consume(input.size());
+      boost::asio::post(socket.get_executor(),
+                        [self = shared_from_this(), failed = std::exchange(asked, {})] {
+                          for (const Asked& one : failed) {
+                            if (!self->is_over) one.answered(std::nullopt);
+                          }
+                        });
+    }
+
+    void end() {
+      is_over = true;
+      boost::system::error_code ignored;
+      socket.close(ignored);
+      asked.clear();
+    }
+
+    struct Asked {
+      std::string message;
+      Answered answered;
+    };
+    boost::asio::basic_stream_socket<boost::asio::local::stream_protocol,
+                                     boost::asio::io_context::executor_type>
+        socket;
+    std::string path;
+    boost::beast::flat_buffer input;
+    std::deque<Asked> asked;
+    bool is_connected = false;
+    bool is_over = false;
+  };
+
+  std::shared_ptr<Link> link_;
+};
+
+}  // namespace understudy::emulator::page

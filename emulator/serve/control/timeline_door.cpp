@@ -1,0 +1,158 @@
+#include "emulator/serve/control/timeline_door.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "emulator/serve/control/message_fields.h"
+#include "emulator/serve/control/messages.h"
+#include "emulator/serve/control/server.h"
+#include "emulator/serve/control/sockets.h"
+#include "emulator/serve/control/verbs.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/recording/timeline.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+constexpr std::size_t kMostMarks = 2'000;
+constexpr std::size_t kMarksAtOnce = 500;
+
+/// What stands out on the bar.
+bool is_mark(std::string_view what) {
+  return what == "fault" || what == "inject" || what == "clear" || what == "exception" || what == "dropped" ||
+         what == "power" || what == "program";
+}
+
+/// The daemon is made with its door, so the recording is played when it is first asked for.
+class Travel {
+ public:
+  Travel(Daemon& daemon, const world::WorldState& begin, std::vector<world::RecordedEvent> events,
+         SimTime end)
+      : daemon_(daemon), timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
+    std::sort(moments_.begin(), moments_.end());
+    go_to(timeline_.begin());
+  }
+
+  Json timeline(const Json& message) {
+    demand_keys(message, {"do", "from"});
+    const std::size_t from = message.contains("from") ? demand_count(message, "from") : 0;
+    Json marks = Json::array();
+    for (std::size_t i = from; i < std::min(marks_.size(), from + kMarksAtOnce); ++i)
+      marks.push_back(marks_[i]);
+    Json told{{"begin_ns", timeline_.begin().count()},
+              {"end_ns", timeline_.end().count()},
+              {"at_ns", daemon_.world().now().count()},
+              {"marks", std::move(marks)}};
+    Json reply{{"ok", true}, {"timeline", std::move(told)}};
+    if (from + kMarksAtOnce < marks_.size()) reply["next"] = from + kMarksAtOnce;
+    return reply;
+  }
+
+  /// {"do":"seek","to_ns":N}, or {"do":"seek","by":"tick"|"frame"|"event","steps":-1}
+  Json seek(const Json& message) {
+    demand_keys(message, {"do", "to_ns", "by", "steps"});
+    if (daemon_.is_advancing()) throw MessageError("time is being advanced; expected `seek` after that");
+    if (message.contains("to_ns")) {
+      go_to(SimTime{static_cast<std::int64_t>(demand_count(message, "to_ns", INT64_MAX))});
+    } else {
+      go_to(stepped(demand_text(message, "by"), demand_steps(message)));
+    }
+    return Json{{"ok", true}, {"simulated_time_ns", daemon_.world().now().count()}};
+  }
+
+ private:
+  static std::int64_t demand_steps(const Json& message) {
+    if (!message.contains("steps")) return 1;
+    const Json& steps = message["steps"];
+    constexpr std::int64_t kMost = 1'000'000;
+    if (!steps.is_number_integer() || steps.get<std::int64_t>() > kMost ||
+        steps.get<std::int64_t>() < -kMost) {
+      throw MessageError("steps: expected a whole number");
+    }
+    return steps.get<std::int64_t>();
+  }
+
+  SimTime stepped(const std::string& by, std::int64_t steps) const {
+    const SimTime now = daemon_.world().now();
+    if (by == "tick") return std::max(SimTime{0}, time_of(tick_at(now) + steps));
+    std::vector<SimTime> moments;
+    if (by == "frame") {
+      moments = moments_;
+    } else if (by == "event") {
+      for (const world::RecordedEvent& event : timeline_.events()) moments.push_back(event.at);
+    } else {
+      throw MessageError("by: expected tick, frame or event");
+    }
+    if (moments.empty() || steps == 0) return now;
+    const auto behind = std::upper_bound(moments.begin(), moments.end(), now) - moments.begin();
+    const auto before = std::lower_bound(moments.begin(), moments.end(), now) - moments.begin();
+    const std::int64_t place = steps > 0 ? behind + steps - 1 : before + steps;
+    if (place < 0) return timeline_.begin();
+    if (place >= static_cast<std::int64_t>(moments.size())) return timeline_.end();
+    return moments[static_cast<std::size_t>(place)];
+  }
+
+  /// On the way through, once: when frames began, and what stands out.
+  void collect() {
+    for (const auto& told : daemon_.frames().since(next_frame_, SIZE_MAX)) {
+      moments_.push_back(told.time);
+      next_frame_ = told.number + 1;
+    }
+    for (const auto& event : daemon_.onlookers().events.since(next_event_, SIZE_MAX)) {
+      next_event_ = event.number + 1;
+      if (!is_mark(event.what) || marks_.size() == kMostMarks) continue;
+      Json mark{{"time_ns", event.time.count()}, {"what", event.what}};
+      if (!event.device.empty()) mark["device"] = event.device;
+      if (!event.line.empty()) mark["line"] = event.line;
+      if (!event.text.empty()) mark["text"] = event.text;
+      marks_.push_back(std::move(mark));
+    }
+  }
+
+  void go_to(SimTime time) {
+    timeline_.go_to(time, [this](const world::WorldState& state) { daemon_.restore(state); });
+  }
+
+  Daemon& daemon_;
+  std::uint64_t next_frame_ = 1;
+  std::uint64_t next_event_ = 1;
+  std::vector<SimTime> moments_;
+  std::vector<Json> marks_;
+  world::Timeline timeline_;  // last: it collects
+};
+
+}  // namespace
+
+DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
+                        std::vector<world::RecordedEvent> events, SimTime end) {
+  const auto travel = std::make_shared<std::unique_ptr<Travel>>();
+  return [=](Daemon& daemon, const std::function<void(const std::string&)>&) -> std::unique_ptr<Door> {
+    const auto handle = [&daemon, travel, begin, events, end](const std::string& line,
+                                                              const ControlServer::Reply& reply) {
+      if (!*travel) *travel = std::make_unique<Travel>(daemon, begin, events, end);
+      Json message;
+      try {
+        message = Json::parse(line);
+        message.erase("as");
+      } catch (const Json::exception&) {
+      }
+      const std::string word = message.is_object() && message.contains("do") && message["do"].is_string()
+                                   ? message["do"].get<std::string>()
+                                   : std::string();
+      if (word == "timeline") return answer(reply, [&] { return (*travel)->timeline(message); });
+      if (word == "seek") return answer(reply, [&] { return (*travel)->seek(message); });
+      handle_message(daemon, line, reply);
+    };
+    return std::make_unique<ControlServer>(daemon.loop(), path.empty() ? own_control_path() : path, handle);
+  };
+}
+
+}  // namespace understudy::emulator::serve

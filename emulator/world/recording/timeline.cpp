@@ -1,0 +1,57 @@
+#include "emulator/world/recording/timeline.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/simulated_time.h"
+#include "emulator/world/recording/recording.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+Timeline::Timeline(World& world, const WorldState& begin, std::vector<RecordedEvent> events, SimTime end,
+                   const std::function<void()>& on_way)
+    : world_(world), events_(std::move(events)) {
+  restore(world_, begin);
+  end_ = std::max(end, world_.now());
+  keyframes_.push_back({.at = world_.now(), .next_event = 0, .state = begin});
+  const SimTime apart = std::max(kApart, (end_ - world_.now()) / static_cast<std::int64_t>(kMostKeyframes));
+  std::size_t next = 0;
+  for (SimTime at = world_.now() + apart; at < end_; at += apart) {
+    next = play(next, at);
+    keyframes_.push_back({.at = at, .next_event = next, .state = save(world_)});
+    on_way();
+  }
+  play(next, end_);
+  on_way();
+}
+
+/// Returns the first event that is later.
+std::size_t Timeline::play(std::size_t next_event, SimTime until) {
+  for (; next_event < events_.size() && events_[next_event].at <= until; ++next_event) {
+    world_.advance_to(events_[next_event].at);
+    apply(world_, events_[next_event]);
+  }
+  world_.advance_to(until);
+  // What nobody reads must not come to who opens the line now.
+  for (std::size_t i = 0; i < world_.line_count(); ++i) {
+    world_.take_output(i, world_.line(i).line.output().size());
+  }
+  return next_event;
+}
+
+void Timeline::go_to(SimTime time, const std::function<void(const WorldState&)>& take_back) {
+  time = std::clamp(time, begin(), end_);
+  const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
+                                      [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
+  const Keyframe& from = *(later - 1);
+  take_back(from.state);
+  restore(world_, from.state);  // with the hosts that it had then, and not those that are there now
+  play(from.next_event, time);
+}
+
+}  // namespace understudy::emulator::world

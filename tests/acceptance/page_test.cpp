@@ -1,0 +1,126 @@
+// `understudy page`, and `serve --page`: as processes, beside a bench that goes on whatever becomes of them.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "tests/acceptance/modbus_host.h"
+#include "tests/acceptance/running_understudy.h"
+#include "tests/emulator/page/test_browser.h"
+
+namespace understudy::acceptance {
+namespace page_test {
+
+using emulator::page::TestBrowser;
+using emulator::page::TestJson;
+
+/// Of "page http://127.0.0.1:1234/#TOKEN".
+struct Address {
+  std::uint16_t port = 0;
+  std::string token;
+};
+Address address_in(const std::string& output) {
+  const std::size_t at = output.find("page http://127.0.0.1:");
+  if (at == std::string::npos || output.find('\n', at) == std::string::npos) return {};
+  const std::size_t port = at + 22;
+  const std::size_t hash = output.find('#', port);
+  return {.port = static_cast<std::uint16_t>(std::stoi(output.substr(port))),
+          .token = output.substr(hash + 1, output.find('\n', hash) - hash - 1)};
+}
+
+Address address_of(const Process& process) {
+  Address address;
+  EXPECT_TRUE(eventually([&] {
+    address = address_in(process.output());
+    return address.port != 0;
+  })) << process.errors();
+  return address;
+}
+
+std::unique_ptr<TestBrowser> browser_at(const Address& address) {
+  auto browser = std::make_unique<TestBrowser>(address.port);
+  EXPECT_TRUE(browser->open_socket(address.port));
+  browser->say({{"token", address.token}});
+  EXPECT_EQ(browser->hear().value("is", ""), "hello");
+  return browser;
+}
+
+TEST(Page, ShowsWhatAHostWritesAndHoldsWhatIsClicked) {
+  const RunningUnderstudy server;
+  Process page({UNDERSTUDY_BINARY, "page", "--control", server.control()});
+  const auto browser = browser_at(address_of(page));
+  browser->say({{"do", "watch"},
+                {"bench", 0},
+                {"names", {"device.Aaxis_Speed", "device.DIN_3", "device.DIN_3@by"}},
+                {"frames", true},
+                {"events", true}});
+  TestJson look = browser->hear_one("look");
+  ASSERT_FALSE(look.is_null());
+  EXPECT_EQ(look["values"]["device.DIN_3"], 0);
+  ASSERT_EQ(understudy({"poll", server.port(), "--model", "simple2-r3", "Aaxis_Speed=123"}).exit_code, 0);
+  bool has_seen_value = false;
+  bool has_seen_event = false;
+  while (!has_seen_value || !has_seen_event) {
+    look = browser->hear_one("look");
+    ASSERT_FALSE(look.is_null());
+    has_seen_value =
+        has_seen_value || look.value("/values/device.Aaxis_Speed"_json_pointer, TestJson()) == 123;
+    for (const TestJson& event : look.value("events", TestJson::array())) {
+      has_seen_event =
+          has_seen_event || (event["what"] == "write" && event["by"] == "host" && event["value"] == 123);
+    }
+  }
+  browser->say({{"do", "ask"}, {"id", 1}, {"message", {{"do", "input"}, {"values", {{"device.DIN_3", 1}}}}}});
+  EXPECT_EQ(browser->hear_one("answer")["reply"]["ok"], true);
+  EXPECT_EQ(server.ctl({"get", "DIN_3"}).output, "DIN_3 1\n");
+  for (bool is_held = false; !is_held;) {
+    look = browser->hear_one("look");
+    ASSERT_FALSE(look.is_null());
+    is_held = look.value("/values/device.DIN_3@by"_json_pointer, TestJson()) == "held";
+  }
+  page.send(SIGTERM);
+  EXPECT_EQ(page.wait(kPatience), 0);
+}
+
+TEST(Page, IsStoppedAndKilledWithoutHarmToTheBench) {
+  const RunningUnderstudy server;
+  Process page({UNDERSTUDY_BINARY, "page", "--control", server.control()});
+  const auto browser = browser_at(address_of(page));
+  browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"time"}}, {"status", true}});
+  ASSERT_FALSE(browser->hear_one("look").is_null());
+  page.send(SIGSTOP);
+  EXPECT_EQ(server.ctl({"get", "Cord_A"}).exit_code, 0);
+  EXPECT_EQ(understudy({"poll", server.port(), "--model", "simple2-r3", "Cord_A"}).exit_code, 0);
+  page.send(SIGKILL);
+  EXPECT_EQ(page.wait(kPatience), 128 + SIGKILL);
+  EXPECT_EQ(understudy({"poll", server.port(), "--model", "simple2-r3", "Cord_A"}).exit_code, 0);
+}
+
+TEST(Page, BesideABenchEndsWithIt) {
+  Address address;
+  {
+    const RunningUnderstudy server({"--page"});
+    address = address_of(server.process());
+    const auto browser = browser_at(address);
+    browser->say({{"do", "watch"}, {"bench", 0}, {"names", {"time"}}});
+    EXPECT_FALSE(browser->hear_one("look").is_null());
+  }
+  EXPECT_TRUE(eventually([&] { return !TestBrowser(address.port).is_connected(); }));
+}
+
+TEST(Page, ThatCannotHaveItsPortSaysSo) {
+  const RunningUnderstudy server;
+  Process first({UNDERSTUDY_BINARY, "page", "--control", server.control()});
+  const Finished second =
+      understudy({"page", "--control", server.control(), "--port", std::to_string(address_of(first).port)});
+  EXPECT_EQ(second.exit_code, 3);
+  EXPECT_EQ(lines_of(second.errors).size(), 1U) << second.errors;
+  EXPECT_EQ(understudy({"page", "--control", server.control(), "--listen", "nowhere"}).exit_code, 3);
+  EXPECT_EQ(understudy({"page", "--control", server.control(), "--port", "70000"}).exit_code, 2);
+}
+
+}  // namespace page_test
+}  // namespace understudy::acceptance

@@ -1,0 +1,349 @@
+// What onlookers ask for: what there is on a bench, how it is doing, what has happened.
+#include "pty/rtu_crc.h"
+#include "tests/emulator/serve/control/daemon_rig.h"
+
+namespace understudy::emulator::serve {
+namespace look_messages_test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr const char* kMachine =
+    "plant:\n"
+    "  feeder.A: { travel: [-20000, 20000], home: { at: 0, width: 200 }, limits: { lower: -18000, upper: "
+    "18000 },\n"
+    "              encoder: { per_revolution: 4000 } }\n";
+
+struct LookRig : DaemonRig {
+  LookRig() : DaemonRig({.kind = Speed::Kind::manual}, kMachine) {}
+
+  void say(Bytes bytes, bool with_checksum = true) {
+    if (with_checksum) understudy::pty::append_rtu_crc(bytes);
+    world::World& world = daemon.world();
+    world.host_opened(0);
+    world.receive(0, bytes);
+    run(100);
+  }
+  void run(int ms) { daemon.world().advance_to(daemon.world().now() + std::chrono::milliseconds(ms)); }
+  /// "write feeder.Aaxis_SVON = 1 by host".
+  std::vector<std::string> events(int since = 1) {
+    std::vector<std::string> texts;
+    for (const Json& event : ask(Json{{"do", "events"}, {"since", since}}.dump())["events"]) {
+      std::string text = event["what"];
+      for (const char* key : {"name", "device", "line"}) {
+        if (event.contains(key)) text += " " + event[key].get<std::string>();
+        if (event.contains(key)) break;
+      }
+      if (event.contains("value")) text += " = " + event["value"].dump();
+      if (event.contains("text")) text += ": " + event["text"].get<std::string>();
+      if (event.contains("by")) text += " by " + event["by"].get<std::string>();
+      texts.push_back(text);
+    }
+    return texts;
+  }
+};
+
+using Texts = std::vector<std::string>;
+
+TEST(BenchMessage, TellsLinesDevicesWiresAndMachines) {
+  LookRig rig;
+  const Json bench = rig.ask(R"({"do":"bench"})")["bench"];
+  ASSERT_EQ(bench["lines"].size(), 1U);
+  EXPECT_EQ(bench["lines"][0]["name"], "rs485");
+  EXPECT_EQ(bench["lines"][0]["protocol"], "Modbus");
+  EXPECT_EQ(bench["lines"][0]["stations"][1]["device"], "turner");
+  EXPECT_EQ(bench["lines"][0]["stations"][1]["address"], 2);
+  EXPECT_EQ(bench["devices"][1]["firmware"], "1.40");
+  EXPECT_EQ(bench["devices"][0]["axes"], (Json{"A", "B"}));
+  EXPECT_EQ(bench["wires"], (Json::array({{{"from", "feeder.DOUT_4"}, {"to", "turner.DIN_10"}}})));
+  const Json device = rig.ask(R"({"do":"bench","device":"feeder"})")["device"];
+  const Json machine = device["axes"][0]["machine"];
+  EXPECT_EQ(machine["travel"], (Json{-20000, 20000}));
+  EXPECT_EQ(machine["upper_limit"]["at"], 18000);
+  EXPECT_EQ(machine["home"]["on"][0], 0);
+  EXPECT_EQ(machine["encoder"]["counts_per_revolution"], 4000);
+  // A terminal says what the machine uses it for.
+  int homes = 0;
+  for (const Json& terminal : device["terminals"]) {
+    for (const Json& function : terminal.value("functions", Json::array()))
+      homes += function == "A.home" ? 1 : 0;
+  }
+  EXPECT_EQ(homes, 1);
+  EXPECT_FALSE(device["sections"].empty());
+  EXPECT_EQ(rig.ask(R"({"do":"bench","device":"none"})")["ok"], false);
+  EXPECT_TRUE(rig.is_untouched());
+}
+
+TEST(RegistersMessage, PagesThroughAllOfThem) {
+  LookRig rig;
+  std::vector<std::string> names;
+  Json reply;
+  for (int from = 0;; from = reply["next"]) {
+    reply = rig.ask(Json{{"do", "registers"}, {"device", "feeder"}, {"from", from}}.dump());
+    ASSERT_EQ(reply["ok"], true) << reply;
+    EXPECT_LE(reply["registers"].size(), 200U);
+    for (const Json& row : reply["registers"]) names.push_back(row["name"]);
+    if (!reply.contains("next")) break;
+  }
+  EXPECT_EQ(names.size(), reply["of"].get<std::size_t>());
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_GT(names.size(), 1'000U);  // 256 lines of programs alone have 1,024 cells
+  const Json found = rig.ask(R"({"do":"registers","device":"feeder","find":"AAXIS_speed"})")["registers"];
+  const auto is_it = [](const Json& row) { return row["name"] == "Aaxis_Speed"; };
+  const auto row = std::find_if(found.begin(), found.end(), is_it);
+  ASSERT_NE(row, found.end()) << found;
+  EXPECT_EQ((*row)["access"], "R/W");
+  EXPECT_TRUE(row->contains("max"));
+  EXPECT_EQ(rig.ask(Json{{"do", "registers"}, {"device", "feeder"}, {"find", (*row)["address"]}}
+                        .dump())["registers"][0],
+            *row);
+  // A page of values has the same registers.
+  const Json values = rig.ask(R"({"do":"get","device":"feeder","find":"aaxis_speed"})")["values"];
+  EXPECT_EQ(values.size(), found.size());
+  EXPECT_EQ(values["feeder.Aaxis_Speed"], rig.value("feeder.Aaxis_Speed"));
+  EXPECT_EQ(rig.ask(R"({"do":"registers","device":"feeder","count":201})")["ok"], false);
+  EXPECT_EQ(rig.ask(R"({"do":"registers","device":"feeder","from":-1})")["ok"], false);
+  EXPECT_EQ(rig.ask(R"({"do":"registers","device":"feeder","from":99999999})")["registers"].size(), 0U);
+}
+
+TEST(RegistersMessage, CountsSectionsAsTheBenchDoes) {
+  LookRig rig;
+  std::size_t all = 0;
+  for (const Json& section : rig.ask(R"({"do":"bench","device":"feeder"})")["device"]["sections"]) {
+    const Json page = rig.ask(
+        Json{{"do", "registers"}, {"device", "feeder"}, {"section", section["number"]}, {"count", 1}}.dump());
+    EXPECT_GT(page["of"], 0) << section;
+    EXPECT_EQ(page["registers"][0]["section"], section["number"]);
+    all += page["of"].get<std::size_t>();
+  }
+  EXPECT_EQ(all, rig.ask(R"({"do":"registers","device":"feeder","count":1})")["of"].get<std::size_t>());
+}
+
+TEST(ChoicesMessage, TellsWhichOptionIsInForce) {
+  LookRig rig;
+  const Json reply = rig.ask(R"({"do":"choices","device":"feeder"})");
+  ASSERT_FALSE(reply["choices"].empty());
+  for (const Json& choice : reply["choices"]) EXPECT_EQ(choice["chosen"], choice["options"][0]) << choice;
+}
+
+TEST(FaultsMessage, TellsEveryKindWithItsFields) {
+  LookRig rig;
+  const Json reply = rig.ask(R"({"do":"faults"})");
+  std::set<std::string> names;
+  for (const Json& kind : reply["kinds"]) {
+    names.insert(kind["name"]);
+    EXPECT_NE(kind["doc"], "") << kind;
+    for (const Json& field : kind["fields"]) EXPECT_NE(field["doc"], "") << field;
+  }
+  for (const char* name : {"stall", "lost_steps", "slip", "stuck", "drop", "exception"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_EQ(reply["trigger"][0]["name"], "function");
+}
+
+TEST(EventsMessage, TellsWhoWroteWhat) {
+  LookRig rig;
+  rig.ask(R"({"do":"events"})");
+  rig.say({1, 6, 0x10, 0x14, 0, 1});
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_Speed":200}})");
+  rig.ask(R"({"do":"set","as":"page","values":{"turner.Aaxis_Pulse":-5}})");
+  rig.say({1, 16, 0x10, 0, 0, 2, 4, 0x7D, 0, 0, 0});
+  rig.ask(R"({"do":"input","values":{"feeder.DIN_10":1}})");
+  rig.ask(R"({"do":"power","device":"turner","to":"off"})");
+  EXPECT_EQ(rig.events(),
+            (Texts{"write feeder.Aaxis_SVON = 1 by host", "write feeder.Aaxis_Speed = 200 by control",
+                   "write turner.Aaxis_Pulse = -5 by page", "write feeder.Aaxis_Pulse = 32000 by host",
+                   "input feeder.DIN_10 = 1 by control", "power turner = 0 by control"}));
+  EXPECT_EQ(rig.ask(R"({"do":"set","as":"king","values":{"feeder.Aaxis_Speed":200}})")["ok"], false);
+}
+
+TEST(EventsMessage, TellsRefusedAndDroppedFramesAndFaults) {
+  LookRig rig;
+  rig.say({1, 6, 0xFF, 0xFF, 0, 1});               // no such register
+  rig.say({1, 3, 0, 0, 0, 1, 0xBA, 0xD0}, false);  // a bad checksum
+  rig.say({1, 3, 0, 1, 0, 1});                     // reads are no events
+  rig.ask(R"({"do":"inject","fault":{"stall":"feeder.A"}})");
+  rig.ask(R"({"do":"clear","number":1})");
+  const Texts events = rig.events();
+  ASSERT_EQ(events.size(), 5U) << Json(events).dump(1);
+  EXPECT_TRUE(events[0].starts_with("exception rs485: write 0xFFFF")) << events[0];
+  EXPECT_EQ(events[1], "dropped rs485: dropped: bad CRC");
+  EXPECT_EQ(events[2], "inject feeder: stall feeder.A by control");
+  EXPECT_EQ(events[3], "fault feeder = 1: fault 1 stall feeder.A: begins");
+  EXPECT_EQ(events[4], "clear = 1: fault 1 stall feeder.A by control");
+}
+
+TEST(EventsMessage, KeepsABoundedNumberInTheirOrder) {
+  LookRig rig;
+  for (int i = 0; i < 5'000; ++i)
+    rig.ask(Json{{"do", "set"}, {"values", {{"feeder.Aaxis_Speed", 1 + i % 100}}}}.dump());
+  const Json reply = rig.ask(R"({"do":"events","since":1})");
+  EXPECT_EQ(reply["events"].size(), 200U);
+  EXPECT_EQ(reply["events"][0]["number"], 1);  // only those that wait to be numbered are bounded before that
+  int number = 1;
+  Json next = reply;
+  while (!next["events"].empty()) {
+    for (const Json& event : next["events"]) EXPECT_EQ(event["number"], number++);
+    next = rig.ask(Json{{"do", "events"}, {"since", next["next"]}}.dump());
+  }
+  EXPECT_EQ(number - 1, 4'096);
+}
+
+TEST(LookMessage, TellsValuesFramesEventsAndTime) {
+  LookRig rig;
+  rig.say({1, 6, 0x10, 0x14, 0, 1});
+  rig.ask(R"({"do":"input","values":{"feeder.DIN_10":1}})");
+  rig.ask(R"({"do":"inject","fault":{"stuck":"feeder.DIN_9","level":"on"}})");
+  rig.run(2);
+  const Json look = rig.ask(
+      R"({"do":"look","names":["feeder.Aaxis_SVON","nothing","feeder.DIN_10@by","feeder.DIN_9@by",)"
+      R"("feeder.DIN_8@by","feeder.DOUT_4@by","feeder.A.position"],"frames":0,"events":0,"status":true})");
+  ASSERT_EQ(look["ok"], true) << look;
+  EXPECT_EQ(look["values"], (Json{1, nullptr, "held", "fault", "", "device", 0}));
+  EXPECT_EQ(look["frames"].size(), 2U);
+  EXPECT_EQ(look["frames"][0]["bytes"], "0106101400010cce");
+  EXPECT_GT(look["frames"][1]["latency_ns"], 0);
+  EXPECT_EQ(look["next_frame"], 3);
+  EXPECT_EQ(look["events"].size(), 4U);
+  EXPECT_EQ(look["status"]["lines"][0]["name"], "rs485");
+  EXPECT_EQ(look["paused"], false);
+  EXPECT_EQ(look["speed"], "manual");
+  rig.ask(R"({"do":"power","device":"feeder","to":"off"})");
+  EXPECT_EQ(rig.ask(R"({"do":"look","names":["feeder.Aaxis_SVON","feeder.power"]})")["values"],
+            (Json{nullptr, 0}));
+  EXPECT_EQ(rig.ask(R"({"do":"look","names":7})")["ok"], false);
+  EXPECT_EQ(rig.ask(R"({"do":"look","frames":-1})")["ok"], false);
+}
+
+TEST(StepMessage, EndsAtTheEndOfTicks) {
+  LookRig rig;
+  rig.daemon.world().advance_to(std::chrono::microseconds(500));
+  EXPECT_EQ(rig.ask(R"({"do":"step","ticks":0})")["ok"], false);
+  EXPECT_EQ(rig.reply_to(R"({"do":"step","ticks":3})"), "");  // when it is there
+  EXPECT_EQ(rig.ask(R"({"do":"step"})")["ok"], false);
+}
+
+TEST(SpeedMessage, ChangesThePaceWhileItRuns) {
+  LookRig rig;
+  for (const char* speed : {"real", "0.5x", "free", "10x", "manual"}) {
+    EXPECT_EQ(rig.ask(Json{{"do", "speed"}, {"to", speed}}.dump())["speed"], speed);
+    EXPECT_EQ(rig.ask(R"({"do":"status"})")["status"]["speed"], speed);
+  }
+  for (const char* wrong : {"", "0", "-1", "fast", "10001"}) {
+    EXPECT_EQ(rig.ask(Json{{"do", "speed"}, {"to", wrong}}.dump())["ok"], false) << wrong;
+  }
+}
+
+TEST(ScopeMessage, KeepsEveryTickAroundTheMoment) {
+  LookRig rig;
+  rig.ask(
+      R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":3200,"feeder.Aaxis_Speed":200}})");
+  rig.run(50);
+  Json reply =
+      rig.ask(R"({"do":"scope","names":["feeder.A.pulses","time"],"condition":"feeder.A.pulses >= 100",)"
+              R"("before":"10ms","after":"20ms"})");
+  EXPECT_EQ(reply["scope"]["state"], "armed");
+  rig.run(500);
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_Move_INC":1}})");
+  rig.run(1'000);
+  reply = rig.ask(R"({"do":"scope","from":0})");
+  ASSERT_EQ(reply["scope"]["state"], "done") << reply;
+  EXPECT_EQ(reply["scope"]["count"], 31);
+  const Json pulses = reply["samples"][0];
+  ASSERT_EQ(pulses.size(), 31U);
+  EXPECT_LT(pulses[9], 100);
+  EXPECT_GE(pulses[10], 100);  // the first tick at which it is true
+  const std::int64_t from = reply["scope"]["from_ns"];
+  EXPECT_EQ(reply["scope"]["trigger_ns"].get<std::int64_t>() - from, 10'000'000);
+  for (std::size_t i = 0; i < 31; ++i) {
+    EXPECT_EQ(reply["samples"][1][i], from + static_cast<std::int64_t>(i) * 1'000'000) << i;
+    if (i > 0) EXPECT_GE(pulses[i], pulses[i - 1]);
+  }
+  EXPECT_TRUE(rig.ask(R"({"do":"scope","off":true})")["scope"].is_null());
+}
+
+TEST(ScopeMessage, SeesRestAsWellAsMotion) {
+  LookRig rig;
+  rig.ask(R"({"do":"scope","names":["time","feeder.Cord_A"],"before":"0ms","after":"300ms"})");
+  rig.run(5'000);
+  const Json reply = rig.ask(R"({"do":"scope","from":0})");
+  ASSERT_EQ(reply["scope"]["state"], "done");
+  EXPECT_EQ(reply["scope"]["count"], 301);
+  for (const Json& value : reply["samples"][1]) EXPECT_EQ(value, 0);
+  for (const char* wrong :
+       {R"({"do":"scope","names":[]})", R"({"do":"scope","names":["nothing"]})",
+        R"({"do":"scope","names":["time"],"condition":"1 +"})",
+        R"({"do":"scope","names":["time"],"after":"11s"})", R"({"do":"scope","names":["time"],"before":7})",
+        R"({"do":"scope","names":["feeder.A.greatest_speed"]})"}) {
+    EXPECT_EQ(rig.ask(wrong)["ok"], false) << wrong;
+  }
+}
+
+TEST(ScopeMessage, LeavesTheWorldAsItIs) {
+  LookRig watched;
+  LookRig alone;
+  watched.ask(R"({"do":"scope","names":["feeder.A.speed"],"condition":"feeder.A.speed > 1000"})");
+  for (LookRig* rig : {&watched, &alone}) {
+    rig->ask(
+        R"({"do":"set","values":{"feeder.Aaxis_SVON":1,"feeder.Aaxis_Pulse":3200,"feeder.Aaxis_Speed":200,"feeder.Aaxis_Move_INC":1}})");
+    rig->run(2'000);
+  }
+  EXPECT_TRUE(watched.daemon.world().device(0).same_state(alone.daemon.world().device(0)));
+}
+
+TEST(SendMessage, IsARequestOfNobodyOnALineAtRest) {
+  LookRig rig;
+  const Json reply = rig.ask(R"({"do":"send","line":"rs485","bytes":"01 06 1014 0001","checksum":true})");
+  ASSERT_EQ(reply["ok"], true) << reply;
+  rig.run(100);
+  EXPECT_EQ(rig.value("feeder.Aaxis_SVON"), 1);
+  const Json frames = rig.ask(Json{{"do", "frames"}, {"since", reply["next_frame"]}}.dump())["frames"];
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0]["text"], "write 0x1014 feeder.Aaxis_SVON = 1");
+  for (const char* wrong :
+       {R"({"do":"send","bytes":""})", R"({"do":"send","bytes":"0"})", R"({"do":"send","bytes":"0 1"})",
+        R"({"do":"send","bytes":"xx"})", R"({"do":"send","line":"none","bytes":"01"})", R"({"do":"send"})",
+        R"({"do":"send","text":"","line":"rs485"})"}) {
+    EXPECT_EQ(rig.ask(wrong)["ok"], false) << wrong;
+  }
+  rig.ask(R"({"do":"send","bytes":"01 06 1014 0000","checksum":true})");
+  EXPECT_EQ(rig.ask(R"({"do":"send","bytes":"01 06 1014 0000","checksum":true})")["ok"], false)
+      << "the line is busy";
+}
+
+TEST(SnapshotsByName, AreKeptAndRestoredAndForgotten) {
+  LookRig rig;
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_Speed":111}})");
+  EXPECT_EQ(rig.ask(R"({"do":"snapshot","name":"one"})")["ok"], true);
+  rig.ask(R"({"do":"set","values":{"feeder.Aaxis_Speed":222}})");
+  EXPECT_EQ(rig.ask(R"({"do":"restore","name":"one"})")["ok"], true);
+  EXPECT_EQ(rig.value("feeder.Aaxis_Speed"), 111);
+  EXPECT_EQ(rig.ask(R"({"do":"restore","name":"two"})")["ok"], false);
+  EXPECT_EQ(rig.ask(R"({"do":"snapshot","name":""})")["ok"], false);
+  EXPECT_EQ(rig.ask(R"({"do":"snapshots"})")["snapshots"].size(), 1U);
+  for (int i = 0; i < 15; ++i) rig.ask(Json{{"do", "snapshot"}, {"name", std::to_string(i)}}.dump());
+  EXPECT_EQ(rig.ask(R"({"do":"snapshot","name":"too many"})")["ok"], false);
+  EXPECT_EQ(rig.ask(R"({"do":"snapshot","name":"one"})")["ok"], true);
+  EXPECT_EQ(rig.ask(R"({"do":"snapshots","drop":"one"})")["snapshots"].size(), 15U);
+  EXPECT_EQ(rig.ask(R"({"do":"snapshots","drop":"one"})")["ok"], false);
+}
+
+TEST(WhereMessage, TellsTheLineAndWhatItWaitsFor) {
+  LookRig rig;
+  EXPECT_EQ(rig.ask(R"({"do":"where","device":"feeder"})")["programs"][0]["state"], "stopped");
+  ASSERT_EQ(
+      rig.ask(R"({"do":"program","device":"feeder","text":"        Delay_mSec 500\n        END\n"})")["ok"],
+      true);
+  rig.ask(R"({"do":"set","values":{"feeder.PROG_MAIN_RunTime_START":0}})");
+  rig.run(100);
+  const Json place = rig.ask(R"({"do":"where","device":"feeder"})")["programs"][0];
+  EXPECT_EQ(place["state"], "waiting") << place;
+  EXPECT_EQ(place["line"], 1);
+  EXPECT_EQ(place["text"], "Delay_mSec 500");
+  EXPECT_GT(place["until_ns"], 500'000'000);
+  rig.run(1'000);
+  const Json end = rig.ask(R"({"do":"where","device":"feeder"})")["programs"][0];
+  EXPECT_EQ(end["state"], "stopped");
+  EXPECT_EQ(end["why"], "END");
+}
+
+}  // namespace look_messages_test
+}  // namespace understudy::emulator::serve
