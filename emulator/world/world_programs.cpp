@@ -1,0 +1,41 @@
+// What is given to a device in words: a program, or a command by its name.
+#include <cstddef>
+#include <string_view>
+
+#include "emulator/device/command_window.h"
+#include "emulator/device/device.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/user_program.h"
+#include "emulator/world/outside.h"
+#include "emulator/world/world.h"
+
+namespace understudy::emulator::world {
+
+void World::load_program(std::size_t device, std::string_view text) {
+  begin_act();
+  // Also one that is refused, for its text or for what the device is doing: the device may show that it was.
+  const auto told = [&](bool is_refused) {
+    if (devices_[device]->user_program() != nullptr) {
+      tell([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });
+    }
+    look_for_speech(now_);
+  };
+  try {
+    emulator::load_program(*devices_[device], text);
+  } catch (const ProgramError&) {
+    told(true);
+    throw;
+  }
+  told(false);
+}
+
+Objection World::command(std::size_t device, std::string_view text) {
+  begin_act();
+  const auto [first, words] = window_message(*devices_[device], text);
+  tell([&](OutsideListener& listener) { listener.on_command(device, text); });
+  return write_request(*devices_[device]->register_bank(), Table::holding, first, words);
+}
+
+}  // namespace understudy::emulator::world
