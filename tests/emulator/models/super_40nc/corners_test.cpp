@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "emulator/device/program_language.h"
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 
 namespace understudy::emulator::models::super_40nc {
