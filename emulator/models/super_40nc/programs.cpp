@@ -67,7 +67,8 @@ void Super40nc::make_programs_ready() {
 /// D9042 is the room of C and of each file.
 language::Options Super40nc::options_with_room() const {
   language::Options options = options_;
-  options.c_capacity = std::max(registers().raw(kept_d(9042)), 1);
+  const std::int32_t room = registers().raw(kept_d(9042));
+  if (room > 0) options.c_capacity = room;  // it is 0 before power-up
   return options;
 }
 

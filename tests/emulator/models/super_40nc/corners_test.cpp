@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "emulator/device/program_language.h"
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -51,6 +52,14 @@ TEST(Super40ncCorners, AFileHasTheRoomOfD9042) {
   EXPECT_NO_THROW(one.device().user_program()->load_program(file));
   one.set("D9001", 1);
   EXPECT_NE(text().find("AREA C"), std::string::npos);
+}
+
+/// A listing is checked on a box without power.
+TEST(Super40ncCorners, AListingIsCheckedAgainstTheFactorysRoom) {
+  std::string text = "AREA C\n";
+  for (int i = 0; i < 374; ++i) text += "LIN K1\n";
+  EXPECT_TRUE(model().language->check(text + "END\n", {}).empty());
+  EXPECT_FALSE(model().language->check(text + "LIN K1\nEND\n", {}).empty());
 }
 
 /// By EA/EB, as from the factory: what comes out in a tick is counted in it.
@@ -135,7 +144,7 @@ TEST(Super40ncCorners, NothingRunsBehindAnEmergencyStop) {
 }
 
 TEST(Super40ncCorners, AJogOfThePlcTellsItsLine) {
-  for (const auto& [input, line, code] : {std::tuple{"X1", 3501, 11}, std::tuple{"X2", 3503, 12}}) {
+  for (const auto& [input, line, code] : {std::tuple{"X1", 3501, 11}, std::tuple{"X2", 3506, 12}}) {
     OneSuper40nc one({.program = "AREA PLC\nLD M1\nPJG K1\nLD M2\nMJG K1\nEND"});
     one.input(input, 1);
     one.run(2);
