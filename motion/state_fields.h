@@ -142,7 +142,9 @@ struct StateOf<motion::Surroundings> {
                                             field("zones", &motion::Surroundings::zones),
                                             field("index_period", &motion::Surroundings::index_period),
                                             field("index_at", &motion::Surroundings::index_at),
-                                            field("index_width", &motion::Surroundings::index_width)};
+                                            field("index_width", &motion::Surroundings::index_width),
+                                            field("index_from", &motion::Surroundings::index_from),
+                                            field("index_to", &motion::Surroundings::index_to)};
   static void check(const motion::Surroundings& value) { motion::check_restored(value); }
 };
 

@@ -51,8 +51,15 @@ PageBench::PageBench(Web& web, std::string socket, Hears hears)
 void PageBench::want(Wanted wanted) {
   for (const std::string& name : wanted.names) values_.try_emplace(name);
   std::erase_if(values_, [&](const auto& known) { return !wanted.names.contains(known.first); });
-  if (!wanted.frames) frames_.clear();
-  if (!wanted.events) events_.clear();
+  // Whoever wants them later gets those that the daemon has kept.
+  if (!wanted.frames) {
+    frames_.clear();
+    next_frame_ = 0;
+  }
+  if (!wanted.events) {
+    events_.clear();
+    next_event_ = 0;
+  }
   wanted_ = std::move(wanted);
   if (wanted_.anybody) plan(kTurn);
 }

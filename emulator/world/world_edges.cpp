@@ -26,6 +26,10 @@ MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
       const IndexSetup& index = *plant.setup().index;
       edges.index = {
           .input = wire.input, .at = index.at - origin, .width = index.width, .period = index.period};
+      if (const auto& stops = plant.setup().travel) {
+        edges.index.first = stops->first - origin;
+        edges.index.last = stops->last - origin;
+      }
     } else if (const auto way = plant.way_of(wire.contact)) {
       edges.spans[edges.span_count++] = {.input = wire.input,
                                          .level_inside = !way->opens,

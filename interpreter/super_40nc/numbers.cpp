@@ -122,8 +122,8 @@ constexpr CompleteTable<Op, Calculation> kCalculations(kCalculationOps, kCalcula
 
 }  // namespace
 
-Calculated calculate(const Instruction& line, Access& access, const Options& options) {
-  return kCalculations[line.op](line, access, options);
+Calculated calculate(const Instruction& instruction, Access& access, const Options& options) {
+  return kCalculations[instruction.op](instruction, access, options);
 }
 
 }  // namespace understudy::interpreter::super_40nc

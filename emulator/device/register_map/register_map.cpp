@@ -61,6 +61,12 @@ RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
     name_places(row, first_slot);
     if (!row.is_view) slot_count_ += row.count;
   }
+  if (policy.word_order_in.empty()) return;
+  const auto& holding = tables_[static_cast<std::size_t>(Table::holding)].names;
+  if (!holding.contains(std::string(policy.word_order_in))) {
+    throw std::logic_error("register map: " + std::string(policy.word_order_in) +
+                           " is to have the order of words, but is not a holding register");
+  }
 }
 
 void RegisterMap::place_words(const RegisterRow& row, int row_number) {

@@ -78,6 +78,7 @@ struct OutSettings {
   std::uint8_t level = 0;       // outEdge
   std::uint8_t width_code = 0;  // PulseWidth
   std::int64_t pulses = 0;      // given so far
+  Tick pulse_until = 0;         // of the last one, where it is a millisecond long or more
 
   bool operator==(const OutSettings&) const = default;
 };
@@ -108,6 +109,7 @@ struct AxisUnit {
   bool held = false;         // DRV_HOLD
   Drive held_drive{};        // waits for DRV_START
   FilteredPins pins{};
+  bool emergency = false;  // the EMG input, as its filter lets it through
   motion::ExternalDrive external{};
   std::uint32_t external_pps = 0;                // of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP-
@@ -195,7 +197,7 @@ struct StateOf<emulator::models::rs_m8194h::OutSettings> {
   using Value = emulator::models::rs_m8194h::OutSettings;
   static constexpr auto fields =
       std::tuple{field("level", &Value::level), field("width_code", &Value::width_code),
-                 field("pulses", &Value::pulses)};
+                 field("pulses", &Value::pulses), field("pulse_until", &Value::pulse_until)};
 };
 
 template <>
@@ -224,6 +226,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                             field("held", &Value::held),
                                             field("held_drive", &Value::held_drive),
                                             field("pins", &Value::pins),
+                                            field("emergency", &Value::emergency),
                                             field("external", &Value::external),
                                             field("external_pps", &Value::external_pps),
                                             field("external_seen", &Value::external_seen),
@@ -237,6 +240,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
     demand_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)
       demand_state(since >= -kFar && since <= kFar, "a time is too far");
+    demand_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
     demand_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
                      unit.encoder_zero <= kFar,
                  "an encoder is too far");

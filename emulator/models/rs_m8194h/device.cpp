@@ -75,6 +75,7 @@ void RsM8194h::blank_module() {
     blank.has_encoder = unit.has_encoder || chose(option("ep_without_encoder", "stands_still"));
     blank.encoder_raw = blank.encoder_zero = unit.encoder_raw;
     blank.pins = unit.pins;
+    blank.emergency = unit.emergency;
     blank.external_seen = unit.external_seen;
     blank.out.pulses = unit.out.pulses;
     blank.logic.range = blank.absolute.range = blank.encoder.range = motion::Counter::Range::bits32;
@@ -141,7 +142,10 @@ void RsM8194h::power_up() {
     }
   }
   pass_pins(now());
-  for (AxisUnit& unit : state_.units) unit.pins.passed = unit.pins.raw;
+  for (AxisUnit& unit : state_.units) {
+    unit.pins.passed = unit.pins.raw;
+    unit.emergency = state_.emergency_input;
+  }
   scan_frnet();
   heed_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -210,7 +214,7 @@ void RsM8194h::sample_inputs(Tick tick) {
   const bool changed = take_inputs_changed();
   state_.unscanned = state_.unscanned || changed;
   const bool waits = std::any_of(state_.units.begin(), state_.units.end(),
-                                 [](const AxisUnit& unit) { return unit.pins.raw != unit.pins.passed; });
+                                 [this](const AxisUnit& unit) { return is_filtering(unit); });
   if (changed || waits) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
@@ -232,7 +236,7 @@ void RsM8194h::step_motion(Tick tick) {
   heed_ends();
   heed_path_end(was_full);
   act_on_events(tick);
-  step_scans();
+  step_scans(tick);
 }
 
 void RsM8194h::update_outputs(Tick tick) {
@@ -262,17 +266,21 @@ bool RsM8194h::rests() const {
     const AxisUnit& unit = state_.units[a];
     if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0) return false;
     if (unit.sent_pulses != 0 || state_.here[a].version != motor.seen_version) return false;
-    if (unit.pins.raw != unit.pins.passed) return false;
+    if (is_filtering(unit)) return false;
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
     if (state_.scans[a].running) return false;
   }
-  return state_.scanning == 0 && !state_.paths.together.engaged && state_.held_paths.empty();
+  return state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
+         state_.held_paths.empty();
 }
 
 Tick RsM8194h::next_active_tick(Tick done) const {
   if (!rests()) return done + 1;
   Tick next = std::max(done + 1, state_.eeprom.next_active_tick());
   if (state_.unscanned || state_.sent != state_.outputs) next = std::min(next, next_scan(done));
+  for (const AxisUnit& unit : state_.units) {
+    if (unit.out.pulse_until > done) next = std::min(next, unit.out.pulse_until);
+  }
   return next;
 }
 
@@ -284,7 +292,8 @@ bool RsM8194h::output(int number) const {
   if (number < kFirstOut) return state_.units[static_cast<std::size_t>(number - kFirstServo)].basic.servo;
   if (number >= kFirstDi) return false;
   // At rest it is at the other level than its pulses: outEdge 0 is low, and low does not conduct.
-  return state_.units[static_cast<std::size_t>(number - kFirstOut)].out.level == 0;
+  const OutSettings& out = state_.units[static_cast<std::size_t>(number - kFirstOut)].out;
+  return (out.level == 0) != (now() < out.pulse_until);
 }
 
 std::uint32_t RsM8194h::output_word(int first, int count) const {

@@ -152,7 +152,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   /// An event of an axis that a factor may be waiting for, noted and marked.
   void note_factor(std::size_t axis, Factor factor);
   void mark_isr(std::size_t axis, std::uint8_t source, Tick tick);
-  void give_pulse(std::size_t axis);
+  void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
   void change_speed(std::size_t axis);
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
@@ -176,7 +176,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
  private:
@@ -187,6 +187,8 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   bool is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const;
   void look_round(std::size_t axis);
   void pass_pins(Tick tick);
+  /// A level of one of its inputs is still held back.
+  bool is_filtering(const AxisUnit& unit) const;
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
   Tick next_scan(Tick after) const;
@@ -198,7 +200,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void act_on_events(Tick tick);
   void act_together(Tick tick);
   void heed_factors(std::size_t axis, Tick tick);
-  void step_scans();
+  void step_scans(Tick tick);
   std::int64_t scan_count(std::size_t axis) const;
   std::int64_t scan_spacing(const LineScan& scan) const;
   void end_scan(std::size_t axis);

@@ -291,7 +291,11 @@ void RsM8194h::heed_home(std::size_t axis) {
 
 /// What ended in this tick leaves its cause in the error code.
 void RsM8194h::heed_ends() {
-  const bool was_on_path = state_.paths.runs != Paths::Runs::nothing;
+  // The partners of the axis that met something hear of it a tick later.
+  Paths& paths = state_.paths;
+  const auto of_path =
+      static_cast<AxisMask>(paths.let_go | (paths.runs != Paths::Runs::nothing ? paths.axes : 0));
+  paths.let_go = 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const motion::Axis& motor = state_.motors[a];
     AxisUnit& unit = state_.units[a];
@@ -317,7 +321,7 @@ void RsM8194h::heed_ends() {
                             motor.homing.program.phases[row].code == kIndexPhase;
       if (by_index) unit.error_code |= bit_of(ErrorBit::home);
     }
-    if (!was_on_path || !has(state_.paths.axes, a) || is_its_own(unit, motor, cause)) {
+    if (!has(of_path, a) || is_its_own(unit, motor, cause)) {
       unit.error_code |= error_of(cause);
     }
   }

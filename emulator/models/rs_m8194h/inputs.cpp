@@ -72,6 +72,10 @@ std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const M
 
 }  // namespace
 
+bool RsM8194h::is_filtering(const AxisUnit& unit) const {
+  return unit.pins.raw != unit.pins.passed || unit.emergency != state_.emergency_input;
+}
+
 void RsM8194h::pass_pins(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
@@ -92,7 +96,14 @@ void RsM8194h::pass_pins(Tick tick) {
       }
     }
   }
-  state_.emergency_input = (input(kEmergencyPin) != 0) != machine_.emergency_while_off;
+  const bool is_emergency = (input(kEmergencyPin) != 0) != machine_.emergency_while_off;
+  if (is_emergency != state_.emergency_input) state_.emergency_since = tick;
+  state_.emergency_input = is_emergency;
+  // Each axis has its own filter for it, that of its limits and home.
+  for (AxisUnit& unit : state_.units) {
+    const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_);
+    if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
+  }
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
@@ -115,11 +126,13 @@ void RsM8194h::look_round(std::size_t axis) {
       found.index_period = index.period;
       found.index_at = is_inside ? index.at : index.at + index.width;
       found.index_width = is_inside ? index.width : index.period - index.width;
+      found.index_from = index.first;
+      found.index_to = index.last;
     } else {
       found.set_steady(function.signal, ((unit.pins.passed & bit_of(function.pin)) != 0) == *active);
     }
   }
-  found.set_steady(motion::Signal::emergency, state_.emergency_input);
+  found.set_steady(motion::Signal::emergency, unit.emergency);
   motion::Surroundings& here = state_.here[axis];
   found.version = here.version;
   if (found == here) return;

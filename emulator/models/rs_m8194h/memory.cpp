@@ -126,7 +126,9 @@ Eeprom RsM8194h::factory_memory() const {
 
 std::uint64_t RsM8194h::kept_revision() const { return state_.eeprom.revision() + state_.blocks.revision(); }
 
-void RsM8194h::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+std::function<void(NvImage&)> RsM8194h::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
 
 void RsM8194h::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());

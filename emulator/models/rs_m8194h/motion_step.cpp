@@ -86,6 +86,7 @@ void RsM8194h::heed_path_end(bool was_full) {
       paths.runs == Paths::Runs::stream && paths.open && paths.together.cause == motion::Cause::arrived;
   if (starved) state_.rint |= bit_of(Rint::stream);
   paths.open = starved;
+  paths.let_go = paths.axes;
   paths.runs = Paths::Runs::nothing;
 }
 
@@ -173,7 +174,7 @@ void RsM8194h::act_together(Tick tick) {
     if (slows_path[a]) state_.paths.together.slow_down(tick);
     if (stops_path[a]) state_.paths.together.stop(state_.motors);
     if (slows_path[a] || stops_path[a]) state_.paths.open = false;
-    if (has(outcome.outputs, a)) give_pulse(a);
+    if (has(outcome.outputs, a)) give_pulse(a, tick);
     if (has(outcome.interrupts, a)) {
       for (std::size_t t = 0; t < kAxes; ++t) {
         const bool fired = outcome.fired[t] != 0 && has(state_.sync.triggers[t].activates, a);
@@ -200,9 +201,14 @@ void RsM8194h::change_speed(std::size_t axis) {
   motor.change_speed(law, now());
 }
 
-void RsM8194h::give_pulse(std::size_t axis) {
+void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
   // SET_OUT knows X and Y (7.3.9).
-  if (axis < static_cast<std::size_t>(kOuts)) ++state_.units[axis].out.pulses;
+  if (axis >= static_cast<std::size_t>(kOuts)) return;
+  // Whole ticks of PulseWidth; shorter pulses are counted only.
+  static constexpr std::array<Tick, 8> kWidths{0, 0, 0, 0, 1, 2, 10, 20};
+  OutSettings& out = state_.units[axis].out;
+  out.pulses += pulses;
+  out.pulse_until = tick + kWidths[out.width_code % kWidths.size()];
 }
 
 /// Of the counter that LINE_SCAN's Type names.
@@ -232,7 +238,7 @@ void RsM8194h::end_scan(std::size_t axis) {
   look_again(axis);
 }
 
-void RsM8194h::step_scans() {
+void RsM8194h::step_scans(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
@@ -241,7 +247,7 @@ void RsM8194h::step_scans() {
     if (passed > scan.triggered) {
       const std::int64_t most = machine_.all_scan_triggers_are_given ? INT64_MAX : kMostTriggersOfATick;
       const std::int64_t given = std::min(passed - scan.triggered, most);
-      if (a < static_cast<std::size_t>(kOuts)) state_.units[a].out.pulses += given;
+      give_pulse(a, tick, given);
       scan.triggered = passed;
     }
     if (!is_driving(a)) end_scan(a);
@@ -256,7 +262,7 @@ void RsM8194h::step_scans() {
 
 Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
   const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
-                         state_.scanning == 0 && !state_.paths.together.engaged &&
+                         state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
                          state_.steps_left == options_.steps_a_tick;
   if (!is_simple || is_resetting() || state_.execution.is_alive() || !state_.queued_triggers.empty())
     return done + 1;
@@ -264,7 +270,8 @@ Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) 
   if (state_.unscanned || state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);
   for (std::size_t a = 0; a < kAxes && last > done; ++a) {
     const AxisUnit& unit = state_.units[a];
-    if (unit.has_encoder || unit.pins.raw != unit.pins.passed) return done + 1;
+    if (unit.has_encoder || is_filtering(unit)) return done + 1;
+    if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
     const motion::Axis& motor = state_.motors[a];
     const PulseRoom room = ahead.room(static_cast<int>(a));

@@ -114,9 +114,10 @@ struct State {
   lang::DownloadStatus downloaded{};
   // The module's.
   bool emergency_state = false;
-  bool emergency_input = false;
-  std::uint8_t rint = 0;    // without bit 6, which follows the error codes
-  bool interrupts = false;  // ENABLE_INT
+  bool emergency_input = false;  // EMG is active,
+  Tick emergency_since = 0;      // or not, since then
+  std::uint8_t rint = 0;         // without bit 6, which follows the error codes
+  bool interrupts = false;       // ENABLE_INT
   std::array<AxisMask, kFactors> factor_axes{};
   std::vector<IsrMark> marks{};
   lang::Execution execution{};

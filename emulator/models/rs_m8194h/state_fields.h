@@ -71,6 +71,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                             field("downloaded", &Value::downloaded),
                                             field("emergency_state", &Value::emergency_state),
                                             field("emergency_input", &Value::emergency_input),
+                                            field("emergency_since", &Value::emergency_since),
                                             field("rint", &Value::rint),
                                             field("interrupts", &Value::interrupts),
                                             field("factor_axes", &Value::factor_axes),
@@ -108,6 +109,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
     demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");
     demand_reach(state.powered_at);
     demand_reach(state.finished_at);
+    demand_reach(state.emergency_since);
     demand_reach(state.resetting_until);
   }
 };

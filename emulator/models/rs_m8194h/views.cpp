@@ -39,7 +39,7 @@ std::size_t group_of(int number) { return static_cast<std::size_t>(number); }
 
 std::uint16_t all_of(const RsM8194h& it, Cell cell) {
   const bool is_active = it.chose(option("di_all_levels", "active_by_setting"));
-  return di_all_word(unit_of(it, cell), it.state().emergency_input, it.is_driving(axis_number(cell)),
+  return di_all_word(unit_of(it, cell), unit_of(it, cell).emergency, it.is_driving(axis_number(cell)),
                      is_active ? UpperBits::active : UpperBits::line_levels);
 }
 

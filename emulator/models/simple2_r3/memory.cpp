@@ -101,7 +101,9 @@ void Simple2R3::register_written(const RegisterRow& row, std::size_t slot) {
                       chose(option("eeprom_same_value", "saved_again")));
 }
 
-void Simple2R3::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+std::function<void(NvImage&)> Simple2R3::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
 
 void Simple2R3::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());

@@ -132,8 +132,8 @@ class Slim final : public DeviceOf<Slim>,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
-  void read_memory(const NvImage& image) override;
+  std::function<void(NvImage&)> memory_writer() const override;
+  void read_memory(const NvImage& given) override;
 
  private:
   /// What a command has to say.
@@ -226,7 +226,7 @@ class Slim final : public DeviceOf<Slim>,
     return number == user_unit().pulses || number == user_unit().units;
   }
   Error set_scale(int module, std::size_t number, double value);
-  Error set_parameter(int module, std::string_view name, double value);
+  Error set_parameter(int module, std::string_view given_name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
   Error assign_axis(Letter letter, int module);
@@ -257,7 +257,6 @@ class Slim final : public DeviceOf<Slim>,
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
   bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
-  void write_history(NvImage& image) const;
   std::array<Errors, kModules> read_history(NvImage& image) const;
   /// By PZ.
   bool program_is_held() const {

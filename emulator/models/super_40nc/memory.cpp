@@ -91,7 +91,9 @@ void Super40nc::mention_unmodelled(const RegisterRow& row) const {
   Device::mention_unmodelled(name, row.unmodelled);
 }
 
-void Super40nc::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+std::function<void(NvImage&)> Super40nc::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
 
 void Super40nc::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());

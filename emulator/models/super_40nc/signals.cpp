@@ -60,6 +60,8 @@ void Super40nc::look_round(int number) {
       seen.index_period = edges.index.period;
       seen.index_at = edges.index.at;
       seen.index_width = edges.index.width;
+      seen.index_from = edges.index.first;
+      seen.index_to = edges.index.last;
     } else {
       seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
     }

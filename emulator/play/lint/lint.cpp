@@ -105,7 +105,8 @@ std::vector<std::string> Lint::findings() const {
       const std::string text = text_of(*lines_[i], about.first, about.second, finding);
       if (text.empty()) continue;
       texts.push_back(world_.line(i).line.name() + ": " + text + "; first at " +
-                      format_duration(finding.first));
+                      format_duration(finding.first) +
+                      (finding.command.empty() ? "" : " (" + finding.command + ")"));
     }
   }
   return texts;

@@ -26,7 +26,7 @@ struct Verb {
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
 };
-constexpr std::array<Verb, 31> kVerbs{{{"status", status_message},
+constexpr std::array<Verb, 32> kVerbs{{{"status", status_message},
                                        {"identify", identify_message},
                                        {"look", look_message},
                                        {"bench", bench_message},
@@ -43,6 +43,7 @@ constexpr std::array<Verb, 31> kVerbs{{{"status", status_message},
                                        {"set", set_message},
                                        {"input", input_message},
                                        {"turn", turn_message},
+                                       {"command", command_message},
                                        {"power", power_message},
                                        {"program", program_message},
                                        {"inject", inject_message},

@@ -25,8 +25,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kLongestMessage = 64 * 1024;
-constexpr std::size_t kMostUnread = 4 * 1024 * 1024;
+// A program that fills a device comes in one message, and goes back in one reply.
+constexpr std::size_t kLongestMessage = 4 * 1024 * 1024;
+constexpr std::size_t kMostUnread = 8 * 1024 * 1024;
 constexpr std::size_t kMostClients = 256;
 constexpr WallTime kRest = std::chrono::milliseconds(250);
 
@@ -170,7 +171,8 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   client->input.append(bytes.data(), static_cast<std::size_t>(count));
   const bool is_whole = client->input.back() == '\n';
   if (client->input.size() > kLongestMessage + (is_whole ? 1 : 0)) {
-    send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
+    send(client,
+         R"({"ok":false,"error":"the message is too long; expected a line of at most 4194304 bytes"})");
     return drop(descriptor);
   }
   if (is_whole) serve(client);
@@ -192,7 +194,10 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (client->descriptor < 0) return;
-  client->output += line + "\n";
+  // A device may hold more than anybody could be given at once.
+  const bool is_too_long = line.size() >= kMostUnread;
+  client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
+  client->output += "\n";
   if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
 }
 

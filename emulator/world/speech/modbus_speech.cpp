@@ -67,6 +67,10 @@ class ModbusSpeech final : public LineSpeech {
                            std::span<const std::uint8_t> request) const override {
     return modbus_request_text(stations, request);
   }
+  std::string command_text(const LineStations& stations,
+                           std::span<const std::uint8_t> request) const override {
+    return modbus_command_text(stations, request);
+  }
   std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                          std::span<const std::uint8_t> reply) const override {
     return modbus_reply_text(stations, request, reply);

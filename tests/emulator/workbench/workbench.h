@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -88,6 +89,10 @@ class Workbench final : public DeviceOf<Workbench>,
 
   /// Its areas and files are kept as blocks; what it sets is set at once.
   void load_program(std::string_view text) override {
+    if (stored(absent_) != 0) {
+      state.program_refused = 1;
+      throw ProgramError(0, 0, "the module is absent; expected it there");
+    }
     ProgramReader read = WorkbenchLanguage::read(text, settings());
     state.program_refused = read.mistakes.empty() ? 0 : 1;
     if (!read.mistakes.empty()) throw ProgramError(std::move(read.mistakes));
@@ -103,9 +108,14 @@ class Workbench final : public DeviceOf<Workbench>,
           state.image[first_d_ + static_cast<std::size_t>(step.operands[0])] =
               static_cast<std::uint32_t>(step.operands[1]);
       }
-      blocks.put("areas", std::string(area), SharedText(std::move(lines)));
+      keep("areas", std::string(area), std::move(lines));
     }
-    for (auto& [name, lines] : read.program.files) blocks.put("files", name, SharedText(std::move(lines)));
+    for (auto& [name, lines] : read.program.files) keep("files", name, std::move(lines));
+  }
+  /// What the language has taken fits.
+  void keep(std::string_view kind, const std::string& name, std::string text) {
+    const std::string why = state.kept.blocks.put(kind, name, SharedText(std::move(text)));
+    if (!why.empty()) throw std::logic_error(name + ": " + why);
   }
   std::string program_text() const override {
     std::string text;

@@ -1,7 +1,7 @@
 // Random days of a SUPER-40NC in three worlds: one goes tick by tick, one crosses many ticks in one step, and
 // one is now and then put into a snapshot of the first. They stay the same, in the midst of everything:
 // programs of all areas, arcs, homes, the wheel, files, recipes, power and frames on both lines.
-// UNDERSTUDY_SEED overrides.
+// UNDERSTUDY_SEED and UNDERSTUDY_COURSES override.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -96,15 +96,21 @@ Given drawn(std::uint64_t seed) {
   return given;
 }
 
+std::uint64_t number_from(const char* name, std::uint64_t usual) {
+  const char* const given = std::getenv(name);
+  return given != nullptr ? std::strtoull(given, nullptr, 10) : usual;
+}
+
 TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
-  const char* const given_seed = std::getenv("UNDERSTUDY_SEED");
-  const std::uint64_t first = given_seed != nullptr ? std::stoull(given_seed) : 1;
-  for (std::uint64_t seed = first; seed < first + 60; ++seed) {
+  const std::uint64_t first = number_from("UNDERSTUDY_SEED", 1);
+  std::uint64_t ticks_crossed = 0;
+  for (std::uint64_t seed = first; seed < first + number_from("UNDERSTUDY_COURSES", 60); ++seed) {
     std::mt19937_64 random(seed);
     const Given given = drawn(seed);
     OneSuper40nc single(given);
     OneSuper40nc crossed(given);
     OneSuper40nc restored(given);
+    single.world().set_bulk_ticks(false);
     for (int acts = 0; acts < 40; ++acts) {
       const Act act = draw(random);
       for (OneSuper40nc* const one : {&single, &crossed, &restored}) act_on(*one, act);
@@ -126,7 +132,10 @@ TEST(Super40ncCrossing, IsTheSameAsSingleTicks) {
                << world::difference(single.world(), world::save(single.world()), world::save(other->world()));
       }
     }
+    ticks_crossed += crossed.world().ticks_crossed();
+    EXPECT_EQ(single.world().ticks_crossed(), 0U);
   }
+  EXPECT_GT(ticks_crossed, 10'000U) << "worth something only if much is";
 }
 
 /// Also where an input has changed since the last tick.

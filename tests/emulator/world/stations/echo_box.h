@@ -189,10 +189,12 @@ class EchoBox final : public DeviceOf<EchoBox>,
   std::string own_difference(StateReader& a, StateReader& b) const override {
     return difference_of_saved<EchoState>(a, b);
   }
-  void write_memory(NvImage& image) const override {
-    if (state_.n0 != 0) image.registers.emplace_back("N0", state_.n0);
-    if (state_.r0 != 0) image.reals.emplace_back("R0", state_.r0);
-    image.program = state_.program;
+  std::function<void(NvImage&)> memory_writer() const override {
+    return [state = state_](NvImage& image) {
+      if (state.n0 != 0) image.registers.emplace_back("N0", state.n0);
+      if (state.r0 != 0) image.reals.emplace_back("R0", state.r0);
+      image.program = state.program;
+    };
   }
   void read_memory(const NvImage& image) override {
     EchoState state;
