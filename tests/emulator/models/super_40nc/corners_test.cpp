@@ -135,7 +135,7 @@ TEST(Super40ncCorners, NothingRunsBehindAnEmergencyStop) {
 }
 
 TEST(Super40ncCorners, AJogOfThePlcTellsItsLine) {
-  for (const auto& [input, line, code] : {std::tuple{"X1", 3501, 11}, std::tuple{"X2", 3503, 12}}) {
+  for (const auto& [input, line, code] : {std::tuple{"X1", 3501, 11}, std::tuple{"X2", 3506, 12}}) {
     OneSuper40nc one({.program = "AREA PLC\nLD M1\nPJG K1\nLD M2\nMJG K1\nEND"});
     one.input(input, 1);
     one.run(2);
