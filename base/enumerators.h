@@ -9,8 +9,8 @@ namespace understudy {
 
 template <auto value>
 constexpr bool has_name() {
-  // The compiler writes "... value = Colour::red]" of one that has, and "... value = (Colour)7]" of one that
-  // has not.
+  // The compiler writes "... value = Colour::red]" for one with a name, and "... value = (Colour)7]" for one
+  // without.
   std::string_view text = __PRETTY_FUNCTION__;
   text.remove_suffix(1);
   const std::size_t bracket = text.rfind(')');

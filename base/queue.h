@@ -28,7 +28,7 @@ class Queue {
   const_iterator end() const { return values_.end(); }
   std::span<const T> values() const { return std::span(values_).subspan(first_); }
 
-  /// Of what is in it and what has gone.
+  /// Counts what is in it and what has gone.
   std::size_t capacity() const { return values_.capacity(); }
 
   void push_back(T value) {
@@ -41,7 +41,7 @@ class Queue {
   }
   void insert(const_iterator before, T value) { values_.insert(before, std::move(value)); }
   void resize(std::size_t count) { values_.resize(first_ + count); }
-  /// The first ones go, `count` of size() at most.
+  /// Removes the first ones: `count`, at most size().
   void pop_front(std::size_t count = 1) {
     first_ += count;
     if (first_ == values_.size()) clear();

@@ -25,7 +25,7 @@ constexpr SimTime time_of(Tick tick) { return tick == kNever ? kForever : tick *
 /// The last tick that is not later than `time`.
 constexpr Tick tick_at(SimTime time) { return time / kTickLength; }
 
-/// "250ms", "3s", "1.5s", "40us", "20ns", "2min", "1h": a number that is at least 0 and a unit, the result
+/// "250ms", "3s", "1.5s", "40us", "20ns", "2min", "1h": a number of at least 0 and a unit; the result
 /// must be a whole number of nanoseconds. Nothing if it is something else.
 std::optional<SimTime> parse_duration(std::string_view text);
 /// Exact, in the largest unit up to seconds that it reaches: "3.05s", "250ms", "750us", "0s".

@@ -1,5 +1,5 @@
 // What 700 KB of files cost a device that keeps them: a snapshot after the change of one register (beside one
-// of a device without files), and reading images of 1, 2 and 4 MB.
+// of a device without files), what is given to the writer of its file, and reading images of 1, 2 and 4 MB.
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -45,6 +45,37 @@ double snapshot(bool has_files) {
   return median(samples);
 }
 
+struct Handing {
+  double over_us = 0;   // what a world's thread gives a writer
+  double image_us = 0;  // and what the writer makes of it
+};
+
+/// After a change of one register; and of a file as well.
+Handing handing(bool changes_a_file) {
+  emulator::DeviceSettings settings;
+  settings.name = "it";
+  const auto made = make_device(workbench::model(), settings);
+  auto& device = dynamic_cast<workbench::Workbench&>(*made);
+  auto& blocks = device.state.kept.blocks;
+  for (int i = 0; i < 100; ++i) {
+    blocks.put("files", std::to_string(100 + i).substr(1), SharedText(text_of(7000)));
+  }
+  std::vector<double> over;
+  std::vector<double> image;
+  for (int i = 0; i < 500; ++i) {
+    device.state.image[0] = static_cast<std::uint32_t>(i);
+    device.memory()->settle_memory();
+    if (changes_a_file) blocks.put("files", "07", SharedText(std::to_string(i)));
+    const auto before = processor_time_here();
+    const emulator::LateImage late = device.memory()->kept_now();
+    const auto between = processor_time_here();
+    const std::string text = to_json(late());
+    over.push_back(microseconds(between - before));
+    image.push_back(microseconds(processor_time_here() - between));
+  }
+  return {median(over), median(image)};
+}
+
 double reading(std::size_t megabytes) {
   emulator::NvImage image{.model = "workbench", .firmware = "1.00"};
   for (std::size_t i = 0; i < megabytes * 128; ++i) {
@@ -70,6 +101,11 @@ int main() {
   const double with = snapshot(true);
   std::printf("snapshot: %.1f us, with 700 KB of files %.1f us\n", without, with);
   print_verdict("snapshot with 700 KB of files against 100 us", with / 100, 1.00);
+  const Handing of_register = handing(false);
+  const Handing of_file = handing(true);
+  std::printf("handing a memory over: %.1f us, after a change of a file %.1f us; its file's text: %.1f us\n",
+              of_register.over_us, of_file.over_us, of_register.image_us);
+  print_verdict("handing over against making the text", of_file.over_us / of_register.image_us, 0.10);
   const double one = reading(1);
   const double two = reading(2);
   const double four = reading(4);

@@ -1,11 +1,11 @@
-// The largest reads over a pty: 2,000 coils with function 01 and 125 registers with function 03, of the
-// tests' controller with four tables (--timing instant) beside a libmodbus slave. Both live on one processor,
-// the host on the other; while one is asked the other is stopped.
+// The largest reads over a pty: as many coils with function 01 as there are (2,000 at most) and 125 registers
+// with function 03, of the tests' controller with four tables and of a SUPER-40NC (--timing instant), beside
+// a libmodbus slave. Both live on one processor, the host on the other; while one is asked the other is
+// stopped.
 #include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,6 +14,7 @@
 #include "benchmarks/figures.h"
 #include "benchmarks/host.h"
 #include "benchmarks/responders.h"
+#include "emulator/models/models.h"
 #include "emulator/serve/daemon/daemon.h"
 #include "emulator/world/bench_file/bench_file.h"
 #include "pty/rtu_crc.h"
@@ -26,9 +27,13 @@ namespace {
 namespace workbench = emulator::workbench;
 
 constexpr int kStation = 1;
-constexpr int kCoils = 2000;         // from 0x1000
-constexpr int kRegisters = 125;      // from 0x0064
-constexpr std::size_t kBytes = 250;  // of either
+
+struct Controller {
+  const char* name;
+  const emulator::Model& model;
+  Responder::Range coils;
+  Responder::Range registers;
+};
 constexpr int kWarmUp = 20;
 constexpr int kExchanges = 300;
 constexpr int kDefaultRounds = 40;
@@ -36,22 +41,27 @@ constexpr int kDefaultRounds = 40;
 using Frame = std::vector<std::uint8_t>;
 
 struct Read {
-  const char* what;
+  std::string what;
   Frame request;
+  std::size_t bytes;  // of its data
 };
 
-Read read_of(const char* what, Frame request) {
+Read read_of(const std::string& what, std::uint8_t function, const Responder::Range& range,
+             std::size_t bytes) {
+  const auto high = [](unsigned number) { return static_cast<std::uint8_t>(number >> 8); };
+  const auto low = [](unsigned number) { return static_cast<std::uint8_t>(number & 0xFF); };
+  Frame request{kStation, function, high(range.first), low(range.first), high(range.count), low(range.count)};
   pty::append_rtu_crc(request);
-  return {what, request};
+  return {what, request, bytes};
 }
 
-/// Serves the controller until it is killed.
-void serve_workbench(const std::string& folder) {
-  const emulator::Model* const models[] = {&workbench::model()};
+/// Serves it until it is killed.
+void serve(const Controller& controller, const std::string& folder) {
+  const emulator::Model* const models[] = {&controller.model};
   const emulator::world::Bench bench = emulator::world::parse_bench(
       models,
-      "understudy: 1\nlines:\n  rs485:\n    link: ./port\n    timing: instant\n    stations:\n"
-      "      - { name: it, model: workbench }\n",
+      std::string("understudy: 1\nlines:\n  rs485:\n    link: ./port\n    timing: instant\n    stations:\n") +
+          "      - { name: it, model: " + std::string(controller.model.name) + ", address: 1 }\n",
       "bench.yaml", folder);
   emulator::serve::DaemonOptions options;
   options.enforce_settings = false;  // the host is at 19200
@@ -82,7 +92,7 @@ struct Folder {
 /// Microseconds of processor time for a request.
 double block(const Process& process, const Host& host, const Read& read) {
   process.carry_on();
-  std::array<std::uint8_t, 3 + kBytes + 2> reply{};
+  Frame reply(3 + read.bytes + 2);
   alarm(10);
   for (int i = 0; i < kWarmUp; ++i) host.exchange(read.request, reply);
   const Nanoseconds before = process.processor_time();
@@ -90,7 +100,7 @@ double block(const Process& process, const Host& host, const Read& read) {
   const Nanoseconds used = process.processor_time() - before;
   alarm(0);
   process.stop();
-  if (reply[1] != read.request[1] || reply[2] != kBytes || !pty::rtu_crc_ok(reply))
+  if (reply[1] != read.request[1] || reply[2] != read.bytes || !pty::rtu_crc_ok(reply))
     throw CannotRun(std::string("a wrong reply came to ") + read.what);
   return static_cast<double>(used.count()) / 1000 / kExchanges;
 }
@@ -102,21 +112,17 @@ void let_alarms_interrupt() {
   sigaction(SIGALRM, &action, nullptr);
 }
 
-void run(int rounds) {
-  const Processors processors = two_processors();
+void run(const Controller& controller, const Processors& processors, int rounds) {
   const Folder folder;
   const Responder peer =
-      Responder::libmodbus_tables(kStation, {.first = 0x1000, .count = kCoils},
-                                  {.first = 0x0064, .count = kRegisters}, processors.server);
-  const Process ours = Process::of_function([&] { serve_workbench(folder.path); }, processors.server);
+      Responder::libmodbus_tables(kStation, controller.coils, controller.registers, processors.server);
+  const Process ours = Process::of_function([&] { serve(controller, folder.path); }, processors.server);
   const Host our_host(port_in(folder.path));
   const Host peer_host(peer.port());
-  let_alarms_interrupt();
-  pin_to(processors.client);
-  const Read reads[] = {read_of("2,000 coils", {kStation, 0x01, 0x10, 0x00, kCoils >> 8, kCoils & 0xFF}),
-                        read_of("125 registers", {kStation, 0x03, 0x00, 0x64, 0x00, kRegisters})};
-  std::printf("%d rounds of %d exchanges each; microseconds of processor time a request\n", rounds,
-              kExchanges);
+  const unsigned coils = controller.coils.count;
+  const Read reads[] = {read_of(std::to_string(coils) + " coils", 0x01, controller.coils, (coils + 7) / 8),
+                        read_of(std::to_string(controller.registers.count) + " registers", 0x03,
+                                controller.registers, 2 * controller.registers.count)};
   for (const Read& read : reads) {
     std::vector<double> own;
     std::vector<double> theirs;
@@ -126,11 +132,25 @@ void run(int rounds) {
       theirs.push_back(block(peer.process(), peer_host, read));
       ratios.push_back(own.back() / theirs.back());
     }
-    std::printf("%-14s understudy %6.2f, libmodbus %6.2f\n", read.what, median(own), median(theirs));
-    print_verdict((std::string(read.what) + " against libmodbus").c_str(), median(ratios), 1.00);
+    std::printf("%s, %-14s understudy %6.2f, libmodbus %6.2f\n", controller.name, read.what.c_str(),
+                median(own), median(theirs));
+    print_verdict((std::string(controller.name) + ": " + read.what + " against libmodbus").c_str(),
+                  median(ratios), 1.00);
   }
   ours.carry_on();
   peer.process().carry_on();
+}
+
+void run(int rounds) {
+  const Processors processors = two_processors();
+  let_alarms_interrupt();
+  pin_to(processors.client);
+  const emulator::Model* const mill = emulator::find_model(emulator::models::all_models(), "super-40nc");
+  if (mill == nullptr) throw CannotRun("there is no super-40nc");
+  std::printf("%d rounds of %d exchanges each; microseconds of processor time a request\n", rounds,
+              kExchanges);
+  run({"the tests' controller", workbench::model(), {0x1000, 2000}, {0x0064, 125}}, processors, rounds);
+  run({"SUPER-40NC", *mill, {2000, 700}, {7200, 125}}, processors, rounds);  // M8000 on, D8100 on
 }
 
 }  // namespace

@@ -17,10 +17,11 @@ UnderstudyServer::PrivateFolder::~PrivateFolder() {
   std::filesystem::remove_all(path, ignored);
 }
 
-UnderstudyServer::UnderstudyServer(std::string executable, const std::string& timing, int processor)
+UnderstudyServer::UnderstudyServer(std::string executable, const std::string& timing, int processor,
+                                   const std::string& model)
     : executable_(std::move(executable)),
-      process_(Process::of_command({executable_, "serve", "--model", "simple2-r3", "--timing", timing,
-                                    "--control", folder_.path + "/control", "--link", folder_.path + "/port"},
+      process_(Process::of_command({executable_, "serve", "--model", model, "--timing", timing, "--control",
+                                    folder_.path + "/control", "--link", folder_.path + "/port"},
                                    processor)) {
   std::istringstream ready(process_.read_line());  // ready <line> <pty path> <link path>
   std::string word;

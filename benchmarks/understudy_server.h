@@ -1,4 +1,4 @@
-// `understudy serve` with one Simple2-R3 at 19200 8E1, as the benchmarks start it.
+// `understudy serve` with one device, most often a Simple2-R3, at 19200 8E1, as the benchmarks start it.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@ namespace understudy::benchmarks {
 class UnderstudyServer {
  public:
   /// Returns when it is ready. Throws CannotRun.
-  UnderstudyServer(std::string executable, const std::string& timing, int processor = Process::kAnyProcessor);
+  UnderstudyServer(std::string executable, const std::string& timing, int processor = Process::kAnyProcessor,
+                   const std::string& model = "simple2-r3");
   ~UnderstudyServer();
   UnderstudyServer(const UnderstudyServer&) = delete;
   UnderstudyServer& operator=(const UnderstudyServer&) = delete;

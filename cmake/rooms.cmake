@@ -31,8 +31,10 @@ endfunction()
 # Several sources of a target are one for the compiler, which reads the headers once for all of them: a build from
 # nothing takes little more than half the time. So a name in an anonymous namespace is its room's: no two files may use it
 # for different things. tests/clang_reads_the_product.py sees that each file still includes what it needs.
+set(UNDERSTUDY_TOGETHER 16)  # sources
 function(compile_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD "${UNDERSTUDY_UNITY}" UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD "${UNDERSTUDY_UNITY}" UNITY_BUILD_BATCH_SIZE ${UNDERSTUDY_TOGETHER})
 endfunction()
 
 # An include of a file of the house that is in none of the `known` folders, its own, nor one of the `seen` files.

@@ -30,8 +30,8 @@ void demand_distance(std::int64_t distance_pulses) {
 
 int sign_of(std::int64_t pulses) { return pulses < 0 ? -1 : +1; }
 
-/// Still at the very beginning. Not so is what was changed at this moment, and goes on by a profile that
-/// begins now.
+/// Still at the very beginning. What was changed at this moment, and goes on by a profile that begins now, is
+/// not.
 bool not_begun(const PulseDrive& drive, Instant at) {
   return drive.elapsed_s(at) <= 0 && drive.sample(at).position_u <= 0;
 }
@@ -85,7 +85,7 @@ Cause Axis::forbidden(int way, Signals ignored) const {
     }
   } else {
     if (blocks(Signal::limit_minus, settings.at_limit_minus)) return Cause::limit_minus;
-    if (settings.at_soft_limit != Reaction::ignore && settings.soft_limit_minus &&
+    if (settings.at_soft_limit_of_minus() != Reaction::ignore && settings.soft_limit_minus &&
         travel_pulses <= *settings.soft_limit_minus) {
       return Cause::soft_limit_minus;
     }
@@ -146,7 +146,7 @@ Profile Axis::planned(const SpeedLaw& speed) const {
   return task == Task::endless ? plan_endless(speed) : plan(static_cast<double>(target_pulses), speed);
 }
 
-/// What runs is no more, and was not an end either. A moment of no tick near says that it was between ticks.
+/// What ran is gone, and did not end either. A moment of no tick near says that it was between ticks.
 void Axis::drop(Instant at) {
   if (constant_pps != 0) raise(Event::constant_ended, at);
   constant_pps = 0;

@@ -93,8 +93,11 @@ struct AxisSettings {
   Reaction at_limit_plus = Reaction::stop_at_once;
   Reaction at_limit_minus = Reaction::stop_at_once;
   Reaction at_soft_limit = Reaction::stop_at_once;
+  std::optional<Reaction> at_soft_limit_minus = std::nullopt;  // nothing: the same
   Reaction at_alarm = Reaction::stop_at_once;
   Reaction at_emergency = Reaction::stop_at_once;
+  Reaction at_mark_on = Reaction::ignore;  // the edges of the mark; the cause is `stopped`
+  Reaction at_mark_off = Reaction::ignore;
   bool needs_servo = true;             // commands are refused and motion ends while the servo is off
   bool waits_for_in_position = false;  // a motion lasts until the in-position signal is on
   // The last travel allowed; the pulse beyond it triggers. Nothing: no soft limit.
@@ -106,6 +109,8 @@ struct AxisSettings {
   double backlash_speed_pps = 0;  // > 0 where there is backlash
   // They make up for slip: they come at every start of the drive, whatever its way.
   bool slips = false;
+
+  Reaction at_soft_limit_of_minus() const { return at_soft_limit_minus.value_or(at_soft_limit); }
 
   bool operator==(const AxisSettings&) const = default;
 };

@@ -31,6 +31,15 @@ bool Comparator::holds(std::int64_t travel) const {
 
 std::optional<std::int64_t> Comparator::steps_until_change(std::int64_t travel, int direction) const {
   if (relation == Relation::off) return std::nullopt;
+  // Beyond the counts there are, or at the only one, the relation is always the same: a ring of one place
+  // would have an edge at each pulse.
+  const auto least = counter.least();
+  const auto greatest = counter.greatest();
+  if (least &&
+      (value > *greatest || *least == *greatest || (relation != Relation::equal && value <= *least))) {
+    return std::nullopt;
+  }
+  if (least && relation == Relation::equal && value < *least) return std::nullopt;
   std::optional<std::int64_t> nearest;
   const auto consider = [&](std::optional<std::int64_t> steps) {
     if (steps) nearest = nearest ? std::min(*nearest, *steps) : steps;

@@ -169,7 +169,7 @@ void Axis::meet(const Surroundings& here, Instant at) {
     react(settings.at_soft_limit, Cause::soft_limit_plus, at);
   }
   if (settings.soft_limit_minus && travel_pulses < *settings.soft_limit_minus && drive.direction < 0) {
-    react(settings.at_soft_limit, Cause::soft_limit_minus, at);
+    react(settings.at_soft_limit_of_minus(), Cause::soft_limit_minus, at);
   }
   if (homing.active()) homing_comes_to_its_place(at);
 }
@@ -181,6 +181,8 @@ void Axis::see(Signals now_on, Instant at) {
     const Event edge = (now_on & bit(Signal::mark)) != 0 ? Event::mark_on : Event::mark_off;
     events_between |= bit(edge);
     event_at[static_cast<std::size_t>(edge)] = at;
+    const bool is_on = edge == Event::mark_on;
+    react(is_on ? settings.at_mark_on : settings.at_mark_off, Cause::stopped, at);
   }
   if (homing.active() && changed != 0) homing_sees(changed, at);
   const auto is_on = [&](Signal signal) { return (now_on & bit(signal)) != 0 && !homing_takes(signal); };

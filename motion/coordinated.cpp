@@ -1,11 +1,13 @@
 #include "motion/coordinated.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "motion/axis.h"
+#include "motion/bisection.h"
 #include "motion/path.h"
 #include "motion/surroundings.h"
 #include "motion/tick.h"
@@ -15,7 +17,7 @@ namespace understudy::motion {
 
 namespace {
 
-/// Half away from zero. Beyond 1e18 nobody counts: it stays there.
+/// Half away from zero. Nobody counts beyond 1e18: it stays there.
 std::int64_t nearest(double value) {
   const double size = std::abs(value);
   const auto whole = size < 1e18 ? static_cast<std::int64_t>(size + 0.5) : 1'000'000'000'000'000'000;
@@ -71,17 +73,71 @@ Cause Coordinated::begin(const Point& from, std::span<Axis> axes, Tick now) {
   return Cause::none;
 }
 
+/// Where on the path the first of its axes is stopped within a tick, and which ones are at that place.
+struct Coordinated::Stopped {
+  std::array<bool, kPathAxes> there{};
+  Point place = Point::Zero();
+  bool any = false;
+  bool at_once = false;  // before any pulse of the tick
+};
+
+/// The length at which the axis of coordinate `i` comes to a travel that it passes on the stretch.
+double Coordinated::along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
+                                const PathRun::Stretch& gone, double from_u) const {
+  const bool is_upwards = travel > from_travel;
+  const auto is_there = [&](double along_u) {
+    const std::int64_t reached = travel_at(i, run.place_on(gone, along_u)[static_cast<Eigen::Index>(i)]);
+    return is_upwards ? reached >= travel : reached <= travel;
+  };
+  if (travel == from_travel || is_there(from_u)) return from_u;
+  return is_there(gone.to_u) ? turnover(from_u, gone.to_u, is_there).after : gone.to_u;
+}
+
+Coordinated::Stopped Coordinated::first_stopped(const Point& place, const PathRun::Stretch& gone, Tick tick,
+                                                std::span<const Axis> axes,
+                                                std::span<const Surroundings> here) const {
+  Stopped stopped;
+  double first_u = 0;
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    const auto number = static_cast<std::size_t>(axis_of[i]);
+    if (axis_of[i] < 0 || number >= axes.size()) continue;
+    const Axis& axis = axes[number];
+    const std::int64_t target = travel_at(i, place[static_cast<Eigen::Index>(i)]);
+    const bool meets_nothing =
+        axis.carries_quietly(here[number]) && target >= axis.watch_low && target <= axis.watch_high;
+    if (axis.task != Task::coordinated || meets_nothing) continue;
+    Axis tried = axis;  // what stops it is its own affair
+    tried.carry(target - tried.travel_pulses, tick, here[number]);
+    if (tried.task == Task::coordinated) continue;
+    const double from_u = run.began_at(gone, tick);
+    const double along_u = along_where(i, tried.travel_pulses, axis.travel_pulses, gone, from_u);
+    if (stopped.any && along_u > first_u) continue;
+    if (!stopped.any || along_u < first_u) {
+      stopped = {.place = run.place_on(gone, along_u), .any = true, .at_once = along_u <= from_u};
+    }
+    stopped.there[i] = true;
+    first_u = along_u;
+  }
+  return stopped;
+}
+
 void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
                        std::span<std::int64_t> pulses, bool stays_engaged) {
   if (!engaged) return;
-  const Point place = run.step(tick);
+  PathRun::Stretch gone;
+  const Point place = run.step(tick, &gone);
+  const Stopped stopped = first_stopped(place, gone, tick, axes, here);
   Cause ended_by = Cause::none;
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);
     if (axis == nullptr) continue;
     const auto number = static_cast<std::size_t>(axis_of[i]);
     if (axis->task == Task::coordinated) {
-      const std::int64_t target = travel_at(i, place[static_cast<Eigen::Index>(i)]);
+      const bool goes_on = !stopped.any || stopped.there[i];
+      const Point& until = goes_on ? place : stopped.place;
+      const bool stays = !goes_on && stopped.at_once;
+      const std::int64_t target =
+          stays ? axis->travel_pulses : travel_at(i, until[static_cast<Eigen::Index>(i)]);
       pulses[number] += axis->carry(target - axis->travel_pulses, tick, here[number]);
     } else {
       // Stopped or begun otherwise between the ticks: it has its tick all the same.

@@ -39,7 +39,8 @@ struct Coordinated {
   /// One tick of the axes that take part before it, instead of their own step(); `here` and `pulses` (added
   /// to, signed as they come out) go with `axes`. When one is stopped, for whatever reason, all stop where
   /// they are, and the rest is abandoned; when the queue has run empty at rest, they are let go (unless the
-  /// owner keeps them with `stays_engaged`).
+  /// owner keeps them with `stays_engaged`). One that is stopped by what it meets within the tick stops the
+  /// others at that place of the path.
   void step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
             std::span<std::int64_t> pulses, bool stays_engaged = false);
 
@@ -54,6 +55,13 @@ struct Coordinated {
   double speed_pps(std::size_t axis, Tick now) const;
   /// The travel of the axis of coordinate `i` at a place, rounded half away from zero.
   std::int64_t travel_at(std::size_t i, double place_u) const;
+
+ private:
+  struct Stopped;
+  Stopped first_stopped(const Point& place, const PathRun::Stretch& gone, Tick tick,
+                        std::span<const Axis> axes, std::span<const Surroundings> here) const;
+  double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
+                     const PathRun::Stretch& gone, double from_u) const;
 };
 
 }  // namespace understudy::motion

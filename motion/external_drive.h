@@ -12,7 +12,7 @@ struct ExternalDrive {
     off,
     multiply,  // EXP- low: a rising edge of EXP+ sends `pulses` forwards, a falling edge as many backwards
     fixed,  // a falling edge of EXP+ or EXP- sends `pulses` forwards or backwards, unless some are being sent
-    continuous,  // while EXP+ or EXP- is low, on and on forwards or backwards; back at high it stops
+    continuous,  // while EXP+ or EXP- is low, keeps going forwards or backwards; at high again it stops
   };
 
   Mode mode = Mode::off;

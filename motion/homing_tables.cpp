@@ -108,7 +108,7 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
                .until = mode.at == At::dog ? Signal::home : limit_towards(how.way),
                .then = at_once ? kStop : mode.then,
                .marks = mode.after == After::nothing,
-               .if_gone = must_stay ? kFail : kNext});
+               .if_gone = must_stay && !how.plate_may_be_short ? kFail : kNext});
 
   const std::int8_t law = mode.law == Law::fast ? kFast : kCreep;
   switch (mode.after) {
@@ -135,8 +135,9 @@ HomingProgram super40nc_homing(const Super40ncHoming& how) {
                    .if_already = kAwait});
       break;
   }
-  if (mode.zero) program.add({.does = Does::go_back, .speed = kFast});
-  program.add({.does = Does::go, .speed = kFast, .distance_pulses = how.offset_pulses});
+  const std::int8_t last = how.offset_creeps ? kCreep : kFast;
+  if (mode.zero) program.add({.does = Does::go_back, .speed = last});
+  program.add({.does = Does::go, .speed = last, .distance_pulses = how.offset_pulses});
   return program;
 }
 

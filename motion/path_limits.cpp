@@ -50,13 +50,13 @@ Point greatest_direction(const Path& path) {
   return bound;
 }
 
-double speed_within(const Path& path, const Point& axis_limits) {
+double speed_within(const Path& path, const Point& axis_limits_u_s) {
   const Point parts = greatest_direction(path);
   double speed = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < kPathAxes; ++i) {
     if (parts[i] == 0) continue;
-    demand_positive(axis_limits[i], "path", "speed limit of an axis that moves");
-    speed = std::min(speed, axis_limits[i] / parts[i]);
+    demand_positive(axis_limits_u_s[i], "path", "speed limit of an axis that moves");
+    speed = std::min(speed, axis_limits_u_s[i] / parts[i]);
   }
   return speed;
 }

@@ -12,7 +12,7 @@ namespace understudy::motion {
 Point greatest_direction(const Path& path);
 
 /// The greatest speed along the path at which no axis exceeds its limit (each > 0, in path units a second);
-/// infinite for a path that moves none. By true length, whatever the path's measure.
+/// infinite for a path that moves no axis. By true length, whatever the path's measure.
 double speed_within(const Path& path, const Point& axis_limits_u_s);
 
 }  // namespace understudy::motion

@@ -271,6 +271,15 @@ void PathRun::replan(Tick now) {
   begin_tick_ = from;
 }
 
+std::size_t PathRun::queued_after(Tick tick) const {
+  if (chain_count_ == 0) return count_;
+  const double along_u = sample(tick).position_u;
+  if (along_u >= chain_end_u_) return count_ - chain_count_;
+  std::size_t passed = 0;
+  while (passed + 1 < chain_count_ && along_u >= pieces_[(head_ + passed + 1) % kMaxPaths].begin_u) ++passed;
+  return count_ - passed;
+}
+
 void PathRun::drop_front() {
   last_place_ = piece(0).path.end;
   head_ = (head_ + 1) % kMaxPaths;
@@ -298,13 +307,36 @@ void PathRun::check_queue() const {
   if (running_) demand_plans(law_, override_);
 }
 
-Point PathRun::step(Tick tick) {
+double PathRun::began_at(const Stretch& gone, Tick tick) const {
+  return gone.chain_is_over ? gone.from_u : sample(tick - 1).position_u;
+}
+
+Point PathRun::place_on(const Stretch& gone, double along_u) const {
+  // Paths that are done stay in the ring until others are appended.
+  std::size_t number = gone.last_piece;
+  for (std::size_t i = 0; i < kMaxPaths && pieces_[number].begin_u > along_u; ++i) {
+    number = (number + kMaxPaths - 1) % kMaxPaths;
+  }
+  return pieces_[number].path.at(along_u - pieces_[number].begin_u);
+}
+
+Point PathRun::step(Tick tick, Stretch* gone) {
   completed_ = 0;
   if (chain_count_ == 0) return last_place_;
   const double elapsed_s = seconds(tick - begin_tick_);
   const bool over = elapsed_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
   const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
-  if (!over || along_u < chain_end_u_) return place(along_u);
+  if (!over || along_u < chain_end_u_) {
+    const Point here = place(along_u);
+    if (gone != nullptr) *gone = {.to_u = along_u, .last_piece = head_};
+    return here;
+  }
+  if (gone != nullptr) {
+    *gone = {.to_u = chain_end_u_,
+             .last_piece = (head_ + chain_count_ - 1) % kMaxPaths,
+             .chain_is_over = true,
+             .from_u = sample(tick - 1).position_u};
+  }
   ran_dry_ = keeps_speed_at_end();
   while (chain_count_ > 0) drop_front();
   if (count_ > 0) {

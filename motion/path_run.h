@@ -52,6 +52,8 @@ class PathRun {
   void append(const Path& path, Joint joint, Tick now);
   bool full() const { return count_ == kMaxPaths; }
   std::size_t queued() const { return count_; }
+  /// How many will be left after `tick`, if nothing is changed until then.
+  std::size_t queued_after(Tick tick) const;
 
   /// The speed of what runs and what comes. Before a run begins, and at any time after, from `now` on. Throws
   /// as motion/move.h's plan(), for a law that a chain of some length could not be planned with. Acceleration
@@ -96,8 +98,20 @@ class PathRun {
   Point velocity(Tick now) const;
   double chain_length_u() const { return chain_end_u_; }
 
+  /// What a tick has gone along: of a chain, from its place before the tick to its place after it.
+  struct Stretch {
+    double to_u = 0;
+    std::size_t last_piece = 0;  // where in the ring the path is on which it ends
+    // Where the chain ended in the tick; else the profile still knows.
+    bool chain_is_over = false;
+    double from_u = 0;
+  };
   /// One tick, in order. The place after it; where nothing runs, where the last path ended.
-  Point step(Tick tick);
+  Point step(Tick tick, Stretch* gone = nullptr);
+  /// Of the tick just stepped, until something else is asked of the run: where it began, and the place at
+  /// a length along the chain between there and `to_u`.
+  double began_at(const Stretch& gone, Tick tick) const;
+  Point place_on(const Stretch& gone, double along_u) const;
   /// Paths that were completed in the last tick.
   int completed() const { return completed_; }
   /// The path being run; of the queue's front.

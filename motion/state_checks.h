@@ -77,6 +77,7 @@ inline void check_restored(const Surroundings::Zone& zone) { demand_within(zone.
 inline void check_restored(const Surroundings& here) {
   demand_within(here.zone_count, 0, static_cast<std::int64_t>(Surroundings::kMaxZones));
   demand_within(here.index_period, INT64_MIN, INT64_MAX / 2);
+  demand_within(here.index_from, INT64_MIN, here.index_to);
 }
 
 inline void check_restored(const Follower& follower) {

@@ -142,7 +142,9 @@ struct StateOf<motion::Surroundings> {
                                             field("zones", &motion::Surroundings::zones),
                                             field("index_period", &motion::Surroundings::index_period),
                                             field("index_at", &motion::Surroundings::index_at),
-                                            field("index_width", &motion::Surroundings::index_width)};
+                                            field("index_width", &motion::Surroundings::index_width),
+                                            field("index_from", &motion::Surroundings::index_from),
+                                            field("index_to", &motion::Surroundings::index_to)};
   static void check(const motion::Surroundings& value) { motion::check_restored(value); }
 };
 
@@ -224,8 +226,11 @@ struct StateOf<motion::AxisSettings> {
       std::tuple{field("at_limit_plus", &motion::AxisSettings::at_limit_plus),
                  field("at_limit_minus", &motion::AxisSettings::at_limit_minus),
                  field("at_soft_limit", &motion::AxisSettings::at_soft_limit),
+                 field("at_soft_limit_minus", &motion::AxisSettings::at_soft_limit_minus),
                  field("at_alarm", &motion::AxisSettings::at_alarm),
                  field("at_emergency", &motion::AxisSettings::at_emergency),
+                 field("at_mark_on", &motion::AxisSettings::at_mark_on),
+                 field("at_mark_off", &motion::AxisSettings::at_mark_off),
                  field("needs_servo", &motion::AxisSettings::needs_servo),
                  field("waits_for_in_position", &motion::AxisSettings::waits_for_in_position),
                  field("raises", &motion::AxisSettings::raises),

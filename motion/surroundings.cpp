@@ -53,7 +53,8 @@ Signals Surroundings::at(std::int64_t travel, Signals before) const {
                            travel <= bounded_difference(zone.to, -slack);
     if (is_inside) on |= bit(zone.signal);
   }
-  if (index_period > 0 && index_phase(*this, travel) < index_width) on |= bit(Signal::index);
+  const std::int64_t seen_at = std::clamp(travel, index_from, index_to);
+  if (index_period > 0 && index_phase(*this, seen_at) < index_width) on |= bit(Signal::index);
   return on;
 }
 
@@ -83,12 +84,17 @@ std::optional<std::int64_t> Surroundings::steps_until_change(std::int64_t travel
     consider_ends(bounded_difference(zone.from, zone.slack), bounded_difference(zone.to, -zone.slack));
   }
   if (index_period > 0 && index_width > 0 && index_width < index_period) {
-    const std::int64_t phase = index_phase(*this, travel);
-    if (direction > 0) {
-      consider(phase < index_width ? index_width - phase : index_period - phase);
-    } else {
-      consider(phase < index_width ? phase + 1 : phase - (index_width - 1));
-    }
+    // Up to where it begins to change with the place nothing does, and nothing beyond the other end.
+    const std::int64_t begin = std::clamp(travel, index_from, index_to);
+    const std::int64_t phase = index_phase(*this, begin);
+    const bool is_on = phase < index_width;
+    const std::int64_t steps = direction > 0 ? (is_on ? index_width : index_period) - phase
+                                             : (is_on ? phase + 1 : phase - (index_width - 1));
+    const std::int64_t on_the_way =
+        direction > 0 ? bounded_difference(begin, travel) : bounded_difference(travel, begin);
+    const std::int64_t to_its_end =
+        direction > 0 ? bounded_difference(index_to, begin) : bounded_difference(begin, index_from);
+    if (on_the_way >= 0 && steps <= to_its_end) consider(bounded_difference(steps, -on_the_way));
   }
   return nearest;
 }

@@ -49,6 +49,9 @@ struct Surroundings {
   std::int64_t index_period = 0;
   std::int64_t index_at = 0;
   std::int64_t index_width = 1;
+  // Beyond these two it stays as it is at them: the machine goes no farther, however many pulses are made.
+  std::int64_t index_from = INT64_MIN;
+  std::int64_t index_to = INT64_MAX;
 
   bool operator==(const Surroundings&) const = default;
 

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "pty/line_observer.h"
 
@@ -21,8 +22,11 @@ std::string text_of(std::span<const Strike> strikes) {
 
 std::string comment_of(const CapturedPacket& packet) {
   std::string text(text_of(packet.remark));
-  if (!text.empty() && !packet.faults.empty()) text += "; ";
-  return text += packet.faults;
+  for (const std::string_view more : {packet.faults, packet.command}) {
+    if (!text.empty() && !more.empty()) text += "; ";
+    text += more;
+  }
+  return text;
 }
 
 }  // namespace understudy::pty

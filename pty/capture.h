@@ -49,6 +49,7 @@ struct CapturedPacket {
   bool is_text = false;  // of a line of text, and no Modbus frame
   std::string_view
       faults{};  // what they have done to it; without bytes: to one that was dropped, or already seen
+  std::string_view command{};  // what it means, where that has a name: "mill: MOVE X 1000"
 };
 
 /// "fault 1 drop: not said; fault 2 delay: said later".

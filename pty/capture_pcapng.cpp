@@ -50,7 +50,7 @@ void put_big_endian(std::string& to, Number number) {
   for (std::size_t i = sizeof(Number); i-- > 0;) to += static_cast<char>(number >> (8 * i));
 }
 
-/// Everything but the numbers inside a block is filled up to 32 bits.
+/// Everything but the numbers inside a block is padded to 32 bits.
 void put_padded(std::string& to, std::string_view bytes) {
   to += bytes;
   to.append((4 - bytes.size() % 4) % 4, '\0');

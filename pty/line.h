@@ -65,7 +65,7 @@ class Line {
   /// they were added.
   void add_observer(LineObserver& observer);
   void remove_observer(LineObserver& observer);
-  /// Lets them know about it; nothing else happens.
+  /// Lets them know of it; it has no other effect.
   void tell_strike(const StruckMessage& message);
 
   // --- the host's side -----------------------------------------------------------------------

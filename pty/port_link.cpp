@@ -22,7 +22,7 @@ namespace {
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
-/// Where a symbolic link points; empty if `path` is none.
+/// Where a symbolic link points; empty if `path` is not one.
 std::string link_target(const std::string& path) {
   std::array<char, PATH_MAX> target{};
   const ssize_t size = ::readlink(path.c_str(), target.data(), target.size());
@@ -31,7 +31,7 @@ std::string link_target(const std::string& path) {
 
 const std::string kExpected = ", not a link of ours; expected a free path or a stale link";
 
-/// Throws if there is something else than a link.
+/// Throws if there is something other than a link.
 void demand_link_or_nothing(const std::string& path, const std::string& absolute_path) {
   struct stat status = {};
   if (::lstat(absolute_path.c_str(), &status) != 0 || S_ISLNK(status.st_mode)) return;

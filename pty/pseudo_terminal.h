@@ -36,7 +36,7 @@ class PseudoTerminal {
   /// At most bytes.size() bytes; 0 when there is none now. Never blocks.
   std::size_t read(std::span<std::uint8_t> bytes);
   /// How many the kernel took; less than offered when nobody reads. Never blocks. While no host has the line
-  /// open everything is taken and lost: nobody shall find it there later.
+  /// open everything is taken and lost: nobody must find it there later.
   std::size_t write(std::span<const std::uint8_t> bytes);
 
   /// What has happened since the last call. Both may be true; host_present() says which came last.

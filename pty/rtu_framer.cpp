@@ -152,7 +152,7 @@ void RtuFramer::search() {
     const Verdict verdict = judge(bytes(candidate, used()), candidate > state_.undecided);
     if (verdict.fit == Fit::waiting) {
       state_.look_again_at = verdict.size;
-      // What precedes a candidate is kept for the case that the whole is one frame of unknown length.
+      // What precedes a candidate is kept in case the whole is one frame of unknown length.
       // It cannot be one any more when it is too long, and that bounds the undecided part.
       if (undecided().size > kRtuMaxFrame) give_up_as_overlong(candidate);
       return;
@@ -169,7 +169,7 @@ void RtuFramer::search() {
   if (undecided().size > kRtuMaxFrame) give_up_as_overlong(used());
 }
 
-/// What of this lump comes later is part of the same error.
+/// Whatever comes later in this lump is part of the same error.
 void RtuFramer::give_up_as_overlong(Index index) {
   const auto count = static_cast<std::uint64_t>(index - state_.undecided);
   if (count == 0) return;
@@ -214,7 +214,7 @@ void RtuFramer::decide_up_to(Index index) {
   forget_served();
 }
 
-/// What of the undecided part lies before `index` is no frame.
+/// What lies before `index` in the undecided part is not a frame.
 void RtuFramer::drop_up_to(Index index) {
   const auto noise = bytes(state_.undecided, index);
   state_.undecided = index;

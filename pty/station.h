@@ -53,8 +53,8 @@ class Station {
   /// Nothing more has come for a while although the clock stands: what is incomplete is given up.
   virtual void hear_nothing_more() {}
 
-  /// When run() wants to be called next; nothing if it waits for bytes only. What changes it otherwise than
-  /// by a call of the line must tell the line (Line::due_changed).
+  /// When run() wants to be called next; nothing if it waits for bytes only. Whatever changes it other than
+  /// a call from the line must tell the line (Line::due_changed).
   virtual std::optional<SimTime> due() const = 0;
 
   /// Called at due() (never earlier). A frame that ended is served here, at its own time. Afterwards

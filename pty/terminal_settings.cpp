@@ -1,6 +1,6 @@
 #include "pty/terminal_settings.h"
 
-// The kernel's own structure has any speed as a number; libc's <termios.h> has not, and cannot be included
+// The kernel's own structure holds any speed as a number; libc's <termios.h> does not, and cannot be included
 // beside it. Hence this file.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>

@@ -19,7 +19,7 @@ std::optional<HostSettings> host_settings_of(int descriptor);
 /// a request. The rest is up to the host (a text host may want whole lines).
 std::optional<HostSettings> take_host_settings(int descriptor);
 
-/// Raw, 8 bits, at the resting speed: what a host finds that sets nothing.
+/// Raw, 8 bits, at the resting speed: what a host that sets nothing finds.
 bool is_at_rest(int descriptor);
 /// False if the kernel refused.
 bool rest(int descriptor);

@@ -21,7 +21,7 @@ namespace understudy::pty {
 struct TextLineRules {
   std::size_t longest = 127;             // characters of a line, its end not counted
   bool echoes = false;                   // each character is sent back, and BS and DEL edit
-  bool line_feed_ends = true;            // an LF alone ends a line; false: an LF is nothing wherever it comes
+  bool line_feed_ends = true;            // an LF alone ends a line; false: an LF is ignored wherever it comes
   bool has_flow_control = false;         // XOFF and XON
   std::string_view echoed_end = "\r\n";  // what is sent back for the end of a line
 };

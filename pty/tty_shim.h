@@ -3,7 +3,8 @@
 
 namespace understudy::shim {
 
-/// The number of the pseudo-terminal whose slave it is; -1: it is none. From outside, every one may be ours.
+/// The number of the pseudo-terminal whose slave it is; -1 if it is not one. From outside, any of them may be
+/// ours.
 int pseudo_terminal_number(int descriptor);
 
 }  // namespace understudy::shim

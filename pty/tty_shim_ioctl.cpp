@@ -33,7 +33,7 @@ constexpr int kMostPseudoTerminals = 4096;  // the kernel's own limit, unless it
 Remembered remembered[kMostPseudoTerminals];
 
 int call_real(int descriptor, unsigned long request, void* argument) {
-  // A static of a plain type: no guard, so no need of the C++ library.
+  // A static of a plain type: no guard, so no need for the C++ library.
   static Ioctl found = nullptr;
   if (found == nullptr) found = reinterpret_cast<Ioctl>(dlsym(RTLD_NEXT, "ioctl"));
   if (found == nullptr) return static_cast<int>(syscall(SYS_ioctl, descriptor, request, argument));

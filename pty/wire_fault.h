@@ -1,6 +1,6 @@
 // What a bad line does to a message, whatever the protocol: small stages, through which it goes in order.
 //
-//   message ──> stage ──> stage ──> pieces, each with the time that it is late by
+//   message ──> stage ──> stage ──> pieces, each with how late it is
 #pragma once
 
 #include <cstddef>

@@ -35,7 +35,7 @@ class BackgroundWriter {
 
   struct Failure {
     int error = 0;           // of the write that failed; 0 if none has
-    std::uint64_t lost = 0;  // pieces that were taken and not written for it
+    std::uint64_t lost = 0;  // pieces that were taken but, because of it, not written
   };
   Failure failure() const;
 
@@ -46,7 +46,7 @@ class BackgroundWriter {
   };
 
   void run();
-  /// Until one fails; how many were written.
+  /// Writes pieces until one fails; returns how many were written.
   std::size_t write(const Pieces& pieces, int& error) const;
 
   const std::size_t capacity_;

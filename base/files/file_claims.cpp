@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinksFollowed = 40;  // that lead to one another, as Linux has it
+constexpr int kMostLinksFollowed = 40;  // from one to the next, as many as Linux follows
 
 /// The file that is made or written when the path is opened.
 std::string target_of(const std::string& path) {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // that lead to one another, as Linux has it
+constexpr int kMostLinks = 40;  // from one to the next, as many as Linux follows
 
 std::string error_text(int error) { return std::generic_category().message(error); }
 
@@ -64,7 +64,7 @@ std::string output_target(const std::string& path) {
     demand_own_way(target);
     struct stat status = {};
     if (::lstat(target.c_str(), &status) != 0) {
-      if (errno == ENOENT) return target.string();  // free, or whoever makes it is told what is missing
+      if (errno == ENOENT) return target.string();  // free; if a folder is missing, opening it says so
       throw OutputError(error_text(errno));
     }
     if (S_ISREG(status.st_mode) && is_left_by_a_stranger(target, status)) {

@@ -21,7 +21,7 @@ std::string first_difference(const T& a, const T& b, const std::string& path = "
 
 namespace state_fields {
 
-/// "path: this against that"; without a path what stands behind it.
+/// "path: this against that"; without a path, only what follows it.
 std::string told(const std::string& path, const std::string& a, const std::string& b);
 std::string told(const std::string& path, const std::string& what);
 /// "path.name", "path[name]".

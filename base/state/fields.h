@@ -15,9 +15,9 @@
 // makes its StateOf a friend, which names them in a structured binding (they cannot be counted otherwise) and
 // says how many there are, `members`, and how many of them are not a part of its state, `apart`.
 //
-// What lies in memory otherwise than it is saved (a ring, a program that is kept as its lines) has a pair of
-// its own instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may have `fields` as
-// well, or `told(value)`, by which two of it are compared. StateHeldBy (state_bytes.h) is such a pair.
+// What lies in memory differently from how it is saved (a ring, a program that is kept as its lines) has a
+// pair of its own instead, `write(const T&, StateWriter&)` and `read(T&, StateReader&)`. It may have `fields`
+// as well, or `told(value)`, by which two values are compared. StateHeldBy (state_bytes.h) is such a pair.
 #pragma once
 
 #include <cstddef>

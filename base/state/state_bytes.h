@@ -83,7 +83,7 @@ auto as_bits(T value) {
 template <class T>
 using Bits = decltype(as_bits(T{}));
 
-/// Numbers of which any bits are one, saved as a machine of little endian has them in memory.
+/// Numbers for which any bits are a value, saved as a little-endian machine has them in memory.
 template <class T>
 inline constexpr bool kIsAsInMemory =
     std::endian::native == std::endian::little&& std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;

@@ -42,7 +42,7 @@ std::uint64_t letters_of(std::string_view word) {
   return letters;
 }
 
-/// No distance is less: each letter that is missing, or too many, is a change.
+/// A lower bound of the distance: each letter that is missing, or too many, is a change.
 std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::string_view b) {
   const std::size_t longer = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
   const std::uint64_t letters_of_b = letters_of(b);
@@ -50,8 +50,8 @@ std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::
                    static_cast<std::size_t>(std::popcount(letters_of_b & ~letters_of_a))});
 }
 
-/// Levenshtein's distance, where two neighbours that are swapped count once; `limit` where it is no less. A
-/// row is about a longer and longer beginning of `b`; each of its cells about one of `a`, in small letters.
+/// Levenshtein's distance, where two neighbours that are swapped count once; `limit` if it is at least that.
+/// A row is about a longer and longer beginning of `b`; each of its cells about one of `a`, in small letters.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
   using Row = std::array<std::size_t, kLongestWord + 1>;
   std::array<Row, 3> rows;

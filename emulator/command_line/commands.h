@@ -166,12 +166,14 @@ void start_page_beside(const std::string& control, int port);
 struct PollArguments {
   std::string port;
   int station = 1;
-  int baud = 19200;
-  std::string parity = "even";
-  int stop_bits = 1;
+  // 0 or empty: as the model's port has them, without one 19200 8E1.
+  int baud = 0;
+  std::string parity;
+  int stop_bits = 0;
   std::string model;
   int function = 3;
   std::string type = "u16";
+  std::string word_order;  // "low" or "high" first; empty: the model's, or the device's
   std::string timeout = "1s";
   std::string every;
   int times = 1;

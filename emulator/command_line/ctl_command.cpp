@@ -145,6 +145,11 @@ Json message_for(const ControlArguments& arguments) {
     if (arguments.operands.size() > 2) throw UsageError("ctl program: expected a device and a listing");
     if (!arguments.operands.empty()) message["device"] = arguments.operands.front();
     if (arguments.operands.size() == 2) message["text"] = listing_of(arguments.operands.back());
+  } else if (verb == "command") {
+    if (arguments.operands.empty() || arguments.operands.size() > 2)
+      throw UsageError("ctl command: expected a device and a command in quotes, such as cell 'MOVE X 1000'");
+    if (arguments.operands.size() == 2) message["device"] = arguments.operands.front();
+    message["text"] = arguments.operands.back();
   } else if (verb == "inject") {
     if (arguments.operands.size() < 2) throw UsageError("ctl inject: expected a fault and where");
     message["fault"] = fault_of(arguments.operands);

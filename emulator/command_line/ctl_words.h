@@ -22,6 +22,8 @@ inline constexpr std::array kControlWords{
                 "Such as feeder.DIN_10=1, feeder.AIN_A=2.5V, feeder.DIP1=on"},
     ControlWord{"turn", "Turn hand wheels and what else is counted", "NAME=COUNTS",
                 "Such as mill.MPG=400, and in=2s for the time that it takes"},
+    ControlWord{"command", "Give a device a command by its name", "WHAT",
+                "DEVICE, and 'MOVE X 1000' in quotes"},
     ControlWord{"power", "Switch a device off or on, or off and on again", "WHAT",
                 "DEVICE, and on, off or cycle"},
     ControlWord{"program", "Load a program, or print the one there is", "WHAT",

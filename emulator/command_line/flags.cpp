@@ -284,16 +284,17 @@ struct CommandLine {
     command->add_option("PORT", poll.port, "A serial port or a link to one")->required();
     command->add_option("ITEM", poll.items,
                         "NAME, ADDRESS or ADDRESS:COUNT to read; NAME=VALUE or ADDRESS=VALUE to write");
-    command
-        ->add_option("--command", poll.commands,
-                     "A command by the model's name for it, sent before the items")
+    command->add_option("--command", poll.commands, "A command by the model's name, sent before the items")
         ->check(kNotEmpty)
         ->allow_extra_args(false);
     command->add_option("--station", poll.station, "Station to ask")->capture_default_str();
     command->add_option("--model", poll.model, "Model whose names to use")->check(kNotEmpty);
-    command->add_option("--baud", poll.baud, "Line speed")->capture_default_str();
-    command->add_option("--parity", poll.parity, "even, odd or none")->capture_default_str();
-    command->add_option("--stop-bits", poll.stop_bits, "1 or 2")->capture_default_str();
+    command->add_option("--word-order", poll.word_order, "low or high word first; else as the device has it")
+        ->check(kNotEmpty);
+    command->add_option("--baud", poll.baud, "Line speed; without it the model's, or 19200");
+    command->add_option("--parity", poll.parity, "even, odd or none; without it the model's, or even")
+        ->check(kNotEmpty);
+    command->add_option("--stop-bits", poll.stop_bits, "1 or 2; without it the model's, or 1");
     command
         ->add_option(
             "--function", poll.function,

@@ -16,7 +16,7 @@ namespace understudy::emulator::command_line {
 
 namespace {
 
-/// Standard error, never waited for: a reader that has stopped reading costs lines, not the devices' time.
+/// Standard error, never waited for: a reader that stops reading costs lines, not the devices' time.
 class UnblockingStandardError final : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override {

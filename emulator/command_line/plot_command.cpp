@@ -71,7 +71,7 @@ int run_gnuplot(WorkFolder& folder) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// The line of what gnuplot has said that tells most: the last one with words in it.
+/// The most telling line of what gnuplot has said: the last one with words in it.
 std::string complaint_in(const std::string& text) {
   std::string complaint = "it said nothing";
   for (std::size_t begin = 0; begin < text.size();) {

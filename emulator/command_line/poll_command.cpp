@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -42,6 +43,7 @@ struct Item {
   int bit = -1;
   int bits = 1;  // from there on
   bool low_word_first = true;
+  bool is_a_half = false;  // of a register of 32 bits
   bool write = false;
   std::int64_t value = 0;
   std::string range{};                   // that the table gives a register, if it does
@@ -94,8 +96,11 @@ void read_value_of(Item& item, const std::string& text) {
   item.value = value_of_real(single);
 }
 
-Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments) {
+/// `low_word_first`: the order of words, if it is known better than by the model's table.
+Item parse_item(ModelList models, const std::string& text, const PollArguments& arguments,
+                std::optional<bool> low_word_first) {
   Item item;
+  if (low_word_first) item.low_word_first = *low_word_first;
   const std::size_t equals = text.find('=');
   const std::string what = text.substr(0, equals);
   item.label = what;
@@ -128,7 +133,7 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   const Model& model = demand_model(models, arguments.model);
   if (!model.rtu || model.registers == nullptr) {
     throw UsageError("poll: " + std::string(model.name) + " speaks " + std::string(model.line.protocol.name) +
-                     ", no Modbus; expected a model with registers, or a terminal program");
+                     ", not Modbus; expected a model with registers, or a terminal program");
   }
   const auto found = find_register(model, what, model.firmwares.back());
   if (!found) {
@@ -139,8 +144,9 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   const bool is_input_by_function =
       place.row->table == Table::holding && arguments.function == 4 && !model.registers->has(Table::input);
   item.table = is_input_by_function && text == what ? Table::input : place.row->table;
-  item.low_word_first = model.registers->policy().low_word_first;
+  item.low_word_first = low_word_first.value_or(model.registers->policy().low_word_first);
   item.type = place.part == Place::Part::whole ? place.row->type : Type::u16;
+  item.is_a_half = place.part != Place::Part::whole;
   const bool second =
       place.part != Place::Part::whole && (place.part == Place::Part::high) == item.low_word_first;
   item.address = static_cast<std::uint16_t>(place.address() + (second ? 1 : 0));
@@ -153,13 +159,16 @@ Item parse_item(ModelList models, const std::string& text, const PollArguments& 
   return item;
 }
 
-Item command_item(ModelList models, const std::string& text, const PollArguments& arguments) {
+Item command_item(ModelList models, const std::string& text, const PollArguments& arguments,
+                  std::optional<bool> low_word_first) {
   if (arguments.model.empty()) throw UsageError("poll: --command: expected --model MODEL beside it");
   const Model& model = demand_model(models, arguments.model);
-  const bool is_low_word_first = model.registers != nullptr && model.registers->policy().low_word_first;
+  const bool is_by_table_low_first = model.registers != nullptr && model.registers->policy().low_word_first;
   try {
-    WindowMessage message = window_message(
-        model, text, {.firmware = model.firmwares.back(), .low_word_first = is_low_word_first});
+    WindowMessage message =
+        window_message(model, text,
+                       {.firmware = model.firmwares.back(),
+                        .low_word_first = low_word_first.value_or(is_by_table_low_first)});
     return {.label = text, .address = message.first, .write = true, .message = std::move(message.words)};
   } catch (const ProgramError& error) {
     throw UsageError("poll: " + quoted(text) + ": " + in_line(error.first()));
@@ -178,6 +187,24 @@ using Context = std::unique_ptr<modbus_t, ContextDeleter>;
 constexpr std::array kBauds{110,     300,     600,     1200,    2400,    4800,    9600,    19200,
                             38400,   57600,   115200,  230400,  460800,  500000,  576000,  921600,
                             1000000, 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
+
+/// What was not said of the line, as a device of the model has it.
+PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
+  pty::LineSettings line;
+  if (!arguments.model.empty()) {
+    const PortRow& port = demand_model(models, arguments.model).line.ports.front();
+    line = port.settings;
+    line.baud = port.bauds.front();
+  }
+  if (arguments.baud == 0) arguments.baud = line.baud;
+  if (arguments.stop_bits == 0) arguments.stop_bits = line.stop_bits;
+  if (arguments.parity.empty()) {
+    arguments.parity = line.parity == pty::Parity::none  ? "none"
+                       : line.parity == pty::Parity::odd ? "odd"
+                                                         : "even";
+  }
+  return arguments;
+}
 
 Context connect(const PollArguments& arguments) {
   const char parity = arguments.parity == "even"   ? 'E'
@@ -287,21 +314,61 @@ void demand_fitting(const Item& item) {
   }
 }
 
-}  // namespace
-
-int poll_port(ModelList models, const PollArguments& arguments) {
-  if (arguments.items.empty() && arguments.commands.empty())
-    throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
+/// Of everything that is polled: `low_word_first` as above.
+std::vector<Item> items_of(ModelList models, const PollArguments& arguments,
+                           std::optional<bool> low_word_first) {
   std::vector<Item> items;
-  for (const std::string& text : arguments.commands) items.push_back(command_item(models, text, arguments));
+  for (const std::string& text : arguments.commands) {
+    items.push_back(command_item(models, text, arguments, low_word_first));
+  }
   for (const std::string& text : arguments.items) {
-    items.push_back(parse_item(models, text, arguments));
+    items.push_back(parse_item(models, text, arguments, low_word_first));
     demand_fitting(items.back());
     if (arguments.station == 0 && !items.back().write) {
       throw UsageError(
           "--station: 0 is a broadcast, which nobody answers; expected writes only, or 1 to 247");
     }
   }
+  return items;
+}
+
+/// As it is given; nothing if it is not.
+std::optional<bool> given_word_order(const PollArguments& arguments) {
+  if (arguments.word_order.empty()) return std::nullopt;
+  if (arguments.word_order == "low") return true;
+  if (arguments.word_order == "high") return false;
+  throw UsageError("--word-order: " + quoted(arguments.word_order) + " is unknown; expected low or high");
+}
+
+/// The register in which a device keeps the order of words, if anything polled depends on it, and it is not
+/// known.
+std::optional<Item> word_order_item(ModelList models, const PollArguments& arguments,
+                                    const std::vector<Item>& items) {
+  const bool matters = std::any_of(items.begin(), items.end(), [](const Item& item) {
+    return !item.message.empty() || is_32_bit(item.type) || item.is_a_half;
+  });
+  if (!matters || arguments.model.empty() || !arguments.word_order.empty()) return std::nullopt;
+  if (arguments.station == 0) return std::nullopt;  // nobody would answer
+  const Model& model = demand_model(models, arguments.model);
+  if (model.registers == nullptr || model.registers->policy().word_order_in.empty()) return std::nullopt;
+  const std::string name(model.registers->policy().word_order_in);
+  const auto found = find_register(model, name, model.firmwares.back());
+  if (!found) return std::nullopt;
+  return Item{.label = name, .table = found->place.row->table, .address = found->place.address()};
+}
+
+void keep_silent(const PollArguments& arguments) {
+  // Whatever was said before, a device needs that silence to know that a frame has ended.
+  std::this_thread::sleep_for(play::silence_between_frames({.baud = arguments.baud}));
+}
+
+}  // namespace
+
+int poll_port(ModelList models, const PollArguments& given) {
+  const PollArguments arguments = with_line_of_model(models, given);
+  if (arguments.items.empty() && arguments.commands.empty())
+    throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
+  std::vector<Item> items = items_of(models, arguments, given_word_order(arguments));
   SimTime every{0};
   if (!arguments.every.empty()) {
     const auto parsed = parse_duration(arguments.every);
@@ -315,11 +382,20 @@ int poll_port(ModelList models, const PollArguments& arguments) {
                  one_line(arguments.port).c_str(), modbus_strerror(errno));
     return kExitNoResource;
   }
+  if (const auto order = word_order_item(models, arguments, items)) {
+    std::uint16_t word = 0;
+    keep_silent(arguments);
+    if (modbus_read_registers(context.get(), order->address, 1, &word) < 0) {
+      std::fprintf(stderr, "understudy: poll: %s, the order of words: %s (--word-order says it)\n",
+                   order->label.c_str(), modbus_strerror(errno));
+      return kExitFailed;
+    }
+    items = items_of(models, arguments, word == 1);
+  }
   for (int round = 0; round < arguments.times || arguments.times == 0; ++round) {
     if (round > 0) std::this_thread::sleep_for(every);
     for (const Item& item : items) {
-      // Whatever was said before, a device needs that silence to know that a frame has ended.
-      std::this_thread::sleep_for(play::silence_between_frames({.baud = arguments.baud}));
+      keep_silent(arguments);
       const bool good = item.write ? write_item(context.get(), item) : read_item(context.get(), item);
       const bool is_broadcast = arguments.station == 0 && errno == ETIMEDOUT;  // nobody answers that
       if (good || is_broadcast) continue;

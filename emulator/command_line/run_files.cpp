@@ -49,7 +49,7 @@ struct FileKind {
   std::string RunFolders::*folder;
   std::string play::ScenarioResult::*place;
   const char* ending;
-  std::array<const char*, 3> of_files;  // no folder is called so
+  std::array<const char*, 3> of_files;  // no folder has such a name
 };
 constexpr FileKind kRecording{
     "--record", &RunFolders::recordings, &play::ScenarioResult::recording, ".jsonl", {".jsonl"}};

@@ -1,4 +1,4 @@
-// What of a device's state is every model's: its inputs, its power, its time.
+// The part of a device's state that all models share: its inputs, its power, its time.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -98,14 +98,14 @@ std::string Device::state_difference(std::span<const std::byte> a, std::span<con
   return state_difference(StateReader(a), StateReader(b));
 }
 
-std::string Device::state_difference(StateReader of_a, StateReader of_b) const {
+std::string Device::state_difference(StateReader a, StateReader b) const {
   Common common_a = copy_fields(*this);
   Common common_b = common_a;
-  read_common(model_, of_a, common_a);
-  read_common(model_, of_b, common_b);
-  const std::string own = own_difference(of_a, of_b);
-  of_a.demand_end();
-  of_b.demand_end();
+  read_common(model_, a, common_a);
+  read_common(model_, b, common_b);
+  const std::string own = own_difference(a, b);
+  a.demand_end();
+  b.demand_end();
   const std::string common = difference_of_copies<Device>(common_a, common_b, "");
   return common.empty() ? own : common;
 }

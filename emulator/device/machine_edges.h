@@ -1,7 +1,7 @@
-// Where along an axis the switches of its machine change the levels of inputs: what a device is told that
-// meets edges at the pulse where they lie (Axes::meets_edges()). An input that is not here has its level,
-// wherever the axis is: it is wired to no switch, or held, stuck, or on by a wire as well; or pulses are
-// being lost.
+// Where along an axis the switches of its machine change the levels of inputs: this is what a device that
+// meets edges at the pulse where they lie is told (Axes::meets_edges()). An input that is not here has its
+// level, wherever the axis is: it is wired to no switch, or held, stuck, or on by a wire as well; or pulses
+// are being lost.
 #pragma once
 
 #include <array>
@@ -27,6 +27,9 @@ struct MachineEdges {
     std::int64_t at = 0;
     std::int64_t width = 1;
     std::int64_t period = 0;  // 0: there is none
+    // The machine's stops: beyond them it is as it is there.
+    std::int64_t first = INT64_MIN;
+    std::int64_t last = INT64_MAX;
     bool operator==(const Index&) const = default;
   };
   static constexpr std::size_t kMostSpans = 5;
@@ -52,6 +55,8 @@ struct MachineEdges {
       made.spans[i].last = -spans[i].first;
     }
     made.index.at = -index.at - (index.width - 1);
+    made.index.first = index.last == INT64_MAX ? INT64_MIN : -index.last;
+    made.index.last = index.first == INT64_MIN ? INT64_MAX : -index.first;
     return made;
   }
 };

@@ -241,21 +241,28 @@ void load_memory(Device& device, const NvImage& image) {
 /// What its model's tables list can be reached.
 void demand_facets(const Device& device) {
   const Model& model = device.model();
+  const auto demand = [&](bool is_there, std::string_view what) {
+    if (!is_there) throw std::logic_error(std::string(model.name) + ": lacks " + std::string(what));
+  };
+  const auto find = [&](std::string_view name) { return find_register(model, name, device.firmware()); };
+  demand(!model.line.ports.empty(), "a port on its line");
   const auto& numbers = model.line.station_numbers;
-  if (numbers && !numbers->kept_in.empty() && !find_register(model, numbers->kept_in, device.firmware()))
-    throw std::logic_error(std::string(model.name) + ": lacks the register of its station number");
-  const bool is_whole = (model.registers == nullptr || device.register_bank() != nullptr) &&
-                        (model.terminals.empty() || device.terminals() != nullptr) &&
-                        (model.axes.empty() || device.axes() != nullptr) &&
-                        model.rtu.has_value() == (device.modbus() != nullptr) && !model.line.ports.empty();
-  const auto window = model.window == nullptr
-                          ? std::nullopt
-                          : find_register(model, model.window->register_name(), device.firmware());
-  if (model.window != nullptr && (!window || window->place.row->table != Table::holding))
-    throw std::logic_error(std::string(model.name) + ": lacks the register of its window");
-  const bool takes_programs = (model.language != nullptr) == (device.user_program() != nullptr);
-  if (!is_whole || !takes_programs)
-    throw std::logic_error(std::string(model.name) + ": lacks a facet that its tables need");
+  demand(!numbers || numbers->kept_in.empty() || find(numbers->kept_in),
+         "the register of its station number");
+  if (model.window != nullptr) {
+    const auto window = find(model.window->register_name());
+    demand(window && window->place.row->table == Table::holding, "the register of its window");
+  }
+  demand(model.registers == nullptr || device.register_bank() != nullptr,
+         "the facet RegisterBankOf, for its registers");
+  demand(model.terminals.empty() || device.terminals() != nullptr, "the facet Terminals, for its terminals");
+  demand(model.axes.empty() || device.axes() != nullptr, "the facet Axes, for its axes");
+  demand(!model.rtu || device.modbus() != nullptr, "the facet ModbusStation, for its `rtu`");
+  demand(model.rtu || device.modbus() == nullptr, "an `rtu`, for its facet ModbusStation");
+  demand(model.language == nullptr || device.user_program() != nullptr,
+         "the facet UserProgram, for its `language`");
+  demand(model.language != nullptr || device.user_program() == nullptr,
+         "a `language`, for its facet UserProgram");
   for (const TerminalGroup& group : model.terminal_groups) {
     const auto rows = model.terminals.subspan(static_cast<std::size_t>(group.first));
     bool is_alike = group.count >= 1 && group.count <= TerminalGroup::kMost &&

@@ -1,5 +1,5 @@
-// What a device without registers has by name (T2PE, R3), for scenarios, traces and the control socket. They
-// do not use the line, so they take no time and leave no trace in the dialogue. A facet:
+// What a device without registers knows by name (T2PE, R3), for scenarios, traces and the control socket.
+// They do not use the line, so they take no time and leave no trace in the dialogue. A facet:
 // Device::named_values() is null where a device has none.
 #pragma once
 

@@ -179,7 +179,7 @@ bool FaultWatch::is_request_hit(std::size_t number, ArmedFault& armed, const Hea
   return frame.last_character == course.judged_character && course.was_hit;
 }
 
-/// Whoever looks at the line is told, and nothing else comes of it.
+/// Whoever looks at the line is told; it has no other effect.
 void FaultWatch::tell(const HeardFrame& frame, bool is_reply, bool is_said,
                       std::span<const pty::Strike> strikes) {
   if (strikes.empty()) return;
@@ -207,7 +207,7 @@ std::vector<pty::WireFault> FaultWatch::on_request(const HeardFrame& frame) {
     if (!is_request_hit(number, armed, frame)) continue;
     if (is_news) strikes.push_back(strike_of(number, armed.fault, true));
     stages.push_back(stage_of(armed.fault));
-    // What is dropped does not get to the stages behind.
+    // What is dropped does not reach the stages behind.
     if (stages.back().kind == pty::WireFault::Kind::drop) break;
   }
   tell(frame, false, false, strikes);

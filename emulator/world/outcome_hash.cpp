@@ -86,7 +86,8 @@ std::vector<OutcomeHash::Outputs> OutcomeHash::outputs_of(const Model& model) {
   return all;
 }
 
-/// All that have two levels in words of 64, the first in the highest place, and then what else they give.
+/// All that have two levels in words of 64, the first in the highest place, and then everything else that
+/// they give.
 void OutcomeHash::add_outputs(const Device& device, const std::vector<Outputs>& outputs) {
   constexpr int kBits = 64;
   std::uint64_t word = 0;

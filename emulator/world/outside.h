@@ -22,7 +22,10 @@ class OutsideListener {
   virtual void on_write(std::size_t device, const PreparedWrite& write) = 0;
   /// A value given by name to a device without registers.
   virtual void on_assign(std::size_t device, std::string_view name, double value) = 0;
-  virtual void on_program(std::size_t device, std::string_view text) = 0;
+  /// It has been given to the device, which took it or not.
+  virtual void on_program(std::size_t device, std::string_view text, bool is_refused) = 0;
+  /// A command by its name, past the line.
+  virtual void on_command(std::size_t device, std::string_view text) = 0;
   /// A fault of the machine or of a device begins or ends. It follows from the rest: not for recordings.
   virtual void on_fault(std::size_t /*number*/, bool /*in_force*/) {}
 };

@@ -252,7 +252,7 @@ WorldState save(const World& world) {
 
 std::function<void()> read_state(World& world, const WorldState& state) {
   Parts parts(state);
-  auto [values, machines] = parts.read("world", [&](StateReader reader) {
+  auto own = parts.read("world", [&](StateReader reader) {
     WorldValues of_world = read_values(world, reader);
     Machines of_machines = read_machines(world, reader);
     reader.demand_end();
@@ -287,7 +287,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
   });
   parts.demand_end();
 
-  return [&world, values = std::move(values), machines = std::move(machines),
+  return [&world, values = std::move(own.first), machines = std::move(own.second),
           put_devices = std::move(put_devices), lines = std::move(lines),
           put_stations = std::move(put_stations), ticks = std::move(ticks)] {
     assign_fields(world, values);

@@ -15,6 +15,7 @@
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
 #include "emulator/device/axes.h"
+#include "emulator/device/command_window.h"
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/named_values.h"
@@ -35,7 +36,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-/// Devices that are made one after the other lie one behind the other, with what belongs to them between.
+/// Devices that are made one after another lie one behind another, with what belongs to them in between.
 void keep_together(const std::vector<std::unique_ptr<Device>>& devices) {
   constexpr std::size_t kCrowd = 100;
   constexpr std::ptrdiff_t kMostOfOne = std::ptrdiff_t{64} << 10;  // bytes; else something else lies between
@@ -390,17 +391,27 @@ std::optional<std::string> World::assign(std::size_t device, const std::string& 
 
 void World::load_program(std::size_t device, std::string_view text) {
   begin_act();
-  // Also one that will be refused: a device may show that it was.
-  if (devices_[device]->user_program() != nullptr) {
-    tell([&](OutsideListener& listener) { listener.on_program(device, text); });
-  }
+  // Also one that is refused, for its text or for what the device is doing: the device may show that it was.
+  const auto told = [&](bool is_refused) {
+    if (devices_[device]->user_program() != nullptr) {
+      tell([&](OutsideListener& listener) { listener.on_program(device, text, is_refused); });
+    }
+    look_for_speech(now_);
+  };
   try {
     emulator::load_program(*devices_[device], text);
   } catch (const ProgramError&) {
-    look_for_speech(now_);
+    told(true);
     throw;
   }
-  look_for_speech(now_);
+  told(false);
+}
+
+Objection World::command(std::size_t device, std::string_view text) {
+  begin_act();
+  const auto [first, words] = window_message(*devices_[device], text);
+  tell([&](OutsideListener& listener) { listener.on_command(device, text); });
+  return write_request(*devices_[device]->register_bank(), Table::holding, first, words);
 }
 
 void World::switch_power(std::size_t device, bool on) {

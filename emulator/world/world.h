@@ -97,7 +97,7 @@ class World final : public WorldView {
   void remove_observer(std::size_t line, pty::LineObserver& observer) {
     lines_[line]->line.remove_observer(observer);
   }
-  /// Lets them know of it; nothing else comes of it.
+  /// Lets them know of it; it has no other effect.
   void tell_strike(std::size_t line, const pty::StruckMessage& message) {
     lines_[line]->line.tell_strike(message);
   }
@@ -133,6 +133,9 @@ class World final : public WorldView {
   std::optional<std::string> assign(std::size_t device, const std::string& name, double value);
   /// Throws ProgramError.
   void load_program(std::size_t device, std::string_view text);
+  /// Gives a device a command by its name, past the line, as one message to its window
+  /// (emulator/device/command_window.h). Throws ProgramError for what is not one; says why it was refused.
+  Objection command(std::size_t device, std::string_view text);
   /// Between two ticks. What a device without power was saying ends at once. One whose power is cut has none
   /// until that is over, and then only if it is switched on.
   void switch_power(std::size_t device, bool on);

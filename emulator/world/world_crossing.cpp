@@ -35,7 +35,7 @@ class Machines final : public MachineAhead {
 
 }  // namespace
 
-/// The first tick at which something happens but that what moves goes on; not beyond `most` + 1.
+/// The first tick at which something happens besides motion that goes on; not beyond `most` + 1.
 Tick World::next_event_tick(Tick most) const {
   constexpr Tick kFarAhead = 1'000'000'000'000;  // so that closed forms stay within their numbers
   if (!input_turns_.empty()) return done_ + 1;

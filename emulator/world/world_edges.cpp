@@ -1,4 +1,4 @@
-// What devices are told that meet edges between ticks: where along an axis its machine's switches change the
+// What devices that meet edges between ticks are told: where along an axis its machine's switches change the
 // levels of inputs. It is told when it changes: when the machine loses pulses or finds them again, is pushed,
 // when a switch comes on or lets go, when an input is held, stuck or on by a wire.
 #include <algorithm>
@@ -26,6 +26,10 @@ MachineEdges World::edges_of(std::size_t device, std::size_t axis) const {
       const IndexSetup& index = *plant.setup().index;
       edges.index = {
           .input = wire.input, .at = index.at - origin, .width = index.width, .period = index.period};
+      if (const auto& stops = plant.setup().travel) {
+        edges.index.first = stops->first - origin;
+        edges.index.last = stops->last - origin;
+      }
     } else if (const auto way = plant.way_of(wire.contact)) {
       edges.spans[edges.span_count++] = {.input = wire.input,
                                          .level_inside = !way->opens,

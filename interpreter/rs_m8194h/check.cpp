@@ -1,6 +1,5 @@
 #include "interpreter/rs_m8194h/check.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -8,8 +7,10 @@
 #include <string_view>
 
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/operators.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {
@@ -90,6 +91,60 @@ std::optional<std::size_t> bad_radius(const Command& command) {
   return std::nullopt;
 }
 
+/// Ends that are printed as numbers, whatever MAX_V is (3.4, 3.17, 7.1): what the device else clamps.
+struct SpeedEnds {
+  Verb verb;
+  std::int64_t least;
+  std::int64_t most;
+};
+constexpr std::int64_t kMostSpeed = 4'000'000;
+constexpr std::int64_t kMostSlope = kMostSpeed * 125;
+constexpr SpeedEnds kSpeedEnds[] = {
+    {Verb::set_max_v, 8'000, kMostSpeed},
+    {Verb::exd_cp, 0, kMost},
+    {Verb::set_hv, 0, kMostSpeed},
+    {Verb::set_sv, 0, kMostSpeed},
+    {Verb::set_v, 0, kMostSpeed},
+    {Verb::change_vel_on_fly, 0, kMostSpeed},
+    {Verb::continue_move, -kMostSpeed, kMostSpeed},
+    {Verb::set_a, 8'000 / 64, kMostSlope},
+    {Verb::set_d, 8'000 / 64, kMostSlope},
+    {Verb::set_k, 96, kMost},  // 8,000 x 0.0119211
+    {Verb::set_l, 96, kMost},
+    {Verb::set_vsv, 0, kMostSpeed},
+    {Verb::set_vv, 0, kMostSpeed},
+    {Verb::set_va, 8'000 / 64, kMostSlope},
+    {Verb::set_vd, 8'000 / 64, kMostSlope},
+    {Verb::set_vk, 96, kMost},
+    {Verb::set_vl, 96, kMost},
+};
+
+std::optional<std::size_t> beyond_ends(const Command& command, std::size_t parameter, std::int64_t least,
+                                       std::int64_t most) {
+  const std::int64_t value = command.number(parameter);
+  if (is_reference(command, parameter) || (value >= least && value <= most)) return std::nullopt;
+  return parameter;
+}
+
+/// What only some options refuse.
+std::optional<std::size_t> bad_by_choice(const Command& command, const CommandOptions& options) {
+  const Verb verb = command.verb();
+  if (options.speeds_have_ends) {
+    for (const SpeedEnds& ends : kSpeedEnds) {
+      if (ends.verb != verb) continue;
+      return beyond_ends(command, command.row().parameter_count() - 1, ends.least, ends.most);
+    }
+  }
+  if (options.variables_have_ends && verb == Verb::write_var) return beyond_ends(command, 1, kLeast, kMost);
+  if (options.zero_moves_are_refused && verb == Verb::fixed_move && command.number(1) == 0) return 1;
+  if (options.helix_turns_forward_only && verb == Verb::helix_3d) {
+    return beyond_ends(command, place_of(command.row(), "cycle"), 0, kMost);
+  }
+  if (options.one_trigger_axis && verb == Verb::sync_action && !is_one_axis(command.number(0))) return 0;
+  if (options.outputs_are_of_x_and_y && verb == Verb::set_out && command.number(0) > 3) return 0;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::size_t> bad_parameter(const Command& command, const CommandOptions& options) {
@@ -98,7 +153,7 @@ std::optional<std::size_t> bad_parameter(const Command& command, const CommandOp
     if (!is_good(command, i)) return i;
   }
   if (command.verb() == Verb::rectangle && options.rectangle_corners_must_fit) return bad_radius(command);
-  return std::nullopt;
+  return bad_by_choice(command, options);
 }
 
 std::optional<std::size_t> bad_operand(const Command& command) {
@@ -145,6 +200,11 @@ std::string expected_of(const Command& command, std::size_t parameter) {
     case Kind::point_if_used: break;
   }
   if (row.width == Width::real) return "a real number";
+  // Good by itself: it is the sides that it does not fit.
+  const bool is_radius = command.verb() == Verb::rectangle && row.name == "Rp";
+  if (is_radius && row.lists(command.number(parameter)) && bad_radius(command)) {
+    return "at most half of Lp and of Wp";
+  }
   if (row.only == 0) return std::to_string(row.least) + " to " + std::to_string(row.most) + or_variable;
   std::string list;
   for (std::int64_t value = row.least; value <= row.most; ++value) {

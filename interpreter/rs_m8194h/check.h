@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,26 @@ namespace understudy::interpreter::rs_m8194h {
 struct CommandOptions {
   /// A rectangle whose corners do not fit its sides is refused, or left to whoever carries it out.
   bool rectangle_corners_must_fit = true;
+  /// Speeds, slopes and their rates beyond the ends that are printed as numbers are refused; else whoever
+  /// moves clamps them.
+  bool speeds_have_ends = false;
+  /// A variable is set within the range of positions only.
+  bool variables_have_ends = false;
+  /// A move of no distance, and a helix that turns back, are refused.
+  bool zero_moves_are_refused = false;
+  bool helix_turns_forward_only = false;
+  /// SYNC_ACTION has one trigger axis; SET_OUT knows X and Y.
+  bool one_trigger_axis = false;
+  bool outputs_are_of_x_and_y = false;
+  /// Which order of the letters of `<=` a message may have.
+  enum class Letters : std::uint8_t { either, as_in_the_frame, as_in_the_table };
+  Letters letters = Letters::either;
+  /// FRNET_OUT: a number that is a variable's address stands for it.
+  bool addresses_are_variables = false;
+  /// The six codes that 12.3 gives otherwise than chapter 7.
+  bool codes_of_12_3 = false;
+  /// Which of two faults answers.
+  bool state_before_code = false;
 
   bool operator==(const CommandOptions&) const = default;
 };

@@ -8,9 +8,11 @@
 
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/complete_table.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/machine.h"
@@ -14,6 +15,7 @@
 #include "interpreter/rs_m8194h/operators.h"
 #include "interpreter/rs_m8194h/resolve.h"
 #include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {
@@ -82,8 +84,12 @@ class LineRun {
     const std::int32_t right = value(command.values[2]);
     const std::size_t result = variable_number(command.values[3]);
     const bool is_defined = arithmetic != '/' || right != 0;
-    machine_.set_variable(result, is_defined ? calculate(arithmetic, value(command.values[0]), right) : 0);
-    return is_defined ? go_on() : fail(command, Fault::operand);
+    if (is_defined) {
+      machine_.set_variable(result, calculate(arithmetic, value(command.values[0]), right));
+      return go_on();
+    }
+    if (!options_.division_by_zero_keeps) machine_.set_variable(result, 0);
+    return fail(command, Fault::operand);
   }
 
   Ran read(const Command& command) {
@@ -96,7 +102,8 @@ class LineRun {
   // --- blocks ----------------------------------------------------------------------------------
 
   Ran begin_for(const Command& command) {
-    const std::int32_t passes = value(command.values[0]);
+    std::int32_t passes = value(command.values[0]);
+    if (options_.for_runs_once_at_least) passes = std::max(passes, 1);
     if (passes <= 0) return go_to(leads_to_);
     level().loops.push_back({level().line, passes});
     return go_on();
@@ -255,7 +262,7 @@ void hold(Run& run, Hold what, std::int64_t until_ms, std::uint32_t awaited) {
   run.saw_other_level = false;
 }
 
-bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, const Machine& machine) {
+bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine) {
   switch (run.hold) {
     case Hold::nothing:
     case Hold::machine: return true;
@@ -267,7 +274,13 @@ bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, const Mac
       const bool is_there = is_on == (run.awaited >> 16U != 0);
       if (!is_there) run.saw_other_level = true;
       if (is_there && (run.saw_other_level || !options.frnet_wait_needs_edge)) return true;
-      return run.until_ms != kNever && now_ms >= run.until_ms;
+      if (run.until_ms == kNever || now_ms < run.until_ms) return false;
+      if (options.frnet_wait_timeout_is_error) {
+        const Level& level = run.levels.back();  // it stands behind the line already
+        machine.report({name_of_level(run, level), macro_code(Verb::frnet_wait),
+                        static_cast<std::uint16_t>(level.line - 1), Fault::operand});
+      }
+      return true;
     }
   }
   return true;

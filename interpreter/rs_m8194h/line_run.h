@@ -14,7 +14,7 @@ MacroName name_of_level(const Run& run, const Level& level);
 void hold(Run& run, Hold what, std::int64_t until_ms = 0, std::uint32_t awaited = 0);
 
 /// Whether what a run waits for has come. A drive that waits is asked for anew by its line.
-bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, const Machine& machine);
+bool is_over(Run& run, std::int64_t now_ms, const RunOptions& options, Machine& machine);
 
 /// Whether `awaited` can be what FRNET_WAIT waits for.
 bool is_frnet_input(std::uint32_t awaited);

@@ -14,6 +14,7 @@
 #include "base/text/parse_integer.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/download.h"
 #include "interpreter/rs_m8194h/faults.h"
@@ -21,6 +22,7 @@
 #include "interpreter/rs_m8194h/text.h"
 #include "interpreter/rs_m8194h/tokens.h"
 #include "interpreter/rs_m8194h/triggers.h"
+#include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::interpreter::rs_m8194h {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/macro.h"
 

@@ -6,6 +6,7 @@
 
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/machine.h"

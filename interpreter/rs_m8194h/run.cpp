@@ -9,6 +9,7 @@
 #include "interpreter/rs_m8194h/line_run.h"
 #include "interpreter/rs_m8194h/machine.h"
 #include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::interpreter::rs_m8194h {
 namespace {

@@ -36,6 +36,12 @@ struct RunOptions {
   bool call_too_deep_ends_macro = false;
   /// FRNET_WAIT waits for a change to its level, or takes it if it is there already.
   bool frnet_wait_needs_edge = false;
+  /// FRNET_WAIT whose time is over is an execution error.
+  bool frnet_wait_timeout_is_error = false;
+  /// A division by 0 leaves the result as it is, or makes it 0.
+  bool division_by_zero_keeps = false;
+  /// FOR with a count below 1 runs its block once.
+  bool for_runs_once_at_least = false;
 
   bool operator==(const RunOptions&) const = default;
 };

@@ -4,9 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "base/state/state_bytes.h"
 #include "base/state/state_error.h"
 #include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/run.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/triggers.h"
 #include "interpreter/rs_m8194h/window.h"
 
 namespace understudy {

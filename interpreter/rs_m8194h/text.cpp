@@ -21,7 +21,8 @@
 #include "base/text/suggestion.h"
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
-#include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/operators.h"
 #include "interpreter/rs_m8194h/tokens.h"
 

@@ -9,6 +9,8 @@
 
 #include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/operators.h"
 
@@ -31,6 +33,39 @@ constexpr Pair parted(std::uint32_t value, WordOrder order) {
   return pair;
 }
 
+/// The codes that chapter 7 and table 12.3 give to each other's command.
+constexpr std::uint16_t kSwapped[][2] = {{0x0C81, 0x0CFC}, {0x0A84, 0x0AFD}, {0x0C84, 0x0CFD}};
+
+std::uint16_t meant_by(std::uint16_t code, const CommandOptions& options) {
+  if (!options.codes_of_12_3) return code;
+  for (const auto& [one, other] : kSwapped) {
+    if (code == one) return other;
+    if (code == other) return one;
+  }
+  return code;
+}
+
+/// The operator of IF in its usual form. What an option does not take becomes no operator at all.
+std::uint32_t comparison_of(std::uint32_t sent, const CommandOptions& options) {
+  const ComparisonRow* const row = find_comparison(sent);
+  if (row == nullptr) return sent;
+  using Letters = CommandOptions::Letters;
+  // `<=` `>=` `!=`: the frame's order first, the table's second.
+  const bool has_two_orders = row->codes[1] > 0xFF && row->text.size() == 2 &&
+                              row->codes[0] != row->codes[1] && row->comparison != Comparison::equal;
+  const bool is_other =
+      has_two_orders && ((options.letters == Letters::as_in_the_frame && sent == row->codes[1]) ||
+                         (options.letters == Letters::as_in_the_table && sent == row->codes[0]));
+  return is_other ? 0 : row->codes[0];
+}
+
+/// Holding registers 300 to 1323 are the variables.
+std::uint32_t variable_at(std::uint32_t address) {
+  constexpr std::uint32_t kFirst = 300;
+  const bool is_one = address >= kFirst && address < kFirst + 2 * kVariableCount && address % 2 == 0;
+  return is_one ? static_cast<std::uint32_t>(kVariable0) + (address - kFirst) / 2 : address;
+}
+
 }  // namespace
 
 Fault why_not_now(std::uint16_t code, State state) {
@@ -43,9 +78,10 @@ Fault why_not_now(std::uint16_t code, State state) {
   return row->use.in_isr ? Fault::none : Fault::mp_in_isr;
 }
 
-Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command) {
+Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
+                     const CommandOptions& options) {
   if (registers.empty()) return Fault::register_count;
-  command = {.code = registers[0]};
+  command = {.code = meant_by(registers[0], options)};
   const CommandRow* row = find_code(command.code);
   if (row == nullptr) return Fault::undefined_command;
   if (registers.size() != static_cast<std::size_t>(row->registers())) return Fault::register_count;
@@ -58,9 +94,12 @@ Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, 
       command.values[i] = joined({registers[at], registers[at + 1]}, order);
     }
     at += static_cast<std::size_t>(row->parameters[i].registers());
-    if (row->parameters[i].kind != Kind::comparison) continue;
-    const ComparisonRow* comparison = find_comparison(command.values[i]);
-    if (comparison != nullptr) command.values[i] = comparison->codes[0];
+    if (row->parameters[i].kind == Kind::comparison) {
+      command.values[i] = comparison_of(command.values[i], options);
+    }
+  }
+  if (options.addresses_are_variables && command.verb() == Verb::frnet_out) {
+    command.values[1] = variable_at(command.values[1]);
   }
   return Fault::none;
 }
@@ -69,14 +108,13 @@ Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder 
                const CommandOptions& options) {
   Decoded decoded;
   if (registers.empty()) return {.fault = Fault::register_count};
-  decoded.command.code = registers[0];
-  if (find_code(registers[0]) == nullptr) {
-    decoded.fault = Fault::undefined_command;
-    return decoded;
-  }
-  decoded.fault = why_not_now(registers[0], state);
+  const std::uint16_t code = decoded.command.code = meant_by(registers[0], options);
+  const bool is_undefined = find_code(code) == nullptr;
+  const Fault not_now = why_not_now(code, state);
+  decoded.fault = is_undefined ? Fault::undefined_command : Fault::none;
+  if (not_now != Fault::none && (!is_undefined || options.state_before_code)) decoded.fault = not_now;
   if (decoded.fault != Fault::none) return decoded;
-  decoded.fault = read_registers(registers, order, decoded.command);
+  decoded.fault = read_registers(registers, order, decoded.command, options);
   if (decoded.fault != Fault::none) return decoded;
   decoded.parameter = bad_parameter(decoded.command, options);
   if (decoded.parameter) decoded.fault = Fault::parameter;

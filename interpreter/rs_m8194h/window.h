@@ -32,7 +32,8 @@ Decoded decode(std::span<const std::uint16_t> registers, State state, WordOrder 
 
 /// The steps of decode(), for other orders of checks.
 Fault why_not_now(std::uint16_t code, State state);
-Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command);
+Fault read_registers(std::span<const std::uint16_t> registers, WordOrder order, Command& command,
+                     const CommandOptions& options = {});
 
 std::vector<std::uint16_t> encode(const Command& command, WordOrder order = WordOrder::high_first);
 

@@ -26,7 +26,7 @@ constexpr std::string_view after_prefix(std::string_view text, std::string_view 
 }
 
 /// How many letters must be added, dropped or exchanged to make one of the other, upper and lower case alike;
-/// `limit` where it is no less.
+/// `limit` if it is at least that.
 inline std::size_t letters_apart(std::string_view a, std::string_view b, std::size_t limit) {
   if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
   std::vector<std::size_t> row(b.size() + 1);

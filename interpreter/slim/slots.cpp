@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 
+#include "base/enumerators.h"
 #include "interpreter/slim/command.h"
 #include "interpreter/slim/command_row.h"
 #include "interpreter/slim/error.h"
@@ -25,82 +25,11 @@ using Kind = Operand::Kind;
 constexpr std::array<std::string_view, 8> kConditionWords{"I", "NI", "Z", "NZ", "E", "NE", "G", "NG"};
 
 struct Range {
-  double least;
-  double most;
+  double least = 0;
+  double most = 0;
 };
-
-/// Of a slot that takes a constant; nothing for other slots.
-constexpr std::optional<Range> whole_range(Slot slot, int variant) {
-  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
-  switch (slot) {
-    case Slot::input:
-    case Slot::maybe_input: return Range{1, kInputCount};
-    case Slot::dip_switch: return Range{1, kSwitchCount};
-    case Slot::line:
-    case Slot::milliseconds: return Range{0, kMost};
-    case Slot::pulse_width: return Range{1, 65535};
-    case Slot::thrust_level: return Range{1, 20000};
-    case Slot::levels: return Range{0, (1 << kPortCount) - 1};
-    case Slot::axis_module: return Range{0, 8};
-    case Slot::flag: return Range{0, 1};
-    case Slot::whole: return Range{kIntegerLeast, kIntegerMost};
-    case Slot::variant: return Range{static_cast<double>(variant), static_cast<double>(variant)};
-    case Slot::none:
-    case Slot::real:
-    case Slot::real_variable:
-    case Slot::port:
-    case Slot::address:
-    case Slot::maybe_address:
-    case Slot::integer_variable:
-    case Slot::variable:
-    case Slot::stored_variable:
-    case Slot::comparand:
-    case Slot::data:
-    case Slot::frequency:
-    case Slot::percent:
-    case Slot::event:
-    case Slot::condition:
-    case Slot::word:
-    case Slot::text: return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-constexpr std::optional<Range> real_range(Slot slot) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  switch (slot) {
-    case Slot::real: return Range{-kMost, kMost};
-    case Slot::frequency: return Range{1e-6, 1e6};  // in kHz 0.001 Hz, in Hz what ticks are told
-    case Slot::percent: return Range{0, 100};
-    case Slot::none:
-    case Slot::real_variable:
-    case Slot::port:
-    case Slot::input:
-    case Slot::maybe_input:
-    case Slot::dip_switch:
-    case Slot::address:
-    case Slot::maybe_address:
-    case Slot::line:
-    case Slot::integer_variable:
-    case Slot::variable:
-    case Slot::stored_variable:
-    case Slot::comparand:
-    case Slot::data:
-    case Slot::milliseconds:
-    case Slot::pulse_width:
-    case Slot::thrust_level:
-    case Slot::levels:
-    case Slot::axis_module:
-    case Slot::flag:
-    case Slot::whole:
-    case Slot::variant:
-    case Slot::event:
-    case Slot::condition:
-    case Slot::word:
-    case Slot::text: return std::nullopt;
-  }
-  return std::nullopt;
-}
+constexpr Range kNoNegatives{0, std::numeric_limits<std::int32_t>::max()};
+constexpr Range kAnyReal{-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()};
 
 /// Of an integer variable.
 constexpr Range integer_range(const Dialect& dialect) {
@@ -135,7 +64,7 @@ Error check_typed(Operand& operand, bool for_integer, const Dialect& dialect) {
     case Kind::integer:
     case Kind::real:
       if (for_integer) return check_whole(operand, integer_range(dialect));
-      return check_real(operand, *real_range(Slot::real));
+      return check_real(operand, kAnyReal);
     case Kind::integer_variable:
     case Kind::integer_array:
     case Kind::get_integer: return for_integer ? Error::none : Error::syntax;
@@ -161,63 +90,12 @@ Error check_data(Operand& operand, const Operand* target, const Dialect& dialect
                          operand.kind == Kind::clock || asks_host(operand.kind);
   if (!is_number) return Error::syntax;
   if (target == nullptr) {
-    const Range range = *real_range(Slot::real);
-    if (is_constant(operand)) operand.number = rounded_real(operand.number);
-    return is_constant(operand) ? in_range(operand.number, range) : Error::none;
+    if (!is_constant(operand)) return Error::none;
+    operand.number = rounded_real(operand.number);
+    return in_range(operand.number, kAnyReal);
   }
   if (holds_integer(target->kind)) return check_typed(operand, true, dialect);
   return is_constant(operand) ? check_typed(operand, false, dialect) : Error::none;
-}
-
-Error check_slot(Slot slot, const CommandRow& row, Operand& operand, const Dialect& dialect) {
-  if (const std::optional<Range> range = whole_range(slot, row.variant)) {
-    const Error error = check_whole(operand, *range);
-    const bool is_gap = slot == Slot::axis_module && operand.number > 5 && operand.number < 8;
-    return error == Error::none && is_gap ? Error::range : error;
-  }
-  if (const std::optional<Range> range = real_range(slot)) {
-    const bool takes_variable =
-        row.takes_module() && (row.verb == Verb::move_absolute || row.verb == Verb::move_relative) &&
-        dialect.module_move_from_variable == Dialect::ModuleMoveFromVariable::accepted;
-    if (takes_variable && operand.kind == Kind::real_variable) return Error::none;
-    return check_real(operand, *range);
-  }
-  const auto is = [&](bool right) { return right ? Error::none : Error::syntax; };
-  switch (slot) {
-    case Slot::real_variable: return is(operand.kind == Kind::real_variable);
-    case Slot::port: return is(operand.kind == Kind::port);
-    case Slot::event:
-      if (operand.kind != Kind::event) return Error::syntax;
-      return operand.index <= dialect.event_count ? Error::none : Error::range;
-    case Slot::integer_variable: return is(holds_integer(operand.kind));
-    case Slot::variable: return is(is_variable(operand.kind));
-    case Slot::stored_variable: return is(is_variable(operand.kind) && !is_array(operand.kind));
-    case Slot::address:
-    case Slot::maybe_address:
-      return operand.kind == Kind::label ? Error::none : check_whole(operand, *whole_range(Slot::line, 0));
-    case Slot::none:
-    case Slot::real:
-    case Slot::input:
-    case Slot::maybe_input:
-    case Slot::dip_switch:
-    case Slot::line:
-    case Slot::comparand:
-    case Slot::data:
-    case Slot::milliseconds:
-    case Slot::pulse_width:
-    case Slot::frequency:
-    case Slot::percent:
-    case Slot::thrust_level:
-    case Slot::levels:
-    case Slot::axis_module:
-    case Slot::flag:
-    case Slot::whole:
-    case Slot::variant:
-    case Slot::condition:
-    case Slot::word:
-    case Slot::text: return Error::syntax;
-  }
-  return Error::syntax;
 }
 
 /// Syntax weighs more than range: what is not a command at all has no value that could be wrong.
@@ -243,48 +121,69 @@ class Matching {
     return std::move(result_);
   }
 
+  static constexpr bool rules_are_in_order();
+
  private:
+  /// How the operand of a slot is read, and checked if nothing but itself matters.
+  struct Rule {
+    Slot slot;
+    void (Matching::*take)(Slot) = &Matching::take_one;
+    Error (Matching::*check)(Operand&, Range) const = nullptr;
+    Range range{};
+  };
+  static const std::array<Rule, static_cast<std::size_t>(Slot::text) + 1> kRules;  // in the order of Slot
+
   void take(Slot slot) {
     if (items_.empty()) return add_error(result_.error, Error::syntax);
-    switch (slot) {
-      case Slot::word: return take_word_of_name();
-      case Slot::text: return take_text();
-      case Slot::condition: return take_condition();
-      case Slot::comparand: return take_comparand();
-      case Slot::data: return take_data();
-      case Slot::event: return take_event();
-      case Slot::none:
-      case Slot::real:
-      case Slot::real_variable:
-      case Slot::port:
-      case Slot::input:
-      case Slot::maybe_input:
-      case Slot::dip_switch:
-      case Slot::address:
-      case Slot::maybe_address:
-      case Slot::line:
-      case Slot::integer_variable:
-      case Slot::variable:
-      case Slot::stored_variable:
-      case Slot::milliseconds:
-      case Slot::pulse_width:
-      case Slot::frequency:
-      case Slot::percent:
-      case Slot::thrust_level:
-      case Slot::levels:
-      case Slot::axis_module:
-      case Slot::flag:
-      case Slot::whole:
-      case Slot::variant: return take_one(slot);
-    }
+    (this->*kRules[static_cast<std::size_t>(slot)].take)(slot);
   }
+  Error check(Slot slot, Operand& operand) const {
+    const Rule& rule = kRules[static_cast<std::size_t>(slot)];
+    return (this->*rule.check)(operand, rule.range);
+  }
+
+  // --- checks ----------------------------------------------------------------------------------
+  static Error is(bool right) { return right ? Error::none : Error::syntax; }
+  Error whole(Operand& operand, Range range) const { return check_whole(operand, range); }
+  Error variant(Operand& operand, Range /*any*/) const {
+    const auto number = static_cast<double>(row_.variant);
+    return check_whole(operand, {number, number});
+  }
+  Error axis_module(Operand& operand, Range range) const {
+    const Error error = check_whole(operand, range);
+    const bool is_gap = operand.number > 5 && operand.number < 8;
+    return error == Error::none && is_gap ? Error::range : error;
+  }
+  Error real(Operand& operand, Range range) const {
+    const bool takes_variable =
+        row_.takes_module() && (row_.verb == Verb::move_absolute || row_.verb == Verb::move_relative) &&
+        dialect_.module_move_from_variable == Dialect::ModuleMoveFromVariable::accepted;
+    if (takes_variable && operand.kind == Kind::real_variable) return Error::none;
+    return check_real(operand, range);
+  }
+  Error real_variable(Operand& operand, Range /*any*/) const {
+    return is(operand.kind == Kind::real_variable);
+  }
+  Error integer_variable(Operand& operand, Range /*any*/) const { return is(holds_integer(operand.kind)); }
+  Error variable(Operand& operand, Range /*any*/) const { return is(is_variable(operand.kind)); }
+  Error stored_variable(Operand& operand, Range /*any*/) const {
+    return is(is_variable(operand.kind) && !is_array(operand.kind));
+  }
+  Error port(Operand& operand, Range /*any*/) const { return is(operand.kind == Kind::port); }
+  Error address(Operand& operand, Range range) const {
+    return operand.kind == Kind::label ? Error::none : check_whole(operand, range);
+  }
+  Error event(Operand& operand, Range /*any*/) const {
+    if (operand.kind != Kind::event) return Error::syntax;
+    return operand.index <= dialect_.event_count ? Error::none : Error::range;
+  }
+
+  // --- readers ---------------------------------------------------------------------------------
+  void take_nothing(Slot /*none*/) { add_error(result_.error, Error::syntax); }
   void take_one(Slot slot) {
     Item item = next_item();
-    if (item.error == Error::none) {
-      item.error = is_printed_constant(slot, item.operand)
-                       ? check_slot(Slot::real, row_, item.operand, dialect_)
-                       : check_slot(slot, row_, item.operand, dialect_);
-    }
+    if (item.error == Error::none)
+      item.error = check(is_printed_constant(slot, item.operand) ? Slot::real : slot, item.operand);
     add(std::move(item));
   }
 
@@ -304,24 +203,24 @@ class Matching {
     result_.operands.push_back(std::move(item.operand));
   }
 
-  void take_word_of_name() {
+  void take_word_of_name(Slot /*slot*/) {
     const std::string_view word = row_.command.substr(row_.command.find(' ') + 1);
     if (in_capitals(items_.front()) != word) add_error(result_.error, Error::syntax);
     items_ = items_.subspan(1);
   }
-  void take_text() {
+  void take_text(Slot /*slot*/) {
     if (!begins_with_quote(items_.front())) return add_error(result_.error, Error::syntax);
     add(parse_text(items_.front()));
     items_ = items_.subspan(1);
   }
-  void take_data() {
+  void take_data(Slot /*slot*/) {
     // The DATA command names the variable itself.
     const Operand* target = result_.operands.empty() ? target_ : &result_.operands.back();
     Item item = next_item();
     if (item.error == Error::none) item.error = check_data(item.operand, target, dialect_);
     add(std::move(item));
   }
-  void take_comparand() {
+  void take_comparand(Slot /*slot*/) {
     Item item = next_item();
     if (items_.empty()) return add_error(result_.error, Error::syntax);
     const Item variable = parse_item(items_.front());
@@ -330,13 +229,13 @@ class Matching {
     add(std::move(item));
   }
   /// A blank, not a comma, is between an event and its condition.
-  void take_event() {
+  void take_event(Slot slot) {
     const std::string_view first = items_.front();
     const std::size_t blank = std::min(first.find(' '), first.find('\t'));
     const bool has_condition = row_.slots[1] == Slot::condition;
     if (has_condition != (blank != std::string_view::npos)) return add_error(result_.error, Error::syntax);
     Item item = parse_item(first.substr(0, blank));
-    if (item.error == Error::none) item.error = check_slot(Slot::event, row_, item.operand, dialect_);
+    if (item.error == Error::none) item.error = check(slot, item.operand);
     add(std::move(item));
     if (has_condition) {
       condition_ = without_blanks(first.substr(blank));
@@ -345,7 +244,7 @@ class Matching {
     }
   }
   /// Its word is in the same item as the event; what follows is checked like the operands of a jump.
-  void take_condition() {
+  void take_condition(Slot /*slot*/) {
     const auto word = std::ranges::find(kConditionWords, in_capitals(condition_));
     items_ = items_.subspan(1);
     if (word == kConditionWords.end()) return add_error(result_.error, Error::syntax);
@@ -377,6 +276,49 @@ class Matching {
   std::string_view condition_ = {};
   Operands result_ = {};
 };
+
+constexpr std::array<Matching::Rule, static_cast<std::size_t>(Slot::text) + 1> Matching::kRules = {{
+    {Slot::none, &Matching::take_nothing},
+    {Slot::real, &Matching::take_one, &Matching::real, kAnyReal},
+    {Slot::real_variable, &Matching::take_one, &Matching::real_variable},
+    {Slot::port, &Matching::take_one, &Matching::port},
+    {Slot::input, &Matching::take_one, &Matching::whole, {1, kInputCount}},
+    {Slot::maybe_input, &Matching::take_one, &Matching::whole, {1, kInputCount}},
+    {Slot::dip_switch, &Matching::take_one, &Matching::whole, {1, kSwitchCount}},
+    {Slot::address, &Matching::take_one, &Matching::address, kNoNegatives},
+    {Slot::maybe_address, &Matching::take_one, &Matching::address, kNoNegatives},
+    {Slot::line, &Matching::take_one, &Matching::whole, kNoNegatives},
+    {Slot::integer_variable, &Matching::take_one, &Matching::integer_variable},
+    {Slot::variable, &Matching::take_one, &Matching::variable},
+    {Slot::stored_variable, &Matching::take_one, &Matching::stored_variable},
+    {Slot::comparand, &Matching::take_comparand},
+    {Slot::data, &Matching::take_data},
+    {Slot::milliseconds, &Matching::take_one, &Matching::whole, kNoNegatives},
+    {Slot::pulse_width, &Matching::take_one, &Matching::whole, {1, 65535}},
+    // In kHz 0.001 Hz, in Hz what ticks are told.
+    {Slot::frequency, &Matching::take_one, &Matching::real, {1e-6, 1e6}},
+    {Slot::percent, &Matching::take_one, &Matching::real, {0, 100}},
+    {Slot::thrust_level, &Matching::take_one, &Matching::whole, {1, 20000}},
+    {Slot::levels, &Matching::take_one, &Matching::whole, {0, (1 << kPortCount) - 1}},
+    {Slot::axis_module, &Matching::take_one, &Matching::axis_module, {0, 8}},
+    {Slot::flag, &Matching::take_one, &Matching::whole, {0, 1}},
+    {Slot::whole, &Matching::take_one, &Matching::whole, {kIntegerLeast, kIntegerMost}},
+    {Slot::variant, &Matching::take_one, &Matching::variant},
+    {Slot::event, &Matching::take_event, &Matching::event},
+    {Slot::condition, &Matching::take_condition},
+    {Slot::word, &Matching::take_word_of_name},
+    {Slot::text, &Matching::take_text},
+}};
+
+constexpr bool Matching::rules_are_in_order() {
+  for (std::size_t i = 0; i < kRules.size(); ++i) {
+    const bool is_read_alone = kRules[i].take == &Matching::take_one;
+    if (kRules[i].slot != static_cast<Slot>(i) || (is_read_alone && kRules[i].check == nullptr)) return false;
+  }
+  return true;
+}
+static_assert(Matching::rules_are_in_order(), "rules stand in the order of Slot, one each");
+static_assert(is_last<Slot::text>(), "rules stand in the order of Slot, one each");
 
 }  // namespace
 

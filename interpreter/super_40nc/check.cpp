@@ -12,7 +12,14 @@
 
 #include "base/text/parse_integer.h"
 #include "base/text/suggestion.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/structure.h"
 
 namespace understudy::interpreter::super_40nc {
@@ -251,6 +258,11 @@ class Checker {
       const auto number = decimal(token.text.substr(1));
       if (!number) break;
       return read_number(token, letter, *number);
+    }
+    if (first == 'S' && decimal(token.text.substr(1))) {
+      fail(token, Code::unknown, "step relay " + upper_case(token.text) + " cannot stand in a program",
+           "X, Y, M, T, C, D or K and a number, or *");
+      return {};
     }
     fail(token, Code::unknown, quoted(token.text) + " is not an operand", "a letter and a number, or *");
     return {};

@@ -34,9 +34,10 @@ enum class Event : std::uint8_t {
   broken,  // a limit, a soft limit, a comparator, an alarm, or a home that failed, of an axis of its line
   file_changed,  // D9001
   plc_stop,
-  plc_run,  // STOP to RUN, power-up
+  plc_run,       // STOP to RUN, power-up
+  limit_pauses,  // as broken, by a limit, where that only pauses a program
 };
-inline constexpr std::size_t kEventCount = 15;
+inline constexpr std::size_t kEventCount = 16;
 
 enum class Reaction : std::uint8_t {
   nothing,
@@ -78,6 +79,7 @@ inline constexpr auto kReactions = [] {
       {{nothing, same_step, nothing, nothing, same_step, nothing, nothing}},           // file_changed
       {{nothing, nothing, nothing, nothing, nothing, nothing, nothing}},               // plc_stop
       {{forget, nothing, nothing, nothing, nothing, forget, forget}},                  // plc_run
+      {{nothing, nothing, pause, pause, nothing, nothing, nothing}},                   // limit_pauses
   }};
 }();
 
@@ -109,6 +111,7 @@ inline constexpr std::array<BesideRow, kEventCount> kBeside{{
     {Event::file_changed, Beside::goes_on, Beside::goes_on},
     {Event::plc_stop, Beside::goes_on, Beside::goes_on},
     {Event::plc_run, Beside::goes_on, Beside::goes_on},
+    {Event::limit_pauses, Beside::machine_knows, Beside::machine_knows},
 }};
 
 }  // namespace understudy::interpreter::super_40nc

@@ -2,11 +2,20 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/structure.h"
 
 namespace understudy::interpreter::super_40nc {

@@ -1,7 +1,12 @@
 #include <cstddef>
 #include <string>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/program.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {

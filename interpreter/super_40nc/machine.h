@@ -93,9 +93,9 @@ class Machine {
   /// counts.
   virtual void plc_drive(const Drive& drive, int step) = 0;
   virtual void plc_home(const HomeSearch& search, int step) = 0;
-  /// At the end of each scan in which some axis is, or was in the scan before, to be jogged. Returns whether
-  /// anything may change by it.
-  virtual bool plc_jog(const Jogs& jogs) = 0;
+  /// At the end of each scan in which some axis is, or was in the scan before, to be jogged; `steps` are the
+  /// lines' as D8095 counts. Returns whether anything may change by it.
+  virtual bool plc_jog(const Jogs& jogs, const JogSteps& steps) = 0;
 
   // --- both -----------------------------------------------------------------------------------------
   /// Returns whether anything has changed.
@@ -105,17 +105,20 @@ class Machine {
 /// The registers and contacts of the device that programs depend on without naming them.
 namespace named {
 inline constexpr int kSingleStep = 8001;  // M8x01 of an axis program
+inline constexpr int kEmergencyStop = 8002;
+inline constexpr int kReset = 8102;  // of X; 100 further for each axis
 inline constexpr int kMotionInhibit = 8004;
 inline constexpr int kContinuous = 8007;
 inline constexpr int kContinuousKey = 8600;
 inline constexpr int kAlwaysOn = 8003;
-inline constexpr int kFeed = 8006;          // D
-inline constexpr int kPlane = 8007;         // D
-inline constexpr int kOwnedAxes = 9003;     // C21
-inline constexpr int kDefaultFeed = 9004;   // C10
-inline constexpr int kTargetsOfC = 9006;    // C20
-inline constexpr int kDefaultPlane = 9016;  // C23
-inline constexpr int kTargetsOfX = 9173;    // X15; 100 further for each axis
+inline constexpr int kFeed = 8006;            // D
+inline constexpr int kPlane = 8007;           // D
+inline constexpr int kOwnedAxes = 9003;       // C21
+inline constexpr int kContinuousPath = 9005;  // D
+inline constexpr int kDefaultFeed = 9004;     // C10
+inline constexpr int kTargetsOfC = 9006;      // C20
+inline constexpr int kDefaultPlane = 9016;    // C23
+inline constexpr int kTargetsOfX = 9173;      // X15; 100 further for each axis
 }  // namespace named
 
 }  // namespace understudy::interpreter::super_40nc

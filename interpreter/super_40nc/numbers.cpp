@@ -8,6 +8,12 @@
 #include <limits>
 
 #include "base/complete_table.h"
+#include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {
@@ -116,8 +122,8 @@ constexpr CompleteTable<Op, Calculation> kCalculations(kCalculationOps, kCalcula
 
 }  // namespace
 
-Calculated calculate(const Instruction& line, Access& access, const Options& options) {
-  return kCalculations[line.op](line, access, options);
+Calculated calculate(const Instruction& instruction, Access& access, const Options& options) {
+  return kCalculations[instruction.op](instruction, access, options);
 }
 
 }  // namespace understudy::interpreter::super_40nc

@@ -40,6 +40,7 @@ struct Options {
   enum class Product : std::uint8_t { wraps, saturates } product = Product::wraps;
 
   // --- the PLC --------------------------------------------------------------------------------------
+  int scan_ms = 1;  // how often the machine calls
   int timer_unit_ms = 1;
   /// A counter stops at its preset, or counts on.
   bool counts_beyond_preset = false;
@@ -72,6 +73,7 @@ struct Options {
   } empty_program = EmptyProgram::ends_silently;
   /// What loads F, plane, speeds and modes anew.
   enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
+  bool joins_paths = false;       // with D9005 ON, LIN and arcs that follow each other
   bool rotation_0_waits = true;   // VDRV 0 until its axes stand
   bool continuous_by_key = true;  // M8600 as M8007
 

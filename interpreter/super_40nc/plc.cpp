@@ -6,7 +6,13 @@
 #include <span>
 
 #include "interpreter/super_40nc/access.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/ladder.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/options.h"
 #include "interpreter/super_40nc/plc_lines.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {
@@ -23,7 +29,8 @@ class Scan {
         lines_(plc, ladder, machine, programs, options),
         options_(options),
         depth_mask_((std::uint64_t{1} << options.stack_depth) - 1),
-        a_unit_is_over_(plc.unit_ms + 1 >= options.timer_unit_ms) {}
+        a_unit_is_over_(plc.unit_ms + options.scan_ms >= options.timer_unit_ms),
+        growth_(options.timer_unit_ms <= 1 ? options.scan_ms : 1) {}
 
   void steps(const LadderStep* step) {
     for (;; ++step) {
@@ -76,7 +83,7 @@ class Scan {
 
   Scanned ended() {
     has_changed_ |= lines_.end_scan();
-    plc_.unit_ms = timers_run_ && !a_unit_is_over_ ? plc_.unit_ms + 1 : 0;
+    plc_.unit_ms = timers_run_ && !a_unit_is_over_ ? plc_.unit_ms + options_.scan_ms : 0;
     return {has_changed_, has_changed_ ? 0 : quiet_scans_};
   }
 
@@ -139,14 +146,15 @@ class Scan {
     auto present = static_cast<std::int32_t>(cells_[step.c]);
     if (was_on && present < preset && a_unit_is_over_) {
       const bool had_changed = has_changed_;
-      put(step.c, static_cast<std::uint32_t>(++present), step.flags);
+      present = static_cast<std::int32_t>(std::min<std::int64_t>(preset, std::int64_t{present} + growth_));
+      put(step.c, static_cast<std::uint32_t>(present), step.flags);
       if ((step.flags & kValueIsRead) == 0 && present < preset) has_changed_ = had_changed;
     }
     put(step.a, present >= preset ? 1 : 0, step.flags);
     if (present < preset) {
       timers_run_ |= was_on;
       const std::int64_t left = std::int64_t{preset} - present - 1;
-      quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 ? left : 0);
+      quiet_scans_ = std::min(quiet_scans_, options_.timer_unit_ms <= 1 && options_.scan_ms == 1 ? left : 0);
       if ((step.flags & kValueIsRead) != 0) quiet_scans_ = 0;
     }
   }
@@ -174,6 +182,7 @@ class Scan {
   const Options& options_;
   std::uint64_t depth_mask_;
   bool a_unit_is_over_;
+  std::int32_t growth_;  // of a timer
   std::uint64_t blocks_ = 0;
   std::uint64_t branches_ = 0;
   bool has_changed_ = false;
@@ -204,7 +213,7 @@ void stop(PlcState& plc, Machine& machine) {
   plc.runs = false;
   if (plc.jogs == Jogs{}) return;
   plc.jogs = {};
-  machine.plc_jog({});
+  machine.plc_jog({}, {});
 }
 
 Scanned scan(PlcState& plc, const Ladder& ladder, Machine& machine, StepControl& programs,
@@ -230,8 +239,12 @@ void cross(PlcState& plc, const Ladder& ladder, Machine& machine, std::int64_t s
     const std::int64_t preset = access.value(ladder.line(timer.line).fields[1]);
     const std::int64_t present = static_cast<std::int32_t>(cells[timer.c]);
     if (present >= preset) continue;
-    cells[timer.c] = static_cast<std::uint32_t>(present + scans);
-    if ((timer.flags & kKept) != 0) machine.kept_cell_written(timer.c);
+    const bool is_kept = (timer.flags & kKept) != 0;
+    // The memory tells how often it has changed: of a latched timer, as often as scan by scan.
+    for (std::int64_t scan = is_kept ? 1 : scans; scan <= scans; ++scan) {
+      cells[timer.c] = static_cast<std::uint32_t>(present + scan);
+      if (is_kept) machine.kept_cell_written(timer.c);
+    }
   }
 }
 

@@ -3,8 +3,15 @@
 #include <cstddef>
 #include <utility>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
 #include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/ladder.h"
+#include "interpreter/super_40nc/numbers.h"
 #include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::interpreter::super_40nc {
 
@@ -45,7 +52,7 @@ bool PlcLines::carry_out(const LadderStep& step, bool is_on) {
     return result.code == Code::none ? result.has_changed : report(result.code, number);
   }
   if (line.op == Op::pjg || line.op == Op::mjg) {
-    jog(line);
+    jog(line, number);
     return false;
   }
   if (line.op == Op::chk) return report(Code::wrong_area, number);
@@ -116,16 +123,20 @@ void PlcLines::control_programs(const Instruction& line) {
   }
 }
 
-void PlcLines::jog(const Instruction& line) {
+void PlcLines::jog(const Instruction& line, int step) {
   AxisSet& axes = line.op == Op::pjg ? jogs_.positive : jogs_.negative;
-  axes = static_cast<AxisSet>(axes | chosen_axes(axis_values(line, access_)));
+  const AxisSet chosen = chosen_axes(axis_values(line, access_));
+  axes = static_cast<AxisSet>(axes | chosen);
+  for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (has_axis(chosen, axis)) jog_steps_[static_cast<std::size_t>(axis)] = step;
+  }
 }
 
 bool PlcLines::end_scan() {
   const bool is_same = jogs_ == plc_.jogs;
   if (is_same && jogs_ == Jogs{}) return false;
   plc_.jogs = jogs_;
-  return access_.machine().plc_jog(jogs_) || !is_same;
+  return access_.machine().plc_jog(jogs_, jog_steps_) || !is_same;
 }
 
 }  // namespace understudy::interpreter::super_40nc

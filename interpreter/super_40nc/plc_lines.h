@@ -21,7 +21,7 @@ class PlcLines {
   bool count_as_edge(const LadderStep& step, bool is_on, bool& fires);
   bool begin_motion(const Instruction& line, int step);
   bool set_modes(const Instruction& line);
-  void jog(const Instruction& line);
+  void jog(const Instruction& line, int step);
   void control_programs(const Instruction& line);
   AxisValues movable(AxisValues values, int step);
   bool report(Code code, int step) {
@@ -35,6 +35,7 @@ class PlcLines {
   StepControl& programs_;
   const Options& options_;
   Jogs jogs_;
+  JogSteps jog_steps_{};
 };
 
 }  // namespace understudy::interpreter::super_40nc

@@ -116,6 +116,9 @@ struct Jogs {
   bool operator==(const Jogs&) const = default;
 };
 
+/// The line that has asked for it, for each axis.
+using JogSteps = std::array<int, kAxisCount>;
+
 /// PSET: in the work system. MSET: in the machine's.
 struct SetPositions {
   AxisValues position_lu;

@@ -1,6 +1,9 @@
 #include "interpreter/super_40nc/state_fields.h"
+#include <cstddef>
 
 #include "base/state/state_error.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy {
 

@@ -1,6 +1,11 @@
 #include "interpreter/super_40nc/step_code.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <vector>
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/program.h"
 
 namespace understudy::interpreter::super_40nc {
 

@@ -1,8 +1,18 @@
 // The lines of a step program that are not motion. (Manual, Sequence 指令一覽表.)
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/numbers.h"
+#include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/requests.h"
 #include "interpreter/super_40nc/step_programs.h"
 #include "interpreter/super_40nc/structure.h"
 
@@ -109,7 +119,10 @@ StepPrograms::Slice StepPrograms::wait(Area area, const Instruction& line, bool 
 /// Reads its time once. It goes on so many ticks after the one that has reached it.
 StepPrograms::Slice StepPrograms::wait_for_time(Area area, const Instruction& line) {
   StepState& program = state(area);
-  if (program.left_ms > 0) return wait(area, line, --program.left_ms == 0);
+  if (program.left_ms > 0) {
+    program.left_ms = std::max<std::int64_t>(program.left_ms - options_.scan_ms, 0);
+    return wait(area, line, program.left_ms == 0);
+  }
   const std::int32_t ms = access_.value(line.fields[0]);
   if (ms > 0) program.left_ms = ms;
   return wait(area, line, ms <= 0);

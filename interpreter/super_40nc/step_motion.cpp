@@ -1,10 +1,21 @@
 // The motion instructions of a step program: what they ask of the machine, and whether the program waits.
 // (Manual, Motion 指令一覽表.)
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/fields.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/instructions.h"
+#include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/requests.h"
 #include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy::interpreter::super_40nc {
@@ -68,6 +79,15 @@ bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
   return false;
 }
 
+/// D9005: a LIN or an arc that another one follows is not waited for: they are run through.
+bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
+  const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
+  if (!options_.joins_paths || !is_path(line.op) || is_single_step(area)) return false;
+  if (machine_.special_register(named::kContinuousPath) == 0) return false;
+  const int next = code(area).line_at(state(area).step + steps_of(line));
+  return next >= 0 && is_path(code(area).line(next).op);
+}
+
 template <class Request>
 StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& line, const Request& request,
                                                bool waits) {
@@ -81,7 +101,7 @@ StepPrograms::Slice StepPrograms::begin_motion(Area area, const Instruction& lin
       return Slice::is_over;
     case Begun::void_: return advance(area, line);
     case Begun::runs:
-      if (!waits) break;
+      if (!waits || goes_on_by_path(area, line)) break;
       program.next_step = program.step + steps_of(line);
       program.phase = row_of(line.op).waits == Waits::for_home ? Phase::homing : Phase::moving;
       return Slice::is_over;

@@ -1,7 +1,16 @@
 #include "interpreter/super_40nc/step_programs.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::interpreter::super_40nc {
 
@@ -202,6 +211,7 @@ void StepPrograms::run_slice(Area area) {
   }
   for (int executed = 0; executed < options_.slice || is_in_group(area); ++executed) {
     if (program.phase != Phase::executing && program.phase != Phase::waiting) return;
+    if (is_stopped_short(area)) return;  // the contacts are obeyed before the next slice
     if (!contact_is_on(area)) return take(Event::contact_off, area);
     const int line = code(area).line_at(program.step);
     if (line < 0) return fail(area, Code::unknown);

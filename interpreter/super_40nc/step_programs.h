@@ -93,6 +93,12 @@ class StepPrograms : public StepControl {
   bool is_single_step(Area area) const {
     return machine_.special_contact(row_of(area).run_contact - 8000 + named::kSingleStep);
   }
+  /// M8002, or M8x02 of the axis: what stands behind the line that switched it ON is not run.
+  bool is_stopped_short(Area area) const {
+    const int axis = axis_of(area);
+    return machine_.special_contact(named::kEmergencyStop) ||
+           (axis >= 0 && machine_.special_contact(named::kReset + 100 * axis));
+  }
   bool is_inhibited() const { return machine_.special_contact(named::kMotionInhibit); }
   void report(Area area, Code code);
   void fail(Area area, Code code);
@@ -129,6 +135,7 @@ class StepPrograms : public StepControl {
   Slice begin_arc(Area area, const Instruction& line);
   template <class Request>
   Slice begin_motion(Area area, const Instruction& line, const Request& request, bool waits);
+  bool goes_on_by_path(Area area, const Instruction& line) const;
   AxisValues values_of(Area area, const Instruction& line) const;
   bool drop_what_it_may_not_move(Area area, AxisValues& values);
   std::int32_t feed() const { return machine_.special_register(named::kFeed); }

@@ -7,6 +7,12 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/instruction_row.h"
+#include "interpreter/super_40nc/operand.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/program.h"
 
 namespace understudy::interpreter::super_40nc {
 namespace {

@@ -147,5 +147,67 @@ TEST(StandardInput, IsAFileWhereAListingIsExpected) {
   EXPECT_NE(daemon.ctl({"program"}).output.find("Out DOUT_0"), std::string::npos);
 }
 
+/// As much as a device holds, which is more than a line of 64 KiB.
+TEST(CtlProgram, LoadsAFullDeviceAndGivesItBack) {
+  std::string files;
+  for (int number = 0; number < 80; ++number) {
+    files += "FILE " + std::to_string(number) + "\n";
+    for (int line = 0; line < 370; ++line) {
+      files += "LIN K" + std::to_string(number) + " K" + std::to_string(line) + "\n";
+    }
+    files += "END\n";
+  }
+  std::string macros;
+  for (int number = 1; number <= 157; ++number) {
+    macros += "MP " + std::to_string(number) + "\n";
+    const int lines = number <= 40    ? 8
+                      : number <= 90  ? 16
+                      : number <= 130 ? 32
+                      : number <= 150 ? 64
+                      : number <= 155 ? 128
+                                      : 512;
+    for (int line = 0; line < lines; ++line)
+      macros += "RSM_MACRO_SET_VAR VAR1 " + std::to_string(line) + "\n";
+    macros += "END\n";
+  }
+  const PrivateFolder folder;
+  for (const auto& [model, listing] : {std::pair("super-40nc", files), std::pair("rs-m8194h", macros)}) {
+    EXPECT_GT(listing.size(), 65'536U) << model;
+    const auto daemon = RunningUnderstudy::of_model(model, {"--speed", "manual"});
+    const Finished loaded = daemon->ctl({"program", "device", folder.write("full", listing)});
+    ASSERT_EQ(loaded.exit_code, 0) << model << " " << loaded.errors;
+    const std::string given_back = daemon->ctl({"program"}).output;
+    EXPECT_GT(given_back.size(), 65'536U) << model;
+    const Finished again = daemon->ctl({"program", "device", folder.write("again", given_back)});
+    EXPECT_EQ(again.exit_code, 0) << model << " " << again.errors;
+    EXPECT_EQ(daemon->ctl({"program"}).output, given_back) << model;
+    // Numbers that stand in no other line.
+    const std::string last = model == std::string("super-40nc") ? "LIN K79 K369" : "VAR1 511\nEND";
+    EXPECT_NE(given_back.find(last), std::string::npos) << given_back.substr(0, 500);
+  }
+}
+
+TEST(CtlCommand, GivesADeviceACommandByItsName) {
+  const auto daemon = RunningUnderstudy::of_model("rs-m8194h", {"--speed", "manual"});
+  EXPECT_EQ(daemon->ctl({"command", "RSM_SET_V X 1000"}).exit_code, 0);
+  EXPECT_EQ(daemon->ctl({"command", "device", "RSM_FIXED_MOVE X 50"}).exit_code, 0);
+  daemon->ctl({"advance", "1s"});
+  EXPECT_EQ(daemon->ctl({"get", "LP_X"}).output, "LP_X 50\n");
+  const std::pair<Words, const char*> wrong[] = {
+      {{"command", "RSM_FLY X"}, "understudy: ctl command: column 1: "},
+      {{"command"}, "expected a device and a command in quotes"},
+      {{"command", "device", "RSM_FIXED_MOVE", "X 50"}, "expected a device and a command in quotes"},
+      {{"command", "RSM_MACRO_NEXT"}, "understudy: ctl command: device does not take it: "},
+  };
+  for (const auto& [words, why] : wrong) {
+    const Finished refused = daemon->ctl(words);
+    EXPECT_EQ(refused.exit_code, 2) << why;
+    EXPECT_NE(refused.errors.find(why), std::string::npos) << refused.errors;
+  }
+  const RunningUnderstudy other({"--speed", "manual"});
+  EXPECT_NE(other.ctl({"command", "STOP"}).errors.find("simple2-r3 has no commands with names"),
+            std::string::npos);
+}
+
 }  // namespace ctl_looking_test
 }  // namespace understudy::acceptance

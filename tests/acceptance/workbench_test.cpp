@@ -256,5 +256,28 @@ TEST_F(ServedWorkbench, TakesCommandsByNameFromPoll) {
   EXPECT_NE(full.errors.find("poll: STOP: "), std::string::npos) << full.errors;
 }
 
+TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {
+  const auto polled = [&](const Words& rest) {
+    Words words{WORKBENCH_BINARY, "poll", port(),    "--baud",   "115200",
+                "--parity",       "none", "--model", "workbench"};
+    words.insert(words.end(), rest.begin(), rest.end());
+    const Finished finished = run(words);
+    return finished.exit_code == 0 ? finished.output : finished.errors;
+  };
+  EXPECT_EQ(polled({"Position_X=70000", "Position_X"}), "Position_X 70000\n");
+  EXPECT_EQ(polled({"Word_Order=1"}), "");
+  EXPECT_EQ(polled({"Position_X", "Position_Y=-5", "Position_Y"}), "Position_X 70000\nPosition_Y -5\n");
+  EXPECT_EQ(polled({"--type", "s32", "0x10"}), "0x10 70000\n");
+  EXPECT_EQ(polled({"--command", "MOVE Z 65538", "Run=1"}), "");
+  EXPECT_TRUE(eventually([&] { return polled({"Position_Z"}) == "Position_Z 65538\n"; }));
+  // Or it is said: what the device has is not asked.
+  EXPECT_EQ(polled({"--word-order", "high", "Position_Z"}), "Position_Z 131073\n");
+  EXPECT_EQ(polled({"--word-order", "low", "Position_Z"}), "Position_Z 65538\n");
+  EXPECT_NE(polled({"--word-order", "middle", "Position_Z"}).find("expected low or high"), std::string::npos);
+  const std::string silent = polled({"--station", "9", "--timeout", "50ms", "Position_Z"});
+  EXPECT_NE(silent.find("Word_Order, the order of words: "), std::string::npos) << silent;
+  EXPECT_EQ(polled({"Word_Order"}), "Word_Order 1\n");
+}
+
 }  // namespace workbench_test
 }  // namespace understudy::acceptance

@@ -5,7 +5,8 @@
 //
 // An input is one byte of options, then lumps. A lump is: a byte of gap (in units of 100 us), a byte of
 // length, its bytes. With the length's top bit the bytes are a PDU: station 1 is put before it, a right
-// checksum behind.
+// checksum behind. Where the options give the controller both its ports, a gap's top bit means the second
+// one.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -33,19 +34,24 @@ namespace workbench = emulator::workbench;
 
 constexpr std::size_t kMostLumps = 32;  // so that a run has an end
 constexpr SimTime kAfterwards = 500ms;  // for what is still on the wire, at most
-constexpr std::size_t kSettings = 4;    // what the byte of options can ask for
+constexpr std::size_t kSettings = 8;    // what the byte of options can ask for
+constexpr std::size_t kPorts = 2;
 
 struct Lump {
   SimTime gap{0};
   std::vector<std::uint8_t> bytes;
   bool is_pdu = false;
+  std::size_t line = 0;
 };
 
-std::vector<Lump> read_lumps(std::span<const std::uint8_t> data) {
+bool has_both_ports(std::uint8_t options) { return (options & 4) != 0; }
+
+std::vector<Lump> read_lumps(std::span<const std::uint8_t> data, bool has_two_lines) {
   std::vector<Lump> lumps;
   while (data.size() >= 2 && lumps.size() < kMostLumps) {
     Lump& lump = lumps.emplace_back();
-    lump.gap = data[0] * 100us;
+    lump.line = has_two_lines && (data[0] & 0x80) != 0 ? 1 : 0;
+    lump.gap = (has_two_lines ? data[0] & 0x7F : data[0]) * 100us;
     lump.is_pdu = (data[1] & 0x80) != 0;
     const std::size_t length = std::min<std::size_t>(data[1] & 0x7F, data.size() - 2);
     if (lump.is_pdu) lump.bytes.push_back(1);
@@ -69,49 +75,64 @@ class Listener {
   void play(std::span<const Lump> lumps) {
     make_anew_();
     take();
-    said_.clear();
+    said_ = {};
     for (const Lump& lump : lumps) {
       world_.advance_to(world_.now() + lump.gap);
-      world_.receive(0, lump.bytes);
+      world_.receive(lump.line, lump.bytes);
       world_.advance_to(world_.now());
       take();
     }
     const SimTime end = world_.now() + kAfterwards;
-    while (line().due() && world_.now() < end) {
+    const auto is_due = [&] {
+      for (std::size_t i = 0; i < lines(); ++i) {
+        if (line(i).due()) return true;
+      }
+      return false;
+    };
+    while (is_due() && world_.now() < end) {
       world_.advance_to(world_.now() + 25ms);
       take();
     }
   }
 
-  const pty::Line& line() const { return world_.line(0).line; }
+  std::size_t lines() const { return world_.line_count(); }
+  const pty::Line& line(std::size_t number) const { return world_.line(number).line; }
   workbench::Workbench& device() { return static_cast<workbench::Workbench&>(world_.device(0)); }
-  const world::StationCounters& counters() { return world_.line(0).stations[0]->counters(); }
+  const world::StationCounters& counters(std::size_t line) {
+    return world_.line(line).stations[0]->counters();
+  }
   SimTime now() const { return world_.now(); }
-  const std::vector<std::uint8_t>& said() const { return said_; }
+  /// On each line.
+  const std::array<std::vector<std::uint8_t>, kPorts>& said() const { return said_; }
 
  private:
   void take() {
-    const auto output = line().output();
-    said_.insert(said_.end(), output.begin(), output.end());
-    world_.take_output(0, output.size());
+    for (std::size_t i = 0; i < lines(); ++i) {
+      const auto output = line(i).output();
+      said_[i].insert(said_[i].end(), output.begin(), output.end());
+      world_.take_output(i, output.size());
+    }
   }
   static world::Bench bench_for(std::uint8_t options) {
     world::Bench bench;
     world::DeviceSetup device{.model = &workbench::model(), .settings = {}};
     device.settings.name = "it";
-    device.settings.bauds = {115200};
+    device.settings.bauds = {115200, 38400};
     bench.devices.push_back(device);
-    bench.lines.push_back({.name = "line",
-                           .link = {},
-                           .baud = 115200,
-                           .timing = (options & 1) != 0 ? pty::Timing::instant : pty::Timing::wire,
-                           .stations = {0}});
+    for (std::size_t port = 0; port < (has_both_ports(options) ? kPorts : 1); ++port) {
+      world::LineSetup line;
+      line.name = port == 0 ? "line" : "other";
+      line.baud = device.settings.bauds[port];
+      line.timing = (options & 1) != 0 ? pty::Timing::instant : pty::Timing::wire;
+      line.stations = {{0, port}};
+      bench.lines.push_back(line);
+    }
     return bench;
   }
 
   world::World world_;
   std::function<void()> make_anew_;
-  std::vector<std::uint8_t> said_;
+  std::array<std::vector<std::uint8_t>, kPorts> said_;
 };
 
 const world::FunctionRow* function_called(std::uint8_t code) {
@@ -130,9 +151,10 @@ std::optional<std::size_t> reply_size(std::span<const std::uint8_t> said) {
   return row->kind == world::FunctionRow::Kind::read ? 5U + said[2] : 8U;
 }
 
-void check_replies(Listener& listener) {
-  if (listener.line().counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
-  std::span<const std::uint8_t> said = listener.said();
+/// A request is answered on the line that it came on, and nowhere else.
+void check_replies(Listener& listener, std::size_t line) {
+  if (listener.line(line).counters().bytes_discarded > 0) return;  // it talked faster than the wire carries
+  std::span<const std::uint8_t> said = listener.said()[line];
   std::uint64_t replies = 0;
   std::uint64_t exceptions = 0;
   while (!said.empty()) {
@@ -148,8 +170,8 @@ void check_replies(Listener& listener) {
     ++replies;
     said = said.subspan(*size);
   }
-  demand(replies == listener.counters().replies, "every reply leaves");
-  demand(exceptions == listener.counters().exceptions, "exceptions are counted");
+  demand(replies == listener.counters(line).replies, "every reply leaves");
+  demand(exceptions == listener.counters(line).exceptions, "exceptions are counted");
 }
 
 /// Without a line: what was refused has changed nothing but what the device notes of it, and what was written
@@ -202,7 +224,7 @@ struct Crowd {
 Crowd& crowd_for(std::uint8_t options) {
   static std::array<std::unique_ptr<Crowd>, kSettings> crowds;
   auto& crowd = crowds[options % kSettings];
-  if (!crowd) crowd = std::make_unique<Crowd>(options);
+  if (!crowd) crowd = std::make_unique<Crowd>(options % kSettings);
   return *crowd;
 }
 
@@ -210,11 +232,11 @@ Crowd& crowd_for(std::uint8_t options) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::vector<Lump> lumps = read_lumps({data + 1, size - 1});
+  const std::vector<Lump> lumps = read_lumps({data + 1, size - 1}, has_both_ports(data[0] % kSettings));
   check_requests(lumps);
   Crowd& crowd = crowd_for(data[0]);
   crowd.listener.play(lumps);
-  check_replies(crowd.listener);
+  for (std::size_t i = 0; i < crowd.listener.lines(); ++i) check_replies(crowd.listener, i);
   demand(crowd.listener.device().state.fifo.size() <= workbench::kFifo, "the FIFO holds what it can");
   if (!fuzzing::is_checked_wholly({data, size})) return 0;
   crowd.stepped.play(lumps);

@@ -74,10 +74,10 @@ TEST(CoordinatedStop, AnAxisThatMeetsSomethingStopsThemAllAtItsPulse) {
     EXPECT_EQ(bench.group.cause, stop.cause) << stop.what;
     EXPECT_EQ(bench.axes[stop.axis].travel_pulses, stop.travel) << stop.what;
     EXPECT_EQ(bench.axes[stop.axis].cause, stop.cause) << stop.what;
-    // The other is where the path is at the end of that tick: 20 pulses of X, 10 of Y at the most.
+    // The other is where the path is at that pulse.
     const auto x = static_cast<double>(bench.axes[0].travel_pulses);
     const auto y = static_cast<double>(bench.axes[1].travel_pulses);
-    EXPECT_LE(std::abs(x - 2 * y), 21) << stop.what;
+    EXPECT_LE(std::abs(x - 2 * y), 1.5) << stop.what;
     EXPECT_EQ(bench.group.run.queued(), 0U) << stop.what;
     const Travels stands = bench.travels();
     bench.steps(20);

@@ -15,6 +15,8 @@ using Zone = Surroundings::Zone;
 /// The index counted from the one mark there is at `index_at`, without a division.
 bool index_at(const Surroundings& here, std::int64_t travel) {
   if (here.index_period <= 0) return false;
+  if (travel < here.index_from) return index_at(here, here.index_from);
+  if (travel > here.index_to) return index_at(here, here.index_to);
   std::int64_t mark = here.index_at;
   while (mark > travel) mark -= here.index_period;
   while (mark + here.index_period <= travel) mark += here.index_period;
@@ -46,7 +48,9 @@ std::string code(const Surroundings& here) {
   }
   return out + "here.index_period = " + std::to_string(here.index_period) +
          "; here.index_at = " + std::to_string(here.index_at) +
-         "; here.index_width = " + std::to_string(here.index_width) + ";";
+         "; here.index_width = " + std::to_string(here.index_width) +
+         "; here.index_from = " + std::to_string(here.index_from) +
+         "; here.index_to = " + std::to_string(here.index_to) + ";";
 }
 
 TEST(Surroundings, AreEmptyAtFirst) {
@@ -131,6 +135,40 @@ TEST(Surroundings, AnIndexOfFullWidthStaysOnAndOneOfNoWidthStaysOff) {
   here.index_width = 0;
   EXPECT_EQ(here.at(-123), 0);
   EXPECT_EQ(here.steps_until_change(0, -1), std::nullopt);
+}
+
+TEST(Surroundings, TheIndexStaysAsItIsAtTheMachinesStops) {
+  // On at 0, 10, 20 ... for two pulses each, and the machine stops at 5 and at 21, where the index is on.
+  Surroundings here;
+  here.index_period = 10;
+  here.index_width = 2;
+  here.index_from = 5;
+  here.index_to = 21;
+  struct Case {
+    std::int64_t travel;
+    bool is_on;
+    std::optional<std::int64_t> up;
+    std::optional<std::int64_t> down;
+  };
+  const Case cases[] = {{-100, false, 110, {}},
+                        {0, false, 10, {}},
+                        {5, false, 5, {}},
+                        {9, false, 1, {}},
+                        {10, true, 2, 1},
+                        {11, true, 1, 2},
+                        {15, false, 5, 4},
+                        {19, false, 1, 8},
+                        {20, true, {}, 1},
+                        {21, true, {}, 2},
+                        {22, true, {}, 3},
+                        {30, true, {}, 11},
+                        {INT64_MAX, true, {}, INT64_MAX - 19},
+                        {INT64_MIN, false, {}, {}}};
+  for (const Case& each : cases) {
+    EXPECT_EQ(here.at(each.travel), each.is_on ? bit(Signal::index) : 0) << each.travel;
+    EXPECT_EQ(here.steps_until_change(each.travel, +1), each.up) << each.travel;
+    EXPECT_EQ(here.steps_until_change(each.travel, -1), each.down) << each.travel;
+  }
 }
 
 TEST(Surroundings, EveryChangeRaisesTheVersion) {

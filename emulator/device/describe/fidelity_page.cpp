@@ -1,4 +1,6 @@
 #include "emulator/device/describe/fidelity_page.h"
+#include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "emulator/device/describe/describe.h"
@@ -26,8 +28,10 @@ std::string fidelity_page(const Model& model) {
 
   Sheet missing{.columns = {"address", "register", "what is not modelled"}, .rows = {}};
   const Sheet registers = *describe(model, "registers", SheetFormat::table);
+  const auto column = std::find(registers.columns.begin(), registers.columns.end(), "not modelled");
   for (const auto& row : registers.rows) {
-    if (!row.back().empty()) missing.rows.push_back({row[1], row[2], row.back()});
+    const std::string& what = row[static_cast<std::size_t>(column - registers.columns.begin())];
+    if (!what.empty()) missing.rows.push_back({row[1], row[2], what});
   }
   page += "\n## Not modelled yet\n\n";
   for (const std::string_view gap : model.gaps) page += "- " + std::string(gap) + "\n";

@@ -1,5 +1,8 @@
 #include "emulator/device/memory/kept_memory.h"
+
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "base/text/one_line.h"
 #include "emulator/device/memory/nv_image.h"
@@ -8,11 +11,15 @@
 
 namespace understudy::emulator {
 
-NvImage KeptMemory::nv_image() const {
-  NvImage image{.model = std::string(model_name_), .firmware = version_text(firmware_)};
-  write_memory(image);
-  if (const TextBlocks* const blocks = text_blocks()) image.blocks = blocks->all();
-  return image;
+LateImage KeptMemory::kept_now() const {
+  const TextBlocks* const texts = text_blocks();
+  return [model = model_name_, firmware = firmware_, write = memory_writer(),
+          blocks = texts != nullptr ? texts->shared() : nullptr] {
+    NvImage image{.model = std::string(model), .firmware = version_text(firmware)};
+    write(image);
+    if (blocks != nullptr) image.blocks = *blocks;
+    return image;
+  };
 }
 
 void KeptMemory::load_nv(const NvImage& image) {
@@ -24,7 +31,7 @@ void KeptMemory::load_nv(const NvImage& image) {
   if (blocks == nullptr && !image.blocks.empty()) {
     throw NvError("blocks: are not part of the memory of " + image.model + "; expected none");
   }
-  if (blocks != nullptr) blocks->check(image.blocks);
+  if (blocks != nullptr) blocks->check(image.blocks, image.block_lines);
   read_memory(image);
   if (blocks != nullptr) blocks->replace(image.blocks);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -14,8 +15,11 @@ namespace understudy::emulator {
 class KeptMemory {
  public:
   /// To and from the form in files (from: only without power). Throws NvError for what it cannot hold.
-  NvImage nv_image() const;
+  NvImage nv_image() const { return kept_now()(); }
   void load_nv(const NvImage& image);
+  /// What it keeps at this moment. Whoever has that may make the image later, in another thread, and when the
+  /// device is gone: taking it copies numbers and shares texts, making the image is what takes time.
+  LateImage kept_now() const;
 
   /// The named texts that it keeps; null for most. They are in its images without more ado.
   virtual TextBlocks* text_blocks() { return nullptr; }
@@ -31,8 +35,9 @@ class KeptMemory {
   KeptMemory(std::string_view model_name, Firmware firmware) : model_name_(model_name), firmware_(firmware) {}
   ~KeptMemory() = default;
 
-  /// Puts all that is kept, but for text_blocks(), into an image that has the model and the firmware already.
-  virtual void write_memory(NvImage& image) const = 0;
+  /// What puts all that is kept now, but for text_blocks(), into an image that has the model and the firmware
+  /// already. It refers to nothing of the device.
+  virtual std::function<void(NvImage&)> memory_writer() const = 0;
   /// The reverse, without power: what the image does not name has the factory's value. If it throws (NvError:
   /// it cannot hold that), nothing has changed.
   virtual void read_memory(const NvImage& image) = 0;

@@ -52,7 +52,7 @@ NvWriter::~NvWriter() {
 
 void NvWriter::write(const std::string& path, std::string contents) { take(path, std::move(contents)); }
 
-void NvWriter::write(const std::string& path, NvImage image) { take(path, std::move(image)); }
+void NvWriter::write(const std::string& path, LateImage image) { take(path, std::move(image)); }
 
 void NvWriter::take(const std::string& path, Contents contents) {
   {
@@ -90,8 +90,8 @@ void NvWriter::run() {
     is_busy_ = true;
     lock.unlock();
     for (const auto& [path, contents] : work) {
-      const auto* const image = std::get_if<NvImage>(&contents);
-      replace(path, image != nullptr ? to_json(*image) : std::get<std::string>(contents));
+      const auto* const image = std::get_if<LateImage>(&contents);
+      replace(path, image != nullptr ? to_json((*image)()) : std::get<std::string>(contents));
     }
     lock.lock();
     is_busy_ = false;

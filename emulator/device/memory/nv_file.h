@@ -35,8 +35,8 @@ class NvWriter {
 
   /// Takes the file's new contents.
   void write(const std::string& path, std::string contents);
-  /// Like the above; the helper thread makes the text of it.
-  void write(const std::string& path, NvImage image);
+  /// Like the above; the helper thread makes the image, and its text.
+  void write(const std::string& path, LateImage image);
   /// Waits until everything taken is on the disk, or was refused by it.
   void flush();
   /// Nothing waits, nothing is being written, and there is no news.
@@ -45,7 +45,7 @@ class NvWriter {
   std::vector<std::string> take_news();
 
  private:
-  using Contents = std::variant<std::string, NvImage>;
+  using Contents = std::variant<std::string, LateImage>;
   void run();
   void take(const std::string& path, Contents contents);
   void replace(const std::string& path, const std::string& contents);

@@ -195,6 +195,7 @@ OrderedJson json_of_block(const std::string& text) {
 void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvImage& image) {
   if (!blocks.is_object()) throw NvError("blocks: is not an object; expected kinds of blocks");
   for (const BlockPlace& place : places) {
+    image.block_lines[{place.kind, place.name}] = place.line;
     const Json& entries = blocks[place.kind];
     if (!entries.is_object()) throw NvError(text_of(place) + "is not an object; expected names and lines");
     if (place.name.empty()) {
@@ -216,6 +217,10 @@ void read_blocks(const Json& blocks, const std::vector<BlockPlace>& places, NvIm
 }
 
 }  // namespace
+
+bool NvImage::operator==(const NvImage& other) const {
+  return firmware == other.firmware && holds_the_same(*this, other);
+}
 
 bool holds_the_same(const NvImage& a, const NvImage& b) {
   return a.model == b.model && a.registers == b.registers && a.reals == b.reals && a.program == b.program &&

@@ -3,6 +3,7 @@
 // program and blocks of text are for models whose memory has them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -18,6 +19,9 @@ namespace understudy::emulator {
 /// Texts by kind ("files") and name; a copy shares them.
 using NamedBlocks = std::map<std::string, std::map<std::string, SharedText, std::less<>>, std::less<>>;
 
+/// Lines of a file, by kind and name of a block; of a kind itself, by an empty name.
+using BlockLines = std::map<std::pair<std::string, std::string>, std::size_t>;
+
 struct NvImage {
   std::string model;
   std::string firmware;                                           // of the device that wrote it; for people
@@ -25,9 +29,13 @@ struct NvImage {
   std::vector<std::pair<std::string, double>> reals{};            // finite
   std::vector<std::string> program{};                             // its lines
   NamedBlocks blocks{};                                           // in UTF-8
+  BlockLines block_lines{};  // of the text that it was read from: for messages, not part of what it holds
 
-  bool operator==(const NvImage&) const = default;
+  bool operator==(const NvImage& other) const;
 };
+
+/// An image that is yet to be made.
+using LateImage = std::function<NvImage()>;
 
 /// An image that cannot be used: one line, "field: what is wrong; what was expected".
 struct NvError : std::runtime_error {

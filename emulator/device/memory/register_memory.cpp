@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,14 +19,19 @@
 
 namespace understudy::emulator {
 
-void write_registers(const RegisterBank& bank, std::span<const std::uint32_t> kept, NvImage& image) {
+namespace {
+
+void write_kept_registers(const RegisterMap& map, const std::vector<bool>& keeps_row,
+                          const std::vector<std::uint32_t>& kept, NvImage& image) {
   std::size_t slot = 0;
-  for (const RegisterRow& row : bank.map().rows()) {
+  std::size_t number = 0;
+  for (const RegisterRow& row : map.rows()) {
+    const bool is_kept = keeps_row[number++];
     if (row.is_view) continue;
     for (int i = 0; i < row.count; ++i, ++slot) {
-      if (!bank.keeps(row) || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
+      if (!is_kept || kept[slot] == static_cast<std::uint32_t>(row.factory)) continue;
       const Value value = value_of(kept[slot], row.type);
-      std::string name = bank.map().unique_name(row, i);
+      std::string name = map.unique_name(row, i);
       // What is not a finite number is written as its bits.
       if (row.type == Type::f32 && std::isfinite(real_of(value))) {
         image.reals.emplace_back(std::move(name), real_of(value));
@@ -34,6 +40,18 @@ void write_registers(const RegisterBank& bank, std::span<const std::uint32_t> ke
       }
     }
   }
+}
+
+}  // namespace
+
+std::function<void(NvImage&)> registers_writer(const RegisterBank& bank,
+                                               std::span<const std::uint32_t> kept) {
+  std::vector<bool> keeps_row;
+  for (const RegisterRow& row : bank.map().rows()) keeps_row.push_back(bank.keeps(row));
+  return [&map = bank.map(), keeps_row = std::move(keeps_row),
+          values = std::vector<std::uint32_t>(kept.begin(), kept.end())](NvImage& image) {
+    write_kept_registers(map, keeps_row, values, image);
+  };
 }
 
 std::vector<std::uint32_t> read_registers(const RegisterBank& bank, const NvImage& image, Firmware newest) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,9 +11,9 @@
 
 namespace understudy::emulator {
 
-/// Adds the registers that are kept and differ from the factory's values. `kept` has one value for each slot;
-/// those of registers that are not kept mean nothing.
-void write_registers(const RegisterBank& bank, std::span<const std::uint32_t> kept, NvImage& image);
+/// What adds the registers that are kept now and differ from the factory's values. `kept` has one value for
+/// each slot; those of registers that are not kept mean nothing. Of `bank` only the map must outlive it.
+std::function<void(NvImage&)> registers_writer(const RegisterBank& bank, std::span<const std::uint32_t> kept);
 
 /// The reverse, one value for each slot: what the image does not name has the factory's value. `newest` is
 /// the model's newest firmware: an update leaves the memory as it is, so it may hold registers of any. Throws

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,16 @@ const SharedText* TextBlocks::find(std::string_view kind, std::string_view name)
   if (entries == all_.end()) return nullptr;
   const auto found = entries->second.find(name);
   return found == entries->second.end() ? nullptr : &found->second;
+}
+
+std::shared_ptr<const NamedBlocks> TextBlocks::shared() const {
+  if (!shared_) shared_ = std::make_shared<const NamedBlocks>(all_);
+  return shared_;
+}
+
+void TextBlocks::changed() {
+  ++revision_;
+  shared_.reset();
 }
 
 std::string TextBlocks::why_not(const BlockKind& kind, const std::string& name, const SharedText& block) {
@@ -58,7 +69,7 @@ std::string TextBlocks::put(std::string_view kind_name, const std::string& name,
     return "there is no room; expected at most " + std::to_string(of->most);
   }
   all_[std::string(kind_name)][name] = std::move(text);
-  ++revision_;
+  changed();
   return "";
 }
 
@@ -69,26 +80,31 @@ bool TextBlocks::erase(std::string_view kind, std::string_view name) {
   if (found == entries->second.end()) return false;
   entries->second.erase(found);
   if (entries->second.empty()) all_.erase(entries);
-  ++revision_;
+  changed();
   return true;
 }
 
-void TextBlocks::check(const NamedBlocks& blocks) const {
+void TextBlocks::check(const NamedBlocks& blocks, const BlockLines& lines) const {
+  const auto refuse = [&](const std::string& kind_name, const std::string& name, const std::string& why) {
+    const auto line = lines.find({kind_name, name});
+    throw NvError((line == lines.end() ? "" : "line " + std::to_string(line->second) + ": ") +
+                  "blocks: " + why);
+  };
   for (const auto& [kind_name, entries] : blocks) {
     const BlockKind* const of = kind(kind_name);
     if (of == nullptr) {
       std::vector<std::string> known;
       for (const BlockKind& one : kinds_) known.emplace_back(one.name);
-      throw NvError("blocks: " + quoted(kind_name) + " is not a kind of block" +
-                    suggestion(kind_name, known));
+      refuse(kind_name, {}, quoted(kind_name) + " is not a kind of block" + suggestion(kind_name, known));
     }
     if (entries.size() > of->most) {
-      throw NvError("blocks: " + kind_name + ": has " + std::to_string(entries.size()) +
-                    " entries; expected at most " + std::to_string(of->most));
+      refuse(kind_name, {},
+             kind_name + ": has " + std::to_string(entries.size()) + " entries; expected at most " +
+                 std::to_string(of->most));
     }
     for (const auto& [name, text] : entries) {
       const std::string why = why_not(*of, name, text);
-      if (!why.empty()) throw NvError("blocks: " + kind_name + ": " + quoted(name) + ": " + why);
+      if (!why.empty()) refuse(kind_name, name, kind_name + ": " + quoted(name) + ": " + why);
     }
   }
 }
@@ -98,17 +114,30 @@ void TextBlocks::replace(const NamedBlocks& blocks) {
   std::erase_if(without_empty, [](const auto& kind) { return kind.second.empty(); });
   if (without_empty == all_) return;
   all_ = std::move(without_empty);
-  ++revision_;
+  changed();
 }
 
 void TextBlocks::check_restored(const TextBlocks& earlier) {
   kinds_ = earlier.kinds_;
+  shared_.reset();
+  // What was there already has been checked: to parse a megabyte of programs takes ten times as long as the
+  // rest.
+  NamedBlocks fresh = all_;
+  for (auto& [kind_name, entries] : fresh) {
+    std::erase_if(entries, [&, of = kind_name](const auto& entry) {
+      const SharedText* const before = earlier.find(of, entry.first);
+      return before != nullptr && *before == entry.second;
+    });
+  }
   try {
-    check(all_);
+    check(fresh);
   } catch (const NvError& wrong) {
     throw StateError(wrong.what());
   }
-  for (const auto& [name, entries] : all_) demand_state(!entries.empty(), "a kind of block is empty");
+  for (const auto& [name, entries] : all_) {
+    demand_state(!entries.empty(), "a kind of block is empty");
+    demand_state(entries.size() <= kind(name)->most, "a kind of block has too many entries");
+  }
 }
 
 }  // namespace understudy::emulator

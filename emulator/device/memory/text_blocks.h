@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,7 +21,7 @@ struct BlockKind {
   std::string_view name;    // "files": a key of the image
   std::size_t most = 0;     // entries
   std::size_t longest = 0;  // bytes of one
-  /// Why an entry cannot be called so; empty if it can. Null: any name.
+  /// Why an entry cannot have that name; empty if it can. Null: any name.
   std::string (*why_not_called)(const std::string& name) = nullptr;
   /// What is wrong with a text, "line 3: ..."; empty if nothing is. Null: any text.
   std::string (*why_not_text)(const std::string& text) = nullptr;
@@ -33,6 +34,8 @@ class TextBlocks {
 
   std::span<const BlockKind> kinds() const { return kinds_; }
   const NamedBlocks& all() const { return all_; }
+  /// The same, as they are now; made once for each change, and never changed.
+  std::shared_ptr<const NamedBlocks> shared() const;
   /// Null if there is none.
   const SharedText* find(std::string_view kind, std::string_view name) const;
 
@@ -41,8 +44,9 @@ class TextBlocks {
   std::string put(std::string_view kind, const std::string& name, SharedText text);
   /// Whether it was there.
   bool erase(std::string_view kind, std::string_view name);
-  /// Throws NvError, "files: 'A': what is wrong", for blocks that do not fit.
-  void check(const NamedBlocks& blocks) const;
+  /// Throws NvError, "blocks: files: 'A': what is wrong", for blocks that do not fit; with the line of the
+  /// file that they are from where that is known.
+  void check(const NamedBlocks& blocks, const BlockLines& lines = {}) const;
   /// All at once, after check().
   void replace(const NamedBlocks& blocks);
   /// Grows with everything that changes.
@@ -59,11 +63,13 @@ class TextBlocks {
   template <class T>
   friend struct understudy::StateOf;
   const BlockKind* kind(std::string_view name) const;
+  void changed();
   static std::string why_not(const BlockKind& kind, const std::string& name, const SharedText& text);
 
   std::uint64_t revision_ = 0;
   NamedBlocks all_;  // kinds without entries are left out
   std::span<const BlockKind> kinds_;
+  mutable std::shared_ptr<const NamedBlocks> shared_;  // `all_` at this revision, once somebody asked for it
 };
 
 }  // namespace understudy::emulator
@@ -75,10 +81,10 @@ struct StateOf<emulator::TextBlocks> {
   using Value = emulator::TextBlocks;
   static constexpr auto fields =
       std::tuple{field("blocks", &Value::all_), field("revision", &Value::revision_)};
-  static constexpr std::size_t members = 3;
-  static constexpr std::size_t apart = 1;  // the model's table
+  static constexpr std::size_t members = 4;
+  static constexpr std::size_t apart = 2;  // the model's table, and what is made of the blocks
   static void name_all(Value& all) {       // does not compile if there are others
-    [[maybe_unused]] auto& [revision, blocks, kinds] = all;
+    [[maybe_unused]] auto& [revision, blocks, kinds, shared] = all;
   }
 };
 

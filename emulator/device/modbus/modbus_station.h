@@ -1,4 +1,4 @@
-// What a device offers that is spoken to in Modbus, beside its registers: which addresses it listens to, and
+// What a device that speaks Modbus offers beside its registers: which addresses it listens to, and
 // whether it refuses, and that it counts what was wrong. A facet: Device::modbus() is null where a device
 // speaks something else.
 #pragma once
@@ -20,6 +20,10 @@ enum class Addressing : std::uint8_t { ignore, obey_silently, obey_and_reply };
 class ModbusStation {
  public:
   virtual Addressing addressing(std::uint8_t address) const = 0;
+  /// Of those of its model.
+  virtual bool knows(std::uint8_t /*function*/) const { return true; }
+  /// The silence that ends a frame for it; the model's is the usual one.
+  virtual pty::SimTime end_silence(pty::SimTime usual) const { return usual; }
   /// Whether a request that it refuses gets an exception, or no answer.
   virtual bool answers_refusals() const { return true; }
   /// What came in by that port was not a frame; it gets no answer. Only while the device has power.

@@ -1,4 +1,4 @@
-// What reading and writing share (access.h): what a register holds at this moment, and why it is not to be
+// What reading and writing share (access.h): what a register holds at this moment, and why it cannot be
 // had.
 #pragma once
 

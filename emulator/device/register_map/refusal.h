@@ -43,7 +43,7 @@ struct DeviceAnswer {
   std::uint16_t reason = 0;  // the device's own; 0: it has none
 };
 
-/// A refusal with its cause, and the address where it was found.
+/// A refusal with its cause, and the address at which it was found.
 struct Objection {
   Refusal refusal = Refusal::none;
   Cause cause = Cause::none;

@@ -22,7 +22,7 @@ struct RegisterRequest {
   bool is_write() const { return !words.empty(); }
 };
 
-/// What of a request has been found good. A write is shown twice, a read once.
+/// How much of a request has been found good. A write is shown twice, a read once.
 enum class Checked : std::uint8_t { addresses, everything };
 
 class RegisterBank {
@@ -51,7 +51,7 @@ class RegisterBank {
   virtual bool keeps(const RegisterRow& row) const { return row.persistent; }
 
   /// Whether the device takes a request that is good so far: it may be busy, or fail. Asked before anything
-  /// is stored, of requests from outside; what it writes itself it is not asked.
+  /// is stored, of requests from outside; it is not asked about what it writes itself.
   virtual DeviceAnswer admits(const RegisterRequest& /*request*/, Checked /*checked*/) const {
     return Refusal::none;
   }

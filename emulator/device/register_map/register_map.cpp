@@ -61,6 +61,12 @@ RegisterMap::RegisterMap(std::span<const RegisterRow> rows, MapPolicy policy)
     name_places(row, first_slot);
     if (!row.is_view) slot_count_ += row.count;
   }
+  if (policy.word_order_in.empty()) return;
+  const auto& holding = tables_[static_cast<std::size_t>(Table::holding)].names;
+  if (!holding.contains(std::string(policy.word_order_in))) {
+    throw std::logic_error("register map: " + std::string(policy.word_order_in) +
+                           " is to have the order of words, but is not a holding register");
+  }
 }
 
 void RegisterMap::place_words(const RegisterRow& row, int row_number) {
@@ -72,8 +78,9 @@ void RegisterMap::place_words(const RegisterRow& row, int row_number) {
       const int address = row.address + index * row.stride + word;
       Entry& entry = table.entries.at(static_cast<std::size_t>(address));
       if (entry.row_number != 0) {
-        throw std::logic_error("register map: " + name_of(row, index) +
-                               " shares its address with another register");
+        const RegisterRow& other = rows_[entry.row_number - 1U];
+        throw std::logic_error("register map: " + name_of(row, index) + " shares its address with " +
+                               name_of(other, entry.index_and_part / 2));
       }
       entry = {static_cast<std::uint16_t>(row_number), static_cast<std::uint16_t>(index * 2 + word)};
       table.end = std::max(table.end, address + 1);

@@ -359,6 +359,9 @@ struct MapPolicy {
   /// Whether the registers of one request take effect once all of them are stored, or each in its turn.
   enum class Effects : std::uint8_t { after_all, one_by_one } effects = Effects::after_all;
   bool low_word_first = true;
+  /// The holding register that a device keeps the order in, where it may change: 1, the low word first. For
+  /// hosts of ours; the device says what is in force (RegisterBank::low_word_first).
+  std::string_view word_order_in{};
 };
 
 }  // namespace understudy::emulator

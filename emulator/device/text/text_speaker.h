@@ -1,4 +1,4 @@
-// What a device offers that is spoken to in lines of text: it hears whole lines, and what it says is taken
+// What a device that is spoken to in lines of text offers: it hears whole lines, and what it says is taken
 // from it as text. It does not know the bytes on the wire, a descriptor, or when its text is sent.
 #pragma once
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "motion/move.h"
 #include "motion/ramp.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -12,7 +14,8 @@ namespace {
 /// A speed in whole counts of MAX_V / 8000, one at least.
 double in_counts(std::uint32_t speed_pps, const SpeedRange& range) {
   const double within = std::min<double>(speed_pps, range.max_v);
-  return std::max(1.0, std::floor(within / range.step_pps)) * range.step_pps;
+  const double counts = within / range.step_pps;
+  return std::max(1.0, std::floor(range.rules.rounds_to_nearest ? counts + 0.5 : counts)) * range.step_pps;
 }
 
 }  // namespace
@@ -37,7 +40,7 @@ motion::SpeedLaw law_of(const SpeedSettings& speed, std::uint32_t drive_pps, con
     law.down = shape.unlike_ramps ? slope(speed.deceleration) : law.up;
     if (avoids_triangles) law.when_short = motion::Short::keep_half;
   }
-  if (!shape.constant) law.slow_down_offset_u = speed.offset_pulses;
+  if (!shape.constant && range.rules.has_offset) law.slow_down_offset_u = speed.offset_pulses;
   return law;
 }
 

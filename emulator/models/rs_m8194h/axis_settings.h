@@ -52,8 +52,16 @@ struct BasicSettings {
   bool operator==(const BasicSettings&) const = default;
 };
 
+/// What the manual leaves open about speeds (choices.h).
+struct SpeedRules {
+  bool rounds_to_nearest = false;
+  bool has_offset = true;              // AO
+  double least_jerk_part = 0.0119211;  // of MAX_V
+};
+
 /// One count of a speed, and the least of what else has a range, by a MAX_V (3.4, 7.1).
 struct SpeedRange {
+  SpeedRules rules = {};
   std::uint32_t max_v = 0;
   double step_pps = 0;
   double least_slope = 0;
@@ -62,13 +70,15 @@ struct SpeedRange {
 };
 inline constexpr double kMostJerk = 2e9;
 
-inline SpeedRange speed_range(std::uint32_t max_v_as_sent, std::uint32_t highest = 4'000'000) {
+inline SpeedRange speed_range(std::uint32_t max_v_as_sent, const SpeedRules& rules,
+                              std::uint32_t highest = 4'000'000) {
   const std::uint32_t max_v = std::clamp<std::uint32_t>(max_v_as_sent, 8'000, highest);
-  return {.max_v = max_v,
+  return {.rules = rules,
+          .max_v = max_v,
           .step_pps = max_v / 8000.0,
           .least_slope = max_v / 64.0,
           .most_slope = max_v * 125.0,
-          .least_jerk = max_v * 0.0119211};
+          .least_jerk = max_v * rules.least_jerk_part};
 }
 
 /// How fast an axis, or the path, goes (7.1.1 to 7.1.8, 7.2.3 to 7.2.9), as it was sent. 0 of an axis that

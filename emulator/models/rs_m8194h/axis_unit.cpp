@@ -4,7 +4,11 @@
 #include <cstdint>
 #include <iterator>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
+#include "motion/counter.h"
+#include "motion/move.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -40,14 +44,18 @@ std::int64_t divided(const BasicSettings& basic, std::int64_t edges) {
 
 }  // namespace
 
-SpeedRange range_of(const AxisUnit& axis) { return speed_range(axis.basic.max_v); }
+SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules) {
+  return speed_range(axis.basic.max_v, rules);
+}
 
-motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps) {
-  return law_of(axis.speed, drive_pps, range_of(axis), kNormalShapes[axis.speed.mode],
+motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules) {
+  return law_of(axis.speed, drive_pps, range_of(axis, rules), kNormalShapes[axis.speed.mode],
                 axis.basic.avoids_triangles);
 }
 
-motion::SpeedLaw law_of(const AxisUnit& axis) { return law_at(axis, axis.speed.drive_pps); }
+motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules) {
+  return law_at(axis, axis.speed.drive_pps, rules);
+}
 
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor) {
   return static_cast<std::int32_t>(axis.logic.at(motor.travel_pulses));
@@ -102,6 +110,9 @@ void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& setti
     const auto range = settings.ring ? Counter::Range::ring : Counter::Range::bits32;
     set_range(axis.logic, range, settings.ring ? settings.ring_top : 0, motor.travel_pulses);
     set_range(axis.encoder, range, settings.ring ? settings.ring_top : 0, encoder_travel(axis, motor));
+    if (options.ring_takes_absolute) {
+      set_range(axis.absolute, range, settings.ring ? settings.ring_top : 0, motor.travel_pulses);
+    }
   }
   const bool counts_otherwise =
       before.encoder_mode != settings.encoder_mode || before.encoder_division != settings.encoder_division;
@@ -115,7 +126,7 @@ void apply_basic(AxisUnit& axis, motion::Axis& motor, const BasicSettings& setti
   }
 }
 
-void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked) {
+void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const AxisOptions& options) {
   struct Comparison {
     motion::Event event;
     std::size_t which;  // C+, C-
@@ -140,17 +151,26 @@ void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked) {
     }
     const auto number = static_cast<std::size_t>(each.event);
     wanted.was_true = motor.comparators[number].was_true;
-    if (wanted != motor.comparators[number]) motor.set_comparator(number, wanted);
+    if (wanted == motor.comparators[number]) continue;
+    const bool is_new = motor.comparators[number].relation == Comparator::Relation::off;
+    motor.set_comparator(number, wanted);
+    if (is_new && options.comparisons_fire_when_armed) motor.comparators[number].was_true = false;
   }
   motion::AxisSettings changed = motor.settings;
   constexpr motion::Events kCostly = motion::bit(motion::Event::pulse) |
                                      motion::bit(motion::Event::constant_started) |
                                      motion::bit(motion::Event::constant_ended);
   changed.raises = asked.events & kCostly;
+  const auto stops_by = [&](motion::Event edge) {
+    return (asked.stopping & motion::bit(edge)) != 0 ? asked.stop : motion::Reaction::ignore;
+  };
+  changed.at_mark_on = stops_by(motion::Event::mark_on);
+  changed.at_mark_off = stops_by(motion::Event::mark_off);
   changed.soft_limit_plus.reset();
   changed.soft_limit_minus.reset();
   const bool by_pulses = axis.basic.soft_limit_source == 0 || !axis.has_encoder;
-  if (axis.basic.soft_limits && by_pulses) {
+  const bool is_heeded = options.homing_heeds_soft_limits || !motor.homing.active();
+  if (axis.basic.soft_limits && by_pulses && is_heeded) {
     const Counter& counter = axis.basic.soft_limit_source == 0 ? axis.logic : axis.encoder;
     changed.soft_limit_plus = axis.basic.forward_soft_limit - counter.offset;
     changed.soft_limit_minus = axis.basic.reverse_soft_limit - counter.offset;

@@ -53,6 +53,9 @@ enum class Factor : std::uint8_t {
 inline constexpr std::size_t kIsrFactors = 8;
 inline constexpr std::size_t kFactors = 10;
 
+/// The bit of what a motion ends by, or is kept from beginning by (drives.cpp).
+std::uint16_t error_of(motion::Cause cause);
+
 /// A drive of one axis that a command asks for.
 struct Drive {
   enum class What : std::uint8_t { none, fixed, absolute, endless, home, scan };
@@ -75,6 +78,7 @@ struct OutSettings {
   std::uint8_t level = 0;       // outEdge
   std::uint8_t width_code = 0;  // PulseWidth
   std::int64_t pulses = 0;      // given so far
+  Tick pulse_until = 0;         // of the last one, where it is a millisecond long or more
 
   bool operator==(const OutSettings&) const = default;
 };
@@ -105,6 +109,7 @@ struct AxisUnit {
   bool held = false;         // DRV_HOLD
   Drive held_drive{};        // waits for DRV_START
   FilteredPins pins{};
+  bool emergency = false;  // the EMG input, as its filter lets it through
   motion::ExternalDrive external{};
   std::uint32_t external_pps = 0;                // of EXD_CP
   std::array<std::uint32_t, 2> external_seen{};  // edges of EXP+ and EXP-
@@ -118,10 +123,10 @@ struct AxisUnit {
   bool operator==(const AxisUnit&) const = default;
 };
 
-SpeedRange range_of(const AxisUnit& axis);
+SpeedRange range_of(const AxisUnit& axis, const SpeedRules& rules);
 /// The law of a drive at another speed than V.
-motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps);
-motion::SpeedLaw law_of(const AxisUnit& axis);
+motion::SpeedLaw law_at(const AxisUnit& axis, std::uint32_t drive_pps, const SpeedRules& rules);
+motion::SpeedLaw law_of(const AxisUnit& axis, const SpeedRules& rules);
 
 /// The three counters.
 std::int32_t logic_count(const AxisUnit& axis, const motion::Axis& motor);
@@ -138,6 +143,9 @@ struct AxisOptions {
   motion::Reaction at_soft_limit = motion::Reaction::slow_down;
   motion::Reaction at_alarm = motion::Reaction::stop_at_once;  // and at the EMG input
   bool drives_wait_for_in_position = true;
+  bool ring_takes_absolute = false;
+  bool homing_heeds_soft_limits = true;
+  bool comparisons_fire_when_armed = false;
 };
 
 /// Puts the basic settings in force, beside what runs.
@@ -150,7 +158,7 @@ struct Asked {
   motion::Reaction stop = motion::Reaction::ignore;
 };
 /// Limits and comparators as the motor watches them: again whenever a counter or one of them is set.
-void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked);
+void arm(const AxisUnit& axis, motion::Axis& motor, const Asked& asked, const AxisOptions& options);
 /// Of a soft limit on a bench's encoder, which the motor does not watch: the cause of a motion in `way` that
 /// may not go on.
 motion::Cause soft_limit_by_encoder(const AxisUnit& axis, const motion::Axis& motor, int way);
@@ -189,7 +197,7 @@ struct StateOf<emulator::models::rs_m8194h::OutSettings> {
   using Value = emulator::models::rs_m8194h::OutSettings;
   static constexpr auto fields =
       std::tuple{field("level", &Value::level), field("width_code", &Value::width_code),
-                 field("pulses", &Value::pulses)};
+                 field("pulses", &Value::pulses), field("pulse_until", &Value::pulse_until)};
 };
 
 template <>
@@ -218,6 +226,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
                                             field("held", &Value::held),
                                             field("held_drive", &Value::held_drive),
                                             field("pins", &Value::pins),
+                                            field("emergency", &Value::emergency),
                                             field("external", &Value::external),
                                             field("external_pps", &Value::external_pps),
                                             field("external_seen", &Value::external_seen),
@@ -231,6 +240,7 @@ struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
     demand_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)
       demand_state(since >= -kFar && since <= kFar, "a time is too far");
+    demand_state(unit.out.pulse_until >= -kFar && unit.out.pulse_until <= kFar, "a pulse is too long");
     demand_state(unit.encoder_raw >= -kFar && unit.encoder_raw <= kFar && unit.encoder_zero >= -kFar &&
                      unit.encoder_zero <= kFar,
                  "an encoder is too far");

@@ -1,12 +1,22 @@
 // The settings of section 3: what a command changes, and the Initial Table as the commands that make it.
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "base/complete_table.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/registers.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/verbs.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -87,8 +97,7 @@ constexpr auto kSettingVerbs = [] {
 }();
 constexpr CompleteTable<Verb, Change> kTable(kSettingVerbs, kChanges);
 
-std::string lines_of(const BasicSettings& settings, std::uint32_t axis) {
-  const BasicSettings factory;
+std::string lines_of(const BasicSettings& settings, const BasicSettings& factory, std::uint32_t axis) {
   std::string text;
   const auto line = [&](Verb verb, std::initializer_list<std::uint32_t> values) {
     Command command{.code = lang::real_time_code(verb)};
@@ -132,10 +141,10 @@ void apply_setting(BasicSettings& settings, const Command& command) {
   if (kTable.has(command.verb())) kTable[command.verb()](settings, command);
 }
 
-void keep_initial_table(TextBlocks& blocks, const InitialTable& table) {
+void keep_initial_table(TextBlocks& blocks, const InitialTable& table, const BasicSettings& factory) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     const std::string name(kAxisNames[a]);
-    std::string text = lines_of(table[a], mask_of(a));
+    std::string text = lines_of(table[a], factory, mask_of(a));
     if (text.empty()) {
       blocks.erase(kInitialBlocks, name);
     } else {
@@ -144,8 +153,9 @@ void keep_initial_table(TextBlocks& blocks, const InitialTable& table) {
   }
 }
 
-InitialTable initial_table_of(const TextBlocks& blocks) {
-  InitialTable table{};
+InitialTable initial_table_of(const TextBlocks& blocks, const BasicSettings& factory) {
+  InitialTable table;
+  table.fill(factory);
   for (std::size_t a = 0; a < kAxes; ++a) {
     const SharedText* const text = blocks.find(kInitialBlocks, std::string(kAxisNames[a]));
     if (text == nullptr) continue;

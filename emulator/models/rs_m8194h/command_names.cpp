@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "emulator/device/command_window.h"
 #include "emulator/device/program_error.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "interpreter/rs_m8194h/check.h"

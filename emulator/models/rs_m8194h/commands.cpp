@@ -4,6 +4,7 @@
 #include "emulator/models/rs_m8194h/event_commands.h"
 #include "emulator/models/rs_m8194h/motion_commands.h"
 #include "emulator/models/rs_m8194h/setting_commands.h"
+#include "interpreter/rs_m8194h/commands.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 

@@ -2,15 +2,36 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "base/simulated_time.h"
 #include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "emulator/device/device_of.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/device/terminals.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/memory.h"
 #include "emulator/models/rs_m8194h/model.h"
-#include "emulator/models/rs_m8194h/state_fields.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/state_fields.h"  // IWYU pragma: keep, write() goes through the fields
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -28,7 +49,7 @@ std::uint16_t word_of(std::span<const std::uint16_t> words, int number) {
 }  // namespace
 
 RsM8194h::RsM8194h(const DeviceSettings& given)
-    : Device(rs_m8194h::model(), given),
+    : DeviceOf(rs_m8194h::model(), given),
       RegisterBankOf(*this, *rs_m8194h::model().registers, given.firmware),
       KeptMemory(rs_m8194h::model().name, given.firmware),
       options_(rs_m8194h::language_options(given)),
@@ -51,9 +72,10 @@ void RsM8194h::blank_module() {
     motor.travel_pulses = motor.base_pulses = before.travel_pulses;
     motor.watch_low = motor.watch_high = before.travel_pulses;
     AxisUnit& blank = state_.units[a] = AxisUnit{};
-    blank.has_encoder = unit.has_encoder;
+    blank.has_encoder = unit.has_encoder || chose(option("ep_without_encoder", "stands_still"));
     blank.encoder_raw = blank.encoder_zero = unit.encoder_raw;
     blank.pins = unit.pins;
+    blank.emergency = unit.emergency;
     blank.external_seen = unit.external_seen;
     blank.out.pulses = unit.out.pulses;
     blank.logic.range = blank.absolute.range = blank.encoder.range = motion::Counter::Range::bits32;
@@ -77,6 +99,7 @@ void RsM8194h::blank_module() {
   state_.marks.clear();
   state_.execution = {};
   state_.paused = false;
+  state_.paused_by = 0;
   state_.queued_triggers.clear();
   state_.trigger_holds = {};
   for (std::size_t a = 0; a < kAxes; ++a) look_again(a);
@@ -84,7 +107,7 @@ void RsM8194h::blank_module() {
 
 void RsM8194h::blank() {
   State made;
-  made.initial_table = initial_table_of(state_.blocks);
+  made.initial_table = initial_table_of(state_.blocks, factory_settings());
   made.eeprom = std::move(state_.eeprom);
   made.blocks = std::move(state_.blocks);
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -108,6 +131,8 @@ void RsM8194h::blank() {
 void RsM8194h::power_up() {
   blank();
   state_.powered_at = now();
+  state_.at_init = input(kInitSwitch) != 0;
+  pass_state(kInitialised);
   state_.steps_left = options_.steps_a_tick;
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
@@ -117,7 +142,10 @@ void RsM8194h::power_up() {
     }
   }
   pass_pins(now());
-  for (AxisUnit& unit : state_.units) unit.pins.passed = unit.pins.raw;
+  for (AxisUnit& unit : state_.units) {
+    unit.pins.passed = unit.pins.raw;
+    unit.emergency = state_.emergency_input;
+  }
   scan_frnet();
   heed_triggers(state_.inputs, true);
   for (std::size_t a = 0; a < kAxes; ++a) {
@@ -133,8 +161,22 @@ void RsM8194h::power_down() {
   blank();
 }
 
+BasicSettings RsM8194h::factory_settings() const {
+  // Figure 3's soft limits and ring are switched off.
+  if (!chose(option("factory_values", "of_figure_3"))) return {};
+  return {.max_v = 8'000, .filtered = 1, .filter_time = 2};
+}
+
+void RsM8194h::pass_state(std::uint8_t finished) {
+  if (!machine_.finished_states_show) return;
+  state_.finished = finished;
+  state_.finished_at = now();
+}
+
 void RsM8194h::reset_card() {
   blank_module();
+  constexpr Tick kBooting = 100;
+  if (chose(option("reset_card_time", "100ms"))) state_.resetting_until = now() + kBooting;
   const auto clear = [&](std::size_t first, std::size_t count) {
     std::fill_n(state_.image.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
   };
@@ -155,16 +197,24 @@ void RsM8194h::load_initial() {
 
 Addressing RsM8194h::addressing(std::uint8_t address) const {
   if (is_deaf()) return Addressing::ignore;
-  if (address == 0) return Addressing::obey_silently;
+  if (address == 0) {
+    return chose(option("broadcast", "ignored")) ? Addressing::ignore : Addressing::obey_silently;
+  }
   return address == station_number() ? Addressing::obey_and_reply : Addressing::ignore;
+}
+
+pty::SimTime RsM8194h::end_silence(pty::SimTime usual) const {
+  constexpr std::chrono::milliseconds kOfTheUser(10);
+  return chose(option("silent_time", "10ms")) ? pty::SimTime(kOfTheUser) : usual;
 }
 
 // --- the phases of a tick --------------------------------------------------------------------------------
 
 void RsM8194h::sample_inputs(Tick tick) {
   const bool changed = take_inputs_changed();
+  state_.unscanned = state_.unscanned || changed;
   const bool waits = std::any_of(state_.units.begin(), state_.units.end(),
-                                 [](const AxisUnit& unit) { return unit.pins.raw != unit.pins.passed; });
+                                 [this](const AxisUnit& unit) { return is_filtering(unit); });
   if (changed || waits) {
     pass_pins(tick);
     for (std::size_t a = 0; a < kAxes; ++a) {
@@ -175,23 +225,29 @@ void RsM8194h::sample_inputs(Tick tick) {
   if (scans_frnet_at(tick)) {
     const auto before = state_.inputs;
     scan_frnet();
+    state_.unscanned = false;
     if (state_.inputs != before) heed_triggers(before, false);
   }
 }
 
 void RsM8194h::step_motion(Tick tick) {
+  const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
   step_axes(tick);
   heed_ends();
-  heed_path_end();
+  heed_path_end(was_full);
   act_on_events(tick);
-  step_scans();
+  step_scans(tick);
 }
 
 void RsM8194h::update_outputs(Tick tick) {
   start_held();
   // Macros first; what they leave of the tick is the FIFO's.
+  const bool ran_isr = isr_runs();
   state_.steps_left =
       lang::run_tick(state_.execution, tick, options_.steps_a_tick, state_.paused, options_.run, *this);
+  if (ran_isr && !isr_runs()) pass_state(kIsrFinished);
+  if (machine_.fifo_goes_on_beside_macros) state_.steps_left = options_.steps_a_tick;
+  if (machine_.levels_repeat) repeat_levels();
   start_queued_trigger();
   run_fifo(state_.steps_left);
   state_.touched = false;
@@ -200,6 +256,7 @@ void RsM8194h::update_outputs(Tick tick) {
 
 /// Whether nothing at all goes on, but for FRnet and what waits to be kept.
 bool RsM8194h::rests() const {
+  if (is_resetting() || (machine_.finished_states_show && state_.finished_at + 1 >= now())) return false;
   if (inputs_changed() || state_.touched || !state_.fifo.waiting.empty() || state_.fifo.stop_wait != 0)
     return false;
   if (state_.steps_left != options_.steps_a_tick || !state_.marks.empty()) return false;
@@ -209,21 +266,20 @@ bool RsM8194h::rests() const {
     const AxisUnit& unit = state_.units[a];
     if (motor.moving() || motor.attentive || motor.events != 0 || motor.events_between != 0) return false;
     if (unit.sent_pulses != 0 || state_.here[a].version != motor.seen_version) return false;
-    if (unit.pins.raw != unit.pins.passed) return false;
+    if (is_filtering(unit)) return false;
     if (unit.held_drive.what != Drive::What::none && !unit.held) return false;
     if (state_.scans[a].running) return false;
   }
-  return state_.scanning == 0 && !state_.paths.together.engaged && state_.held_paths.empty();
+  return state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
+         state_.held_paths.empty();
 }
 
 Tick RsM8194h::next_active_tick(Tick done) const {
   if (!rests()) return done + 1;
   Tick next = std::max(done + 1, state_.eeprom.next_active_tick());
-  if (state_.sent != state_.outputs) next = std::min(next, next_scan(done));
-  for (int i = 0; i < kFrnetGroups * kFrnetChannels; ++i) {
-    const bool is_on = input(kFirstDi + i) != 0;
-    const bool was_on = (word_of(state_.inputs, i / kFrnetChannels) >> (i % kFrnetChannels) & 1) != 0;
-    if (is_on != was_on) return std::min(next, next_scan(done));
+  if (state_.unscanned || state_.sent != state_.outputs) next = std::min(next, next_scan(done));
+  for (const AxisUnit& unit : state_.units) {
+    if (unit.out.pulse_until > done) next = std::min(next, unit.out.pulse_until);
   }
   return next;
 }
@@ -236,7 +292,8 @@ bool RsM8194h::output(int number) const {
   if (number < kFirstOut) return state_.units[static_cast<std::size_t>(number - kFirstServo)].basic.servo;
   if (number >= kFirstDi) return false;
   // At rest it is at the other level than its pulses: outEdge 0 is low, and low does not conduct.
-  return state_.units[static_cast<std::size_t>(number - kFirstOut)].out.level == 0;
+  const OutSettings& out = state_.units[static_cast<std::size_t>(number - kFirstOut)].out;
+  return (out.level == 0) != (now() < out.pulse_until);
 }
 
 std::uint32_t RsM8194h::output_word(int first, int count) const {
@@ -272,14 +329,16 @@ double RsM8194h::speed_pps(int axis) const {
 }
 
 void RsM8194h::connect_encoder(int axis, std::int64_t counts) {
-  state_.units[static_cast<std::size_t>(axis)].encoder_raw = counts;  // EP counts from here
+  AxisUnit& unit = state_.units[static_cast<std::size_t>(axis)];
+  unit.encoder_raw = counts * machine_.edges_per_encoder_count;  // EP counts from here
+  if (unit.has_encoder) unit.encoder_zero = unit.encoder_raw;
   set_encoder(axis, counts);
 }
 
 void RsM8194h::set_encoder(int axis, std::int64_t counts) {
   const auto a = static_cast<std::size_t>(axis);
   const bool is_first = !state_.units[a].has_encoder;
-  tell_encoder(state_.units[a], state_.motors[a], counts);
+  tell_encoder(state_.units[a], state_.motors[a], counts * machine_.edges_per_encoder_count);
   if (is_first) look_again(a);
 }
 

@@ -12,6 +12,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
@@ -29,7 +30,7 @@ namespace understudy::emulator::models::rs_m8194h {
 
 using lang::Took;
 
-class RsM8194h final : public Device,
+class RsM8194h final : public DeviceOf<RsM8194h>,
                        public RegisterBankOf<RsM8194h>,
                        public ModbusStation,
                        public KeptMemory,
@@ -39,18 +40,6 @@ class RsM8194h final : public Device,
                        private lang::Machine {
  public:
   explicit RsM8194h(const DeviceSettings& given);
-
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   // --- registers ---------------------------------------------------------------------------------
   std::span<std::uint32_t> image() override { return state_.image; }
@@ -104,8 +93,12 @@ class RsM8194h final : public Device,
   State& state() { return state_; }
   const State& state() const { return state_; }
   bool module_is_absent() const { return input(kNoModuleSwitch) != 0; }
-  bool is_deaf() const { return input(kInitSwitch) != 0; }
+  /// Booted at the switch's position Init.
+  bool is_deaf() const { return state_.at_init && !chose(option("init_switch", "runs_all_the_same")); }
+  bool is_resetting() const { return state_.resetting_until > now(); }
+  pty::SimTime end_silence(pty::SimTime usual) const override;
 
+  bool are_calls_refused() const;
   /// A checked command from the window: at once, or into the FIFO.
   DeviceAnswer take(const lang::Command& command);
   /// Why a request is refused, with the number that input 102 then shows.
@@ -121,17 +114,21 @@ class RsM8194h final : public Device,
 
   Going going(std::size_t axis) const;
   bool is_driving(std::size_t axis) const;
+  std::uint16_t error_code(std::size_t axis) const;
   AxisMask driving() const;
   /// A drive of single axes (drives.cpp).
   Took drive(AxisMask axes, const Drive& what);
   /// One axis begins, without asking for locks and waits: what it meets at its start becomes its error.
-  void start(std::size_t axis, const Drive& what);
+  void start(std::size_t axis, const Drive& what, bool without_ramps = false);
+  motion::SpeedLaw law_of(std::size_t axis) const;
   /// A path; it may have to wait, be held, or be void (path_commands.cpp).
   Took follow_path(const lang::Command& command);
   AxisMask axes_of_path(const lang::Command& command) const;
+  /// Whether a stream that runs takes one more segment.
+  bool has_room_for_segment() const;
   /// Whether a path may begin on these axes now, given that none is running.
   Start may_start(AxisMask axes, Starter who) const;
-  Start may_start(std::size_t axis, Starter who) const;
+  Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
   /// Sets the error bits of what keeps axes from starting.
   void note_obstacles(AxisMask axes);
 
@@ -143,7 +140,11 @@ class RsM8194h final : public Device,
   void release(AxisMask axes);
   void reset_card();
   void load_initial();
+  /// Of a new box.
+  BasicSettings factory_settings() const;
   void module_error();
+  /// One of the states of input 101 that are passed.
+  void pass_state(std::uint8_t finished);
 
   /// After a setting or a counter has changed: what the motor watches, and what it meets.
   void look_again(std::size_t axis);
@@ -151,7 +152,7 @@ class RsM8194h final : public Device,
   /// An event of an axis that a factor may be waiting for, noted and marked.
   void note_factor(std::size_t axis, Factor factor);
   void mark_isr(std::size_t axis, std::uint8_t source, Tick tick);
-  void give_pulse(std::size_t axis);
+  void give_pulse(std::size_t axis, Tick tick, std::int64_t pulses = 1);
   void change_speed(std::size_t axis);
 
   // --- macros (macros.cpp) -------------------------------------------------------------------------
@@ -175,7 +176,7 @@ class RsM8194h final : public Device,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
  private:
@@ -183,9 +184,11 @@ class RsM8194h final : public Device,
   /// Everything but what is kept, as at power-up.
   void blank();
   void blank_module();
-  bool is_obstructed(std::size_t axis, Obstacle obstacle) const;
+  bool is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const;
   void look_round(std::size_t axis);
   void pass_pins(Tick tick);
+  /// A level of one of its inputs is still held back.
+  bool is_filtering(const AxisUnit& unit) const;
   void scan_frnet();
   bool scans_frnet_at(Tick tick) const;
   Tick next_scan(Tick after) const;
@@ -193,14 +196,19 @@ class RsM8194h final : public Device,
   void step_axes(Tick tick);
   void heed_ends();
   void heed_home(std::size_t axis);
-  void heed_path_end();
+  void heed_path_end(bool was_full);
   void act_on_events(Tick tick);
   void act_together(Tick tick);
   void heed_factors(std::size_t axis, Tick tick);
-  void step_scans();
+  void step_scans(Tick tick);
   std::int64_t scan_count(std::size_t axis) const;
+  std::int64_t scan_spacing(const LineScan& scan) const;
+  void end_scan(std::size_t axis);
   bool rests() const;
   void start_held();
+  std::array<std::uint8_t, 3> codes_of_path(const lang::Command& command) const;
+  bool streams_need_initial() const;
+  bool keeps_path_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& way);
   /// Of a command that may begin, or joins its stream; throws BadMotion for what cannot be drawn.
   void draw(const lang::Command& command, const std::array<std::uint8_t, 3>& codes, bool joins);
 
@@ -221,6 +229,9 @@ class RsM8194h final : public Device,
   void heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start);
   void fire(int channel, const lang::Trigger& trigger);
   void start_queued_trigger();
+  void repeat_levels();
+  void pause(int channel);
+  void slow_down(AxisMask axes);
   const lang::TriggerTable& triggers() const;
 
   State state_;

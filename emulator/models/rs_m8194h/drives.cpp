@@ -4,12 +4,63 @@
 #include <cstdlib>
 #include <utility>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/homing_tables.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
 namespace {
+
+int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
+
+motion::HomingProgram homing_of(const AxisUnit& unit, const SpeedRules& rules,
+                                bool fails_at_limit_in_step_1) {
+  motion::Rsm8194hHoming how;
+  for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
+  how.drive = law_of(unit, rules);
+  how.home = law_at(unit, unit.homing.home_pps, rules);
+  how.offset_pulses = unit.homing.offset_pulses;
+  how.limit_is_home = unit.homing.limit_is_home;
+  motion::HomingProgram program = motion::rsm8194h_homing(how);
+  const bool has_step_1 = how.ways[0] != 0;
+  if (has_step_1 && fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
+  return program;
+}
+
+/// Of an axis on a path, whose cause is that of the one that met something.
+bool is_its_own(const AxisUnit& unit, const motion::Axis& motor, motion::Cause cause) {
+  const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
+  switch (cause) {
+    case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
+    case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
+    case motion::Cause::alarm: return is_on(motion::Signal::alarm);
+    case motion::Cause::soft_limit_plus:
+      return (motor.settings.soft_limit_plus && motor.travel_pulses >= *motor.settings.soft_limit_plus) ||
+             soft_limit_by_encoder(unit, motor, +1) == cause;
+    case motion::Cause::soft_limit_minus:
+      return (motor.settings.soft_limit_minus && motor.travel_pulses <= *motor.settings.soft_limit_minus) ||
+             soft_limit_by_encoder(unit, motor, -1) == cause;
+    case motion::Cause::none:
+    case motion::Cause::arrived:
+    case motion::Cause::stopped:
+    case motion::Cause::comparator:
+    case motion::Cause::emergency:
+    case motion::Cause::servo_off:
+    case motion::Cause::homing_failed: break;
+  }
+  return true;
+}
+
+}  // namespace
 
 /// Bits of what a motion ends by, or is kept from beginning by.
 std::uint16_t error_of(motion::Cause cause) {
@@ -30,45 +81,6 @@ std::uint16_t error_of(motion::Cause cause) {
   return 0;
 }
 
-int way_of_step(std::uint8_t step) { return step == 1 ? +1 : step == 2 ? -1 : 0; }
-
-motion::HomingProgram homing_of(const AxisUnit& unit, bool fails_at_limit_in_step_1) {
-  motion::Rsm8194hHoming how;
-  for (std::size_t i = 0; i < how.ways.size(); ++i) how.ways[i] = way_of_step(unit.homing.steps[i]);
-  how.drive = law_of(unit);
-  how.home = law_at(unit, unit.homing.home_pps);
-  how.offset_pulses = unit.homing.offset_pulses;
-  how.limit_is_home = unit.homing.limit_is_home;
-  motion::HomingProgram program = motion::rsm8194h_homing(how);
-  const bool has_step_1 = how.ways[0] != 0;
-  if (has_step_1 && fails_at_limit_in_step_1) program.phases[0].if_limit = motion::HomingPhase::kFail;
-  return program;
-}
-
-/// Of an axis on a path, whose cause is that of the one that met something.
-bool is_its_own(const motion::Axis& motor, motion::Cause cause) {
-  const auto is_on = [&](motion::Signal signal) { return (motor.signals & motion::bit(signal)) != 0; };
-  switch (cause) {
-    case motion::Cause::limit_plus: return is_on(motion::Signal::limit_plus);
-    case motion::Cause::limit_minus: return is_on(motion::Signal::limit_minus);
-    case motion::Cause::alarm: return is_on(motion::Signal::alarm);
-    case motion::Cause::soft_limit_plus:
-      return motor.settings.soft_limit_plus && motor.travel_pulses >= *motor.settings.soft_limit_plus;
-    case motion::Cause::soft_limit_minus:
-      return motor.settings.soft_limit_minus && motor.travel_pulses <= *motor.settings.soft_limit_minus;
-    case motion::Cause::none:
-    case motion::Cause::arrived:
-    case motion::Cause::stopped:
-    case motion::Cause::comparator:
-    case motion::Cause::emergency:
-    case motion::Cause::servo_off:
-    case motion::Cause::homing_failed: break;
-  }
-  return true;
-}
-
-}  // namespace
-
 Going RsM8194h::going(std::size_t axis) const {
   const motion::Axis& motor = state_.motors[axis];
   if (motor.homing.active()) return Going::homing;
@@ -77,6 +89,23 @@ Going RsM8194h::going(std::size_t axis) const {
 }
 
 bool RsM8194h::is_driving(std::size_t axis) const { return going(axis) != Going::idle; }
+
+/// ERROR_CODE as it is read.
+std::uint16_t RsM8194h::error_code(std::size_t axis) const {
+  std::uint16_t code = state_.units[axis].error_code;
+  if (!chose(option("error_bits", "also_by_active_inputs"))) return code;
+  constexpr struct {
+    motion::Signal signal;
+    ErrorBit bit;
+  } kInputs[] = {{motion::Signal::limit_plus, ErrorBit::limit_plus},
+                 {motion::Signal::limit_minus, ErrorBit::limit_minus},
+                 {motion::Signal::alarm, ErrorBit::alarm},
+                 {motion::Signal::emergency, ErrorBit::emergency}};
+  for (const auto& each : kInputs) {
+    if (is_active(axis, each.signal)) code |= bit_of(each.bit);
+  }
+  return code;
+}
 
 AxisMask RsM8194h::driving() const {
   AxisMask mask = 0;
@@ -89,12 +118,13 @@ bool RsM8194h::is_active(std::size_t axis, motion::Signal signal) const {
           motion::bit(signal)) != 0;
 }
 
-bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle) const {
+bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle, bool on_path) const {
   const AxisUnit& unit = state_.units[axis];
   switch (obstacle) {
     case Obstacle::emergency_state: return state_.emergency_state;
     case Obstacle::lock: return unit.locked;
-    case Obstacle::path_lock: return unit.path_locked;
+    case Obstacle::path_lock:
+      return unit.path_locked && (on_path || chose(option("v_lock_scope", "every_drive_of_these_axes")));
     case Obstacle::emergency_input: return is_active(axis, motion::Signal::emergency);
     case Obstacle::alarm: return is_active(axis, motion::Signal::alarm);
     case Obstacle::servo_off: return machine_.drives_need_servo && !unit.basic.servo;
@@ -103,25 +133,34 @@ bool RsM8194h::is_obstructed(std::size_t axis, Obstacle obstacle) const {
   return false;
 }
 
-Start RsM8194h::may_start(std::size_t axis, Starter who) const {
+Start RsM8194h::may_start(std::size_t axis, Starter who, bool on_path) const {
   const bool by_command = who == Starter::command;
   Start held = Start::starts;
   for (const ObstacleRow& row : kObstacleRows) {
     const Start outcome = by_command ? row.command : row.external;
-    if (outcome == Start::starts || !is_obstructed(axis, row.obstacle)) continue;
+    if (outcome == Start::starts || !is_obstructed(axis, row.obstacle, on_path)) continue;
     if (outcome == Start::is_void) return outcome;
     held = outcome;
   }
-  const GoingRow& row = kGoingRows[static_cast<std::size_t>(going(axis))];
+  if (by_command && state_.units[axis].external.mode != motion::ExternalDrive::Mode::off &&
+      chose(option("exd_and_drives", "are_void"))) {
+    return Start::is_void;
+  }
+  const Going going_now = going(axis);
+  const GoingRow& row = kGoingRows[static_cast<std::size_t>(going_now)];
   const Start outcome = by_command ? row.command : row.external;
-  return outcome == Start::starts ? held : outcome;
+  if (outcome != Start::waits) return outcome == Start::starts ? held : outcome;
+  const bool in_stream = going_now == Going::path && state_.paths.runs == Paths::Runs::stream;
+  const bool is_void = (in_stream && chose(option("drive_in_open_stream", "is_void"))) ||
+                       (!in_stream && chose(option("drive_of_moving_axis", "is_void")));
+  return is_void ? Start::is_void : Start::waits;
 }
 
 Start RsM8194h::may_start(AxisMask axes, Starter who) const {
   Start worst = Start::starts;
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
-    const Start mine = may_start(a, who);
+    const Start mine = may_start(a, who, true);
     if (mine == Start::is_void) return mine;
     if (mine == Start::waits || worst == Start::starts) worst = mine;
   }
@@ -132,7 +171,8 @@ void RsM8194h::note_obstacles(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     for (const ObstacleRow& row : kObstacleRows) {
-      if (row.sets_error && is_obstructed(a, row.obstacle)) state_.units[a].error_code |= bit_of(row.error);
+      if (row.sets_error && is_obstructed(a, row.obstacle, false))
+        state_.units[a].error_code |= bit_of(row.error);
     }
   }
 }
@@ -141,6 +181,13 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
   const bool is_first_kept = chose(option("second_held_drive", "is_void"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a) && may_start(a, Starter::command) == Start::waits) return Took::waits;
+  }
+  if (chose(option("mask_drive", "is_void_if_one_is"))) {
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      if (!has(axes, a) || may_start(a, Starter::command) != Start::is_void) continue;
+      note_obstacles(axes);
+      return Took::done;
+    }
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
@@ -161,7 +208,11 @@ Took RsM8194h::drive(AxisMask axes, const Drive& what) {
   return Took::done;
 }
 
-void RsM8194h::start(std::size_t axis, const Drive& what) {
+motion::SpeedLaw RsM8194h::law_of(std::size_t axis) const {
+  return rs_m8194h::law_of(state_.units[axis], machine_.speed);
+}
+
+void RsM8194h::start(std::size_t axis, const Drive& what, bool without_ramps) {
   AxisUnit& unit = state_.units[axis];
   motion::Axis& motor = state_.motors[axis];
   Paths& paths = state_.paths;
@@ -171,18 +222,23 @@ void RsM8194h::start(std::size_t axis, const Drive& what) {
   std::int64_t distance = what.value;
   if (what.what == Drive::What::absolute) distance -= absolute_count(unit, motor);
   if (what.what != Drive::What::home && distance == 0) return;
-  if (what.what == Drive::What::endless)
-    unit.speed.drive_pps = static_cast<std::uint32_t>(std::abs(distance));
+  motion::SpeedLaw law = law_of(axis);
+  if (what.what == Drive::What::endless) {
+    const auto drive_pps = static_cast<std::uint32_t>(std::abs(distance));
+    law = law_at(unit, drive_pps, machine_.speed);
+    if (chose(option("continue_move_speed", "yes"))) unit.speed.drive_pps = drive_pps;
+  }
+  if (without_ramps) law.start_speed_u_s = law.top_speed_u_s;
   const int way = distance < 0 ? -1 : +1;
   motion::Cause refused = motion::Cause::none;
   if (what.what == Drive::What::home) {
-    refused = motor.home(homing_of(unit, chose(option("home_step_1_limit", "fails"))), now());
+    refused = motor.home(homing_of(unit, machine_.speed, chose(option("home_step_1_limit", "fails"))), now());
   } else if (const auto beyond = soft_limit_by_encoder(unit, motor, way); beyond != motion::Cause::none) {
     refused = beyond;
   } else if (what.what == Drive::What::endless) {
-    refused = motor.run(way, law_of(unit), now());
+    refused = motor.run(way, law, now());
   } else {
-    refused = motor.move(distance, law_of(unit), now());
+    refused = motor.move(distance, law, now());
   }
   if (refused != motion::Cause::none) {
     // Homing that cannot begin has found its index on already.
@@ -190,10 +246,13 @@ void RsM8194h::start(std::size_t axis, const Drive& what) {
     return;
   }
   unit.error_code &= static_cast<std::uint16_t>(~kClearedByDrive);
+  if (motor.homing.active() && !machine_.axis.homing_heeds_soft_limits) look_again(axis);
   if (LineScan& scan = state_.scans[axis]; what.what == Drive::What::scan && scan.set) {
     scan.running = true;
     scan.begin = scan_count(axis);
     scan.triggered = 0;
+    const bool is_against = (scan.pitch < 0) != (distance < 0);
+    if (is_against && chose(option("scan_sign", "no_triggers"))) end_scan(axis);
   }
 }
 
@@ -232,12 +291,27 @@ void RsM8194h::heed_home(std::size_t axis) {
 
 /// What ended in this tick leaves its cause in the error code.
 void RsM8194h::heed_ends() {
-  const bool was_on_path = state_.paths.runs != Paths::Runs::nothing;
+  // The partners of the axis that met something hear of it a tick later.
+  Paths& paths = state_.paths;
+  const auto of_path =
+      static_cast<AxisMask>(paths.let_go | (paths.runs != Paths::Runs::nothing ? paths.axes : 0));
+  paths.let_go = 0;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const motion::Axis& motor = state_.motors[a];
     AxisUnit& unit = state_.units[a];
-    if ((motor.events & motion::bit(motion::Event::homed)) != 0) heed_home(a);
+    const bool homed = (motor.events & motion::bit(motion::Event::homed)) != 0;
+    if (homed) heed_home(a);
+    constexpr motion::Events kConstant =
+        motion::bit(motion::Event::constant_started) | motion::bit(motion::Event::constant_ended);
+    const bool has_ramps = motor.law.start_speed_u_s < motor.law.top_speed_u_s;
+    if (!machine_.constant_drives_have_c_sta && !has_ramps) {
+      state_.motors[a].events &= static_cast<motion::Events>(~kConstant);
+    }
     if ((motor.events & motion::bit(motion::Event::ended)) == 0) continue;
+    if (!machine_.axis.homing_heeds_soft_limits) look_again(a);
+    if (!machine_.d_end_after_stops && motor.cause != motion::Cause::arrived && !homed) {
+      state_.motors[a].events &= static_cast<motion::Events>(~motion::bit(motion::Event::ended));
+    }
     motion::Cause cause = motor.cause;
     if (cause == motion::Cause::homing_failed) {
       cause = motor.homing.ended_by;
@@ -247,7 +321,7 @@ void RsM8194h::heed_ends() {
                             motor.homing.program.phases[row].code == kIndexPhase;
       if (by_index) unit.error_code |= bit_of(ErrorBit::home);
     }
-    if (!was_on_path || !has(state_.paths.axes, a) || is_its_own(motor, cause)) {
+    if (!has(of_path, a) || is_its_own(unit, motor, cause)) {
       unit.error_code |= error_of(cause);
     }
   }

@@ -149,6 +149,7 @@ inline Took stop_path(RsM8194h& it, const Command& command) {
 inline Took emergency_stop(RsM8194h& it, const Command& command) {
   it.halt(kAllAxes, stop_row(command.verb(), command.values[0]));
   it.state().fifo = {};
+  if (it.chose(option("emergency_and_macros", "end"))) it.terminate();
   it.state().emergency_state = true;
   return Took::done;
 }

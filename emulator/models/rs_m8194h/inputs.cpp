@@ -5,7 +5,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/simulated_time.h"
+#include "emulator/device/machine_edges.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "motion/axis.h"
+#include "motion/external_drive.h"
+#include "motion/surroundings.h"
+#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -61,6 +72,10 @@ std::optional<bool> active_while_on(const BasicSettings& basic, Pin pin, const M
 
 }  // namespace
 
+bool RsM8194h::is_filtering(const AxisUnit& unit) const {
+  return unit.pins.raw != unit.pins.passed || unit.emergency != state_.emergency_input;
+}
+
 void RsM8194h::pass_pins(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
@@ -81,7 +96,14 @@ void RsM8194h::pass_pins(Tick tick) {
       }
     }
   }
-  state_.emergency_input = (input(kEmergencyPin) != 0) != machine_.emergency_while_off;
+  const bool is_emergency = (input(kEmergencyPin) != 0) != machine_.emergency_while_off;
+  if (is_emergency != state_.emergency_input) state_.emergency_since = tick;
+  state_.emergency_input = is_emergency;
+  // Each axis has its own filter for it, that of its limits and home.
+  for (AxisUnit& unit : state_.units) {
+    const Tick delay = filter_ticks(unit, static_cast<int>(Pin::limit_plus), machine_);
+    if (tick - state_.emergency_since >= delay) unit.emergency = is_emergency;
+  }
 }
 
 /// What the motor meets: where an input changes with the place, zones; else its level.
@@ -104,11 +126,13 @@ void RsM8194h::look_round(std::size_t axis) {
       found.index_period = index.period;
       found.index_at = is_inside ? index.at : index.at + index.width;
       found.index_width = is_inside ? index.width : index.period - index.width;
+      found.index_from = index.first;
+      found.index_to = index.last;
     } else {
       found.set_steady(function.signal, ((unit.pins.passed & bit_of(function.pin)) != 0) == *active);
     }
   }
-  found.set_steady(motion::Signal::emergency, state_.emergency_input);
+  found.set_steady(motion::Signal::emergency, unit.emergency);
   motion::Surroundings& here = state_.here[axis];
   found.version = here.version;
   if (found == here) return;
@@ -139,7 +163,12 @@ void RsM8194h::look_again(std::size_t axis) {
     if (action == Action::stop_at_once) asked.stop = motion::Reaction::stop_at_once;
     if (action == Action::slow_down) asked.stop = motion::Reaction::slow_down;
   }
-  arm(unit, state_.motors[axis], asked);
+  // A scan has C+ for itself (7.4.12).
+  const LineScan& scan = state_.scans[axis];
+  constexpr motion::Events kOfPlus =
+      motion::bit(motion::Event::comparator_0) | motion::bit(motion::Event::comparator_1);
+  if (scan.set) asked.events &= static_cast<motion::Events>(~kOfPlus);
+  arm(unit, state_.motors[axis], asked, machine_.axis);
   look_round(axis);
 }
 
@@ -170,8 +199,10 @@ void RsM8194h::watch_external(std::size_t axis) {
       const bool is_run = order.what == What::run;
       const auto speed = static_cast<std::int32_t>(std::min<std::uint32_t>(unit.external_pps, INT32_MAX));
       const std::uint32_t drive_pps = unit.speed.drive_pps;  // the input's speed does not replace V
-      start(axis, {.what = is_run ? Drive::What::endless : Drive::What::fixed,
-                   .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)});
+      start(axis,
+            {.what = is_run ? Drive::What::endless : Drive::What::fixed,
+             .value = is_run ? order.way * speed : static_cast<std::int32_t>(order.pulses)},
+            chose(option("exd_speed", "v_without_ramps")));
       unit.speed.drive_pps = drive_pps;
     }
   }

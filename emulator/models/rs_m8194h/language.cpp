@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "emulator/device/model.h"
@@ -15,9 +14,14 @@
 #include "emulator/device/program_language.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "interpreter/rs_m8194h/check.h"
+#include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/listing.h"
+#include "interpreter/rs_m8194h/macro.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {

@@ -2,15 +2,35 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/complete_table.h"
-#include "emulator/models/rs_m8194h/commands.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/terminals.h"
 #include "emulator/models/rs_m8194h/views.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/faults.h"
 #include "interpreter/rs_m8194h/listing.h"
+#include "interpreter/rs_m8194h/machine.h"
+#include "interpreter/rs_m8194h/macro.h"
+#include "interpreter/rs_m8194h/macro_store.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/triggers.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -91,6 +111,7 @@ lang::Fault RsM8194h::take_download(const lang::Decoded& decoded) {
   state_.downloaded = lang::status_of(state_.download, state_.downloaded, options_.download);
   state_.rsm = lang::State::ready;
   state_.download = kNoDownload;
+  pass_state(kDownloaded);
   if (closed.macro) {
     lang::replaced(state_.execution, name, *this);
     state_.blocks.put(blocks_of(name), std::to_string(name.number),
@@ -166,7 +187,11 @@ std::string RsM8194h::program_text() const {
 
 void RsM8194h::start_mp(int number) {
   state_.rint &= static_cast<std::uint8_t>(~(bit_of(Rint::mp_completed) | bit_of(Rint::module)));
-  lang::start_mp(state_.execution, number, now() + 1, *this);
+  const bool at_once = chose(option("first_line", "on_receipt"));
+  lang::start_mp(state_.execution, number, at_once ? now() : now() + 1, *this);
+  if (!at_once || !mp_runs()) return;
+  state_.steps_left =
+      lang::run_tick(state_.execution, now(), state_.steps_left, state_.paused, options_.run, *this);
 }
 
 void RsM8194h::start_isr(int number) {
@@ -186,7 +211,10 @@ void RsM8194h::terminated() {
   state_.paused = false;
 }
 
-void RsM8194h::mp_ended() { state_.rint |= bit_of(Rint::mp_completed); }
+void RsM8194h::mp_ended() {
+  state_.rint |= bit_of(Rint::mp_completed);
+  pass_state(kMpFinished);
+}
 
 std::int32_t RsM8194h::variable(std::size_t number) const {
   return static_cast<std::int32_t>(state_.image[kFirstVarSlot + number]);

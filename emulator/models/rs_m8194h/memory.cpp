@@ -1,15 +1,30 @@
 #include "emulator/models/rs_m8194h/memory.h"
 
-#include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "emulator/device/device.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/memory/register_memory.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "interpreter/rs_m8194h/command_row.h"
 #include "interpreter/rs_m8194h/listing.h"
 #include "interpreter/rs_m8194h/text.h"
+#include "interpreter/rs_m8194h/tokens.h"
+#include "interpreter/rs_m8194h/triggers.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -111,7 +126,9 @@ Eeprom RsM8194h::factory_memory() const {
 
 std::uint64_t RsM8194h::kept_revision() const { return state_.eeprom.revision() + state_.blocks.revision(); }
 
-void RsM8194h::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+std::function<void(NvImage&)> RsM8194h::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
 
 void RsM8194h::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());

@@ -25,8 +25,8 @@ std::span<const BlockKind> block_kinds();
 
 using InitialTable = std::array<BasicSettings, kAxes>;
 /// The Initial Table is kept as the commands that make it out of the factory's.
-void keep_initial_table(TextBlocks& blocks, const InitialTable& table);
-InitialTable initial_table_of(const TextBlocks& blocks);
+void keep_initial_table(TextBlocks& blocks, const InitialTable& table, const BasicSettings& factory);
+InitialTable initial_table_of(const TextBlocks& blocks, const BasicSettings& factory);
 
 /// A parameter of one register.
 inline std::uint8_t byte_at(const lang::Command& command, std::size_t i) {

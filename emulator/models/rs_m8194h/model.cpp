@@ -1,10 +1,16 @@
 #include "emulator/models/rs_m8194h/model.h"
 
 #include <array>
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
+#include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/choices.h"
 #include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"
@@ -19,13 +25,12 @@ namespace {
 // 2.0 and 3.0: the versions of the manual's answers and of the manual itself.
 constexpr std::array<Firmware, 2> kFirmwares{200, 300};
 
-constexpr std::array<std::string_view, 7> kGaps{
-    "Noise filters below 1.024 ms do not delay, and the filter of the EMG input is not modelled.",
-    "The width of pulses at OUT_X and OUT_Y is stored; the pulses are counted, and have no length.",
+constexpr std::array<std::string_view, 6> kGaps{
+    "Noise filters below 1.024 ms do not delay.",
+    "Pulses at OUT_X and OUT_Y below 1 ms are counted, and have no length.",
     "The pulse modes of SET_PULSE_MODE are names (`rsm.pulse_format`): no levels on the pulse terminals.",
     "What is spoken at the switch's position Init is not documented: the box is deaf there.",
     "The IP settings from holding 20 on store, and do nothing.",
-    "A stream takes one segment a millisecond at most: shorter ones starve it.",
     "A trigger's Pause holds macros and the FIFO, not motion.",
 };
 
@@ -48,7 +53,8 @@ const Model& model() {
                                                            .write_only = MapPolicy::WriteOnly::refused,
                                                            .halves = MapPolicy::Halves::come_whole,
                                                            .read_halves = MapPolicy::ReadHalves::come_whole,
-                                                           .low_word_first = false});
+                                                           .low_word_first = false,
+                                                           .word_order_in = "WORD_ORDER"});
   static const Model model{
       .name = "rs-m8194h",
       .title = "4-axis motion controller with macros, Modbus RTU",

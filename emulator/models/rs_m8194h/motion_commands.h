@@ -26,12 +26,26 @@ inline Took frnet_write(RsM8194h& it, const Command& command) {
   return Took::done;
 }
 
+/// What a number is of, for its range.
+enum class Speed : std::uint8_t { other, speed, slope, jerk };
+/// Values are stored as they are sent; or within the range that MAX_V gives them now.
+template <Speed kind>
+std::uint32_t within_range(const RsM8194h& it, std::uint32_t given, std::uint32_t max_v) {
+  if (kind == Speed::other || it.chose(option("reclamp", "when_a_drive_starts"))) return given;
+  const SpeedRange range = speed_range(max_v, it.machine_options().speed);
+  const double least = kind == Speed::slope ? range.least_slope : kind == Speed::jerk ? range.least_jerk : 0;
+  const double most = kind == Speed::slope ? range.most_slope : kind == Speed::jerk ? kMostJerk : range.max_v;
+  return static_cast<std::uint32_t>(std::clamp<double>(given, least, most));
+}
+
 /// A number of the speed settings; it counts from the next drive on.
-template <auto member>
+template <auto member, Speed kind = Speed::other>
 Took set_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    auto& number = it.state().units[a].speed.*member;
-    number = static_cast<std::remove_reference_t<decltype(number)>>(command.values[1]);
+    AxisUnit& unit = it.state().units[a];
+    auto& number = unit.speed.*member;
+    number = static_cast<std::remove_reference_t<decltype(number)>>(
+        within_range<kind>(it, command.values[1], unit.basic.max_v));
   });
   return Took::done;
 }
@@ -40,12 +54,13 @@ inline void tell_homing(RsM8194h& it, std::size_t axis) {
   motion::Homing& homing = it.state().motors[axis].homing;
   if (!homing.active()) return;
   const AxisUnit& unit = it.state().units[axis];
-  homing.program.speeds = {law_of(unit), law_at(unit, unit.homing.home_pps)};
+  homing.program.speeds = {it.law_of(axis), law_at(unit, unit.homing.home_pps, it.machine_options().speed)};
 }
 /// V, also of what runs.
 inline Took set_drive_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    it.state().units[a].speed.drive_pps = command.values[1];
+    AxisUnit& unit = it.state().units[a];
+    unit.speed.drive_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
     it.change_speed(a);
     tell_homing(it, a);
   });
@@ -61,7 +76,8 @@ Took set_vector(RsM8194h& it, const Command& command) {
 
 inline Took home_speed(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    it.state().units[a].homing.home_pps = command.values[1];
+    AxisUnit& unit = it.state().units[a];
+    unit.homing.home_pps = within_range<Speed::speed>(it, command.values[1], unit.basic.max_v);
     tell_homing(it, a);
   });
   return Took::done;
@@ -159,13 +175,13 @@ inline constexpr CommandRow kMotionCommands[] = {
     {Verb::set_home_mode,         home_mode},
     {Verb::home_start,            drive<Drive::What::home>},
     {Verb::normal_speed,          set_speed<&SpeedSettings::mode>},
-    {Verb::set_sv,                set_speed<&SpeedSettings::start_pps>},
+    {Verb::set_sv,                set_speed<&SpeedSettings::start_pps, Speed::speed>},
     {Verb::set_v,                 set_drive_speed},
     {Verb::change_vel_on_fly,     set_drive_speed},
-    {Verb::set_a,                 set_speed<&SpeedSettings::acceleration>},
-    {Verb::set_d,                 set_speed<&SpeedSettings::deceleration>},
-    {Verb::set_k,                 set_speed<&SpeedSettings::jerk_up>},
-    {Verb::set_l,                 set_speed<&SpeedSettings::jerk_down>},
+    {Verb::set_a,                 set_speed<&SpeedSettings::acceleration, Speed::slope>},
+    {Verb::set_d,                 set_speed<&SpeedSettings::deceleration, Speed::slope>},
+    {Verb::set_k,                 set_speed<&SpeedSettings::jerk_up, Speed::jerk>},
+    {Verb::set_l,                 set_speed<&SpeedSettings::jerk_down, Speed::jerk>},
     {Verb::set_ao,                set_speed<&SpeedSettings::offset_pulses>},
     {Verb::fixed_move,            drive<Drive::What::fixed>},
     {Verb::set_pulse,             set_pulse},

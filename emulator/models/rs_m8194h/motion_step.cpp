@@ -4,9 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
+#include <tuple>
 
+#include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/move.h"
+#include "motion/synchronous.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -37,18 +50,21 @@ void RsM8194h::step_axes(Tick tick) {
   std::array<std::int64_t, kAxes> pulses{};
   motion::Coordinated& together = state_.paths.together;
   const bool was_engaged = together.engaged;
+  const bool slows = machine_.axis.at_soft_limit == motion::Reaction::slow_down;
   for (std::size_t a = 0; a < kAxes; ++a) {
     motion::Axis& motor = state_.motors[a];
-    if (together.takes(a)) continue;
-    if (motor.moving() && motor.drive.direction != 0 && !motor.slowing) {
-      const motion::Cause beyond =
-          soft_limit_by_encoder(state_.units[a], motor, static_cast<int>(motor.drive.direction));
-      if (beyond != motion::Cause::none && machine_.axis.at_soft_limit == motion::Reaction::slow_down) {
-        motor.slow_down(tick - 1, beyond);
-      } else if (beyond != motion::Cause::none) {
-        motor.stop(beyond);
-      }
+    const bool is_watched = motor.moving() && motor.drive.direction != 0 && !motor.slowing &&
+                            (!motor.homing.active() || machine_.axis.homing_heeds_soft_limits);
+    const motion::Cause beyond =
+        is_watched ? soft_limit_by_encoder(state_.units[a], motor, static_cast<int>(motor.drive.direction))
+                   : motion::Cause::none;
+    if (together.takes(a)) {
+      if (beyond != motion::Cause::none && slows) together.slow_down(tick - 1, beyond);
+      if (beyond != motion::Cause::none && !slows) together.stop(state_.motors, beyond);
+      continue;
     }
+    if (beyond != motion::Cause::none && slows) motor.slow_down(tick - 1, beyond);
+    if (beyond != motion::Cause::none && !slows) motor.stop(beyond);
     pulses[a] = motor.step(tick, state_.here[a]);
   }
   if (was_engaged) together.step(tick, state_.motors, state_.here, pulses);
@@ -56,13 +72,21 @@ void RsM8194h::step_axes(Tick tick) {
 }
 
 /// A path that has ended in this tick.
-void RsM8194h::heed_path_end() {
+void RsM8194h::heed_path_end(bool was_full) {
   Paths& paths = state_.paths;
+  const bool in_stream = paths.together.engaged && paths.runs == Paths::Runs::stream;
+  const bool has_room = in_stream && paths.open && paths.together.run.queued() < 2;
+  if (machine_.a_segment_may_come_sets_rint && was_full && has_room) state_.rint |= bit_of(Rint::stream);
+  // The last segment has begun.
+  const bool is_last = machine_.last_ramp_is_in_last_segment && in_stream && !paths.open &&
+                       paths.together.run.open() && paths.together.run.queued() < 2;
+  if (is_last) paths.together.run.set_open(false, now());
   if (paths.together.engaged || paths.runs == Paths::Runs::nothing) return;
   const bool starved =
       paths.runs == Paths::Runs::stream && paths.open && paths.together.cause == motion::Cause::arrived;
   if (starved) state_.rint |= bit_of(Rint::stream);
   paths.open = starved;
+  paths.let_go = paths.axes;
   paths.runs = Paths::Runs::nothing;
 }
 
@@ -76,7 +100,11 @@ void RsM8194h::mark_isr(std::size_t axis, std::uint8_t source, Tick tick) {
   if (is_lost && std::any_of(state_.marks.begin(), state_.marks.end(), is_same)) return;
   IsrMark made{.tick = tick, .axis = static_cast<std::uint8_t>(axis), .source = source};
   if (options_.isrs_are_bound_at_the_event) made.number = static_cast<std::uint8_t>(isr_of(made));
-  state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made), made);
+  const auto is_before = [&](const IsrMark& one, const IsrMark& other) {
+    if (!options_.isrs_go_by_factor) return one < other;
+    return std::tie(one.tick, one.source, one.axis) < std::tie(other.tick, other.source, other.axis);
+  };
+  state_.marks.insert(std::upper_bound(state_.marks.begin(), state_.marks.end(), made, is_before), made);
 }
 
 void RsM8194h::heed_factors(std::size_t axis, Tick tick) {
@@ -109,7 +137,7 @@ void RsM8194h::act_together(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     using Action = motion::SyncAction::Drive;
     motion::SyncAction& action = acting.actions[a];
-    acting.speeds[a] = law_of(state_.units[a]);
+    acting.speeds[a] = law_of(a);
     // Latches and presets are of the moment of the event; EP counts the pulses where there is no encoder.
     action.latch_command = action.latch_encoder = true;
     const bool on_path = state_.paths.together.takes(a);
@@ -121,6 +149,7 @@ void RsM8194h::act_together(Tick tick) {
   const motion::SyncOutcome outcome = motion::act(acting, state_.motors, tick);
   state_.sync.distance_pulses = acting.distance_pulses;
 
+  const bool shows_trigger = chose(option("sync_mask", "the_trigger_axis"));
   AxisMask acted = 0;
   for (std::size_t t = 0; t < kAxes; ++t) {
     if (outcome.fired[t] != 0) acted |= state_.sync.triggers[t].activates;
@@ -145,9 +174,12 @@ void RsM8194h::act_together(Tick tick) {
     if (slows_path[a]) state_.paths.together.slow_down(tick);
     if (stops_path[a]) state_.paths.together.stop(state_.motors);
     if (slows_path[a] || stops_path[a]) state_.paths.open = false;
-    if (has(outcome.outputs, a)) give_pulse(a);
+    if (has(outcome.outputs, a)) give_pulse(a, tick);
     if (has(outcome.interrupts, a)) {
-      note_factor(a, Factor::synchronous);
+      for (std::size_t t = 0; t < kAxes; ++t) {
+        const bool fired = outcome.fired[t] != 0 && has(state_.sync.triggers[t].activates, a);
+        if (fired) note_factor(shows_trigger ? t : a, Factor::synchronous);
+      }
       if (state_.interrupts) mark_isr(a, IsrMark::kSynchronous, tick);
     }
     look_again(a);
@@ -157,19 +189,26 @@ void RsM8194h::act_together(Tick tick) {
 /// V has changed: a T-shaped drive goes on at the new one, an S-shaped one keeps its own (7.1).
 void RsM8194h::change_speed(std::size_t axis) {
   const AxisUnit& unit = state_.units[axis];
-  if (going(axis) != Going::single || kNormalShapes[unit.speed.mode].s_curve) return;
+  const bool keeps_its_own =
+      kNormalShapes[unit.speed.mode].s_curve && chose(option("speed_change_in_s", "the_next_drive"));
+  if (going(axis) != Going::single || keeps_its_own) return;
   motion::Axis& motor = state_.motors[axis];
   // The ramps are those of the drive.
   motion::SpeedLaw law = motor.law;
-  const double wanted = law_of(unit).top_speed_u_s;
+  const double wanted = law_of(axis).top_speed_u_s;
   law.start_speed_u_s = std::min(law.start_speed_u_s, wanted);
   law.top_speed_u_s = wanted;
   motor.change_speed(law, now());
 }
 
-void RsM8194h::give_pulse(std::size_t axis) {
+void RsM8194h::give_pulse(std::size_t axis, Tick tick, std::int64_t pulses) {
   // SET_OUT knows X and Y (7.3.9).
-  if (axis < static_cast<std::size_t>(kOuts)) ++state_.units[axis].out.pulses;
+  if (axis >= static_cast<std::size_t>(kOuts)) return;
+  // Whole ticks of PulseWidth; shorter pulses are counted only.
+  static constexpr std::array<Tick, 8> kWidths{0, 0, 0, 0, 1, 2, 10, 20};
+  OutSettings& out = state_.units[axis].out;
+  out.pulses += pulses;
+  out.pulse_until = tick + kWidths[out.width_code % kWidths.size()];
 }
 
 /// Of the counter that LINE_SCAN's Type names.
@@ -179,23 +218,39 @@ std::int64_t RsM8194h::scan_count(std::size_t axis) const {
   return state_.scans[axis].type >= 2 ? encoder_count(unit, motor) : logic_count(unit, motor);
 }
 
-void RsM8194h::step_scans() {
+std::int64_t RsM8194h::scan_spacing(const LineScan& scan) const {
+  const bool is_as_printed = machine_.pitch_is_distance && scan.pitch > 0;
+  return std::max<std::int64_t>(std::abs(std::int64_t{scan.pitch}) + (is_as_printed ? 0 : 1), 1);
+}
+
+/// C+ is where the next trigger would have been.
+void RsM8194h::end_scan(std::size_t axis) {
+  LineScan& scan = state_.scans[axis];
+  if (chose(option("scan_comparator", "the_next_trigger"))) {
+    const std::int64_t way = scan_count(axis) < scan.begin ? -1 : +1;
+    const std::int64_t next = scan.begin + way * (scan.triggered + 1) * scan_spacing(scan);
+    const auto place = static_cast<std::int32_t>(std::clamp<std::int64_t>(next, INT32_MIN, INT32_MAX));
+    state_.units[axis].compare[0] = {.value = place,
+                                     .source = static_cast<std::uint8_t>(scan.type >= 2 ? 1 : 0)};
+  }
+  const bool lasts = chose(option("scan_setting_lasts", "until_the_next_setting"));
+  scan = lasts ? LineScan{.set = true, .type = scan.type, .pitch = scan.pitch} : LineScan{};
+  look_again(axis);
+}
+
+void RsM8194h::step_scans(Tick tick) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     LineScan& scan = state_.scans[a];
     if (!scan.running) continue;
     const std::int64_t count = scan_count(a);
-    const bool is_as_printed = machine_.pitch_is_distance && scan.pitch > 0;
-    const std::int64_t spacing = std::abs(std::int64_t{scan.pitch}) + (is_as_printed ? 0 : 1);
-    const std::int64_t passed = std::abs(count - scan.begin) / spacing;
+    const std::int64_t passed = std::abs(count - scan.begin) / scan_spacing(scan);
     if (passed > scan.triggered) {
-      const std::int64_t given = std::min(passed - scan.triggered, kMostTriggersOfATick);
-      if (a < static_cast<std::size_t>(kOuts)) state_.units[a].out.pulses += given;
+      const std::int64_t most = machine_.all_scan_triggers_are_given ? INT64_MAX : kMostTriggersOfATick;
+      const std::int64_t given = std::min(passed - scan.triggered, most);
+      give_pulse(a, tick, given);
       scan.triggered = passed;
     }
-    if (!is_driving(a)) {
-      const bool lasts = chose(option("scan_setting_lasts", "until_the_next_setting"));
-      scan = lasts ? LineScan{.set = true, .type = scan.type, .pitch = scan.pitch} : LineScan{};
-    }
+    if (!is_driving(a)) end_scan(a);
   }
   if (state_.scanning != 0 && (driving() & state_.scanning) == 0) {
     state_.scanning = 0;
@@ -207,28 +262,22 @@ void RsM8194h::step_scans() {
 
 Tick RsM8194h::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
   const bool is_simple = !inputs_changed() && !state_.touched && state_.marks.empty() &&
-                         state_.scanning == 0 && !state_.paths.together.engaged &&
+                         state_.scanning == 0 && !state_.paths.together.engaged && state_.paths.let_go == 0 &&
                          state_.steps_left == options_.steps_a_tick;
-  if (!is_simple || state_.execution.is_alive() || !state_.queued_triggers.empty()) return done + 1;
+  if (!is_simple || is_resetting() || state_.execution.is_alive() || !state_.queued_triggers.empty())
+    return done + 1;
   Tick last = std::min(most, state_.eeprom.next_active_tick() - 1);
-  if (state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);
+  if (state_.unscanned || state_.sent != state_.outputs) last = std::min(last, next_scan(done) - 1);
   for (std::size_t a = 0; a < kAxes && last > done; ++a) {
     const AxisUnit& unit = state_.units[a];
-    if (unit.has_encoder || unit.pins.raw != unit.pins.passed) return done + 1;
+    if (unit.has_encoder || is_filtering(unit)) return done + 1;
+    if (unit.out.pulse_until > done) last = std::min(last, unit.out.pulse_until - 1);
     if (unit.held_drive.what != Drive::What::none && !unit.held) return done + 1;
     const motion::Axis& motor = state_.motors[a];
     const PulseRoom room = ahead.room(static_cast<int>(a));
     last =
         motor.quiet_until(done + 1, last, state_.here[a],
                           {.low = motor.travel_pulses + room.least, .high = motor.travel_pulses + room.most});
-  }
-  // The FRnet inputs may differ from what the last scan has found.
-  for (int i = 0; i < kFrnetGroups * kFrnetChannels && last > done; ++i) {
-    const auto word = state_.inputs[static_cast<std::size_t>(i / kFrnetChannels)];
-    if ((input(kFirstDi + i) != 0) != ((word >> (i % kFrnetChannels) & 1) != 0)) {
-      last = std::min(last, next_scan(done) - 1);
-      break;
-    }
   }
   // What waits in the FIFO waits for an axis to stand.
   if (!state_.held_paths.empty() && driving() == 0) return done + 1;

@@ -4,6 +4,10 @@
 #include <vector>
 
 #include "emulator/device/choices.h"
+#include "emulator/device/model.h"
+#include "emulator/models/rs_m8194h/choices.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -12,7 +16,20 @@ LanguageOptions language_options(const DeviceSettings& settings) {
   const std::vector<std::uint8_t> chosen = resolve_choices(kChoices, settings.choices);
   const auto chose = [&chosen](const Option& option) { return chosen[option.choice] == option.number; };
   LanguageOptions options;
-  options.command.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3"));
+  using Letters = interpreter::rs_m8194h::CommandOptions::Letters;
+  options.command = {.rectangle_corners_must_fit = chose(option("rectangle_radius", "exception_3")),
+                     .speeds_have_ends = chose(option("speed_ends", "exception_3")),
+                     .variables_have_ends = chose(option("variable_range", "exception_3")),
+                     .zero_moves_are_refused = chose(option("zero_move", "exception_3")),
+                     .helix_turns_forward_only = chose(option("helix_cycle", "exception_3")),
+                     .one_trigger_axis = chose(option("several_trigger_axes", "exception_3")),
+                     .outputs_are_of_x_and_y = chose(option("set_out_of_z_and_u", "exception_3")),
+                     .letters = chose(option("if_operator", "as_in_the_frame"))   ? Letters::as_in_the_frame
+                                : chose(option("if_operator", "as_in_the_table")) ? Letters::as_in_the_table
+                                                                                  : Letters::either,
+                     .addresses_are_variables = chose(option("frnet_out_data", "variable_by_its_address")),
+                     .codes_of_12_3 = chose(option("swapped_codes", "of_12_3")),
+                     .state_before_code = chose(option("check_order", "the_same_but_state_before_code"))};
   options.download = {.close_takes_line = chose(option("close_line", "one_line")),
                       .shown_code = chose(option("download_command", "as_sent"))
                                         ? Download::ShownCode::as_sent
@@ -28,10 +45,14 @@ LanguageOptions language_options(const DeviceSettings& settings) {
                  .return_value_is_used_up = chose(option("return_register_keeps", "execution_error")),
                  .negative_time_is_error = chose(option("timer_negative", "execution_error")),
                  .call_too_deep_ends_macro = chose(option("call_too_deep", "ends_the_macro")),
-                 .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change"))};
+                 .frnet_wait_needs_edge = chose(option("frnet_wait_level", "waits_for_the_change")),
+                 .frnet_wait_timeout_is_error = chose(option("frnet_wait_timeout", "execution_error")),
+                 .division_by_zero_keeps = chose(option("division_by_zero", "stays_as_it_was")),
+                 .for_runs_once_at_least = chose(option("for_below_1", "one_pass"))};
   if (chose(option("steps_a_tick", "1"))) options.steps_a_tick = 1;
   if (chose(option("steps_a_tick", "32"))) options.steps_a_tick = 32;
   if (chose(option("isr_delay", "same_tick"))) options.isr_delay_ticks = 0;
+  options.isrs_go_by_factor = chose(option("isr_order", "by_factor"));
   options.isr_requests_are_counted = chose(option("isr_requests", "counted"));
   options.isrs_are_bound_at_the_event = chose(option("isr_binding", "at_the_event"));
   return options;
@@ -55,6 +76,23 @@ MachineOptions machine_options(const DeviceSettings& settings) {
   options.one_block_each = chose(option("fifo_cost", "one_each"));
   options.stops_wait = chose(option("stops_bypass_fifo", "wait_like_others"));
   options.pitch_is_distance = chose(option("scan_positive_pitch", "pitch"));
+  options.axis.ring_takes_absolute = chose(option("ring_and_absolute", "turns_round_too"));
+  options.axis.homing_heeds_soft_limits = !chose(option("home_soft_limit", "is_ignored"));
+  options.axis.comparisons_fire_when_armed = chose(option("factor_edges", "fires_at_once"));
+  options.speed.rounds_to_nearest = chose(option("speed_quantum", "the_nearest_one"));
+  options.speed.has_offset = !chose(option("deceleration_offset", "nothing"));
+  if (chose(option("least_jerk", "0.119211"))) options.speed.least_jerk_part *= 10;
+  options.fifo_goes_on_beside_macros = chose(option("fifo_while_macro", "goes_on"));
+  options.pause_holds_fifo = !chose(option("trigger_pause", "holds_macros"));
+  options.helix_is_macro = chose(option("helix_is_macro", "is_a_running_macro"));
+  options.d_end_after_stops = !chose(option("d_end_after_stops", "no"));
+  options.constant_drives_have_c_sta = !chose(option("constant_drive_c_sta", "none"));
+  options.a_segment_may_come_sets_rint = chose(option("rint_stream", "a_segment_may_come"));
+  options.all_scan_triggers_are_given = chose(option("scan_too_fast", "given_all_the_same"));
+  options.last_ramp_is_in_last_segment = chose(option("last_ramp", "in_the_last_segment"));
+  options.levels_repeat = chose(option("trigger_level_repeats", "again_when_it_has_ended"));
+  options.finished_states_show = !chose(option("passing_states", "do_not_show"));
+  if (chose(option("encoder_counts", "whole_cycles"))) options.edges_per_encoder_count = 4;
   return options;
 }
 

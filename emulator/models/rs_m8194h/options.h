@@ -22,6 +22,7 @@ struct LanguageOptions {
   interpreter::rs_m8194h::RunOptions run = {};
   int steps_a_tick = 8;
   int isr_delay_ticks = 1;
+  bool isrs_go_by_factor = false;
   bool isr_requests_are_counted = false;
   bool isrs_are_bound_at_the_event = false;
 };
@@ -30,6 +31,7 @@ LanguageOptions language_options(const DeviceSettings& settings);
 /// What of them inputs, axes and the FIFO ask for.
 struct MachineOptions {
   AxisOptions axis = {};
+  SpeedRules speed = {};
   bool emergency_while_off = false;  // the EMG input
   bool in3_rises_when_it_closes = false;
   bool filters_delay = true;
@@ -39,6 +41,17 @@ struct MachineOptions {
   bool one_block_each = false;
   bool stops_wait = false;
   bool pitch_is_distance = false;
+  bool fifo_goes_on_beside_macros = false;
+  bool pause_holds_fifo = true;
+  bool helix_is_macro = false;
+  bool d_end_after_stops = true;
+  bool constant_drives_have_c_sta = true;
+  bool a_segment_may_come_sets_rint = false;
+  bool all_scan_triggers_are_given = false;
+  bool last_ramp_is_in_last_segment = false;
+  bool levels_repeat = false;
+  bool finished_states_show = false;
+  int edges_per_encoder_count = 1;
 };
 MachineOptions machine_options(const DeviceSettings& settings);
 

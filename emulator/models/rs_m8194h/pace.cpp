@@ -3,6 +3,10 @@
 
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -17,6 +21,7 @@ int RsM8194h::fifo_blocks_of(const lang::Command& command) const {
 int RsM8194h::free_blocks() const {
   int free = kFifoBlocks;
   for (const lang::Command& command : state_.fifo.waiting) free -= fifo_blocks_of(command);
+  if (state_.fifo.stop_wait != 0 && chose(option("fifo_block_freed", "when_its_wait_is_over"))) --free;
   return std::max(free, 0);
 }
 
@@ -24,7 +29,10 @@ void RsM8194h::run_fifo(int& steps) {
   Fifo& fifo = state_.fifo;
   for (;;) {
     // While a macro lives, or a trigger has paused everything, nothing begins.
-    if (state_.execution.is_alive() || state_.paused) return;
+    if (state_.execution.is_alive() && !machine_.fifo_goes_on_beside_macros) return;
+    if ((state_.paused && machine_.pause_holds_fifo) || is_resetting()) return;
+    const bool is_helix = state_.paths.together.engaged && state_.paths.runs == Paths::Runs::helix;
+    if (is_helix && machine_.helix_is_macro) return;
     if (machine_.fifo_waits_for_download && state_.rsm != lang::State::ready) return;
     if (fifo.stop_wait != 0) {
       if ((driving() & fifo.stop_wait) != 0) return;

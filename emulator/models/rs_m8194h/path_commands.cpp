@@ -6,12 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 
+#include "base/simulated_time.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/paths.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "motion/axis.h"
 #include "motion/bad_motion.h"
 #include "motion/elementary.h"
+#include "motion/move.h"
 #include "motion/path.h"
+#include "motion/path_run.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -87,6 +98,13 @@ struct MixRow {
 constexpr MixRow kMixRows[] = {
     {Draws::line, kCw}, {Draws::arc, kCw}, {Draws::arc, kCcw}, {Draws::circle, kCw}, {Draws::circle, kCcw}};
 
+/// What a mode is for: the number of axes, and whether lines or arcs; 0 and 7 are for all.
+bool fits_mode(std::uint8_t mode, int dimensions, Draws draws) {
+  if ((mode < 7) != (dimensions == 2)) return false;
+  if (mode == 0 || mode == 7) return true;
+  return (mode == 5 || mode == 6) == (draws != Draws::line);
+}
+
 std::array<std::uint8_t, 3> codes_at(const lang::Command& command, std::size_t count) {
   std::array<std::uint8_t, 3> codes{};
   for (std::size_t i = 0; i < count; ++i) codes[i] = static_cast<std::uint8_t>(command.values[i]);
@@ -149,35 +167,76 @@ struct PathDrawing {
   }
 };
 
-AxisMask RsM8194h::axes_of_path(const lang::Command& command) const {
+/// The axes that a path is on, in their order.
+std::array<std::uint8_t, 3> RsM8194h::codes_of_path(const lang::Command& command) const {
   const PathRow& row = row_of_path(command.verb());
   std::array<std::uint8_t, 3> codes = state_.paths.assigned;
-  if (row.runs == Paths::Runs::stream)
-    codes = state_.paths.streams[static_cast<std::size_t>(row.stream)].axes;
+  const StreamSettings& settings = state_.paths.streams[static_cast<std::size_t>(row.stream)];
+  if (row.runs == Paths::Runs::stream && settings.given) codes = settings.axes;
   if (row.runs == Paths::Runs::rectangle) codes = codes_at(command, 2);
   if (row.runs == Paths::Runs::helix) codes = codes_at(command, 3);
-  if (row.dimensions == 2) codes[2] = 0;
+  return codes;
+}
+
+bool RsM8194h::streams_need_initial() const {
+  return chose(option("continue_without_initial", "void_with_module_error"));
+}
+
+AxisMask RsM8194h::axes_of_path(const lang::Command& command) const {
+  std::array<std::uint8_t, 3> codes = codes_of_path(command);
+  if (row_of_path(command.verb()).dimensions == 2) codes[2] = 0;
   return mask_of_codes(codes);
 }
 
+/// A limit that is active before a path begins, or a soft limit that is reached, keeps it from beginning, as
+/// it keeps the drive of an axis: the bit is that of the axis which would have set out against it.
+bool RsM8194h::keeps_path_off(const std::array<std::uint8_t, 3>& codes, const motion::Point& way) {
+  bool is_kept = false;
+  for (std::size_t i = 0; i < codes.size(); ++i) {
+    const std::int8_t a = axis_of_code(codes[i]);
+    const double along = way[static_cast<Eigen::Index>(i)];
+    constexpr double kRounding = 1e-9;
+    if (a < 0 || std::abs(along) < kRounding) continue;
+    const auto axis = static_cast<std::size_t>(a);
+    const int sense = along < 0 ? -1 : +1;
+    motion::Cause why = state_.motors[axis].forbidden(sense);
+    if (why == motion::Cause::none) {
+      why = soft_limit_by_encoder(state_.units[axis], state_.motors[axis], sense);
+    }
+    if (why == motion::Cause::none) continue;
+    state_.units[axis].error_code |= error_of(why);
+    is_kept = true;
+  }
+  return is_kept;
+}
+
 void RsM8194h::module_error() { state_.rint |= bit_of(Rint::module); }
+
+/// One segment is loaded ahead of the one that runs; what ends within the coming tick has to have its
+/// successors in time.
+bool RsM8194h::has_room_for_segment() const {
+  const motion::PathRun& run = state_.paths.together.run;
+  if (run.full()) return false;
+  if (chose(option("stream_lookahead", "30"))) return true;
+  return run.queued() < 2 || run.queued_after(now() + 1) == 0;
+}
 
 Took RsM8194h::follow_path(const lang::Command& command) {
   const PathRow& row = row_of_path(command.verb());
   Paths& paths = state_.paths;
   const bool is_stream = row.runs == Paths::Runs::stream;
   const StreamSettings& settings = paths.streams[static_cast<std::size_t>(row.stream)];
-  std::array<std::uint8_t, 3> codes = paths.assigned;
-  if (is_stream) codes = settings.axes;
-  if (row.runs == Paths::Runs::rectangle) codes = codes_at(command, 2);
-  if (row.runs == Paths::Runs::helix) codes = codes_at(command, 3);
-  if ((is_stream && !settings.given) || !is_one_each(codes, row.dimensions)) {
+  const std::array<std::uint8_t, 3> codes = codes_of_path(command);
+  const bool is_unfit = row.runs == Paths::Runs::single && chose(option("unfit_profile", "void")) &&
+                        !fits_mode(paths.vector.mode, row.dimensions, row.draws);
+  const bool has_no_initial = is_stream && !settings.given && streams_need_initial();
+  if (has_no_initial || is_unfit || !is_one_each(codes, row.dimensions)) {
     module_error();
     return Took::done;
   }
   const bool joins = is_stream && paths.together.engaged && paths.runs == Paths::Runs::stream &&
                      paths.stream == row.stream && paths.open;
-  if (joins && (paths.together.run.queued() >= 2 || paths.together.slowing_for != motion::Cause::none)) {
+  if (joins && (paths.together.slowing_for != motion::Cause::none || !has_room_for_segment())) {
     return Took::waits;
   }
   const AxisMask axes = axes_of_path(command);
@@ -216,7 +275,7 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
   for (int i = 1; i < row.dimensions && chose(option("vector_max_v", "the_least")); ++i) {
     max_v = std::min(max_v, max_v_of(static_cast<std::size_t>(i)));
   }
-  const SpeedRange range = speed_range(max_v, kHighest[row.dimensions - 2]);
+  const SpeedRange range = speed_range(max_v, machine_.speed, kHighest[row.dimensions - 2]);
   const auto number = [&](std::size_t i) { return static_cast<double>(command.signed_value(i)); };
   const Tick now_tick = now();
 
@@ -259,11 +318,15 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
       turn = mix.turn;
       first_value = draws == Draws::line ? 4 : 2;
     }
-    speed = {.start_pps = settings.start_pps,
-             .drive_pps = settings.drive_pps,
-             .acceleration = settings.acceleration,
-             .offset_pulses = 0};
-    shape = {.constant = settings.constant};
+    if (settings.given) {
+      speed = {.start_pps = settings.start_pps,
+               .drive_pps = settings.drive_pps,
+               .acceleration = settings.acceleration,
+               .offset_pulses = 0};
+      shape = {.constant = settings.constant};
+    } else {
+      shape = {.constant = paths.vector.mode == 0 || paths.vector.mode == 7};
+    }
   }
   motion::ArcOptions arc_options = kArcOptions;
   if (chose(option("arc_end_off_circle", "ends_at_its_end")))
@@ -284,12 +347,13 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
       const bool is_clockwise = command.values[4] == 1;
       const RectanglePlan plan =
           rectangle_plan(number(5), number(6), std::min({number(7), number(5) / 2, number(6) / 2}));
+      const bool counts_back = chose(option("rectangle_start_points", "clockwise_from_the_left_side"));
+      const std::size_t from = counts_back ? 7 - command.values[3] : command.values[3];
       const auto at = [&](std::size_t i) {
-        const std::size_t from = command.values[3];
         return Point{plan.points[i][0] - plan.points[from][0], plan.points[i][1] - plan.points[from][1], 0,
                      0};
       };
-      std::size_t here = command.values[3];
+      std::size_t here = from;
       for (int i = 0; i < 8; ++i) {
         const std::size_t next = (here + (is_clockwise ? 7 : 1)) % 8;
         const std::size_t earlier = is_clockwise ? next : here;
@@ -297,7 +361,7 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
           drawing.add(motion::line(drawing.at(), at(next)), now_tick);
         } else {
           const auto& centre = plan.centres[earlier / 2];
-          const auto& origin = plan.points[command.values[3]];
+          const auto& origin = plan.points[from];
           drawing.add(
               motion::arc_by_centre(drawing.at(), {centre[0] - origin[0], centre[1] - origin[1], 0, 0},
                                     at(next), is_clockwise ? kCw : kCcw, kArcOptions),
@@ -336,7 +400,7 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
     paths.end = drawing.end;
   } else {
     if (drawing.length == 0) return;  // no pulse, and neither beginning nor end
-    motion::SpeedLaw law = law_of(speed, speed.drive_pps, range, shape, false);
+    motion::SpeedLaw law = rs_m8194h::law_of(speed, speed.drive_pps, range, shape, false);
     law.top_speed_u_s *= speed_factor;
     law.start_speed_u_s *= speed_factor;
     motion::Coordinated made;
@@ -345,12 +409,13 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
     }
     made.run = drawing.run;
     made.run.set_speed(law, now_tick);
-    made.run.set_open(!is_last, now_tick);
+    made.run.set_open(!is_last && !chose(option("stream_starves", "slows_down_in_what_is_left")), now_tick);
     for (const std::int8_t a : made.axis_of) {
       if (a < 0) continue;
       motion::Axis& motor = state_.motors[static_cast<std::size_t>(a)];
       motor.signals = state_.here[static_cast<std::size_t>(a)].at(motor.travel_pulses, motor.signals);
     }
+    if (keeps_path_off(codes, drawing.run.path().direction_at(0))) return;
     if (made.begin(Point::Zero(), state_.motors, now_tick) != motion::Cause::none) return;
     paths.together = made;
     paths.end = drawing.end;
@@ -363,7 +428,9 @@ void RsM8194h::draw(const lang::Command& command, const std::array<std::uint8_t,
     if (is_stream) state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
   }
   paths.open = is_stream && !is_last;
-  if (joins && is_last) paths.together.run.set_open(false, now_tick);
+  if (joins) state_.rint &= static_cast<std::uint8_t>(~bit_of(Rint::stream));
+  const bool begins_to_slow_down = !machine_.last_ramp_is_in_last_segment || paths.together.run.queued() < 2;
+  if (joins && is_last && begins_to_slow_down) paths.together.run.set_open(false, now_tick);
 }
 
 }  // namespace understudy::emulator::models::rs_m8194h

@@ -38,6 +38,7 @@ struct Paths {
   Stream stream = Stream::line_2d;         // while `runs` or `open` is a stream's
   bool open = false;                       // a stream whose last segment has not come; it may have starved
   AxisMask axes = 0;                       // of what runs
+  AxisMask let_go = 0;                     // of what has ended in the last tick
   std::array<std::uint8_t, 3> assigned{};  // AXIS_ASSIGN
   SpeedSettings vector{};                  // of VECTOR_SPEED and VSV to VAO
   std::array<StreamSettings, kStreams> streams{};
@@ -83,15 +84,12 @@ struct StateOf<emulator::models::rs_m8194h::StreamSettings> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::Paths> {
   using Value = emulator::models::rs_m8194h::Paths;
-  static constexpr auto fields = std::tuple{field("together", &Value::together),
-                                            field("runs", &Value::runs),
-                                            field("stream", &Value::stream),
-                                            field("open", &Value::open),
-                                            field("axes", &Value::axes),
-                                            field("assigned", &Value::assigned),
-                                            field("vector", &Value::vector),
-                                            field("streams", &Value::streams),
-                                            field("end", &Value::end)};
+  static constexpr auto fields =
+      std::tuple{field("together", &Value::together), field("runs", &Value::runs),
+                 field("stream", &Value::stream),     field("open", &Value::open),
+                 field("axes", &Value::axes),         field("let_go", &Value::let_go),
+                 field("assigned", &Value::assigned), field("vector", &Value::vector),
+                 field("streams", &Value::streams),   field("end", &Value::end)};
 };
 
 }  // namespace understudy

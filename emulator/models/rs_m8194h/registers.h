@@ -243,7 +243,8 @@ inline constexpr auto kDiscreteRows3 = section("12.5.3", {
     discrete(200, "{} Stop Command").each(kAxisNames, 16).shows<error_bit>(8),
     discrete(201, "{} SOFT EMG").each(kAxisNames, 16).shows<error_bit>(9),
 });
-// U's are printed at 380; the pattern of the others gives 280, where they are as well.
+// U's are printed at 380; the pattern of the others gives 280, where they are as well. The
+// argument tells the places apart: 8 and more are at 280, 16 and more at 380.
 inline constexpr auto kDiscreteRows4 = section("12.5.4", {
     discrete(256, "{} Near Home (IN0)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(0),
     discrete(257, "{} Home (IN1)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(1),
@@ -253,22 +254,22 @@ inline constexpr auto kDiscreteRows4 = section("12.5.4", {
     discrete(261, "{} MPG- (EXP-)").each(kFirstThreeAxes, 8).shows<di_signal_bit>(5),
     discrete(262, "{} InPos").each(kFirstThreeAxes, 8).shows<di_signal_bit>(6),
     discrete(263, "{} Alarm").each(kFirstThreeAxes, 8).shows<di_signal_bit>(7),
-    discrete(280, "{} Near Home (IN0) at 280").each(kLastAxis, 8, 3).shows<di_signal_bit>(0),
-    discrete(281, "{} Home (IN1) at 281").each(kLastAxis, 8, 3).shows<di_signal_bit>(1),
-    discrete(282, "{} Index (IN2) at 282").each(kLastAxis, 8, 3).shows<di_signal_bit>(2),
-    discrete(283, "{} IN3 signal at 283").each(kLastAxis, 8, 3).shows<di_signal_bit>(3),
-    discrete(284, "{} MPG+ (EXP+) at 284").each(kLastAxis, 8, 3).shows<di_signal_bit>(4),
-    discrete(285, "{} MPG- (EXP-) at 285").each(kLastAxis, 8, 3).shows<di_signal_bit>(5),
-    discrete(286, "{} InPos at 286").each(kLastAxis, 8, 3).shows<di_signal_bit>(6),
-    discrete(287, "{} Alarm at 287").each(kLastAxis, 8, 3).shows<di_signal_bit>(7),
-    discrete(380, "{} Near Home (IN0)").each(kLastAxis, 8, 3).shows<di_signal_bit>(0),
-    discrete(381, "{} Home (IN1)").each(kLastAxis, 8, 3).shows<di_signal_bit>(1),
-    discrete(382, "{} Index (IN2)").each(kLastAxis, 8, 3).shows<di_signal_bit>(2),
-    discrete(383, "{} IN3 signal").each(kLastAxis, 8, 3).shows<di_signal_bit>(3),
-    discrete(384, "{} MPG+ (EXP+)").each(kLastAxis, 8, 3).shows<di_signal_bit>(4),
-    discrete(385, "{} MPG- (EXP-)").each(kLastAxis, 8, 3).shows<di_signal_bit>(5),
-    discrete(386, "{} InPos").each(kLastAxis, 8, 3).shows<di_signal_bit>(6),
-    discrete(387, "{} Alarm").each(kLastAxis, 8, 3).shows<di_signal_bit>(7),
+    discrete(280, "{} Near Home (IN0) at 280").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+0),
+    discrete(281, "{} Home (IN1) at 281").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+1),
+    discrete(282, "{} Index (IN2) at 282").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+2),
+    discrete(283, "{} IN3 signal at 283").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+3),
+    discrete(284, "{} MPG+ (EXP+) at 284").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+4),
+    discrete(285, "{} MPG- (EXP-) at 285").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+5),
+    discrete(286, "{} InPos at 286").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+6),
+    discrete(287, "{} Alarm at 287").each(kLastAxis, 8, 3).shows<di_signal_bit>(8+7),
+    discrete(380, "{} Near Home (IN0)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+0),
+    discrete(381, "{} Home (IN1)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+1),
+    discrete(382, "{} Index (IN2)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+2),
+    discrete(383, "{} IN3 signal").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+3),
+    discrete(384, "{} MPG+ (EXP+)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+4),
+    discrete(385, "{} MPG- (EXP-)").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+5),
+    discrete(386, "{} InPos").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+6),
+    discrete(387, "{} Alarm").each(kLastAxis, 8, 3).shows<di_signal_bit>(16+7),
 });
 // clang-format on
 

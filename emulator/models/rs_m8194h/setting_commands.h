@@ -23,20 +23,34 @@ void for_each_axis(AxisMask axes, auto visit) {
   }
 }
 
+/// As if the chip's counts had stayed, each of which is another speed now.
+inline void scale_speeds(AxisUnit& unit, std::uint32_t from_max_v, std::uint32_t to_max_v) {
+  SpeedSettings& speed = unit.speed;
+  for (std::uint32_t* const number :
+       {&speed.start_pps, &speed.drive_pps, &speed.acceleration, &speed.deceleration, &speed.jerk_up,
+        &speed.jerk_down, &unit.homing.home_pps}) {
+    const std::uint64_t scaled = std::uint64_t{*number} * to_max_v / std::max<std::uint32_t>(from_max_v, 1);
+    *number = static_cast<std::uint32_t>(std::min<std::uint64_t>(scaled, UINT32_MAX));
+  }
+}
+
 /// A setting of section 3, with its axes in the first parameter: what it changes is a row (memory.h).
 inline Took set_basic(RsM8194h& it, const Command& command) {
   const bool is_initial = (command.values[0] & lang::kInitial) != 0;
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
     if (is_initial) {
       apply_setting(it.state().initial_table[a], command);
-      return;
+      if (!it.chose(option("initial_acts", "acts_at_once_too"))) return;
     }
     BasicSettings settings = it.state().units[a].basic;
+    const std::uint32_t max_v = settings.max_v;
     apply_setting(settings, command);
+    const bool scales = settings.max_v != max_v && it.chose(option("speeds_at_new_max_v", "scales_them"));
+    if (scales) scale_speeds(it.state().units[a], max_v, settings.max_v);
     apply_basic(it.state().units[a], it.state().motors[a], settings, it.machine_options().axis);
     it.look_again(a);
   });
-  if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table);
+  if (is_initial) keep_initial_table(it.state().blocks, it.state().initial_table, it.factory_settings());
   return Took::done;
 }
 

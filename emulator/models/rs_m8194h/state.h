@@ -85,6 +85,12 @@ constexpr std::uint8_t bit_of(Rint bit) {
   return static_cast<std::uint8_t>(1U << static_cast<unsigned>(bit));
 }
 
+/// States of the module that are passed within a tick (4.16.2).
+inline constexpr std::uint8_t kInitialised = 2;
+inline constexpr std::uint8_t kDownloaded = 4;
+inline constexpr std::uint8_t kMpFinished = 6;
+inline constexpr std::uint8_t kIsrFinished = 8;
+
 /// None is being downloaded: a name all the same, as each download has one.
 inline const lang::Download kNoDownload{.name = {.is_isr = false, .number = 1}};
 
@@ -108,22 +114,29 @@ struct State {
   lang::DownloadStatus downloaded{};
   // The module's.
   bool emergency_state = false;
-  bool emergency_input = false;
-  std::uint8_t rint = 0;    // without bit 6, which follows the error codes
-  bool interrupts = false;  // ENABLE_INT
+  bool emergency_input = false;  // EMG is active,
+  Tick emergency_since = 0;      // or not, since then
+  std::uint8_t rint = 0;         // without bit 6, which follows the error codes
+  bool interrupts = false;       // ENABLE_INT
   std::array<AxisMask, kFactors> factor_axes{};
   std::vector<IsrMark> marks{};
   lang::Execution execution{};
   MacroReport execution_fault{};
-  bool paused = false;                                        // by a trigger
+  bool paused = false;                                        // by a trigger,
+  std::uint8_t paused_by = 0;                                 // of this channel
   std::vector<std::uint8_t> queued_triggers{};                // channels whose MP waits for its turn
   std::array<AxisMask, lang::kTriggerCount> trigger_holds{};  // axes that a level of a channel holds
   std::array<std::uint16_t, kFrnetGroups> outputs{};          // as set,
   std::array<std::uint16_t, kFrnetGroups> sent{};             // as the last scan has sent them,
   std::array<std::uint16_t, kFrnetGroups> inputs{};           // as it has found them
   Tick powered_at = 0;
-  int steps_left = 0;    // of this tick
-  bool touched = false;  // by a command at once since then: what waits may go on
+  bool at_init = false;       // the switch, as power-up found it
+  bool unscanned = false;     // inputs have changed since the last FRnet scan
+  std::uint8_t finished = 0;  // of the states that are passed, the last one,
+  Tick finished_at = 0;       // and when
+  Tick resetting_until = 0;   // RESET_CARD
+  int steps_left = 0;         // of this tick
+  bool touched = false;       // by a command at once since then: what waits may go on
   // Non-volatile.
   std::array<BasicSettings, kAxes> initial_table{};
   TextBlocks blocks{};  // macros, triggers and the Initial Table, as text

@@ -71,6 +71,7 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                             field("downloaded", &Value::downloaded),
                                             field("emergency_state", &Value::emergency_state),
                                             field("emergency_input", &Value::emergency_input),
+                                            field("emergency_since", &Value::emergency_since),
                                             field("rint", &Value::rint),
                                             field("interrupts", &Value::interrupts),
                                             field("factor_axes", &Value::factor_axes),
@@ -78,12 +79,18 @@ struct StateOf<emulator::models::rs_m8194h::State> {
                                             field("execution", &Value::execution),
                                             field("execution_fault", &Value::execution_fault),
                                             field("paused", &Value::paused),
+                                            field("paused_by", &Value::paused_by),
                                             field("queued_triggers", &Value::queued_triggers),
                                             field("trigger_holds", &Value::trigger_holds),
                                             field("outputs", &Value::outputs),
                                             field("sent", &Value::sent),
                                             field("inputs", &Value::inputs),
                                             field("powered_at", &Value::powered_at),
+                                            field("at_init", &Value::at_init),
+                                            field("unscanned", &Value::unscanned),
+                                            field("finished", &Value::finished),
+                                            field("finished_at", &Value::finished_at),
+                                            field("resetting_until", &Value::resetting_until),
                                             field("steps_left", &Value::steps_left),
                                             field("touched", &Value::touched),
                                             field("initial_table", &Value::initial_table),
@@ -101,6 +108,9 @@ struct StateOf<emulator::models::rs_m8194h::State> {
     for (const auto& scan : state.scans) demand_reach(scan.begin);
     demand_state(state.image.size() == emulator::models::rs_m8194h::kSlotCount, "the image has another size");
     demand_reach(state.powered_at);
+    demand_reach(state.finished_at);
+    demand_reach(state.emergency_since);
+    demand_reach(state.resetting_until);
   }
 };
 

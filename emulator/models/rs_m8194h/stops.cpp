@@ -2,7 +2,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/meetings.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/paths.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -34,6 +42,8 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
     if (row.locks && halt != Halt::goes_on && going_now == Going::path && locks_whole_path) {
       locked_with_it |= paths.axes;
     }
+    const bool stands = going_now == Going::idle && unit.held_drive.what == Drive::What::none;
+    if (row.locks && stands && chose(option("stop_of_idle_axis", "nothing"))) continue;
     unit.locked = unit.locked || row.locks;
     unit.path_locked = unit.path_locked || row.locks_path;
     if (row.drops_held_drive && !keeps_held) {
@@ -53,10 +63,12 @@ void RsM8194h::halt(AxisMask axes, const StopRow& row) {
 }
 
 void RsM8194h::clear_stop(AxisMask axes) {
+  const bool keeps_code = chose(option("clear_stop_codes", "lock"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (!has(axes, a)) continue;
     AxisUnit& unit = state_.units[a];
     unit.locked = false;
+    if (keeps_code) continue;
     unit.error_code =
         error_left(unit.error_code, {.other_lock = unit.path_locked,
                                      .emergency_state = state_.emergency_state,
@@ -66,10 +78,13 @@ void RsM8194h::clear_stop(AxisMask axes) {
 }
 
 void RsM8194h::clear_path_stop() {
+  const bool keeps_code = chose(option("clear_stop_codes", "lock"));
+  const bool takes_all = chose(option("clear_stop_codes", "vstop_the_codes_of_all_axes"));
   for (std::size_t a = 0; a < kAxes; ++a) {
     AxisUnit& unit = state_.units[a];
-    if (!unit.path_locked) continue;
+    if (!unit.path_locked && !takes_all) continue;
     unit.path_locked = false;
+    if (keeps_code) continue;
     unit.error_code =
         error_left(unit.error_code, {.other_lock = unit.locked,
                                      .emergency_state = state_.emergency_state,
@@ -87,7 +102,8 @@ void RsM8194h::clear_emergency() {
 
 void RsM8194h::hold(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    if (has(axes, a)) state_.units[a].held = true;
+    const bool is_void = is_driving(a) && chose(option("hold_of_moving_axis", "is_void"));
+    if (has(axes, a) && !is_void) state_.units[a].held = true;
   }
 }
 
@@ -95,6 +111,14 @@ void RsM8194h::release(AxisMask axes) {
   for (std::size_t a = 0; a < kAxes; ++a) {
     if (has(axes, a)) state_.units[a].held = false;
   }
+  const AxisMask of_path = state_.held_paths.empty() ? AxisMask{0} : axes_of_path(state_.held_paths.front());
+  if ((of_path & axes) != 0 && chose(option("hold_partial_start", "starts_at_once"))) {
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      if (has(of_path, a)) state_.units[a].held = false;
+    }
+  }
+  const bool is_partial = (of_path & axes) != 0 && (of_path & ~axes) != 0;
+  if (is_partial && chose(option("hold_partial_start", "is_void"))) state_.held_paths.clear();
   start_held();
 }
 

@@ -1,5 +1,11 @@
 #include "emulator/models/rs_m8194h/terminals.h"
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/registers.h"
 
 namespace understudy::emulator::models::rs_m8194h {

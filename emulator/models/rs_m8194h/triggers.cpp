@@ -1,9 +1,17 @@
 // Triggers: FRnet inputs that start macros and events without a host (10, 5.4).
+#include "interpreter/rs_m8194h/triggers.h"
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/terminals.h"
+#include "interpreter/rs_m8194h/run.h"
+#include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -41,7 +49,7 @@ void RsM8194h::enable_triggers(bool on) {
 }
 
 void RsM8194h::heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& before, bool at_start) {
-  if (state_.image[kEventSlot] == 0) return;
+  if (state_.image[kEventSlot] == 0 || is_deaf()) return;
   const bool levels_fire = at_start && chose(option("trigger_level_at_start", "fires_once"));
   for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
     const lang::Trigger trigger = triggers()[static_cast<std::size_t>(channel)];
@@ -51,6 +59,9 @@ void RsM8194h::heed_triggers(const std::array<std::uint16_t, kFrnetGroups>& befo
       fire(channel, trigger);
       continue;
     }
+    const bool ends_its_pause = state_.paused && state_.paused_by == channel && was != is &&
+                                is_level(trigger.condition) && chose(option("pause_ends", "its_level_too"));
+    if (ends_its_pause) state_.paused = false;
     // A level that held an axis lets it go when it ends, the last one if several did.
     AxisMask& held = state_.trigger_holds[static_cast<std::size_t>(channel)];
     if (held == 0 || was == is) continue;
@@ -75,6 +86,7 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
     }
     case lang::TriggerEvent::hold:
       hold(trigger.argument);
+      if (chose(option("trigger_hold", "also_slows_the_axis"))) slow_down(trigger.argument);
       if (is_level(trigger.condition)) {
         state_.trigger_holds[static_cast<std::size_t>(channel)] = trigger.argument;
       }
@@ -86,16 +98,10 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
       state_.fifo.stop_wait = 0;
       lang::drop_wait(state_.execution, *this);
       if (chose(option("trigger_abort_command", "drops_what_waits"))) break;
-      if (state_.paths.together.engaged) {
-        state_.paths.together.slow_down(now());
-        state_.paths.open = false;
-      }
-      for (std::size_t a = 0; a < kAxes; ++a) {
-        if (!state_.paths.together.takes(a)) state_.motors[a].slow_down(now());
-      }
+      slow_down(kAllAxes);
       break;
     case lang::TriggerEvent::abort_macro: terminate(); break;
-    case lang::TriggerEvent::pause: state_.paused = true; break;
+    case lang::TriggerEvent::pause: pause(channel); break;
     case lang::TriggerEvent::clear_stop:
       clear_stop(kAllAxes);
       clear_path_stop();
@@ -104,11 +110,41 @@ void RsM8194h::fire(int channel, const lang::Trigger& trigger) {
   }
 }
 
+void RsM8194h::slow_down(AxisMask axes) {
+  Paths& paths = state_.paths;
+  if (paths.together.engaged && (paths.axes & axes) != 0) {
+    paths.together.slow_down(now());
+    paths.open = false;
+  }
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (has(axes, a) && !paths.together.takes(a)) state_.motors[a].slow_down(now());
+  }
+}
+
+void RsM8194h::pause(int channel) {
+  const auto number = static_cast<std::uint8_t>(channel);
+  const bool ends =
+      state_.paused && state_.paused_by == number && chose(option("pause_ends", "its_second_firing_too"));
+  state_.paused = !ends;
+  state_.paused_by = number;
+}
+
+/// A level that is still there calls its macro again.
+void RsM8194h::repeat_levels() {
+  if (state_.image[kEventSlot] == 0 || mp_runs() || !state_.queued_triggers.empty()) return;
+  for (int channel = 0; channel < lang::kTriggerCount; ++channel) {
+    const lang::Trigger& trigger = triggers()[static_cast<std::size_t>(channel)];
+    if (trigger.event != lang::TriggerEvent::call_mp || !is_level(trigger.condition)) continue;
+    const bool is_met = is_on(state_.inputs, channel) == (trigger.condition == lang::TriggerCondition::on);
+    if (is_met) state_.queued_triggers.push_back(static_cast<std::uint8_t>(channel));
+  }
+}
+
 /// Nothing starts in a download or in the emergency state.
 void RsM8194h::start_queued_trigger() {
   auto& queue = state_.queued_triggers;
-  const bool may =
-      state_.rsm == lang::State::ready && !state_.emergency_state && !mp_runs() && !state_.paused;
+  const bool may = state_.rsm == lang::State::ready && !state_.emergency_state && !is_resetting() &&
+                   !mp_runs() && !state_.paused;
   if (queue.empty() || !may) return;
   const lang::Trigger& trigger = triggers()[queue.front()];
   queue.erase(queue.begin());

@@ -1,9 +1,24 @@
 #include "emulator/models/rs_m8194h/views.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/rs_m8194h/axis_settings.h"
+#include "emulator/models/rs_m8194h/axis_unit.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/commands.h"
+#include "interpreter/rs_m8194h/download.h"
+#include "interpreter/rs_m8194h/verbs.h"
+#include "interpreter/rs_m8194h/window.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/homing.h"
+#include "motion/profile.h"
 
 namespace understudy::emulator::models::rs_m8194h {
 
@@ -13,13 +28,18 @@ constexpr std::uint32_t kModuleId = 0x44;
 
 std::size_t axis_number(Cell cell) { return static_cast<std::size_t>(cell.axis); }
 Value bit_of_word(std::uint32_t word, int number) { return word >> number & 1U; }
+/// U's signals are printed at 380 (arguments from 16 on), and the pattern of the others gives 280.
+bool is_served(const RsM8194h& it, Cell cell) {
+  if (cell.argument >= 16) return !it.chose(option("raw_signals_of_u", "at_280"));
+  return cell.argument < 8 || !it.chose(option("raw_signals_of_u", "at_380"));
+}
 const AxisUnit& unit_of(const RsM8194h& it, Cell cell) { return it.state().units[axis_number(cell)]; }
 const motion::Axis& motor_of(const RsM8194h& it, Cell cell) { return it.state().motors[axis_number(cell)]; }
 std::size_t group_of(int number) { return static_cast<std::size_t>(number); }
 
 std::uint16_t all_of(const RsM8194h& it, Cell cell) {
   const bool is_active = it.chose(option("di_all_levels", "active_by_setting"));
-  return di_all_word(unit_of(it, cell), it.state().emergency_input, it.is_driving(axis_number(cell)),
+  return di_all_word(unit_of(it, cell), unit_of(it, cell).emergency, it.is_driving(axis_number(cell)),
                      is_active ? UpperBits::active : UpperBits::line_levels);
 }
 
@@ -52,13 +72,15 @@ void write_do_bit(RsM8194h& it, Cell cell, Value value) {
 
 Value di_all(const RsM8194h& it, Cell cell) { return all_of(it, cell); }
 Value di_all_bit(const RsM8194h& it, Cell cell) { return bit_of_word(all_of(it, cell), cell.argument); }
-Value error_code(const RsM8194h& it, Cell cell) { return unit_of(it, cell).error_code; }
+Value error_code(const RsM8194h& it, Cell cell) { return it.error_code(axis_number(cell)); }
 Value error_bit(const RsM8194h& it, Cell cell) {
-  return bit_of_word(unit_of(it, cell).error_code, cell.argument);
+  constexpr int kSoftEmergency = 9;
+  if (cell.argument == kSoftEmergency && it.chose(option("soft_emg_bit", "has_none"))) return 0;
+  return bit_of_word(it.error_code(axis_number(cell)), cell.argument);
 }
 Value di_signal(const RsM8194h& it, Cell cell) { return di_signal_word(unit_of(it, cell)); }
 Value di_signal_bit(const RsM8194h& it, Cell cell) {
-  return bit_of_word(di_signal_word(unit_of(it, cell)), cell.argument);
+  return is_served(it, cell) ? bit_of_word(di_signal_word(unit_of(it, cell)), cell.argument % 8) : 0;
 }
 Value logic_position(const RsM8194h& it, Cell cell) {
   return logic_count(unit_of(it, cell), motor_of(it, cell));
@@ -70,7 +92,12 @@ Value absolute_position(const RsM8194h& it, Cell cell) {
   return absolute_count(unit_of(it, cell), motor_of(it, cell));
 }
 Value current_velocity(const RsM8194h& it, Cell cell) {
-  const double speed_pps = it.speed_pps(cell.axis);
+  double speed_pps = it.speed_pps(cell.axis);
+  const motion::Coordinated& together = it.state().paths.together;
+  const bool is_first = together.engaged && together.axis_of[0] == cell.axis;
+  if (is_first && it.chose(option("cv_in_interpolation", "axis1_that_of_the_path"))) {
+    speed_pps = together.run.sample(it.now()).speed_u_s;
+  }
   const bool is_signed = it.chose(option("cv_sign", "of_the_direction"));
   return std::llround(is_signed ? speed_pps : std::abs(speed_pps));
 }
@@ -110,8 +137,8 @@ void queue_absolute_position(RsM8194h& it, Cell cell, Value value) {
 Value running_mp(const RsM8194h& it, Cell) { return it.running_mp(); }
 Value emergency_state(const RsM8194h& it, Cell) { return it.state().emergency_state ? 1 : 0; }
 Value error_state(const RsM8194h& it, Cell) {
-  for (const AxisUnit& unit : it.state().units) {
-    if (unit.error_code != 0) return 1;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (it.error_code(a) != 0) return 1;
   }
   return 0;
 }
@@ -133,7 +160,7 @@ Value interpolation_ready(const RsM8194h& it, Cell) {
   const Paths& paths = it.state().paths;
   if (!paths.together.engaged) return 1;
   // A stream takes one segment ahead.
-  return paths.runs == Paths::Runs::stream && paths.open && paths.together.run.queued() < 2 ? 1 : 0;
+  return paths.runs == Paths::Runs::stream && paths.open && it.has_room_for_segment() ? 1 : 0;
 }
 Value driving_axes(const RsM8194h& it, Cell) { return it.driving(); }
 Value rsm_state(const RsM8194h& it, Cell) { return static_cast<Value>(it.state().rsm); }
@@ -142,9 +169,17 @@ Value module_state(const RsM8194h& it, Cell) {
   constexpr Value kDownloading = 3;
   constexpr Value kRunsMp = 5;
   constexpr Value kRunsIsr = 7;
+  constexpr Value kBooting = 0xFF;
   const Value first = it.chose(option("module_state_numbers", "of_12_1_12")) ? 3 : 0;
   if (it.state().rsm != lang::State::ready) return first + kDownloading;
-  return first + (it.isr_runs() ? kRunsIsr : it.mp_runs() ? kRunsMp : 0);
+  if (it.is_resetting()) return kBooting;
+  const State& state = it.state();
+  const bool is_helix = state.paths.together.engaged && state.paths.runs == Paths::Runs::helix;
+  if (it.isr_runs()) return first + kRunsIsr;
+  if (it.mp_runs() || (is_helix && it.machine_options().helix_is_macro)) return first + kRunsMp;
+  const bool has_passed =
+      it.chose(option("passing_states", "show_for_a_tick")) && it.now() > state.finished_at + 1;
+  return first + (has_passed ? 0 : state.finished);
 }
 Value illegal_reason(const RsM8194h& it, Cell) { return it.state().illegal_reason; }
 Value download_field(const RsM8194h& it, Cell cell) {

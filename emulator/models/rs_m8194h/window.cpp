@@ -3,10 +3,18 @@
 #include <cstdint>
 #include <span>
 
-#include "emulator/models/rs_m8194h/commands.h"
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/views.h"
+#include "interpreter/rs_m8194h/command.h"
+#include "interpreter/rs_m8194h/command_row.h"
+#include "interpreter/rs_m8194h/commands.h"
 #include "interpreter/rs_m8194h/faults.h"
+#include "interpreter/rs_m8194h/verbs.h"
 #include "interpreter/rs_m8194h/window.h"
 
 namespace understudy::emulator::models::rs_m8194h {
@@ -67,6 +75,21 @@ int commands_of(const RegisterRequest& request) {
   return commands;
 }
 
+/// Whether it gives a variable a value beyond the range of positions.
+bool writes_beyond(const RegisterRequest& request, bool low_word_first) {
+  constexpr std::size_t kFirstVar = 300;
+  if (!request.is_write() || request.table != Table::holding) return false;
+  for (std::size_t i = 0; i + 1 < request.count; i += 2) {
+    const std::size_t address = request.first + i;
+    if (address < kFirstVar || address >= kFirstVar + 2 * static_cast<std::size_t>(kVars)) continue;
+    const std::uint32_t high = request.words[low_word_first ? i + 1 : i];
+    const std::uint32_t low = request.words[low_word_first ? i : i + 1];
+    const auto value = static_cast<std::int32_t>(high << 16U | low);
+    if (value < lang::kLeast || value > lang::kMost) return true;
+  }
+  return false;
+}
+
 bool calls_mp(const RegisterRequest& request) {
   return request.first <= kCallMp && kCallMp < request.first + request.count;
 }
@@ -89,16 +112,34 @@ DeviceAnswer RsM8194h::answer_of(lang::Fault fault) const {
 }
 
 DeviceAnswer RsM8194h::admits(const RegisterRequest& request, Checked checked) const {
-  if (module_is_absent()) {
+  if (chose(option("holes", "exception_2"))) {
     for (std::size_t i = 0; i < request.count; ++i) {
-      if (!is_own(request.table, request.first + i)) return answer_of(lang::Fault::no_module);
+      if (!at(request.table, static_cast<std::uint16_t>(request.first + i)))
+        return answer_of(lang::Fault::address);
     }
+  }
+  if (module_is_absent()) {
+    const bool is_mute = chose(option("absent_module", "nothing"));
+    for (std::size_t i = 0; i < request.count; ++i) {
+      if (is_mute || !is_own(request.table, request.first + i)) return answer_of(lang::Fault::no_module);
+    }
+  }
+  if (checked == Checked::everything && options_.command.variables_have_ends &&
+      writes_beyond(request, low_word_first())) {
+    return answer_of(lang::Fault::parameter);
+  }
+  const bool is_downloading = state_.rsm != lang::State::ready;
+  const bool is_table = request.is_write() && !(request.table == Table::holding && request.first >= kWindow);
+  if (is_downloading && is_table && chose(option("table_writes", "all_refused"))) {
+    return answer_of(lang::Fault::real_time_in_macro);
   }
   const int commands = commands_of(request);
   if (commands == 0) return Refusal::none;
-  if (state_.rsm != lang::State::ready) return answer_of(lang::Fault::real_time_in_macro);
+  if (is_downloading && !chose(option("table_writes", "all_allowed"))) {
+    return answer_of(lang::Fault::real_time_in_macro);
+  }
   if (checked != Checked::everything) return Refusal::none;
-  if (calls_mp(request) && mp_runs()) return answer_of(lang::Fault::macro_runs);
+  if (calls_mp(request) && mp_runs() && are_calls_refused()) return answer_of(lang::Fault::macro_runs);
   return commands > free_blocks() ? answer_of(lang::Fault::fifo_full) : Refusal::none;
 }
 
@@ -111,9 +152,13 @@ void RsM8194h::register_written(const RegisterRow& row, std::size_t slot) {
   if (keeps(row)) state_.eeprom.write(slot, state_.image[slot], 0, now());
 }
 
+bool RsM8194h::are_calls_refused() const { return chose(option("calls_while_an_mp_runs", "exception_6")); }
+
 DeviceAnswer RsM8194h::take(const lang::Command& command) {
   const lang::CommandRow& row = command.row();
-  if (row.use.refused_while_mp_runs && mp_runs()) return answer_of(lang::Fault::macro_runs);
+  if (row.use.refused_while_mp_runs && mp_runs() && are_calls_refused()) {
+    return answer_of(lang::Fault::macro_runs);
+  }
   if (fifo_blocks_of(command) == 0) {
     carry_out(command);
     state_.touched = true;
@@ -131,7 +176,8 @@ void RsM8194h::queue(const lang::Command& command) {
 }
 
 DeviceAnswer take_message(RsM8194h& it, Cell, std::span<const std::uint16_t> words) {
-  const auto order = it.low_word_first() ? lang::WordOrder::low_first : lang::WordOrder::high_first;
+  const bool is_low_first = it.low_word_first() && !it.chose(option("word_order_scope", "tables"));
+  const auto order = is_low_first ? lang::WordOrder::low_first : lang::WordOrder::high_first;
   const lang::Decoded decoded = lang::decode(words, it.state().rsm, order, it.language_options().command);
   const bool is_ready = it.state().rsm == lang::State::ready;
   if (!is_ready ||

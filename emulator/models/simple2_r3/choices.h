@@ -185,7 +185,7 @@ inline constexpr ChoiceRow kChoices[] = {
     {"move_begins", "附錄 A", "how far a move is in the first 1 ms tick after its command",
      "at_its_beginning|one_tick_in", kProposal,
      "the manual's example then takes 3050 ms; one_tick_in: 3049 ms"},
-    {"tick_order", "附錄 B", "what of a 1 ms tick comes first, the program's line or motion",
+    {"tick_order", "附錄 B", "what comes first in a 1 ms tick, the program's line or motion",
      "program|motion", kProposal, "a line's move then begins in the line's own tick"},
     {"stop", "運動相關", "how the STOP registers stop a position move or homing", "at_once|slows_down",
      kLikely,

@@ -10,6 +10,7 @@
 #include "base/prefetch.h"
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
@@ -42,7 +43,7 @@ std::uint32_t resolution_of(const State& state, int axis) {
 }
 
 Simple2R3::Simple2R3(const DeviceSettings& given)
-    : Device(simple2_r3::model(), given),
+    : DeviceOf(simple2_r3::model(), given),
       RegisterBankOf(*this, *simple2_r3::model().registers, given.firmware),
       KeptMemory(simple2_r3::model().name, given.firmware) {
   dialect_ = dialect_of(*this);

@@ -8,6 +8,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/modbus/modbus_station.h"
@@ -117,7 +118,7 @@ struct alignas(64) State {
 /// would divide by zero.
 std::uint32_t resolution_of(const State& state, int axis);
 
-class Simple2R3 final : public Device,
+class Simple2R3 final : public DeviceOf<Simple2R3>,
                         public RegisterBankOf<Simple2R3>,
                         public ModbusStation,
                         public KeptMemory,
@@ -126,18 +127,6 @@ class Simple2R3 final : public Device,
                         public Axes {
  public:
   explicit Simple2R3(const DeviceSettings& given);
-
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
@@ -177,7 +166,7 @@ class Simple2R3 final : public Device,
   double speed_pps(int axis) const override;
   /// What velocity mode uses: the value now, or what its last command found.
   std::uint32_t resolution_in_velocity(int axis) const;
-  double speed_of_pulses(int axis) const;
+  double speed_of_pulses(int axis_number) const;
   void set_encoder(int axis, std::int64_t counts) override;
   std::string_view pulse_format() const override { return pulse_formats()[pulse_format_number()]; }
   std::span<const std::string_view> pulse_formats() const override;
@@ -207,21 +196,21 @@ class Simple2R3 final : public Device,
   void write_outputs(std::uint8_t which, std::uint8_t levels);
 
   /// Appendix A. Dropped while the servo is off, an alarm lasts or a limit blocks that way.
-  void start_move(int axis, Command command, const MoveParameters& move);
+  void start_move(int axis_number, Command command, const MoveParameters& move);
   /// Homing, with the axis's Home_Speed, Home_AccTime and GoHome_DIR. Dropped as moves are.
-  void go_home(int axis, bool by_trigger = false);
+  void go_home(int axis_number, bool by_trigger = false);
   /// The other modes. reactions.h says what each command does to what is going on.
-  void run_velocity(int axis, std::int64_t milli_rpm);
-  void output_pwm(int axis, std::uint8_t percent);
-  void follow_encoder(int axis);
-  void stop(int axis, Stopping how = Stopping::forcibly);
-  void switch_servo(int axis, bool on);
+  void run_velocity(int axis_number, std::int64_t milli_rpm);
+  void output_pwm(int axis_number, std::uint8_t percent);
+  void follow_encoder(int axis_number);
+  void stop(int axis_number, Stopping how = Stopping::forcibly);
+  void switch_servo(int axis_number, bool on);
   /// EncSync, SyncRPM or SyncSlope of the axis were written.
-  void sync_changed(int axis);
+  void sync_changed(int axis_number);
   /// Speed, AccTime, DecTime or Resoultion of the axis were written.
-  void speed_changed(int axis);
-  void preset_coordinate(int axis, std::int32_t pulses);
-  void clear_alarm(int axis);
+  void speed_changed(int axis_number);
+  void preset_coordinate(int axis_number, std::int32_t pulses);
+  void clear_alarm(int axis_number);
   /// A command that is not a write to DirectmRPM or DirectPWM, as those registers show it.
   void show_velocity(int axis, std::int32_t milli_rpm);
   void show_pwm(int axis, std::uint8_t percent);
@@ -249,7 +238,7 @@ class Simple2R3 final : public Device,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
  private:
@@ -266,7 +255,7 @@ class Simple2R3 final : public Device,
   /// The next active tick of all but the axes.
   Tick next_tick_without_axes(Tick done) const;
   Tick next_slot(Tick done) const;
-  DriveSettings drive_settings(int axis) const;
+  DriveSettings drive_settings(int number) const;
   Crossing crossing(int axis, Tick done, const MachineAhead& ahead) const;
   Eeprom factory_memory() const;
   /// A new state with only the memory and the encoders' counts.
@@ -299,21 +288,21 @@ class Simple2R3 final : public Device,
   /// The servo is off, and matters.
   bool lacks_servo(int axis) const;
   /// What an axis does about an event, in its present state and with its choices.
-  Outcome reaction(int axis, Event event) const;
+  Outcome reaction(int axis_number, Event event) const;
   /// `towards` if a limit that is on forbids that way.
   Event way_event(int axis, int way, Event towards, Event away) const;
   /// Whether a command is carried out; if not, does what happens instead.
-  bool may_begin(int axis, Outcome outcome, const KeptCommand& what);
+  bool may_begin(int axis_number, Outcome outcome, const KeptCommand& what);
   void carry_out_kept(int axis);
   void forget_kept(int axis);
   /// Whether SVOFF forbids pulses may have changed.
-  void heed_servo(int axis);
+  void heed_servo(int axis_number);
   /// Its limits and alarm are these from now on.
-  void meet(int axis, motion::Signals on);
-  void meet_in_sync(int axis, Outcome outcome);
+  void meet(int axis_number, motion::Signals on);
+  void meet_in_sync(int axis_number, Outcome outcome);
   bool ignores(motion::Signal signal) const;
-  void begin_following(int axis);
-  motion::Follower sync_follower(int axis) const;
+  void begin_following(int axis_number);
+  motion::Follower sync_follower(int axis_number) const;
   /// The change of speed in 0.5 ms, by VelMode_ACC.
   std::uint32_t velocity_step_urpm(int axis) const;
   /// Of the encoder that sync mode follows.
@@ -325,7 +314,7 @@ class Simple2R3 final : public Device,
   void program_has_ended();
   motion::Signals signals_of(int axis) const;
   /// Gives the motor its present signals, before a command that they may forbid.
-  void refresh_signals(int axis);
+  void refresh_signals(int axis_number);
 
   // Made from firmware and choices, for frequent questions: not state. One cache line.
   alignas(64) interpreter::simple2::Dialect dialect_;

@@ -60,7 +60,7 @@ interpreter::simple2::FlagRules flag_rules_of(const Simple2R3& device) {
   return rules;
 }
 
-/// What the manual states no factory value of, but needs one that is more than the least to be of use.
+/// Registers whose factory value the manual does not state, and which need more than the least to be of use.
 bool is_useful_guess(const RegisterRow& row) {
   constexpr std::string_view kStated[] = {"HW_Code", "Aaxis_Resoultion", "Baxis_Resoultion"};
   const bool is_stated = std::find(std::begin(kStated), std::end(kStated), row.name) != std::end(kStated);
@@ -101,7 +101,9 @@ void Simple2R3::register_written(const RegisterRow& row, std::size_t slot) {
                       chose(option("eeprom_same_value", "saved_again")));
 }
 
-void Simple2R3::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+std::function<void(NvImage&)> Simple2R3::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
 
 void Simple2R3::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());

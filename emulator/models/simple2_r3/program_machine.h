@@ -7,7 +7,7 @@
 
 namespace understudy::emulator::models::simple2_r3 {
 
-/// What its program sees: `Seen` is all of the abstract machine, or what of it can be looked at.
+/// What its program sees: `Seen` is all of the abstract machine, or the part of it that can be looked at.
 template <class Seen, class Of>
 class ProgramSight : public Seen {
  public:

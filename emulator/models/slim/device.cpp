@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -11,12 +12,12 @@
 
 #include "base/simulated_time.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/machine_ahead.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/nv_image.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
-#include "emulator/device/text/text_device.h"
 #include "emulator/models/slim/chain.h"
 #include "emulator/models/slim/chain_options.h"
 #include "emulator/models/slim/errors.h"
@@ -34,7 +35,7 @@
 namespace understudy::emulator::models::slim {
 
 Slim::Slim(const DeviceSettings& settings)
-    : TextDevice(slim::model(), settings),
+    : DeviceOf(slim::model(), settings),
       KeptMemory(slim::model().name, settings.firmware),
       modules_(std::max(settings.modules, 1)) {
   flow_options_ = flow_options();
@@ -118,6 +119,16 @@ std::string history_name(int module, std::size_t number) {
   return (module == 0 ? "" : "T" + std::to_string(module)) + "ERC(" + std::to_string(number) + ")";
 }
 
+/// The errors of each module, the last one first: ERC(0), ERC(1) ..., T1ERC(0) ...
+void write_history(const std::array<Errors, kModules>& errors, NvImage& image) {
+  for (int m = 0; m < kModules; ++m) {
+    const auto& history = errors[static_cast<std::size_t>(m)].history;
+    for (std::size_t i = 0; i < history.size(); ++i) {
+      image.registers.emplace_back(history_name(m, i), history[i]);
+    }
+  }
+}
+
 }  // namespace
 
 // --- power and memory ------------------------------------------------------------------------------
@@ -170,20 +181,14 @@ void Slim::settle_memory() {
   keep_program();
 }
 
-void Slim::write_memory(NvImage& image) const {
-  write_image(state_.kept, factory(), memory_form(), image);
-  if (history_is_kept()) write_history(image);
-  image.program = state_.kept_program;
-}
-
-/// The errors of each module, the last one first: ERC(0), ERC(1) ..., T1ERC(0) ...
-void Slim::write_history(NvImage& image) const {
-  for (int m = 0; m < kModules; ++m) {
-    const auto& history = state_.errors[static_cast<std::size_t>(m)].history;
-    for (std::size_t i = 0; i < history.size(); ++i) {
-      image.registers.emplace_back(history_name(m, i), history[i]);
-    }
-  }
+std::function<void(NvImage&)> Slim::memory_writer() const {
+  return [kept = state_.kept, factory = factory(), form = memory_form(),
+          errors = history_is_kept() ? std::optional(state_.errors) : std::nullopt,
+          program = state_.kept_program](NvImage& image) {
+    write_image(kept, factory, form, image);
+    if (errors) write_history(*errors, image);
+    image.program = program;
+  };
 }
 
 /// Takes them out of the image.
@@ -348,9 +353,9 @@ bool Slim::same_state(const Device& other) const {
 
 // --- terminals and axes ----------------------------------------------------------------------------
 
-bool Slim::output(int number) const {
-  const int module = number / kTerminalsOfModule;
-  const int which = number % kTerminalsOfModule;
+bool Slim::output(int terminal) const {
+  const int module = terminal / kTerminalsOfModule;
+  const int which = terminal % kTerminalsOfModule;
   return which >= kFirstOutput && state_.chain.output(module, which - kFirstOutput + 1);
 }
 

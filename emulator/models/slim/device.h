@@ -15,10 +15,12 @@
 #include <vector>
 
 #include "emulator/device/axes.h"
+#include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/terminals.h"
-#include "emulator/device/text/text_device.h"
+#include "emulator/device/text/text_speaker.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/actions.h"
 #include "emulator/models/slim/chain.h"
@@ -70,7 +72,8 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-class Slim final : public TextDevice,
+class Slim final : public DeviceOf<Slim>,
+                   public TextSpeaker,
                    public NamedValues,
                    public KeptMemory,
                    public UserProgram,
@@ -79,16 +82,6 @@ class Slim final : public TextDevice,
                    private lang::Machine {
  public:
   explicit Slim(const DeviceSettings& settings);
-
-  NamedValues* named_values() override { return this; }
-  const NamedValues* named_values() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
 
   // --- the dialogue ---
   TextRules text_rules() const override;
@@ -139,8 +132,8 @@ class Slim final : public TextDevice,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
-  void read_memory(const NvImage& image) override;
+  std::function<void(NvImage&)> memory_writer() const override;
+  void read_memory(const NvImage& given) override;
 
  private:
   /// What a command has to say.
@@ -233,7 +226,7 @@ class Slim final : public TextDevice,
     return number == user_unit().pulses || number == user_unit().units;
   }
   Error set_scale(int module, std::size_t number, double value);
-  Error set_parameter(int module, std::string_view name, double value);
+  Error set_parameter(int module, std::string_view given_name, double value);
   Error apply_parameter(int module, std::size_t number, double value);
   void apply_all_parameters();
   Error assign_axis(Letter letter, int module);
@@ -264,7 +257,6 @@ class Slim final : public TextDevice,
   const lang::ProgramOptions& of_programs() const { return flow_options_.program; }
   Memory factory() const;
   bool history_is_kept() const { return chose(option("history_kept", "for_ever")); }
-  void write_history(NvImage& image) const;
   std::array<Errors, kModules> read_history(NvImage& image) const;
   /// By PZ.
   bool program_is_held() const {

@@ -117,7 +117,7 @@ void Slim::hear_escape() {
 void Slim::hear_command(std::string_view line) {
   lang::ParseResult parsed = lang::parse_line(line, of_programs().dialect);
   if (parsed.error == Error::none && !parsed.line.command) {
-    // A label belongs into a program.
+    // A label belongs in a program.
     if (!parsed.line.label.empty()) fail(0, Error::syntax);
     return;
   }

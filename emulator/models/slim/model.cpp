@@ -10,7 +10,7 @@
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/row.h"
-#include "emulator/device/text/text_device.h"
+#include "emulator/device/text/text_port.h"
 #include "emulator/models/slim/choices.h"
 #include "emulator/models/slim/device.h"
 #include "emulator/models/slim/language.h"

@@ -1,30 +1,37 @@
-// What moves the axes of a SUPER-40NC by hand: jog, HOME and ZERO, and what comes of it.
+// The axes of a SUPER-40NC: their numbers, how motions begin and end, and jogs. HOME and ZERO are in
+// homes.cpp.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
-#include "motion/homing_tables.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/ramp.h"
+#include "motion/surroundings.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 
 namespace {
 
 /// How the chip is told to run (PRMD), and that it is to start with a ramp (PRCMD).
-constexpr int kModePositioning = 0x41;
 constexpr int kModeContinuous = 0x00;
-constexpr int kModeHome = 0x10;
 constexpr int kModeNegative = 0x08;  // added for the negative way
 constexpr int kStartWithRamp = 0x53;
 
 std::int32_t in_32_bits(double number) {
   return static_cast<std::int32_t>(std::llround(std::clamp(number, -2147483648.0, 2147483647.0)));
-}
-
-std::int64_t pulses_of(const motion::UnitScale& scale, std::int64_t lu) {
-  return scale.to_pulses(lu).value_or(0);
 }
 
 }  // namespace
@@ -56,6 +63,10 @@ std::int64_t Super40nc::work_lu(int number) const {
 
 void Super40nc::set_work_lu(int number, std::int64_t position) {
   AxisState& its = axis(number);
+  if (its.moves() && chose(option("pset_moving", "void"))) {
+    report(Code::axis_taken);
+    return;
+  }
   its.offset_lu += position - work_lu(number);
   its.stands_on_target = false;
 }
@@ -70,6 +81,7 @@ void Super40nc::set_counter(int number, int which, std::int32_t pulses) {
   AxisState& its = axis(number);
   if (which > 0) {
     its.counts[static_cast<std::size_t>(which - 1)] = pulses;
+    see_counters(number);
     return;
   }
   its.command.set(pulses, chip(number).travel_pulses);
@@ -91,6 +103,11 @@ void Super40nc::report(Code code, int step, int other_step) {
   state_.error = {.code = code, .step = step, .other_step = other_step, .tick = now()};
 }
 
+/// A program has started, or a motion by hand or of the PLC.
+void Super40nc::error_is_over() {
+  if (!chose(option("error_clears", "plc_to_run_alone"))) clear_error();
+}
+
 void Super40nc::fail(int number, Code code) {
   axis(number).has_error = true;
   report(code, line_step(axis(number).mover));
@@ -99,7 +116,7 @@ void Super40nc::fail(int number, Code code) {
 // ---- starts
 
 Grant Super40nc::ask(int number, Request request) {
-  const Grant given = grant(axis(number).holder, request);
+  const Grant given = granted(axis(number).holder, request);
   if (given == Grant::refused) report(Code::axis_taken, plc_step_);
   return given;
 }
@@ -130,7 +147,13 @@ motion::AxisSettings Super40nc::motor_settings(int number) const {
                           (action == 1 || action == kRamp);
     if (!is_limit) continue;
     made.*side.limit = its.raw(side.value, number) - counter_lead;
-    made.at_soft_limit = action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+    const motion::Reaction way =
+        action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+    if (side.limit == &motion::AxisSettings::soft_limit_plus) {
+      made.at_soft_limit = way;
+    } else {
+      made.at_soft_limit_minus = way;
+    }
   }
   return made;
 }
@@ -144,6 +167,7 @@ void Super40nc::prepare(int number) {
   const Value correction = its.of(kept_x(57), number);
   settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), number) : 0;
   settings.slips = correction == kSlip;
+  settings.waits_for_in_position = chose(option("inp_wait", "single_axes_wait"));
   const auto creep_rpm = static_cast<double>(its.of(kept_x(80), number));
   settings.backlash_speed_pps = std::min(its.pps(number, creep_rpm), its.top_pps(number));
   chip(number).set(settings);
@@ -164,25 +188,48 @@ void Super40nc::prepare(int number) {
 
 void Super40nc::begun(int number, motion::Cause why_not, Holder holder) {
   AxisState& state = axis(number);
+  if (why_not == motion::Cause::none && holder != Holder::home &&
+      chose(option("limits_blocking", "both_ways_blocked"))) {
+    const bool is_at_plus = has_signal(number, motion::Signal::limit_plus);
+    if (is_at_plus || has_signal(number, motion::Signal::limit_minus)) {
+      why_not = is_at_plus ? motion::Cause::limit_plus : motion::Cause::limit_minus;
+      chip(number).stop(why_not);
+      forget_end(number);
+    }
+  }
   if (why_not != motion::Cause::none) {
     fail(number, code_of(why_not));
     return;
   }
-  clear_error();
+  // Of a program only its start does.
+  if (state.mover >= Mover::plc) error_is_over();
   state.holder = holder;
   state.has_ended = state.has_error = false;
   state.stands_on_target = false;
 }
 
-/// Returns whether it runs for who asks.
-bool Super40nc::start_jog(int number, int way, bool AxisState::*asked_by) {
-  AxisState& state = axis(number);
+motion::SpeedLaw Super40nc::jog_law(int number) const {
   const Settings its = registers();
-  const Grant given = ask(number, Request::jog);
   const std::array<Kept, 3> speeds{kept_x(94), kept_x(95), kept_x(96)};
   const bool is_medium = chose(option("jog_selector", "always_medium"));
   const Kept chosen = is_medium ? speeds[1] : speeds[static_cast<std::size_t>(its.of(kept_d(8022)))];
-  const motion::SpeedLaw law = its.law(number, static_cast<double>(its.of(chosen, number)));
+  return its.law(number, static_cast<double>(its.of(chosen, number)));
+}
+
+void Super40nc::change_jog_speed() {
+  if (!chose(option("jog_selector", "d8022_also_while_it_runs"))) return;
+  for (int number = 0; number < kAxisCount; ++number) {
+    const AxisState& state = axis(number);
+    const bool is_asked = state.asked_by_contact || state.asked_by_plc;
+    if (state.holder == Holder::jog && is_asked) chip(number).change_speed(jog_law(number), now());
+  }
+}
+
+/// Returns whether it runs for who asks.
+bool Super40nc::start_jog(int number, int way, bool AxisState::*asked_by) {
+  AxisState& state = axis(number);
+  const Grant given = ask(number, Request::jog);
+  const motion::SpeedLaw law = jog_law(number);
   if (given == Grant::same_or_no) {
     if (chip(number).last_direction != way) {
       report(Code::axis_taken);
@@ -209,73 +256,6 @@ void Super40nc::release_jog(int number, bool AxisState::*asked_by) {
   if (!state.asked_by_contact && !state.asked_by_plc) chip(number).slow_down(now());
 }
 
-void Super40nc::start_home(int number, int order) {
-  if (ask(number, Request::home_or_zero) != Grant::starts) return;
-  const Settings its = registers();
-  AxisState& state = axis(number);
-  const auto rpm = [&](Kept kept) { return static_cast<double>(its.of(kept, number)); };
-  const int mode = static_cast<int>(its.of(kept_x(21), number));
-  const int way = its.is_on(kept_x(81), number) ? -1 : +1;
-  state.homed = false;
-  state.order = static_cast<std::int8_t>(order);
-  const bool has_limit = its.of(way > 0 ? kept_d(8118) : kept_d(8119), number) != 0;
-  if (motion::super40nc_homes_by_limit(mode) && !has_limit) {
-    home_ended(number, false, Code::home_failed);
-    let_go(number);
-    return;
-  }
-  prepare(number);
-  const bool limit_stops_at_once = chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), number);
-  const motion::SpeedLaw fast = its.law(number, rpm(kept_x(79)));
-  const motion::HomingProgram program =
-      motion::super40nc_homing({.mode = mode,
-                                .way = way,
-                                .fast = fast,
-                                .creep = its.law(number, rpm(kept_x(80))),
-                                .index_count = static_cast<std::int32_t>(its.of(kept_x(22), number) + 1),
-                                .leave_pulses = its.of(kept_x(93), number),
-                                .offset_pulses = pulses_of(its.scale(number), its.of(kept_x(83), number)),
-                                .limit_stops_at_once = limit_stops_at_once});
-  if (chip(number).home(program, before_motion()) != motion::Cause::none) {
-    home_ended(number, false, Code::home_failed);
-    let_go(number);
-    return;
-  }
-  begun(number, motion::Cause::none, Holder::home);
-  mirror_start(number, kModeHome + (way < 0 ? kModeNegative : 0), 0, fast);
-}
-
-void Super40nc::start_zero(int number, int order) {
-  if (ask(number, Request::home_or_zero) != Grant::starts) return;
-  const Settings its = registers();
-  AxisState& state = axis(number);
-  state.zeroed = false;
-  prepare(number);
-  const std::int64_t distance = pulses_of(its.scale(number), -state.offset_lu) - machine_pulses(number);
-  const motion::SpeedLaw law = its.law(number, static_cast<double>(its.of(kept_x(77), number)));
-  begun(number, chip(number).move(distance, law, before_motion()), Holder::zero);
-  if (state.holder != Holder::zero) {
-    state_.zeroing_by_key.has_failed = state_.zeroing_by_key.has_failed || order != 0;
-    return;
-  }
-  state.order = static_cast<std::int8_t>(order);
-  mirror_start(number, kModePositioning, distance, law);
-  if (distance != 0) return;
-  let_go(number);
-  state.zeroed = state.has_ended = true;
-}
-
-void Super40nc::set_zero(int number) {
-  AxisState& state = axis(number);
-  if (state.moves() && !chose(option("zero_set_moving", "carried_out"))) {
-    report(Code::axis_taken);
-    return;
-  }
-  state.offset_lu = 0;
-  set_counter(number, 0, 0);
-  set_counter(number, 1, 0);
-}
-
 // ---- ends
 
 void Super40nc::let_go(int number) {
@@ -286,7 +266,7 @@ void Super40nc::let_go(int number) {
   state.order = 0;
   state.mover = state.stop_awaited_by = Mover::hand;
   state.awaited = state.shows_finish = state.is_held = false;
-  const bool looked_for_mark = state.rest.kind == RestKind::mark;
+  const bool looked_for_mark = state.rest.kind == RestKind::mark || state.rest.limits_count;
   state.rest = {};
   if (looked_for_mark) look_round(number);
 }
@@ -306,30 +286,6 @@ void Super40nc::stop_axis(int number, Code code) {
     state_.zeroing_by_key.has_failed = true;
   }
   let_go(number);
-}
-
-/// `code`: why it has failed; none: it was given up.
-void Super40nc::home_ended(int number, bool found, Code code) {
-  AxisState& state = axis(number);
-  const Settings its = registers();
-  if (!found) {
-    if (code != Code::none) fail(number, code);
-    if (state.order != 0) state_.homing_by_key.has_failed = true;
-    return;
-  }
-  state.homed = true;
-  const std::int32_t cleared = its.raw(kept_x(28), number);
-  const std::int64_t home_lu = its.of(kept_x(82), number);
-  const motion::UnitScale scale = its.scale(number);
-  if ((cleared & 1) != 0) {
-    set_counter(number, 0, static_cast<std::int32_t>(pulses_of(scale, home_lu)));
-    state.offset_lu = 0;
-  } else {
-    set_work_lu(number, home_lu);
-  }
-  for (int which = 1; which < static_cast<int>(kCounters); ++which) {
-    if ((cleared >> which & 1) != 0) set_counter(number, which, 0);
-  }
 }
 
 /// The motor has come to rest by itself.
@@ -364,7 +320,8 @@ void Super40nc::ended(int number) {
   let_go(number);
   state.stands_on_target = is_at_target;
   if (shows_finish) show_finished(static_cast<std::size_t>(number));
-  if (code != Code::none && mover < Mover::plc) program_broken(mover, number, is_awaited);
+  const bool goes_on = held == Holder::home && chose(option("home_failure", "the_program_goes_on"));
+  if (code != Code::none && mover < Mover::plc && !goes_on) program_broken(mover, number, is_awaited, why);
 }
 
 // ---- what a start leaves in the chip's registers
@@ -374,8 +331,9 @@ void Super40nc::mirror_start(int number, int mode, std::int64_t distance_pulses,
   const Settings its = registers();
   AxisState& state = axis(number);
   const double top = std::max(law.top_speed_u_s, 1.0);
-  const double step = multiplier_of(top);
+  const double step = its.multiplier(number, top);
   state.step_pps = step;
+  if (chose(option("chip_mirror", "plain_registers"))) return;
   const auto rate = [&](const motion::RampLaw& ramp) {
     constexpr double kClock = 19'660'800;
     if (!(ramp.acceleration_u_s2 > 0)) return 0;

@@ -25,12 +25,14 @@ struct Rest {
   std::int64_t search = 0;
   bool searches = false;
   bool marks_positive = false;
-  std::int32_t rpm = 0;  // MRK, VDRV
+  std::int32_t rpm = 0;       // MRK, VDRV
+  bool limits_count = false;  // MRK with X16 = 0: its signals are limits, whatever X33 and X34 say
 
   bool operator==(const Rest&) const = default;
 };
 
 inline constexpr std::size_t kCounters = 4;
+inline constexpr std::size_t kComparators = 5;
 
 struct AxisState {
   std::int64_t sent_pulses = 0;      // in the last tick, in the motor's sense
@@ -41,7 +43,10 @@ struct AxisState {
   std::array<std::int32_t, kCounters> latched{};
   std::int32_t index_count = 0;  // C signals of the last home
   bool latch_was_on = false;
-  std::int64_t offset_lu = 0;  // of the work coordinate against the machine's
+  std::uint8_t clears = 0;                            // COUNTER2 to 4, when the tick's counts are in
+  std::uint8_t compares_by_tick = 0;                  // comparators that the chip's do not do
+  std::array<std::int64_t, kComparators> compared{};  // what those have seen last
+  std::int64_t offset_lu = 0;                         // of the work coordinate against the machine's
   std::int64_t encoder_counts = 0;
   std::int64_t backlash_seen = 0;  // of the motor's
 

@@ -1,7 +1,18 @@
 // What a scan does with command contacts, in this order: emergency, resets, STOP keys, M8008, ZERO SET, HOME,
 // ZERO, jog, hand-wheel. Levels that stay ON after they were void, or after a stop, need to go OFF first.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/keys.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -12,6 +23,7 @@ namespace {
 /// M8x00 + number.
 constexpr int of_axis(int axis, int number) { return 8100 + 100 * axis + number; }
 
+constexpr int kRun = 0;
 constexpr int kReset = 2;
 constexpr int kJogPlus = 3;
 constexpr int kJogMinus = 4;
@@ -51,6 +63,43 @@ bool Super40nc::is_held_in_reset(int number) const {
 
 bool Super40nc::is_inhibited(int number) const { return is_held_in_reset(number) || is_on(8004); }
 
+std::optional<ManualMotion> Super40nc::manual_motion(int number) const {
+  const AxisState& its = axis(number);
+  const bool is_by_order = its.order != 0;
+  const bool is_behind_end = its.mover < Mover::plc && !its.awaited;
+  if (its.mover < Mover::plc && its.awaited) return std::nullopt;
+  switch (its.holder) {
+    case Holder::nobody:
+    case Holder::rest: return std::nullopt;
+    case Holder::jog: return its.asked_by_plc ? ManualMotion::plc_jog : ManualMotion::jog;
+    case Holder::home: return is_by_order ? ManualMotion::home_by_order : ManualMotion::home;
+    case Holder::zero: return is_by_order ? ManualMotion::zero_by_order : ManualMotion::zero;
+    case Holder::move:
+    case Holder::vdrv:
+    case Holder::wheel: break;
+  }
+  if (is_behind_end) return its.mover == Mover::c ? ManualMotion::behind_end_of_c : ManualMotion::behind_end;
+  if (its.holder != Holder::wheel) return ManualMotion::plc_drive;
+  return its.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
+}
+
+void Super40nc::meet(int number, ManualEvent event, Code code) {
+  const std::optional<ManualMotion> motion = manual_motion(number);
+  if (motion) meet(number, *motion, event, code);
+}
+
+/// As the table has it.
+void Super40nc::meet(int number, ManualMotion motion, ManualEvent event, Code code) {
+  switch (answer_of(motion, event)) {
+    case ManualAnswer::goes_on: break;
+    case ManualAnswer::slows:
+      release_jog(number,
+                  motion == ManualMotion::plc_jog ? &AxisState::asked_by_plc : &AxisState::asked_by_contact);
+      break;
+    case ManualAnswer::ends: stop_axis(number, code); break;
+  }
+}
+
 void Super40nc::obey_stops() {
   using language::Area;
   using language::Event;
@@ -60,7 +109,7 @@ void Super40nc::obey_stops() {
     if (is_new) report(code);
     for (int number = 0; number < kAxisCount; ++number) {
       if (axis(number).holder == Holder::nobody) continue;
-      stop_axis(number, code);
+      manual_motion(number) ? meet(number, ManualEvent::emergency, code) : stop_axis(number, code);
       if (code == Code::emergency_input) axis(number).has_error = true;
     }
     state_.homing_by_key = state_.zeroing_by_key = {};
@@ -73,14 +122,15 @@ void Super40nc::obey_stops() {
     const bool is_reset = is_on(of_axis(number, kReset));
     if (is_reset) axis(number).has_error = false;
     if (is_reset) tell(Event::reset, language::area_of_axis(number));
-    if (is_pressed(KeyDoes::stop, number)) tell(Event::stop, language::area_of_axis(number));
+    if (!is_pressed(KeyDoes::stop, number)) continue;
+    tell(Event::stop, language::area_of_axis(number));
+    set_contact(of_axis(number, kRun), false);  // a start in the same scan, too
   }
   if (is_pressed(KeyDoes::stop_c, -1)) {
-    for (int number = 0; number < kAxisCount; ++number) {
-      if (axis(number).order != 0) stop_axis(number);
-    }
+    for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::main_stop);
     state_.homing_by_key = state_.zeroing_by_key = {};
     tell(Event::stop, Area::c);
+    set_contact(8000, false);
   }
   if (rises(8006)) tell(Event::hold, Area::c);
   for (int number = 0; number < kAxisCount; ++number) {
@@ -88,30 +138,39 @@ void Super40nc::obey_stops() {
   }
 }
 
+/// A level that has stayed ON behind a stop, if that is chosen to act.
+bool Super40nc::is_level_again(int number, int contact) const {
+  return state_.were_held[static_cast<std::size_t>(number)] && is_on(contact) &&
+         chose(option("level_after_stop", "act_at_once"));
+}
+
 void Super40nc::obey_jogs(int number) {
   for (const int way : {+1, -1}) {
     const int contact = of_axis(number, way > 0 ? kJogPlus : kJogMinus);
-    if (rises(contact) && !is_inhibited(number)) start_jog(number, way, &AxisState::asked_by_contact);
+    const bool asks = rises(contact) || is_level_again(number, contact);
+    if (asks && !is_inhibited(number)) start_jog(number, way, &AxisState::asked_by_contact);
   }
   const int contact = of_axis(number, chip(number).last_direction > 0 ? kJogPlus : kJogMinus);
-  if (!is_on(contact)) release_jog(number, &AxisState::asked_by_contact);
+  if (!is_on(contact)) meet(number, ManualMotion::jog, ManualEvent::contact_off);
 }
 
 void Super40nc::obey_wheel() {
   for (int number = 0; number < kAxisCount; ++number) {
     for (std::size_t i = 0; i < std::size(kWheelContacts); ++i) {
       const int contact = of_axis(number, kWheelContacts[i]);
-      if (rises(contact) && !is_inhibited(number)) start_wheel(number, kWheelSources[i]);
-      if (axis(number).wheel == kWheelSources[i] && !is_on(contact)) stop_axis(number);
+      const bool asks = rises(contact) || is_level_again(number, contact);
+      if (asks && !is_inhibited(number)) start_wheel(number, kWheelSources[i]);
+      if (axis(number).wheel == kWheelSources[i] && !is_on(contact)) meet(number, ManualEvent::contact_off);
     }
   }
   if (!state_.wheel_selected) return;
   state_.wheel_selected = false;
   const std::int32_t selected = registers().raw(kept_d(8020)) - 1;
   for (int number = 0; number < kAxisCount; ++number) {
-    if (number != selected && axis(number).wheel == WheelSource::selector) stop_axis(number);
+    const bool is_left = number != selected && axis(number).wheel == WheelSource::selector;
+    if (is_left) meet(number, ManualEvent::contact_off);
   }
-  if (selected >= 0 && selected < kAxisCount && !is_inhibited(selected)) {
+  if (selected >= 0 && selected < kAxisCount && !is_inhibited(selected) && !is_wheel_locked(selected)) {
     start_wheel(selected, WheelSource::selector);
   }
 }
@@ -134,10 +193,38 @@ void Super40nc::obey_contacts() {
   for (int number = 0; number < kAxisCount; ++number) obey_jogs(number);
   obey_wheel();
   set_contact(8005, false);
+  hold_while_inhibited();
+  for (int number = 0; number < kAxisCount; ++number) {
+    state_.were_held[static_cast<std::size_t>(number)] = is_held_in_reset(number);
+  }
   if (!chose(option("edge_contacts_fall", "when_served"))) return;
   set_contact(8008, false);
   for (int number = 0; number < kAxisCount; ++number) {
     for (const int contact : {kHome, kZero, kZeroSet}) set_contact(of_axis(number, contact), false);
+  }
+}
+
+/// M8004, where it is chosen to hold what runs: programs' and the PLC's motions, as a pause does.
+void Super40nc::hold_while_inhibited() {
+  const bool is_inhibited_now = is_on(8004);
+  const bool has_changed = is_inhibited_now != state_.was_inhibited;
+  state_.was_inhibited = is_inhibited_now;
+  if (!has_changed || !chose(option("m8004_scope", "running_ones_are_held"))) return;
+  if (is_inhibited_now) {
+    hold_path();
+    for (int number = 0; number < kAxisCount; ++number) {
+      const Holder holder = axis(number).holder;
+      if ((holder == Holder::move || holder == Holder::vdrv) && !is_on_path(number)) hold_axis(number);
+    }
+    return;
+  }
+  // Not what a pause holds as well.
+  const auto is_paused = [&](Mover mover) {
+    return mover < Mover::plc && state_.steps.programs[static_cast<std::size_t>(mover)].machine_holds;
+  };
+  if (!is_paused(Mover::c)) go_on_path();
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!is_on_path(number) && !is_paused(axis(number).mover)) go_on_axis(number);
   }
 }
 

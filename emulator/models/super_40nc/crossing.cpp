@@ -1,10 +1,22 @@
 // Many ticks in one step, where a SUPER-40NC only counts on: the PLC has settled, no step program is at work,
 // and axes meet nothing.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "base/simulated_time.h"
 #include "emulator/device/machine_ahead.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "interpreter/super_40nc/plc.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -50,8 +62,8 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
     const motion::Axis& motor = chip(number);
     const AxisState& state = axis(number);
     if (is_quiet(number)) continue;
-    if (state.masked || motor.homing.active() || state.holder == Holder::wheel ||
-        latches_by_comparator(registers(), number)) {
+    if (state.masked || motor.homing.active() || state.compares_by_tick != 0 ||
+        state.holder == Holder::wheel || latches_by_comparator(registers(), number)) {
       return done + 1;
     }
     PulseRoom room = ahead.room(number);
@@ -65,6 +77,7 @@ Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead)
 
 void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::span<std::int64_t> pulses) {
   const Tick ticks = tick - done;
+  state_.has_ticked = true;
   if (!ladder_.is_empty() && state_.plc.runs) {
     ProgramMachine machine(*this);
     language::cross(state_.plc, ladder_, machine, ticks, options_);
@@ -77,15 +90,12 @@ void Super40nc::cross_to(Tick done, Tick tick, const MachineAhead& ahead, std::s
     AxisState& state = axis(number);
     const std::int64_t travel_before = motor.travel_pulses;
     const std::int64_t before_last = tick - 1 > done ? motor.cross_to(tick - 1) : 0;
-    if (ahead.has_encoder(number)) state.encoder_counts = ahead.encoder_counts(number, before_last);
     const std::int64_t travel_at_last = motor.travel_pulses;
     state.sent_pulses = motor.step(tick, here(number));
     state.followed_pulses = motor.travel_pulses - travel_at_last;
-    count(number, travel_before, state_.encoders_seen[n], 0);
-    state_.encoders_seen[n] = state.encoder_counts;
+    count(number, travel_before, 0);
     pulses[n] += before_last + state.sent_pulses;
-    // What the last tick brings is seen in the next one.
-    if (ahead.has_encoder(number)) state.encoder_counts = ahead.encoder_counts(number, pulses[n]);
+    if (ahead.has_encoder(number)) set_encoder(number, ahead.encoder_counts(number, pulses[n]));
   }
 }
 

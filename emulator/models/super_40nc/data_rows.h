@@ -31,7 +31,7 @@ inline constexpr auto kGeneralSpecialRows = section("D8 特殊暫存器的功用
     data(8019).always(0).does<write_nothing>(),  // line of the user table, which is off
     data(8020).range(0, 4).does<select_wheel>(),
     data(8021).range(0, 2).does<select_wheel>(),
-    data(8022).range(0, 2),       // speed of jogs
+    data(8022).range(0, 2).does<select_jog_speed>(),
     data(8023, 8029),
     data(8030, 8089),
     data(8090),

@@ -1,11 +1,34 @@
 #include "emulator/models/super_40nc/device.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
+#include "base/simulated_time.h"
+#include "emulator/device/choices.h"
+#include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
+#include "emulator/device/memory/kept_memory.h"
+#include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/model.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
+#include "interpreter/super_40nc/plc.h"
+#include "interpreter/super_40nc/step_programs.h"
+#include "motion/axis.h"
+#include "motion/tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -31,10 +54,12 @@ constexpr std::array<FinishSignal, kSignalCount> kSignals{{{kept_y(0), kept_x(91
 }  // namespace
 
 Super40nc::Super40nc(const DeviceSettings& given)
-    : Device(super_40nc::model(), given),
+    : DeviceOf(super_40nc::model(), given),
       RegisterBankOf(*this, *Device::model().registers, given.firmware),
       KeptMemory(Device::model().name, given.firmware) {
   options_ = chosen_options();
+  lines_wait_ = chose(option("axis_conflicts", "programs_always_wait"));
+  multiplies_by_x12_ = chose(option("multiplier", "from_x12"));
   state_.eeprom = factory_memory();
   state_.blocks = TextBlocks(block_kinds());
   set_input(kRunSwitch, 1);
@@ -68,22 +93,55 @@ language::Options Super40nc::chosen_options() const {
   set(option("empty_program", "is_an_error"), made.empty_program, Options::EmptyProgram::is_an_error);
   set(option("vdrv_zero_wait", "goes_on"), made.rotation_0_waits, false);
   set(option("continuous", "m8007_alone"), made.continuous_by_key, false);
+  set(option("scan_time", "2_ms"), made.scan_ms, 2);
+  set(option("scan_time", "5_ms"), made.scan_ms, 5);
+  set(option("capacity_unit", "lines"), made.capacity, Options::Capacity::lines);
+  set(option("reset_timers_counters", "refused_at_load"), made.timers_can_be_reset, false);
+  set(option("double_coils", "refused_at_load"), made.double_coils, Options::DoubleCoils::are_refused);
+  set(option("void_lines", "refused_at_load"), made.void_lines, Options::VoidLines::are_refused);
+  set(option("duplicate_label", "refused_at_load"), made.double_labels, Options::DoubleLabels::are_refused);
+  set(option("cj_without_group", "takes_the_last_result"), made.loose_groups,
+      Options::LooseGroups::take_last_result);
+  set(option("if_depth", "1"), made.if_depth, 1);
+  set(option("continuous_path", "corners_are_run_through"), made.joins_paths, true);
+  set(option("mset", "refused_at_load"), made.knows_mset, false);
   return made;
 }
 
 Addressing Super40nc::addressing(std::uint8_t address) const {
   // D9000 is the number; 0 is one as well, and answers.
-  if (address == static_cast<std::uint8_t>(registers().raw(kept_d(9000)))) return Addressing::obey_and_reply;
+  if (address == 0 && chose(option("station_rule", "0_is_never_answered"))) return Addressing::obey_silently;
+  const Kept kept = kept_d(9000);
+  const Value number = chose(option("station_change", "at_the_next_power_up"))
+                           ? std::clamp<Value>(state_.station, kept.min, kept.max)
+                           : registers().of(kept);
+  if (address == number) return Addressing::obey_and_reply;
   if (address != 0) return Addressing::ignore;
   const bool answers = chose(option("station_rule", "0_answered_as_well"));
   return answers ? Addressing::obey_and_reply : Addressing::obey_silently;
 }
+
+bool Super40nc::knows(std::uint8_t function) const {
+  constexpr std::uint8_t kInputRegisters = 0x04;
+  constexpr std::uint8_t kSeveralCoils = 0x0F;
+  if (function == kInputRegisters) return chose(option("input_registers", "as_function_03"));
+  return function != kSeveralCoils || !chose(option("coils_at_once", "exception_1"));
+}
+
+/// The usual one is 3.5 characters.
+pty::SimTime Super40nc::end_silence(pty::SimTime usual) const {
+  if (chose(option("frame_gap", "10_ms"))) return std::chrono::milliseconds(10);
+  return chose(option("frame_gap", "1_5_characters")) ? usual * 3 / 7 : usual;
+}
+
+bool Super40nc::answers_refusals() const { return !chose(option("exceptions", "no_answer")); }
 
 void Super40nc::receive_failed(std::size_t port, pty::ReceiveError) { ++state_.receive_errors[port]; }
 
 // ---- the tick
 
 void Super40nc::look_at_inputs() {
+  is_restored_ = {};
   for (int i = 0; i < kInputCount; ++i) {
     state_.image[kept_at(Table::discrete, 0).slot + static_cast<std::size_t>(i)] =
         static_cast<std::uint32_t>(input(i));
@@ -92,13 +150,14 @@ void Super40nc::look_at_inputs() {
     state_.analog[static_cast<std::size_t>(i)] = input(kFirstAnalogIn + i);
   }
   state_.emergency = input(kEmergencyTerminal) != 0;
+  for (int number = 0; number < kAxisCount; ++number) look_round(number);
+  see_first_signals();
   const bool runs = input(kRunSwitch) != 0;
   if (runs != state_.run_switch) {
     state_.run_switch = runs;
     state_.logo_at = runs && !state_.logo_over ? now() + state_.logo_ms : kNever;
     runs ? plc_to_run() : plc_to_stop();
   }
-  for (int number = 0; number < kAxisCount; ++number) look_round(number);
 }
 
 void Super40nc::sample_inputs(Tick) {
@@ -114,7 +173,18 @@ void Super40nc::sample_inputs(Tick) {
 }
 
 /// PLC, keys, contacts, step programs: later writers win.
-void Super40nc::run_interpreters(Tick) {
+void Super40nc::run_interpreters(Tick tick) {
+  if (options_.scan_ms > 1 && tick % options_.scan_ms != 0) return;
+  const bool contacts_first = chose(option("scan_order", "contacts_before_the_plc"));
+  if (contacts_first) look_at_contacts();
+  run_plc();
+  if (!contacts_first) look_at_contacts();
+  if (!programs_are_busy()) return;
+  ProgramMachine machine(*this);
+  language::StepPrograms(state_.steps, codes_, machine, options_).run_slices();
+}
+
+void Super40nc::run_plc() {
   ProgramMachine machine(*this);
   language::StepPrograms steps(state_.steps, codes_, machine, options_);
   if (!ladder_.is_empty() && state_.plc.runs) {
@@ -123,16 +193,17 @@ void Super40nc::run_interpreters(Tick) {
     const language::Scanned scanned = language::scan(state_.plc, ladder_, machine, steps, options_);
     state_.plc_quiet_scans = was_told || scanned.has_changed ? 0 : scanned.quiet_scans;
   }
-  if (state_.touched) {
-    state_.shows_file_changed = state_.file_changed;
-    read_keys();
-    obey_contacts();
-    see_contacts();
-    // M8023 is ON for one scan.
-    state_.touched = state_.touched || state_.shows_file_changed;
-    state_.file_changed = false;
-  }
-  if (programs_are_busy()) steps.run_slices();
+}
+
+void Super40nc::look_at_contacts() {
+  if (!state_.touched) return;
+  state_.shows_file_changed = state_.file_changed;
+  read_keys();
+  obey_contacts();
+  see_contacts();
+  // M8023 is ON for one scan.
+  state_.touched = state_.touched || state_.shows_file_changed;
+  state_.file_changed = false;
 }
 
 bool Super40nc::programs_are_busy() const {
@@ -146,6 +217,7 @@ bool Super40nc::programs_are_busy() const {
 }
 
 void Super40nc::step_motion(Tick tick) {
+  state_.has_ticked = true;
   const auto turned = static_cast<std::int32_t>(static_cast<std::uint32_t>(input(kWheelTerminal)) -
                                                 static_cast<std::uint32_t>(state_.wheel_edges));
   state_.wheel_edges = input(kWheelTerminal);
@@ -169,9 +241,7 @@ void Super40nc::step_motion(Tick tick) {
     state.sent_pulses = state.masked ? 0 : sent;
     state.followed_pulses = motor.travel_pulses - travel_before[n];
     count_index(number, phase_before);
-    std::int64_t& encoder_seen = state_.encoders_seen[n];
-    count(number, travel_before[n], encoder_seen, turned);
-    encoder_seen = state.encoder_counts;
+    count(number, travel_before[n], turned);
     latch(number);
     if (was_on_path[n] || (motor.events & motion::bit(motion::Event::ended)) == 0) continue;
     ended(number);
@@ -189,13 +259,17 @@ void Super40nc::show_finished(std::size_t signal) {
 }
 
 void Super40nc::update_outputs(Tick tick) {
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (axis(number).clears != 0) clear_counters(number);
+    compare_counters(number);
+  }
   for (std::size_t i = 0; i < kSignalCount; ++i) {
     const FinishSignal& signal = kSignals[i];
     if (registers().of(signal.time, signal.axis) == 0) continue;
     state_.image[signal.output.slot] = tick < state_.signal_until[i] ? 1 : 0;
   }
   if (tick >= state_.logo_at && !state_.logo_over) {
-    set_contact(8502, true);
+    if (!chose(option("logo_contact", "the_panel_alone"))) set_contact(8502, true);
     state_.logo_over = true;
     state_.logo_at = kNever;
   }
@@ -249,7 +323,5 @@ double Super40nc::commanded_pps(int number) const {
   }
   return motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction);
 }
-
-void Super40nc::set_encoder(int number, std::int64_t counts) { axis(number).encoder_counts = counts; }
 
 }  // namespace understudy::emulator::models::super_40nc

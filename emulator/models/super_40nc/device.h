@@ -10,6 +10,7 @@
 
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/eeprom.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/memory/text_blocks.h"
@@ -21,6 +22,7 @@
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/contacts.h"
 #include "emulator/models/super_40nc/keys.h"
+#include "emulator/models/super_40nc/manual_motions.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/settings.h"
 #include "emulator/models/super_40nc/terminals.h"
@@ -68,8 +70,11 @@ struct State {
   bool touched = true;      // something was written since the last scan
   bool run_switch = false;  // PLC_RUN, as looked at in this tick
   bool emergency = false;   // CEMG
+  bool has_ticked = false;  // since power-up
   bool emergency_obeyed = false;
-  bool wheel_selected = false;  // D8020 or D8021 was written since the last scan
+  std::array<bool, kAxisCount> were_held{};  // in reset, in the last scan
+  bool was_inhibited = false;                // by M8004
+  bool wheel_selected = false;               // D8020 or D8021 was written since the last scan
   std::array<std::int32_t, 3> analog{};
   std::int32_t wheel_edges = 0;  // MPG, as looked at
   std::array<motion::Axis, kAxisCount> chips{};
@@ -96,7 +101,7 @@ struct State {
   std::int32_t recipe = 0;                                 // as D9002 has it
   std::array<std::int32_t, kAxisCount> rpm_at_power_up{};  // X14
   std::int32_t logo_ms = 0;                                // C0, as it was at power-up
-  std::array<std::int64_t, kAxisCount> encoders_seen{};    // up to the last tick
+  std::int32_t station = 0;                                // D9000, as it was at power-up
   Eeprom eeprom;
   TextBlocks blocks;
   Image image{};
@@ -104,7 +109,7 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-class Super40nc final : public Device,
+class Super40nc final : public DeviceOf<Super40nc>,
                         public RegisterBankOf<Super40nc>,
                         public ModbusStation,
                         public KeptMemory,
@@ -114,18 +119,6 @@ class Super40nc final : public Device,
  public:
   explicit Super40nc(const DeviceSettings& given);
 
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
-
   // --- registers -----------------------------------------------------------------------------------
   std::span<std::uint32_t> image() override { return state_.image; }
   std::span<const std::uint32_t> image() const override { return state_.image; }
@@ -133,6 +126,9 @@ class Super40nc final : public Device,
   void registers_written() override { state_.touched = true; }
   void mention_unmodelled(const RegisterRow& row) const override;
   Addressing addressing(std::uint8_t address) const override;
+  bool knows(std::uint8_t function) const override;
+  bool answers_refusals() const override;
+  pty::SimTime end_silence(pty::SimTime usual) const override;
   void receive_failed(std::size_t port, pty::ReceiveError error) override;
 
   // --- memory --------------------------------------------------------------------------------------
@@ -184,7 +180,7 @@ class Super40nc final : public Device,
   bool has_signal(int number, motion::Signal signal) const {
     return (chip(number).signals & motion::bit(signal)) != 0;
   }
-  Settings registers() const { return Settings(state_.image); }
+  Settings registers() const { return Settings(state_.image, multiplies_by_x12_); }
   /// As the device writes it: without its effect.
   void put(Kept kept, std::int32_t value, int of_axis = 0);
   /// The memory keeps what the image has there, if it is of that kind.
@@ -212,11 +208,14 @@ class Super40nc final : public Device,
   /// D9001, D9002: another path file or recipe.
   void change_file(std::int32_t number);
   void change_recipe(std::int32_t number);
+  /// D8022 was written.
+  void change_jog_speed();
   int first_of_recipe() const;
   /// M8022.
   bool is_pausing() const;
   /// D8000, D8x00; programs in the order of their areas.
   void set_pointer(int program, std::int32_t step);
+  int base_of_program(std::size_t program) const;
   /// D9042, D9043, by D9045.
   void show_capacities();
 
@@ -224,17 +223,26 @@ class Super40nc final : public Device,
   // --- for programs: program_machine.cpp -------------------------------------------------------------
   void report(Code code, int step = 0, int other_step = 0);
   void clear_error() { state_.error = {}; }
+  void error_is_over();
   /// The line of the PLC that begins a motion, as D8095 counts; 0 between them.
   void set_plc_step(int step) { plc_step_ = step; }
   /// The step of the line that a step program is at, as D8095 counts.
   int line_step(Mover mover) const;
+  /// What runs by hand, or nothing where a line of a program waits for it.
+  std::optional<ManualMotion> manual_motion(int axis) const;
+  /// What it does then (manual_motions.h).
+  void meet(int axis, ManualEvent event, Code code = Code::none);
+  void meet(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
   Grant ask(int axis, Request request);
+  /// By the table, as it is chosen.
+  Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }
   std::int64_t relative_base_lu(int axis) const;
   std::int64_t distance_to(int axis, std::int64_t target_lu) const;
   std::int64_t search_pulses(int axis) const;
   // Each of these returns whether it has begun; if not, its error is reported.
   bool begin_drive(int axis, std::int64_t target_lu, std::int32_t rpm, Mover mover);
   bool begin_mark(int axis, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
+  bool begin_blind_mark(int axis, std::int64_t target_lu, std::int32_t rpm, Mover mover);
   bool begin_turning(int axis, std::int32_t rpm, Mover mover);
   void change_turning(int axis, std::int32_t rpm, Mover mover);
   bool end_by_ramp(int axis, Mover mover);
@@ -267,6 +275,13 @@ class Super40nc final : public Device,
   /// What its axes get together.
   Grant ask_for_path(const std::array<bool, kAxisCount>& takes);
   bool begin_path(const PathPlan& plan);
+  /// Whether a path that runs is to be gone on with (D9005).
+  bool joins_paths() const;
+  /// For one more with the same axes.
+  bool has_room_on_path(const std::array<bool, kAxisCount>& takes) const;
+  void join_path(const PathPlan& plan);
+  /// Where a LIN or an arc begins that comes now.
+  std::int64_t path_base_lu(int axis) const;
   bool is_on_path(int axis) const { return state_.path.takes(static_cast<std::size_t>(axis)); }
   void hold_path();
   void go_on_path();
@@ -283,7 +298,7 @@ class Super40nc final : public Device,
   void write_own_state(StateWriter& writer) const override;
   std::function<void()> read_own_state(StateReader& reader) override;
   std::string own_difference(StateReader& a, StateReader& b) const override;
-  void write_memory(NvImage& image) const override;
+  std::function<void(NvImage&)> memory_writer() const override;
   void read_memory(const NvImage& image) override;
 
  private:
@@ -308,6 +323,9 @@ class Super40nc final : public Device,
   void obey_stops();
   void obey_jogs(int axis);
   void obey_wheel();
+  bool is_wheel_locked(int axis) const;
+  void hold_while_inhibited();
+  bool is_level_again(int axis, int contact) const;
   void see_contacts();
 
   // --- axes.cpp: what moves them
@@ -320,7 +338,7 @@ class Super40nc final : public Device,
   void ended(int axis);
   void wheel_ended(int axis);
   /// An axis that a program moves has met something, and let go.
-  void program_broken(Mover mover, int axis, bool is_awaited);
+  void program_broken(Mover mover, int axis, bool is_awaited, motion::Cause why);
   void home_ended(int axis, bool found, Code code);
   void fail(int axis, Code code);
   void let_go(int axis);
@@ -328,7 +346,12 @@ class Super40nc final : public Device,
   void feed_wheel(std::int32_t edges);
   std::int64_t wheel_lu_per_count(int axis) const;
   void follow_ratio(int axis);
-  void count(int axis, std::int64_t travel_before, std::int64_t encoder_before, std::int64_t wheel_counts);
+  void count(int axis, std::int64_t travel_before, std::int64_t wheel_counts);
+  void add_to_counter(int axis, int which, std::int64_t counts);
+  bool counts_now(int axis) const;
+  void clear_counters(int axis);
+  motion::SpeedLaw jog_law(int axis) const;
+  motion::Cause blocked_on_path(int axis, const motion::Path& path) const;
   void count_index(int axis, std::int8_t phase_before);
   void latch(int axis);
   motion::AxisSettings motor_settings(int axis) const;
@@ -340,8 +363,13 @@ class Super40nc final : public Device,
   void step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
   double path_feed() const;
 
+  void run_plc();
+  void look_at_contacts();
+
   // --- programs.cpp
   void make_programs_ready();
+  interpreter::super_40nc::Options options_with_room() const;
+  bool is_too_long(std::string_view kind, std::string_view name) const;
   void tell(interpreter::super_40nc::Event event, interpreter::super_40nc::Area area);
   bool programs_are_busy() const;
   void plc_to_run();
@@ -353,17 +381,28 @@ class Super40nc final : public Device,
   Tick next_timed_tick(Tick done) const;
   bool is_quiet(int axis) const;
 
-  // --- signals.cpp: what they meet
+  // --- comparators.cpp
+  std::int64_t compared_number(int axis, std::size_t which) const;
   void set_comparators(int axis);
   void set_comparator(int axis, std::size_t place, motion::Comparator wanted);
+  void see_counters(int axis);
+  void compare_counters(int axis);
+  void stop_by_comparator(int axis, bool by_ramp, motion::Cause why);
+
+  // --- signals.cpp: what they meet
   void look_at_inputs();
+  void see_first_signals();
   void look_round(int axis);
 
   State state_;
   // Made from the listings that the memory has: not state.
   interpreter::super_40nc::StepCodes codes_;
   interpreter::super_40nc::Ladder ladder_;
+  std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
+  NamedBlocks::mapped_type ready_texts_;        // that those two are made of
   interpreter::super_40nc::Options options_;
+  bool lines_wait_ = false;                       // a choice that is asked for often
+  bool multiplies_by_x12_ = false;                // likewise
   int plc_step_ = 0;                              // not state: 0 outside of a line
   std::array<MachineEdges, kAxisCount> edges_{};  // not state: they are told again
 };

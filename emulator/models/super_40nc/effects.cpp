@@ -1,9 +1,14 @@
 #include "emulator/models/super_40nc/effects.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -18,7 +23,7 @@ Value read_analog(const Super40nc& device, Cell cell) {
 Value read_error(const Super40nc& device, Cell cell) {
   const ErrorReport& error = device.state().error;
   switch (cell.argument) {
-    case 0: return static_cast<Value>(error.code);
+    case 0: return device.chose(option("error_codes", "always_0")) ? 0 : static_cast<Value>(error.code);
     case 1: return error.step;
     default: return error.other_step;
   }
@@ -36,6 +41,7 @@ Value read_counter(const Super40nc& device, Cell cell) { return device.counter(c
 Value read_operation(const Super40nc& device, Cell cell) { return device.operation_of(cell.index); }
 
 Value read_latch(const Super40nc& device, Cell cell) {
+  if (device.chose(option("latch_registers", "0"))) return 0;
   return device.axis(cell.index).latched[static_cast<std::size_t>(cell.argument)];
 }
 
@@ -53,7 +59,8 @@ Value read_braking_distance(const Super40nc& device, Cell cell) {
 
 Value read_pointer(const Super40nc& device, Cell cell) {
   const auto program = static_cast<std::size_t>(cell.argument == 0 ? 0 : 1 + cell.index);
-  return device.state().steps.programs[program].step;
+  const bool is_absolute = device.chose(option("step_numbers_relative", "absolute"));
+  return device.state().steps.programs[program].step + (is_absolute ? device.base_of_program(program) : 0);
 }
 Value read_pausing(const Super40nc& device, Cell) { return device.is_pausing() ? 1 : 0; }
 Value read_file_changed(const Super40nc& device, Cell) { return device.state().shows_file_changed ? 1 : 0; }
@@ -61,11 +68,15 @@ Value read_file_changed(const Super40nc& device, Cell) { return device.state().s
 void write_command(Super40nc& device, Cell cell, Value level) {
   const bool is_of_axes = cell.argument >= 8100 && cell.argument < 8500;
   const int contact = cell.argument + cell.index * (is_of_axes ? 100 : 1);
+  if (device.chose(option("command_latch", "lost"))) return;  // its level at the scan is all that counts
   device.state().contacts.write(contact, level != 0);
 }
 
 void write_pointer(Super40nc& device, Cell cell, Value step) {
-  device.set_pointer(cell.argument == 0 ? 0 : 1 + cell.index, static_cast<std::int32_t>(step));
+  const int program = cell.argument == 0 ? 0 : 1 + cell.index;
+  const bool is_absolute = device.chose(option("step_numbers_relative", "absolute"));
+  const int base = is_absolute ? device.base_of_program(static_cast<std::size_t>(program)) : 0;
+  device.set_pointer(program, static_cast<std::int32_t>(step) - base);
 }
 void write_nothing(Super40nc&, Cell, Value) {}
 
@@ -94,6 +105,8 @@ void change_override(Super40nc& device, Cell, Value) { device.heed_override(); }
 
 void select_wheel(Super40nc& device, Cell, Value) { device.state().wheel_selected = true; }
 
+void select_jog_speed(Super40nc& device, Cell, Value) { device.change_jog_speed(); }
+
 void change_axis(Super40nc& device, Cell cell, Value) { device.heed_axis(cell.index, cell.argument); }
 
 void set_work_position(Super40nc& device, Cell cell, Value position) {
@@ -101,6 +114,7 @@ void set_work_position(Super40nc& device, Cell cell, Value position) {
 }
 
 void set_counter(Super40nc& device, Cell cell, Value pulses) {
+  if (cell.argument == 0 && device.chose(option("d8x40_write", "ignored"))) return;
   device.set_counter(cell.index, cell.argument, static_cast<std::int32_t>(pulses));
 }
 

@@ -69,6 +69,7 @@ void lay_out_files(Super40nc& device, Cell, Value lines);
 void limit_voltage(Super40nc& device, Cell cell, Value thousandths);  // argument: Vout1, Vout2
 void change_override(Super40nc& device, Cell, Value percent);
 void select_wheel(Super40nc& device, Cell, Value);
+void select_jog_speed(Super40nc& device, Cell, Value);
 void change_axis(Super40nc& device, Cell cell, Value);  // argument: of D9x00 + that; 0: of a D8x
 void set_work_position(Super40nc& device, Cell cell, Value position);
 void set_counter(Super40nc& device, Cell cell, Value pulses);

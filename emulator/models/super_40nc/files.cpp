@@ -3,10 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
 
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/text_blocks.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/listing.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -82,7 +92,11 @@ std::string why_not_file_name(const std::string& name) {
 }
 
 std::string why_not_listing(const std::string& text) {
-  const language::Checked checked = language::check(text);
+  // Whatever is chosen: by the most tolerant options.
+  language::Options options;
+  options.loose_groups = language::Options::LooseGroups::take_last_result;
+  options.capacity = language::Options::Capacity::lines;
+  const language::Checked checked = language::check(text, options);
   if (checked.program) return "";
   const language::Complaint& first = checked.errors.front();
   return "line " + std::to_string(first.line) + ": " + first.message();
@@ -170,6 +184,11 @@ void Super40nc::show_capacities() {
   constexpr std::int32_t kAllSteps = 30000;
   constexpr std::int32_t kStepsOfC = 1500;
   const auto lines = static_cast<std::int32_t>(registers().of(kept_d(9045)));
+  constexpr std::int32_t kLinesOfAPage = 256;
+  if (chose(option("flash_pages", "lines_by_256"))) {
+    put(kept_d(9044), (lines + kLinesOfAPage - 1) / kLinesOfAPage);
+  }
+  if (chose(option("file_layout", "always_20_files"))) return;
   put(kept_d(9042), std::min(lines, kStepsOfC));
   put(kept_d(9043), kAllSteps / lines);
 }

@@ -3,9 +3,15 @@
 #include "emulator/models/super_40nc/keys.h"
 
 #include <algorithm>
+#include <cstdint>
 
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -25,6 +31,13 @@ bool has_digit(std::int32_t mask, int digits, int digit) {
 int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4); }
 
 }  // namespace
+
+/// The wheel key of an axis' page has no contact; what it selects is D8020.
+bool Super40nc::is_wheel_locked(int number) const {
+  constexpr int kWheelDigit = 1;
+  return chose(option("lock_scope", "keys_and_d8020")) &&
+         has_digit(registers().raw(kept_x(98), number), kAxisLockDigits, kWheelDigit);
+}
 
 bool Super40nc::is_locked(const Key& key) const {
   if (chose(option("lock_scope", "nothing"))) return false;
@@ -120,7 +133,11 @@ void Super40nc::obey_order_keys() {
     if (!key.runs && is_pressed(what, -1)) key = {.runs = true};
   };
   press(state_.homing_by_key, KeyDoes::home_by_order);
-  if (rises(kOriginKey) && chose(option("m8514_meaning", "home"))) state_.homing_by_key.runs = true;
+  // As a HOME key it obeys that one's digit.
+  constexpr int kHomeDigit = 1;
+  const bool is_home_key = chose(option("m8514_meaning", "home")) && rises(kOriginKey);
+  const Key as_home{.contact = kOriginKey, .does = KeyDoes::home_by_order, .lock = kHomeDigit};
+  if (is_home_key && !state_.homing_by_key.runs && !is_locked(as_home)) state_.homing_by_key = {.runs = true};
   press(state_.zeroing_by_key, KeyDoes::zero_by_order);
   follow_order(state_.homing_by_key, Holder::home, kept_x(99), &Super40nc::start_home);
   follow_order(state_.zeroing_by_key, Holder::zero, kept_x(84), &Super40nc::start_zero);

@@ -8,7 +8,11 @@
 #include <vector>
 
 #include "emulator/device/model.h"
+#include "emulator/device/program_error.h"
+#include "emulator/device/program_language.h"
 #include "emulator/models/super_40nc/device.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/instruction_row.h"
 #include "interpreter/super_40nc/instructions.h"
 #include "interpreter/super_40nc/listing.h"
 

@@ -1,11 +1,23 @@
 // What a SUPER-40NC keeps: latched contacts and registers at once, recipes; what power-up finds, and M8008.
+#include "emulator/device/device.h"
+#include "emulator/device/memory/eeprom.h"
+#include "emulator/device/memory/nv_image.h"
 #include "emulator/device/memory/register_memory.h"
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
 
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/device.h"
-#include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -34,12 +46,18 @@ std::uint32_t Super40nc::factory_bits(const RegisterRow& row) const {
     std::int32_t value;
   };
   static constexpr Panel kPanels[] = {{9007, 2000}, {9165, 2}, {9178, 500}, {9181, 1}, {9183, 1000}};
+  constexpr int kOffset = 9183;
+  constexpr int kDefaultFeed = 9004;
   for (const Panel& panel : kPanels) {
     if (row.table == Table::holding && row.address == data_address(panel.d9) &&
         chose(option("factory_values", "panels"))) {
-      return static_cast<std::uint32_t>(panel.value);
+      const bool is_one_lu = panel.d9 == kOffset && chose(option("x30_unit", "0_001_mm_with_panel_values"));
+      return is_one_lu ? 1 : static_cast<std::uint32_t>(panel.value);
     }
   }
+  constexpr std::uint32_t kPrintedWithD9 = 5000;
+  const bool is_feed = row.table == Table::holding && row.address == data_address(kDefaultFeed);
+  if (is_feed && chose(option("d9004_factory", "5_mm_s"))) return kPrintedWithD9;
   return static_cast<std::uint32_t>(row.factory);
 }
 
@@ -73,7 +91,9 @@ void Super40nc::mention_unmodelled(const RegisterRow& row) const {
   Device::mention_unmodelled(name, row.unmodelled);
 }
 
-void Super40nc::write_memory(NvImage& image) const { write_registers(*this, state_.eeprom.kept(), image); }
+std::function<void(NvImage&)> Super40nc::memory_writer() const {
+  return registers_writer(*this, state_.eeprom.kept());
+}
 
 void Super40nc::read_memory(const NvImage& image) {
   const auto values = read_registers(*this, image, Device::model().firmwares.back());
@@ -86,7 +106,6 @@ void Super40nc::blank_state() {
   blank.blocks = std::move(state_.blocks);
   for (std::size_t i = 0; i < blank.axes.size(); ++i) {
     blank.axes[i].encoder_counts = state_.axes[i].encoder_counts;
-    blank.encoders_seen[i] = state_.axes[i].encoder_counts;
   }
   state_ = std::move(blank);
 }
@@ -105,6 +124,8 @@ void Super40nc::power_up() {
   const Settings its = registers();
   put(kept_d(8006), its.raw(kept_d(9004)));
   put(kept_d(8007), its.raw(kept_d(9016)));
+  state_.station = its.raw(kept_d(9000));
+  if (chose(option("version_number", "0"))) put(kept_d(8099), 0);
   state_.file = its.raw(kept_d(9001));
   state_.recipe = its.raw(kept_d(9002));
   state_.logo_ms = static_cast<std::int32_t>(its.of(kept_d(9007)));

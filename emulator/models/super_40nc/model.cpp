@@ -1,12 +1,22 @@
 #include "emulator/models/super_40nc/model.h"
 
 #include <array>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string_view>
 
+#include "emulator/device/device.h"
 #include "emulator/device/modbus/modbus_station.h"
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/choices.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/parameters.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -14,17 +24,13 @@ namespace {
 
 constexpr std::array<Firmware, 1> kFirmwares{100};
 
-constexpr std::array<std::string_view, 6> kGaps{
-    "Comparators stop an axis by COUNTER1 (soft limits, and methods 1, 4 and 5 of at most four of them); by "
-    "other sources "
-    "and methods 2 and 3 they only show whether they are met.",
+constexpr std::array<std::string_view, 4> kGaps{
+    "Comparators meet COUNTER1 to the pulse by methods 1, 4, 5 and as soft limits, four of them at once; by "
+    "other "
+    "numbers, and by methods 2 and 3, they stop an axis when the tick is over.",
     "In a LIN or an arc backlash comes out at once, and slip (D9x57 = 2) is not corrected.",
-    "A soft limit that stops at once on one side and by a ramp on the other has the negative side's way.",
     "The chip's ERC, CSTA, CSTP, PCS, CLR, LTC, SD and DR are not brought out.",
     "The user table and the direct command of D8020, which the manual leaves unfinished, are plain storage.",
-    "Of what else the manual leaves open (scan time, ownership of axes, what pauses hold, failed homes and "
-    "more) only "
-    "our reading is there; a bench cannot choose another.",
 };
 
 constexpr std::array<int, 1> kBauds{19200};
@@ -32,7 +38,7 @@ constexpr pty::LineSettings kLine{.data_bits = 8, .parity = pty::Parity::even, .
 constexpr std::array<PortRow, 2> kPorts{
     PortRow{.kind = PortRow::Kind::rs232, .name = "RS232", .bauds = kBauds, .settings = kLine},
     PortRow{.kind = PortRow::Kind::rs485, .name = "RS485", .bauds = kBauds, .settings = kLine}};
-constexpr std::array<std::uint8_t, 7> kFunctions{0x01, 0x02, 0x03, 0x05, 0x06, 0x0F, 0x10};
+constexpr std::array<std::uint8_t, 8> kFunctions{0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
 constexpr int kCharacterBits = 11;
 
 constexpr MapPolicy kPolicy{.read_only = MapPolicy::ReadOnly::ignores_writes,
@@ -65,6 +71,7 @@ constexpr SectionRow kSections[] = {
     {"LD , LDI , OUT , OUTtc 指令", "instructions LD, LDI, OUT, OUTtc"},
     {"Logic 指令一覽表", "list of logic instructions"},
     {"MAN(手動)頁操作說明", "the manual page"},
+    {"MRK 指令", "instruction MRK"},
     {"Motion指令一覽表", "list of motion instructions"},
     {"PSET 指令", "instruction PSET"},
     {"STP 指令", "instruction STP"},

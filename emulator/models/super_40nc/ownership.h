@@ -65,7 +65,22 @@ inline constexpr std::array<OwnershipRow, kHolders> kOwnership = [] {
 }();
 // clang-format on
 
-constexpr Grant grant(Holder holder, Request request) {
+/// What turns or follows the wheel does not end by itself, so lines are lost on it. By another choice they
+/// wait for it as well.
+struct OwnershipCell {
+  Holder holder;
+  Request request;
+  Grant grant;
+};
+inline constexpr OwnershipCell kLinesAlwaysWait[] = {{Holder::vdrv, Request::line, Grant::waits},
+                                                     {Holder::vdrv, Request::mpg_line, Grant::waits},
+                                                     {Holder::wheel, Request::line, Grant::waits},
+                                                     {Holder::wheel, Request::vdrv, Grant::waits}};
+
+constexpr Grant grant(Holder holder, Request request, bool lines_always_wait = false) {
+  for (const OwnershipCell& cell : kLinesAlwaysWait) {
+    if (lines_always_wait && cell.holder == holder && cell.request == request) return cell.grant;
+  }
   return kOwnership[static_cast<std::size_t>(holder)][static_cast<std::size_t>(request)];
 }
 

@@ -14,7 +14,7 @@ inline constexpr auto kGeneralParameterRows = section("D9 參數暫存器的功�
     data(9002).kept_at_once().range(0, 99).does<select_recipe>(),
     data(9003).kept_at_once().range(0, 4).in("axes"),  // C21
     data(9004).kept_at_once().range(1, 9999999).in("0.001 mm/s").from_factory(10000),  // C10
-    data(9005).kept_at_once().range(0, 1).not_modelled("a continuous path: each move ends at rest"),
+    data(9005).kept_at_once().range(0, 1),  // continuous path: a choice
     data(9006).kept_at_once().range(0, 1),  // C20
     data(9007).kept_at_once().range(0, 10000).in("ms").from_factory(6000),  // C0
     data(9008, 9009).kept_at_once(),

@@ -3,10 +3,18 @@
 #include "emulator/models/super_40nc/parameters.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "emulator/device/model.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/terminals.h"
 
 namespace understudy::emulator::models::super_40nc {

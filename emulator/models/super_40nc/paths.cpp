@@ -1,11 +1,24 @@
 // LIN and arcs of the C program: one profile along the path, with the least slope among its axes
 // (《C11./C12.》 to 《C22.》), no faster than X12 of any axis, and the feed override at once.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
+#include "base/simulated_time.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+#include "motion/coordinated.h"
+#include "motion/move.h"
+#include "motion/path.h"
 #include "motion/path_limits.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -29,12 +42,24 @@ Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
   Grant worst = Grant::starts;
   for (int number = 0; number < kAxisCount; ++number) {
     if (!takes[static_cast<std::size_t>(number)]) continue;
-    const Grant given = grant(axis(number).holder, Request::line);
+    const Grant given = granted(axis(number).holder, Request::line);
     if (given == Grant::waits) return Grant::waits;
     if (given == Grant::refused) worst = Grant::refused;
   }
   if (worst == Grant::refused) report(Code::axis_taken, line_step(Mover::c));
   return worst;
+}
+
+/// Why an axis may not begin on a path: it stands on a limit that the path goes into.
+motion::Cause Super40nc::blocked_on_path(int number, const motion::Path& path) const {
+  if (chose(option("limits_blocking", "both_ways_blocked"))) {
+    if (has_signal(number, motion::Signal::limit_plus)) return motion::Cause::limit_plus;
+    if (has_signal(number, motion::Signal::limit_minus)) return motion::Cause::limit_minus;
+  }
+  constexpr double kFirstPart = 1e-3;  // an arc may begin at right angles to the axis
+  const double ahead = path.at(path.length_u * kFirstPart)[number] - path.begin[number];
+  if (ahead == 0) return chip(number).forbidden_anywhere();
+  return chip(number).forbidden(ahead > 0 ? +1 : -1);
 }
 
 bool Super40nc::begin_path(const PathPlan& plan) {
@@ -47,6 +72,8 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   most.setConstant(std::numeric_limits<double>::infinity());
   double target_lu_s = std::numeric_limits<double>::infinity();
   double fastest_pps = 0;
+  double longest = 0;  // pulses of an axis to a LU of the path
+  const bool goes_by_longest = chose(option("path_law", "slope_of_the_longest_axis"));
   double fastest_ppu = 1;
   const motion::Point direction = motion::greatest_direction(plan.path);
   for (int number = 0; number < kAxisCount; ++number) {
@@ -59,7 +86,10 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     most[number] = its.top_pps(number) / ppu;
     const double share = direction[number];
     if (share <= 0) continue;
-    target_lu_s = std::min(target_lu_s, its.pps(number, static_cast<double>(its.of(kept_d(9011)))) / ppu);
+    const double slope_lu_s = its.pps(number, static_cast<double>(its.of(kept_d(9011)))) / ppu;
+    if (!goes_by_longest) target_lu_s = std::min(target_lu_s, slope_lu_s);
+    if (goes_by_longest && share * ppu > longest) target_lu_s = slope_lu_s;
+    longest = std::max(longest, share * ppu);
     const double pps = share * std::max(state_.path_feed_lu_s, 1) * ppu;
     if (pps > fastest_pps) {
       fastest_pps = pps;
@@ -75,19 +105,23 @@ bool Super40nc::begin_path(const PathPlan& plan) {
              number_of(kept_d(9012)) * step_lu_s, number_of(kept_d(9013)) * step_lu_s);
   path.run.append(plan.path, {}, before_motion());
   path.run.set_speed(law, before_motion());
-  const motion::Cause why_not = path.begin(plan.path.begin, state_.chips, before_motion());
+  bool is_blocked = false;
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    const motion::Cause why = plan.takes[n] ? blocked_on_path(number, plan.path) : motion::Cause::none;
+    if (why == motion::Cause::none) continue;
+    is_blocked = axis(number).has_error = true;
+    report(code_of(why), line_step(Mover::c));
+  }
+  if (is_blocked || path.begin(plan.path.begin, state_.chips, before_motion()) != motion::Cause::none) {
+    return false;
+  }
   for (int number = 0; number < kAxisCount; ++number) {
     const auto n = static_cast<std::size_t>(number);
     if (!plan.takes[n]) continue;
-    if (why_not != motion::Cause::none) {
-      if (chip(number).forbidden_anywhere() == motion::Cause::none) continue;
-      axis(number).has_error = true;
-      report(code_of(why_not), line_step(Mover::c));
-      continue;
-    }
-    begun(number, motion::Cause::none, Holder::move);
     AxisState& state = axis(number);
     state.mover = Mover::c;
+    begun(number, motion::Cause::none, Holder::move);
     state.awaited = true;
     state.target_lu = plan.target_lu[n];
     const std::int64_t end = path.travel_at(n, plan.path.end[number]);
@@ -99,11 +133,45 @@ bool Super40nc::begin_path(const PathPlan& plan) {
     its_law.down.acceleration_u_s2 *= share;
     mirror_start(number, plan.mode, end - chip(number).travel_pulses, its_law);
   }
-  if (why_not != motion::Cause::none) return false;
   state_.path = path;
   state_.path_is_held = false;
   heed_override();
   return true;
+}
+
+bool Super40nc::joins_paths() const {
+  return options_.joins_paths && state_.path.engaged && registers().is_on(kept_d(9005));
+}
+
+bool Super40nc::has_room_on_path(const std::array<bool, kAxisCount>& takes) const {
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (takes[static_cast<std::size_t>(number)] != is_on_path(number)) return false;
+  }
+  return !state_.path_is_held && state_.path.slowing_for == motion::Cause::none &&
+         state_.path.run.queued() <= 1;
+}
+
+/// Without slowing down, whatever the corner; the feed is its own from now on.
+void Super40nc::join_path(const PathPlan& plan) {
+  const Settings its = registers();
+  motion::Point most;
+  most.setConstant(std::numeric_limits<double>::infinity());
+  state_.path.run.append(plan.path, {.rule = motion::Joint::Rule::join}, now());
+  for (int number = 0; number < kAxisCount; ++number) {
+    const auto n = static_cast<std::size_t>(number);
+    if (!plan.takes[n]) continue;
+    most[number] = its.top_pps(number) / pulses_per_lu(its, number);
+    AxisState& state = axis(number);
+    state.target_lu = plan.target_lu[n];
+    state.rest.travel = state_.path.travel_at(n, plan.path.end[number]);
+  }
+  state_.path_feed_lu_s = std::max<std::int32_t>(plan.feed_lu_per_s, 1);
+  state_.path_limit_lu_s = std::min(state_.path_limit_lu_s, motion::speed_within(plan.path, most));
+  heed_override();
+}
+
+std::int64_t Super40nc::path_base_lu(int number) const {
+  return joins_paths() && is_on_path(number) ? axis(number).target_lu : relative_base_lu(number);
 }
 
 void Super40nc::heed_override() {
@@ -173,7 +241,10 @@ void Super40nc::path_ended() {
   state_.path_is_held = false;
   state_.touched = true;
   if (has_arrived) show_finished(kPathSignal);
-  if (code != Code::none) program_broken(Mover::c, -1, true);
+  using interpreter::super_40nc::Phase;
+  const Phase phase = state_.steps.programs[0].phase;
+  const bool is_awaited = phase == Phase::moving || phase == Phase::held;  // not where paths are joined
+  if (code != Code::none) program_broken(Mover::c, -1, is_awaited, why);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -1,10 +1,23 @@
 #include "emulator/models/super_40nc/program_machine.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/error.h"
+#include "interpreter/super_40nc/machine.h"
 #include "interpreter/super_40nc/ownership.h"
+#include "interpreter/super_40nc/requests.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -86,7 +99,7 @@ bool ProgramMachine::is_held_in_reset(Area area) const {
   return axis < 0 ? device_.is_stopped_by_emergency() : device_.is_held_in_reset(axis);
 }
 
-void ProgramMachine::program_starts(Area) { device_.clear_error(); }
+void ProgramMachine::program_starts(Area) { device_.error_is_over(); }
 
 void ProgramMachine::program_ended(Area area) {
   device_.show_finished(
@@ -96,13 +109,13 @@ void ProgramMachine::program_ended(Area area) {
 template <class Start>
 Begun ProgramMachine::begin_each(Area by, const language::AxisValues& values, Request request, Start start) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
-    if (is_set(values, axis) && grant(device_.axis(axis).holder, request) == Grant::waits)
+    if (is_set(values, axis) && device_.granted(device_.axis(axis).holder, request) == Grant::waits)
       return Begun::taken;
   }
   bool has_begun = false;
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (!is_set(values, axis)) continue;
-    if (grant(device_.axis(axis).holder, request) != Grant::starts) {
+    if (device_.granted(device_.axis(axis).holder, request) != Grant::starts) {
       device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
       continue;
     }
@@ -134,9 +147,14 @@ Begun ProgramMachine::begin(Area by, const language::MarkSearch& search) {
         search.targets == language::Targets::relative ? device_.relative_base_lu(axis) : 0;
     const std::int32_t rpm = search.rpm[static_cast<std::size_t>(axis)];
     const std::int64_t beyond = device_.search_pulses(axis);
-    const bool begins = beyond == 0 ? device_.begin_drive(axis, base + value, rpm, mover_of(by))
-                                    : device_.begin_mark(axis, device_.distance_to(axis, base + value),
-                                                         beyond, rpm, mover_of(by));
+    const std::int64_t distance = device_.distance_to(axis, base + value);
+    const bool is_against = (beyond < 0 && distance > 0) || (beyond > 0 && distance < 0);
+    if (is_against && device_.chose(option("mrk_against", "void_with_a_code"))) {
+      device_.report(Code::out_of_range, device_.line_step(mover_of(by)));
+      return true;
+    }
+    const bool begins = beyond == 0 ? device_.begin_blind_mark(axis, base + value, rpm, mover_of(by))
+                                    : device_.begin_mark(axis, distance, beyond, rpm, mover_of(by));
     if (begins && device_.axis(axis).holder == Holder::move) device_.axis(axis).awaited = true;
     return begins;
   });
@@ -160,7 +178,8 @@ Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
 Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const bool turns = is_set(rotation.rpm, axis) && value_of_axis(rotation.rpm, axis) != 0;
-    if (turns && grant(device_.axis(axis).holder, Request::vdrv) == Grant::waits) return Begun::taken;
+    if (turns && device_.granted(device_.axis(axis).holder, Request::vdrv) == Grant::waits)
+      return Begun::taken;
   }
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (!is_set(rotation.rpm, axis)) continue;
@@ -169,7 +188,7 @@ Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
       device_.end_by_ramp(axis, mover_of(by));
       continue;
     }
-    const Grant given = grant(device_.axis(axis).holder, Request::vdrv);
+    const Grant given = device_.granted(device_.axis(axis).holder, Request::vdrv);
     if (given == Grant::new_speed) {
       device_.change_turning(axis, rpm, mover_of(by));
     } else if (given != Grant::starts) {
@@ -185,7 +204,8 @@ Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
 Begun ProgramMachine::begin(Area by, const language::WheelRatios& ratios) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const bool follows = is_set(ratios.lu_per_count, axis) && value_of_axis(ratios.lu_per_count, axis) != 0;
-    if (follows && grant(device_.axis(axis).holder, Request::mpg_line) == Grant::waits) return Begun::taken;
+    if (follows && device_.granted(device_.axis(axis).holder, Request::mpg_line) == Grant::waits)
+      return Begun::taken;
   }
   for (int axis = 0; axis < kAxisCount; ++axis) {
     if (!is_set(ratios.lu_per_count, axis)) continue;
@@ -197,10 +217,14 @@ Begun ProgramMachine::begin(Area by, const language::WheelRatios& ratios) {
     }
     if (state.wheel == WheelSource::mpg_line) {
       state.wheel_lu = ratio;
-    } else if (grant(state.holder, Request::mpg_line) == Grant::starts) {
+    } else if (device_.granted(state.holder, Request::mpg_line) == Grant::starts) {
+      state.mover = mover_of(by);
       device_.start_wheel(axis, WheelSource::mpg_line);
       state.wheel_lu = ratio;
-      if (state.holder != Holder::wheel) return Begun::refused;
+      if (state.holder != Holder::wheel) {
+        state.mover = Mover::hand;
+        return Begun::refused;
+      }
     } else {
       device_.report(Code::axis_taken, device_.line_step(mover_of(by)));
       continue;
@@ -239,11 +263,17 @@ void ProgramMachine::drop_held(Area by) {
 language::Areas ProgramMachine::stop(Area area) {
   language::Areas lost = 0;
   for (int axis = 0; axis < kAxisCount; ++axis) {
+    if (device_.manual_motion(axis) && (area == Area::c || language::axis_of(area) == axis)) {
+      device_.meet(axis, area == Area::c ? ManualEvent::stop_of_c : ManualEvent::stop);
+      continue;
+    }
     const AxisState& state = device_.axis(axis);
     const Mover mover = state.mover;
     const bool is_meant = area == Area::c ? mover == Mover::c : language::axis_of(area) == axis;
     if (!is_meant || state.holder == Holder::nobody) continue;
-    const bool is_others = mover < Mover::plc && mover != mover_of(area) && state.awaited;
+    const bool is_others =
+        mover < Mover::plc && mover != mover_of(area) && state.awaited &&
+        (device_.is_on_path(axis) || !device_.chose(option("axis_stop_in_c", "stops_the_axis_alone")));
     device_.stop_axis(axis);
     if (!is_others) continue;
     lost = static_cast<language::Areas>(lost | language::one(static_cast<Area>(mover)));
@@ -275,28 +305,40 @@ void ProgramMachine::plc_home(const language::HomeSearch& search, int step) {
     const bool is_free = state.holder == Holder::nobody;
     if (is_free) state.mover = Mover::plc;  // as long as it begins
     device_.start_home(axis);
-    if (is_free) state.mover = Mover::hand;
+    if (state.holder != Holder::home) state.mover = is_free ? Mover::hand : state.mover;
   }
   device_.set_plc_step(0);
 }
 
-bool ProgramMachine::plc_jog(const language::Jogs& jogs) {
+bool ProgramMachine::plc_jog(const language::Jogs& jogs, const language::JogSteps& steps) {
+  const bool stops_both = device_.chose(option("both_jogs", "both_stop_it"));
+  const bool acts_again = device_.chose(option("level_after_stop", "act_at_once"));
   for (int axis = 0; axis < kAxisCount; ++axis) {
     AxisState& state = device_.axis(axis);
     const bool positive = (jogs.positive >> axis & 1) != 0;
     const bool negative = (jogs.negative >> axis & 1) != 0;
     const int running = state.asked_by_plc ? device_.chip(axis).last_direction : 0;
     // Both at once: the one that runs goes on.
-    const int way = positive && negative ? running : positive ? +1 : negative ? -1 : 0;
-    if (running != 0 && running != way) device_.release_jog(axis, &AxisState::asked_by_plc);
-    const bool is_new = way != 0 && way != state.plc_jog_way;
+    const int of_both = stops_both ? 0 : running;
+    const int way = positive && negative ? of_both : positive ? +1 : negative ? -1 : 0;
+    if (running != 0 && running != way) {
+      device_.meet(axis, ManualMotion::plc_jog, ManualEvent::contact_off);
+    }
+    const bool was_held = device_.state().were_held[static_cast<std::size_t>(axis)];
+    const bool is_new = way != 0 && (way != state.plc_jog_way || (acts_again && was_held));
     state.plc_jog_way = static_cast<std::int8_t>(way);
     if (!is_new || device_.is_inhibited(axis)) continue;
-    if (language::may_move(*this, Area::plc, axis)) {
-      device_.start_jog(axis, way, &AxisState::asked_by_plc);
-    } else {
-      device_.report(Code::axis_not_owned);
+    const int step = steps[static_cast<std::size_t>(axis)];
+    if (!language::may_move(*this, Area::plc, axis)) {
+      device_.report(Code::axis_not_owned, step);
+      continue;
     }
+    device_.set_plc_step(step);
+    const bool is_free = state.holder == Holder::nobody;
+    if (is_free) state.mover = Mover::plc;  // as long as it begins
+    device_.start_jog(axis, way, &AxisState::asked_by_plc);
+    if (is_free) state.mover = Mover::hand;
+    device_.set_plc_step(0);
   }
   return true;
 }

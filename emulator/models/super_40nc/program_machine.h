@@ -46,7 +46,7 @@ class ProgramMachine final : public language::Machine {
 
   void plc_drive(const language::Drive& drive, int step) override;
   void plc_home(const language::HomeSearch& search, int step) override;
-  bool plc_jog(const language::Jogs& jogs) override;
+  bool plc_jog(const language::Jogs& jogs, const language::JogSteps& steps) override;
   bool set_positions(const language::SetPositions& positions) override;
 
  private:

@@ -4,9 +4,17 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "motion/axis.h"
+#include "motion/homing.h"
 #include "motion/homing_tables.h"
+#include "motion/move.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -53,6 +61,24 @@ bool Super40nc::begin_drive(int number, std::int64_t target_lu, std::int32_t rpm
   state.shows_finish = true;
   state.rest = {.kind = RestKind::move, .travel = chip(number).travel_pulses + distance};
   return true;
+}
+
+/// MRK with X16 = 0: a signal in the way resets the program, as a limit would, whatever X33 and X34 say.
+bool Super40nc::begin_blind_mark(int number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(number);
+  if (chose(option("mark_without_distance", "a_plain_move"))) {
+    return begin_drive(number, target_lu, rpm, mover);
+  }
+  state.rest.limits_count = true;
+  look_round(number);
+  const bool begins = begin_drive(number, target_lu, rpm, mover);
+  if (state.holder == Holder::move) {
+    state.rest.limits_count = true;
+  } else {
+    state.rest = {};
+    look_round(number);
+  }
+  return begins;
 }
 
 bool Super40nc::begin_mark(int number, std::int64_t distance, std::int64_t search, std::int32_t rpm,
@@ -127,6 +153,8 @@ bool Super40nc::end_by_ramp(int number, Mover mover) {
 void Super40nc::hold_axis(int number) {
   AxisState& state = axis(number);
   if (state.holder == Holder::wheel || state.holder == Holder::rest) return;
+  if (state.holder == Holder::vdrv && chose(option("pause_scope", "not_vdrv_nor_the_wheel"))) return;
+  if (state.holder == Holder::home && chose(option("pause_home", "the_search_ends_first"))) return;
   motion::Axis& motor = chip(number);
   if (state.rest.kind == RestKind::mark && motor.homing.active()) {
     const motion::HomingPhase& row = motor.homing.row();

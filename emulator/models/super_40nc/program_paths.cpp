@@ -1,13 +1,22 @@
 // The geometry of LIN and arcs, as programs ask for it (《LIN 指令》, 《CW , CCW 指令》, 《C3P 指令》, 《CWR
 // , CCWR 指令》).
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/machine.h"
+#include "interpreter/super_40nc/requests.h"
 #include "motion/bad_motion.h"
+#include "motion/path.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -27,7 +36,9 @@ constexpr double kOffCircleLu = 10;
 Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
                                     const std::array<std::int64_t, kAxisCount>& target_lu, std::int32_t feed,
                                     int mode, const Geometry& geometry) {
-  switch (device_.ask_for_path(takes)) {
+  const bool joins = device_.joins_paths();
+  if (joins && !device_.has_room_on_path(takes)) return Begun::taken;
+  switch (joins ? Grant::starts : device_.ask_for_path(takes)) {
     case Grant::waits: return Begun::taken;
     case Grant::refused: return Begun::void_;
     case Grant::nothing:
@@ -42,7 +53,7 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
     const auto n = static_cast<std::size_t>(axis);
     if (!takes[n]) continue;
     const std::int64_t offset = device_.axis(axis).offset_lu;
-    from[axis] = static_cast<double>(device_.relative_base_lu(axis) - offset);
+    from[axis] = static_cast<double>(device_.path_base_lu(axis) - offset);
     to[axis] = static_cast<double>(target_lu[n] - offset);
   }
   const Super40nc::PathPlan plan{.path = geometry(from, to),
@@ -54,6 +65,10 @@ Begun ProgramMachine::begin_on_path(const std::array<bool, kAxisCount>& takes,
     device_.show_finished(kPathSignal);
     return Begun::done;
   }
+  if (joins) {
+    device_.join_path(plan);
+    return Begun::runs;
+  }
   return device_.begin_path(plan) ? Begun::runs : Begun::refused;
 }
 
@@ -64,7 +79,7 @@ Begun ProgramMachine::begin(Area, const language::LinearMove& move) {
     const auto n = static_cast<std::size_t>(axis);
     takes[n] = move.target_lu[n].has_value();
     const bool is_relative = move.targets == language::Targets::relative;
-    targets[n] = move.target_lu[n].value_or(0) + (is_relative ? device_.relative_base_lu(axis) : 0);
+    targets[n] = move.target_lu[n].value_or(0) + (is_relative ? device_.path_base_lu(axis) : 0);
   }
   return begin_on_path(
       takes, targets, move.feed_lu_per_s, kModeLine,
@@ -100,7 +115,7 @@ ProgramMachine::ArcFrame ProgramMachine::frame_of(language::Plane plane, languag
     const auto n = static_cast<std::size_t>(frame.axes[i]);
     frame.takes[n] = true;
     frame.offset_lu[n] = device_.axis(frame.axes[i]).offset_lu;
-    frame.base_lu[n] = device_.relative_base_lu(frame.axes[i]);
+    frame.base_lu[n] = device_.path_base_lu(frame.axes[i]);
     frame.end_lu[n] = target_of(frame, i, targets, end[i]);
   }
   return frame;
@@ -118,6 +133,11 @@ Begun ProgramMachine::begin_arc(const ArcFrame& frame, std::int32_t feed, int mo
   try {
     return begin_on_path(frame.takes, frame.end_lu, feed, mode, geometry);
   } catch (const motion::BadMotion&) {
+    if (reports && device_.chose(option("arc_off_circle", "a_line_to_the_end"))) {
+      return begin_on_path(
+          frame.takes, frame.end_lu, feed, kModeLine,
+          [](const motion::Point& from, const motion::Point& to) { return motion::line(from, to); });
+    }
     if (reports) device_.report(Code::arc_impossible, device_.line_step(Mover::c));
     return Begun::void_;
   }
@@ -128,8 +148,9 @@ motion::Turn ProgramMachine::turn_of(language::Turn turn, language::Plane plane)
   const std::array<Kept, 3> swaps{kept_d(9017), kept_d(9018), kept_d(9019)};
   const bool is_seen_from_behind =
       plane == language::Plane::xz && device_.chose(option("arc_axes", "seen_from_the_third_axis"));
-  const bool is_swapped =
-      device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]) != is_seen_from_behind;
+  const bool is_swapped_by_parameter = !device_.chose(option("plane_swap_registers", "none")) &&
+                                       device_.registers().is_on(swaps[static_cast<std::size_t>(plane)]);
+  const bool is_swapped = is_swapped_by_parameter != is_seen_from_behind;
   const bool is_clockwise = (turn == language::Turn::clockwise) != is_swapped;
   return is_clockwise ? motion::Turn::clockwise : motion::Turn::counter_clockwise;
 }

@@ -1,15 +1,31 @@
 // A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "base/text/one_line.h"
+#include "base/state/shared_text.h"
+#include "emulator/device/memory/text_blocks.h"
+#include "emulator/device/program_error.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/contact_rows.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "interpreter/super_40nc/areas.h"
+#include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/options.h"
+#include "interpreter/super_40nc/plc.h"
+#include "interpreter/super_40nc/program.h"
+#include "interpreter/super_40nc/step_code.h"
+#include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -23,19 +39,22 @@ std::string text_of_area(language::Area area, const language::AreaProgram& progr
 }
 
 std::optional<language::AreaProgram> stored_area(const TextBlocks& blocks, std::string_view kind,
-                                                 std::string_view name, language::Area area) {
+                                                 std::string_view name, language::Area area,
+                                                 const language::Options& options) {
   const SharedText* const text = blocks.find(kind, name);
   if (text == nullptr) return std::nullopt;
-  const language::Checked checked = language::check(text->text());
+  const language::Checked checked = language::check(text->text(), options);
   return checked.program ? checked.program->area(area) : std::nullopt;
 }
 
 }  // namespace
 
 void Super40nc::make_programs_ready() {
+  const auto texts = state_.blocks.all().find(kPrograms);
+  ready_texts_ = texts == state_.blocks.all().end() ? NamedBlocks::mapped_type{} : texts->second;
   ProgramMachine machine(*this);
   for (const language::AreaRow& row : language::kAreas) {
-    const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area);
+    const auto stored = stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
     const language::AreaProgram program = stored.value_or(language::AreaProgram{.base = row.base});
     if (row.area == language::Area::plc) {
       ladder_ = language::Ladder(program, machine.layout(), options_);
@@ -45,12 +64,30 @@ void Super40nc::make_programs_ready() {
   }
 }
 
+/// D9042 is the room of C and of each file.
+language::Options Super40nc::options_with_room() const {
+  language::Options options = options_;
+  options.c_capacity = std::max(registers().raw(kept_d(9042)), 1);
+  return options;
+}
+
+/// Whether a program that is stored has more lines than D9042 gives it.
+bool Super40nc::is_too_long(std::string_view kind, std::string_view name) const {
+  const auto program = stored_area(state_.blocks, kind, name, language::Area::c, options_);
+  if (!program) return false;
+  std::int64_t length = 0;
+  for (const language::Instruction& line : program->lines) {
+    length += options_.capacity == language::Options::Capacity::lines ? 1 : language::steps_of(line);
+  }
+  return length > options_with_room().c_capacity;
+}
+
 std::vector<ProgramMistake> Super40nc::mistakes_in(std::string_view text) const {
-  return mistakes_of(language::check(text, options_));
+  return mistakes_of(language::check(text, options_with_room()));
 }
 
 void Super40nc::load_program(std::string_view text) {
-  const language::Checked checked = language::check(text, options_);
+  const language::Checked checked = language::check(text, options_with_room());
   if (!checked.program) {
     const language::Complaint& first = checked.errors.front();
     state_.error = {.code = first.code, .step = first.step, .other_step = first.other_step, .tick = now()};
@@ -83,12 +120,13 @@ void Super40nc::load_program(std::string_view text) {
 std::string Super40nc::program_text() const {
   language::Program all;
   for (const language::AreaRow& row : language::kAreas) {
-    all.areas[language::index_of(row.area)] = stored_area(state_.blocks, kPrograms, row.name, row.area);
+    all.areas[language::index_of(row.area)] =
+        stored_area(state_.blocks, kPrograms, row.name, row.area, options_);
   }
   for (const auto& [kind, entries] : state_.blocks.all()) {
     if (kind != kFiles) continue;
     for (const auto& [name, text] : entries) {
-      const auto file = stored_area(state_.blocks, kFiles, name, language::Area::c);
+      const auto file = stored_area(state_.blocks, kFiles, name, language::Area::c, options_);
       if (file) all.files[std::stoi(name)] = *file;
     }
   }
@@ -106,8 +144,14 @@ bool Super40nc::is_pausing() const {
     return rests && program.is_paused_by_key;
   };
   const auto& all = state_.steps.programs;
+  const bool rests = all[0].phase == language::Phase::paused || all[0].phase == language::Phase::held;
+  if (rests && chose(option("m8022_scope", "c_also_by_m8000"))) return true;
   if (!chose(option("m8022_scope", "every_program"))) return pauses(all[0]);
   return std::any_of(all.begin(), all.end(), pauses);
+}
+
+int Super40nc::base_of_program(std::size_t program) const {
+  return language::base_of(static_cast<language::Area>(program), options_);
 }
 
 void Super40nc::set_pointer(int program, std::int32_t step) {
@@ -133,6 +177,7 @@ void Super40nc::plc_to_run() {
 void Super40nc::plc_to_stop() {
   ProgramMachine machine(*this);
   language::stop(state_.plc, machine);
+  for (int number = 0; number < kAxisCount; ++number) meet(number, ManualEvent::plc_stop);
   if (!chose(option("plc_stop_outputs", "off"))) return;
   const std::span outputs = std::span(state_.image).subspan(kept_y(0).slot, kOutputCount);
   std::fill(outputs.begin(), outputs.end(), 0U);
@@ -145,12 +190,18 @@ int Super40nc::line_step(Mover mover) const {
   return program.phase == language::Phase::idle ? 0 : language::base_of(area, options_) + program.step;
 }
 
-void Super40nc::program_broken(Mover mover, int but_for, bool is_awaited) {
+void Super40nc::program_broken(Mover mover, int but_for, bool is_awaited, motion::Cause why) {
   break_program(mover, but_for);
   const auto area = static_cast<language::Area>(mover);
   const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
   // A motion beside the lines resets a program that runs as well; one that is over is left alone.
   const bool runs_on = !is_awaited && phase != language::Phase::idle;
+  const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus;
+  const bool is_soft = why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
+  const bool pauses = (is_limit && chose(option("el_resets", "pauses_at_the_line"))) ||
+                      (is_soft && chose(option("soft_limit_resets", "pauses_at_the_line")));
+  if (pauses && !runs_on) return tell(language::Event::limit_pauses, area);
+  if (pauses) return;
   tell(runs_on ? language::Event::stop : language::Event::broken, area);
 }
 
@@ -166,6 +217,15 @@ void Super40nc::change_file(std::int32_t number) {
     return;
   }
   if (number == state_.file) return;
+  const bool c_runs = state_.steps.programs[0].phase != language::Phase::idle;
+  if (c_runs && chose(option("file_change_running", "refused"))) {
+    put(kept_d(9001), state_.file);
+    report(Code::no_such_file);
+    return;
+  }
+  if (c_runs && chose(option("file_change_running", "resets_c"))) {
+    tell(language::Event::stop, language::Area::c);
+  }
   const std::string c(language::row_of(language::Area::c).name);
   const auto copy = [&](std::string_view from, const std::string& from_name, std::string_view to,
                         const std::string& to_name) {
@@ -176,8 +236,16 @@ void Super40nc::change_file(std::int32_t number) {
       state_.blocks.put(to, to_name, *text);
     }
   };
-  copy(kPrograms, c, kFiles, std::to_string(state_.file));
-  copy(kFiles, std::to_string(number), kPrograms, c);
+  // A file that was too long to be loaded stays as it is.
+  const std::string left = std::to_string(state_.file);
+  const bool was_loaded = state_.blocks.find(kPrograms, c) != nullptr || !is_too_long(kFiles, left);
+  if (was_loaded) copy(kPrograms, c, kFiles, left);
+  if (is_too_long(kFiles, std::to_string(number))) {
+    state_.blocks.erase(kPrograms, c);
+    report(Code::memory_full);
+  } else {
+    copy(kFiles, std::to_string(number), kPrograms, c);
+  }
   state_.file = number;
   make_programs_ready();
   tell(language::Event::file_changed, language::Area::c);

@@ -1,6 +1,10 @@
 #include "emulator/models/super_40nc/settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include "emulator/models/super_40nc/registers.h"
+#include "motion/move.h"
+#include "motion/ramp.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -33,13 +37,16 @@ motion::SpeedLaw law_by(double start_u_s, double top_u_s, double target_u_s, dou
   return law;
 }
 
+double Settings::multiplier(int axis, double pps) const {
+  return multiplier_of(multiplies_by_x12_ ? top_pps(axis) : pps);
+}
+
 motion::SpeedLaw Settings::law(int axis, double rpm) const {
   const double top = std::min(pps(axis, std::max(rpm, 1.0)), top_pps(axis));
-  const double multiplier = multiplier_of(top);
+  const double step = multiplier(axis, top);
   const auto number = [&](Kept kept) { return static_cast<double>(of(kept, axis)); };
   return law_by(pps(axis, number(kept_x(76))), top, pps(axis, static_cast<double>(of(kept_d(9011)))),
-                number(kept_x(66)), number(kept_x(67)), number(kept_x(68)) * multiplier,
-                number(kept_x(69)) * multiplier);
+                number(kept_x(66)), number(kept_x(67)), number(kept_x(68)) * step, number(kept_x(69)) * step);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

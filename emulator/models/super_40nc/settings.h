@@ -12,11 +12,15 @@
 
 namespace understudy::emulator::models::super_40nc {
 
+/// Of the outputs (《SUPER-40NC運動控制器簡介》, 6.55 Mpps): 65,535 steps of 100.
+inline constexpr double kFastestPps = 6'553'500;
+
 using Image = std::array<std::uint32_t, kSlotCount>;
 
 class Settings {
  public:
-  explicit Settings(const Image& image) : image_(image) {}
+  explicit Settings(const Image& image, bool multiplies_by_x12 = false)
+      : image_(image), multiplies_by_x12_(multiplies_by_x12) {}
 
   /// As it is stored.
   std::int32_t raw(Kept kept, int axis = 0) const {
@@ -31,12 +35,17 @@ class Settings {
   }
   double pps(int axis, double rpm) const { return rpm * static_cast<double>(of(kept_x(70), axis)) / 60.0; }
   /// No motion of the axis is faster.
-  double top_pps(int axis) const { return pps(axis, static_cast<double>(of(kept_x(75), axis))); }
+  double top_pps(int axis) const {
+    return std::min(pps(axis, static_cast<double>(of(kept_x(75), axis))), kFastestPps);
+  }
+  /// Of the chip's speeds, for a motion with that top speed.
+  double multiplier(int axis, double pps) const;
   /// Of DRV, homing and all that is moved by hand. Below 1 rpm it is 1.
   motion::SpeedLaw law(int axis, double rpm) const;
 
  private:
   const Image& image_;
+  bool multiplies_by_x12_;
 };
 
 /// The chip counts a speed in steps of so many pps, the finest that reach up to it.

@@ -1,5 +1,19 @@
 // What the axes of a SUPER-40NC meet: switches along their way, the drive's alarm, the encoder's index.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "emulator/device/machine_edges.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "motion/axis.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -16,9 +30,13 @@ void Super40nc::look_round(int number) {
   };
   // MRK looks for its mark on one of them, whatever it is as a limit.
   const Rest& rest = axis(number).rest;
+  const auto limit_of_line = [&](Kept logic) {
+    const std::optional<bool> level = limit_level(logic);
+    return rest.limits_count ? level.value_or(true) : level;
+  };
   const auto limit_or_mark = [&](Kept logic, bool is_positive) {
     const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == is_positive;
-    return is_mark ? std::optional(true) : limit_level(logic);
+    return is_mark ? std::optional(true) : limit_of_line(logic);
   };
   const bool dog_level = !its.is_on(kept_x(2), number);
   const Function functions[] = {
@@ -27,7 +45,8 @@ void Super40nc::look_round(int number) {
       {dog_input(number), motion::Signal::home, dog_level},
       {dog_input(number), motion::Signal::mark, dog_level},  // for latches
       {pin_of(number, kIndexPin), motion::Signal::index, true},
-      {pin_of(number, kAlarmPin), motion::Signal::alarm, true}};
+      {pin_of(number, kAlarmPin), motion::Signal::alarm, true},
+      {pin_of(number, kInPositionPin), motion::Signal::in_position, true}};
   const MachineEdges& told = edges_[static_cast<std::size_t>(number)];
   const MachineEdges edges = chip(number).inverted ? told.reversed() : told;
   motion::Surroundings seen;
@@ -41,6 +60,8 @@ void Super40nc::look_round(int number) {
       seen.index_period = edges.index.period;
       seen.index_at = edges.index.at;
       seen.index_width = edges.index.width;
+      seen.index_from = edges.index.first;
+      seen.index_to = edges.index.last;
     } else {
       seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
     }
@@ -51,55 +72,23 @@ void Super40nc::look_round(int number) {
   here(number) = seen;
 }
 
+/// What is ON at power-up is no edge of a contact that shows it.
+void Super40nc::see_first_signals() {
+  if (state_.has_ticked) return;
+  for (int number = 0; number < kAxisCount; ++number) {
+    chip(number).signals = here(number).at(chip(number).travel_pulses, chip(number).signals);
+  }
+}
+
 void Super40nc::set_edges(int number, const MachineEdges& edges) {
   edges_[static_cast<std::size_t>(number)] = edges;
-  look_round(number);
+  // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
+  if (!std::exchange(is_restored_[static_cast<std::size_t>(number)], false)) look_round(number);
 }
 
 std::int64_t Super40nc::place_pulses(int number) const {
   const motion::Axis& motor = chip(number);
   return motor.inverted ? -motor.travel_pulses : motor.travel_pulses;
-}
-
-/// Comparators that stop the axis by its commanded pulses, to the pulse: = (1), set > count (4), set < count
-/// (5). Soft limits (6) are the axis' own.
-void Super40nc::set_comparators(int number) {
-  struct Row {
-    Kept source, method, action, value;
-  };
-  static constexpr Row kRows[] = {{kept_x(31), kept_x(32), kept_x(33), kept_d(8144)},
-                                  {kept_x(35), kept_x(36), kept_x(37), kept_d(8145)},
-                                  {kept_x(39), kept_x(40), kept_x(41), kept_d(8146)},
-                                  {kept_x(43), kept_x(44), kept_x(45), kept_d(8147)},
-                                  {kept_x(46), kept_x(47), kept_x(48), kept_d(8148)}};
-  using Relation = motion::Comparator::Relation;
-  const Settings its = registers();
-  motion::Axis& motor = chip(number);
-  std::size_t next = 0;
-  for (const Row& row : kRows) {
-    const Value method = its.of(row.method, number);
-    const Value action = its.of(row.action, number);
-    const Relation relation = method == 1   ? Relation::equal
-                              : method == 4 ? Relation::below
-                              : method == 5 ? Relation::at_least
-                                            : Relation::off;
-    const bool acts = (action == 1 || action == 2) && its.of(row.source, number) == 0;
-    if (!acts || relation == Relation::off || next == motor.comparators.size()) continue;
-    set_comparator(number, next++,
-                   {.relation = relation,
-                    .reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down,
-                    .counter = axis(number).command,
-                    .value = its.raw(row.value, number) + (method == 5 ? 1 : 0)});
-  }
-  while (next < motor.comparators.size()) set_comparator(number, next++, {});
-}
-
-/// The same again changes nothing.
-void Super40nc::set_comparator(int number, std::size_t place, motion::Comparator wanted) {
-  const motion::Comparator& present = chip(number).comparators[place];
-  wanted.was_true = present.was_true;
-  if (wanted.relation == motion::Comparator::Relation::off && present.relation == wanted.relation) return;
-  if (wanted != present) chip(number).set_comparator(place, wanted);
 }
 
 void Super40nc::heed_axis(int number, int parameter) {

@@ -1,10 +1,20 @@
 // SUPER-40NC's state as bytes, and back.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "base/simulated_time.h"
 #include "base/state/difference.h"
+#include "base/state/state_bytes.h"
+#include "base/state/state_error.h"
+#include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
+#include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/state_fields.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -55,7 +65,6 @@ void StateOf<State>::check(const State& state) {
   demand_within(state.recipe, 0, kRecipeCount - 1);
   demand_within(state.homing_by_key.order, 0, 4);
   demand_within(state.zeroing_by_key.order, 0, 4);
-  for (const std::int64_t counts : state.encoders_seen) demand_within(counts, -kFar, kFar);
 }
 
 }  // namespace understudy
@@ -71,7 +80,11 @@ std::function<void()> Super40nc::read_own_state(StateReader& reader) {
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
     state_ = *restored;
-    make_programs_ready();
+    is_restored_.fill(true);
+    const auto texts = state_.blocks.all().find(kPrograms);
+    const bool has_texts = texts != state_.blocks.all().end();
+    const bool are_ready = has_texts ? texts->second == ready_texts_ : ready_texts_.empty();
+    if (!are_ready) make_programs_ready();
   };
 }
 

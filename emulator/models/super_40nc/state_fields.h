@@ -41,13 +41,11 @@ struct StateOf<emulator::models::super_40nc::RestKind> {
 template <>
 struct StateOf<emulator::models::super_40nc::Rest> {
   using Value = emulator::models::super_40nc::Rest;
-  static constexpr auto fields = std::tuple{field("kind", &Value::kind),
-                                            field("travel", &Value::travel),
-                                            field("distance", &Value::distance),
-                                            field("search", &Value::search),
-                                            field("searches", &Value::searches),
-                                            field("marks_positive", &Value::marks_positive),
-                                            field("rpm", &Value::rpm)};
+  static constexpr auto fields =
+      std::tuple{field("kind", &Value::kind),         field("travel", &Value::travel),
+                 field("distance", &Value::distance), field("search", &Value::search),
+                 field("searches", &Value::searches), field("marks_positive", &Value::marks_positive),
+                 field("rpm", &Value::rpm),           field("limits_count", &Value::limits_count)};
   static void check(const Value& value);
 };
 
@@ -87,6 +85,9 @@ struct StateOf<emulator::models::super_40nc::AxisState> {
                                             field("latched", &Value::latched),
                                             field("index_count", &Value::index_count),
                                             field("latch_was_on", &Value::latch_was_on),
+                                            field("clears", &Value::clears),
+                                            field("compares_by_tick", &Value::compares_by_tick),
+                                            field("compared", &Value::compared),
                                             field("offset_lu", &Value::offset_lu),
                                             field("encoder_counts", &Value::encoder_counts),
                                             field("backlash_seen", &Value::backlash_seen),
@@ -135,7 +136,10 @@ struct StateOf<emulator::models::super_40nc::State> {
                  field("touched", &Value::touched),
                  field("run_switch", &Value::run_switch),
                  field("emergency", &Value::emergency),
+                 field("has_ticked", &Value::has_ticked),
                  field("emergency_obeyed", &Value::emergency_obeyed),
+                 field("were_held", &Value::were_held),
+                 field("was_inhibited", &Value::was_inhibited),
                  field("wheel_selected", &Value::wheel_selected),
                  field("analog", &Value::analog),
                  field("wheel_edges", &Value::wheel_edges),
@@ -151,7 +155,7 @@ struct StateOf<emulator::models::super_40nc::State> {
                  field("recipe", &Value::recipe),
                  field("rpm_at_power_up", &Value::rpm_at_power_up),
                  field("logo_ms", &Value::logo_ms),
-                 field("encoders_seen", &Value::encoders_seen),
+                 field("station", &Value::station),
                  field("eeprom", &Value::eeprom),
                  field("blocks", &Value::blocks)};
   static void check(const Value& value);

@@ -1,8 +1,20 @@
 // What a SUPER-40NC shows of its axes, and how its counters count (《M8x 特殊接點的功用(XYZU 軸用)》,
 // 《D8x 特殊暫存器的功用(XYZU 軸用)》).
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/effects.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "emulator/models/super_40nc/terminals.h"
+#include "motion/axis.h"
+#include "motion/profile.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -24,7 +36,6 @@ enum Operation : std::int32_t {
 struct CountedThisTick {
   std::int64_t pulses = 0;
   std::int64_t backlash = 0;
-  std::int64_t encoder = 0;
   std::int64_t wheel = 0;
 };
 
@@ -43,7 +54,8 @@ bool Super40nc::status(int number, AxisStatus what) const {
   switch (what) {
     case SSCM: return its.holder != Holder::nobody;
     case SRUN: return operation == kByWheel ? its.followed_pulses != 0 : operation != kStopped;
-    case SENI: return its.has_ended && its.holder == Holder::nobody;
+    case SENI:
+      return !chose(option("seni_flag", "always_0")) && its.has_ended && its.holder == Holder::nobody;
     case SEND: return its.holder == Holder::nobody;
     case SERR: return its.has_error;
     case SCP1: return comparator_holds(number, 0);
@@ -65,9 +77,15 @@ bool Super40nc::status(int number, AxisStatus what) const {
     case SRDY: return input(pin_of(number, kReadyPin)) != 0;
     case HOME_DONE: return its.homed;
     case ZERO_DONE: return its.zeroed;
-    case HOME_RUNS: return its.holder == Holder::home;
+    case HOME_RUNS:
+      return its.holder == Holder::home &&
+             (its.mover == Mover::hand || !chose(option("motion_flags_source", "contacts_alone")));
     case ZERO_RUNS: return its.holder == Holder::zero;
-    case WHEEL_RUNS: return its.holder == Holder::wheel;
+    case WHEEL_RUNS: {
+      const bool is_by_contact = its.wheel >= WheelSource::contact_1 && its.wheel <= WheelSource::contact_100;
+      return its.holder == Holder::wheel &&
+             (is_by_contact || !chose(option("motion_flags_source", "contacts_alone")));
+    }
   }
   return false;
 }
@@ -98,58 +116,54 @@ std::int32_t Super40nc::chip_speed(int number) const {
   return wrapped(std::llround(std::abs(commanded_pps(number)) / axis(number).step_pps));
 }
 
-// ---- comparators
+// ---- counters
 
-bool Super40nc::comparator_holds(int number, int which) const {
-  struct Comparator {
-    Kept source, method, value;
-  };
-  static constexpr Comparator kComparators[] = {{kept_x(31), kept_x(32), kept_d(8144)},
-                                                {kept_x(35), kept_x(36), kept_d(8145)},
-                                                {kept_x(39), kept_x(40), kept_d(8146)},
-                                                {kept_x(43), kept_x(44), kept_d(8147)},
-                                                {kept_x(46), kept_x(47), kept_d(8148)}};
-  const Comparator& its = kComparators[which];
-  const Settings settings = registers();
-  const std::int32_t value = settings.raw(its.value, number);
-  std::int64_t present = 0;
-  switch (settings.of(its.source, number)) {
-    case 0: present = counter(number, 0); break;
-    case 1: present = counter(number, 1); break;
-    case 2: present = std::abs(std::int64_t{counter(number, 2)}); break;
-    case 3: present = counter(number, 3); break;
-    case 4: present = remaining_pulses(number); break;
-    case 5: present = chip_speed(number); break;
-    default: break;
-  }
-  const int way = chip(number).last_direction;
-  switch (settings.of(its.method, number)) {
-    case 1: return present == value;
-    case 2: return present == value && way > 0;
-    case 3: return present == value && way < 0;
-    case 4: return value > present;
-    case 5: return value < present;
-    case 6: return which == 0 ? present > value : which == 1 && present < value;  // soft limits
-    default: return false;
+/// Of COUNTER2 to COUNTER4.
+void Super40nc::add_to_counter(int number, int which, std::int64_t counts) {
+  constexpr int kDeviation = 2;
+  if (counts == 0 || is_bit(registers().raw(kept_x(30), number), which - 1)) return;
+  std::int32_t& its_count = axis(number).counts[static_cast<std::size_t>(which - 1)];
+  its_count = wrapped(its_count + counts);
+  if (which == kDeviation) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
+}
+
+/// COUNTER4, which may be told to do so only while the axis moves.
+bool Super40nc::counts_now(int number) const {
+  const AxisState& its = axis(number);
+  return !registers().is_on(kept_x(26), number) || its.moves() || its.followed_pulses != 0;
+}
+
+/// The machine's encoder, which has moved by what came out in this tick.
+void Super40nc::set_encoder(int number, std::int64_t counts) {
+  AxisState& state = axis(number);
+  const Settings its = registers();
+  const std::int64_t turned = counts - state.encoder_counts;
+  state.encoder_counts = counts;
+  if (turned == 0 || !powered() || its.is_on(kept_x(19), number)) return;
+  const std::int64_t counted = its.is_on(kept_x(13), number) ? -turned : turned;
+  if (its.of(kept_x(23), number) == 0) add_to_counter(number, 1, counted);
+  const Value deviation = its.of(kept_x(24), number);
+  if (deviation == 0) add_to_counter(number, 2, -counted);
+  if (deviation == 2) add_to_counter(number, 2, counted);
+  if (its.of(kept_x(25), number) == 1 && counts_now(number)) add_to_counter(number, 3, counted);
+}
+
+/// At the end of a home: the counts of its last tick have come in.
+void Super40nc::clear_counters(int number) {
+  const std::uint8_t cleared = std::exchange(axis(number).clears, std::uint8_t{0});
+  for (int which = 1; which < static_cast<int>(kCounters); ++which) {
+    if (is_bit(cleared, which)) set_counter(number, which, 0);
   }
 }
 
-// ---- counters
-
-/// After a tick, or many of them.
-void Super40nc::count(int number, std::int64_t travel_before, std::int64_t encoder_before,
-                      std::int64_t wheel_counts) {
+/// What a tick, or many of them, have sent out, and the wheel's; the encoder's come by set_encoder().
+void Super40nc::count(int number, std::int64_t travel_before, std::int64_t wheel_counts) {
   AxisState& state = axis(number);
   const Settings its = registers();
   const std::int64_t extra = chip(number).backlash_sent - state.backlash_seen;
   state.backlash_seen = chip(number).backlash_sent;
-  std::int64_t encoder = state.encoder_counts - encoder_before;
-  if (its.is_on(kept_x(13), number)) encoder = -encoder;
-  if (its.is_on(kept_x(19), number)) encoder = 0;
-  const CountedThisTick now_counted{.pulses = chip(number).travel_pulses - travel_before,
-                                    .backlash = extra,
-                                    .encoder = encoder,
-                                    .wheel = wheel_counts};
+  const CountedThisTick now_counted{
+      .pulses = chip(number).travel_pulses - travel_before, .backlash = extra, .wheel = wheel_counts};
   const std::int32_t with_backlash = its.raw(kept_x(29), number);
   if (extra != 0 && is_bit(with_backlash, 0)) {
     state.command.set(machine_pulses(number) + extra, chip(number).travel_pulses);
@@ -158,30 +172,22 @@ void Super40nc::count(int number, std::int64_t travel_before, std::int64_t encod
   const auto pulses_for = [&](int counter) {
     return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
   };
-  const std::int32_t stopped = its.raw(kept_x(30), number);
-  const auto add = [&](int counter, std::int64_t counts) {
-    if (is_bit(stopped, counter - 1)) return;
-    std::int32_t& its_count = state.counts[static_cast<std::size_t>(counter - 1)];
-    its_count = wrapped(its_count + counts);
-  };
+  const auto add = [&](int counter, std::int64_t counts) { add_to_counter(number, counter, counts); };
   switch (its.of(kept_x(23), number)) {
-    case 0: add(1, now_counted.encoder); break;
+    case 0: break;
     case 1: add(1, pulses_for(1)); break;
     default: add(1, now_counted.wheel); break;
   }
   switch (its.of(kept_x(24), number)) {
-    case 0: add(2, pulses_for(2) - now_counted.encoder); break;
+    case 0: add(2, pulses_for(2)); break;
     case 1: add(2, pulses_for(2) - now_counted.wheel); break;
-    default: add(2, now_counted.encoder - now_counted.wheel); break;
+    default: add(2, -now_counted.wheel); break;
   }
-  constexpr std::size_t kDeviation = 1;
-  state.counts[kDeviation] = static_cast<std::int16_t>(state.counts[kDeviation]);  // 16 bits on the chip
-  if (its.is_on(kept_x(26), number) && !state.moves()) return;
+  if (!counts_now(number)) return;
   switch (its.of(kept_x(25), number)) {
     case 0: add(3, pulses_for(3)); break;
-    case 1: add(3, now_counted.encoder); break;
     case 2: add(3, now_counted.wheel); break;
-    default: break;  // a fixed frequency, which stands
+    default: break;  // the encoder's, or a fixed frequency, which stands
   }
 }
 

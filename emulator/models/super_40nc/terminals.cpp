@@ -1,7 +1,13 @@
 #include "emulator/models/super_40nc/terminals.h"
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+#include "emulator/device/model.h"
+#include "emulator/models/super_40nc/contact_rows.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -3,10 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/options.h"
+#include "emulator/models/super_40nc/ownership.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+#include "motion/following.h"
+#include "motion/unit_scale.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -40,6 +49,11 @@ void Super40nc::follow_ratio(int number) {
       std::clamp<std::int64_t>(wheel_lu_per_count(number) * scale.multiplier, -kMost, kMost) * sense;
   if (follower.denominator != scale.divider) follower.left_over = 0;
   follower.denominator = scale.divider;
+  if (chose(option("wheel_ratio", "pulses_per_count"))) {
+    follower.numerator = wheel_lu_per_count(number) * sense;
+    follower.denominator = 1;
+  }
+  follower.catches_up = chose(option("wheel_speed", "caught_up"));
   follower.top_speed_pps = std::max<std::int64_t>(1, std::llround(std::min(its.top_pps(number), 2e9)));
 }
 
@@ -84,7 +98,8 @@ void Super40nc::wheel_ended(int number) {
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus ||
                         why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
   if (why != motion::Cause::stopped) fail(number, code_of(why));
-  if (!is_limit || chip(number).follow({}) != motion::Cause::none) return let_go(number);
+  const bool ends = chose(option("wheel_at_limit", "following_ends"));
+  if (!is_limit || ends || chip(number).follow({}) != motion::Cause::none) return let_go(number);
   follow_ratio(number);
 }
 

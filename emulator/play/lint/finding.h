@@ -23,10 +23,14 @@ struct Finding {
   std::uint64_t count = 0;
   SimTime first{0};
   SimTime last{0};
-  SimTime extreme{0};  // the shortest silence, the longest gap
+  SimTime extreme{0};     // the shortest silence, the longest gap
+  std::string command{};  // that the first one was, where it has a name
 
-  void add(SimTime at) {
-    if (count == 0) first = at;
+  void add(SimTime at, const std::string& its_command = {}) {
+    if (count == 0) {
+      first = at;
+      command = its_command;
+    }
     ++count;
     last = at;
   }

@@ -69,7 +69,7 @@ LineManners::LineManners(world::World& world, std::size_t line)
     : world_(world),
       number_(line),
       options_(world.line(line).line.options()),
-      // Whatever the devices make of it: it is to hear frames that a strict one would not, to say why.
+      // Whatever the devices make of it: it must hear frames that a strict one would not, to say why.
       framer_({.strict = false, .silence = SimTime{0}, .patience = world.line(line).framing.patience}) {
   const world::WorldLine& watched = world_.line(line);
   const auto is_modbus = [](const auto& station) { return station->device().modbus() != nullptr; };
@@ -77,7 +77,9 @@ LineManners::LineManners(world::World& world, std::size_t line)
   if (has_time()) {
     longest_gap_ = one_and_a_half_characters(options_.settings);
     for (const auto& station : watched.stations) {
-      const SimTime end_silence = station->device().model().rtu->end_silence;
+      const Device& device = station->device();
+      if (device.modbus() == nullptr) continue;
+      const SimTime end_silence = device.modbus()->end_silence(device.model().rtu->end_silence);
       silence_ = std::max(silence_, end_silence);
       longest_gap_ = std::min(longest_gap_, end_silence);
     }
@@ -111,7 +113,7 @@ void LineManners::on_character(const pty::TimedByte& character, bool is_heard) {
 
 void LineManners::on_speech(const pty::Speech& speech) {
   const auto next = waiting_.empty() ? under_way_ : std::optional(waiting_.front().start);
-  if (asked_ && next && *next < speech.start) find(Manner::not_waited).add(*next);
+  if (asked_ && next && *next < speech.start) find(Manner::not_waited).add(*next, asked_->command);
   const bool is_answer = asked_ && speech.bytes.size() > 1 && speech.bytes[0] == asked_->station;
   if (is_answer && speech.bytes[1] == asked_->function) carried_out(*asked_);
   asked_.reset();
@@ -130,31 +132,33 @@ void LineManners::run(SimTime now) {
     if (end < frame->size) continue;
     const auto characters = std::span(waiting_).subspan(end - frame->size, frame->size);
     const SimTime begin = characters.front().start;
-    judge_times(characters);
+    const auto bytes = std::span(frame->bytes).first(frame->size);
+    const std::string command = world_.line(number_).command_text(bytes);
+    judge_times(characters, command);
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(end));
-    judge_request(std::span(frame->bytes).first(frame->size), begin);
+    judge_request(bytes, begin, command);
   }
 }
 
-void LineManners::judge_times(std::span<const Character> frame) {
+void LineManners::judge_times(std::span<const Character> frame, const std::string& command) {
   if (!has_time()) return;
   const Character& first = frame.front();
   if (first.idle < silence_) {
     Finding& finding = find(Manner::too_soon);
     finding.extreme = finding.count == 0 ? first.idle : std::min(finding.extreme, first.idle);
-    finding.add(first.start);
+    finding.add(first.start, command);
   }
   SimTime longest{0};
   for (const Character& character : frame.subspan(1)) longest = std::max(longest, character.idle);
   if (longest <= longest_gap_) return;
   Finding& finding = find(Manner::gap);
   finding.extreme = std::max(finding.extreme, longest);
-  finding.add(first.start);
+  finding.add(first.start, command);
 }
 
-void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at) {
+void LineManners::judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command) {
   const std::uint8_t station = frame[0];
-  asked_ = Asked{.station = station, .function = frame[1], .at = at, .worn = {}};
+  asked_ = Asked{.station = station, .function = frame[1], .at = at, .command = command, .worn = {}};
   const Written write = written(frame);
   bool is_there = false;
   bool will_be_answered = false;

@@ -55,13 +55,15 @@ class LineManners final : public pty::LineObserver {
     std::uint8_t station = 0;
     std::uint8_t function = 0;
     SimTime at{0};
+    std::string command{};          // its name, where it has one
     std::vector<std::string> worn;  // registers in EEPROM that it changes, if it is carried out
   };
 
   bool has_time() const { return options_.timing == pty::Timing::wire; }
   Finding& find(Manner manner, std::string subject = {}) { return findings_[{manner, std::move(subject)}]; }
-  void judge_times(std::span<const Character> frame);
-  void judge_request(std::span<const std::uint8_t> frame, SimTime at);
+  /// `command`: what the frame means, where that has a name.
+  void judge_times(std::span<const Character> frame, const std::string& command);
+  void judge_request(std::span<const std::uint8_t> frame, SimTime at, const std::string& command);
   void judge_write(const Device& device, const Written& write, SimTime at);
   void carried_out(const Asked& asked);
 

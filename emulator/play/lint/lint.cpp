@@ -19,8 +19,8 @@ namespace {
 
 // What small EEPROMs are made for: writes of one cell.
 constexpr std::int64_t kEndurance = 100'000;
-// A register is told of that was changed more often than this, at a rate that would wear its cell out in less
-// than a year.
+// Registers are reported that were changed more often than this, at a rate that would wear their cells out in
+// less than a year.
 constexpr std::uint64_t kChangesAllowed = 10;
 constexpr SimTime kLeastLife = std::chrono::hours(24 * 365);
 
@@ -105,7 +105,8 @@ std::vector<std::string> Lint::findings() const {
       const std::string text = text_of(*lines_[i], about.first, about.second, finding);
       if (text.empty()) continue;
       texts.push_back(world_.line(i).line.name() + ": " + text + "; first at " +
-                      format_duration(finding.first));
+                      format_duration(finding.first) +
+                      (finding.command.empty() ? "" : " (" + finding.command + ")"));
     }
   }
   return texts;

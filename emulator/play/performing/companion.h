@@ -1,5 +1,5 @@
 // A scenario that is played on a bench beside the program that is the host on its lines: what it does from
-// outside, and what it demands of the world meanwhile.
+// outside, and what it demands of the world in the meantime.
 #pragma once
 
 #include <atomic>

@@ -198,16 +198,17 @@ void Performance::perform(const ExpectStep& step) {
   std::vector<std::string> came;
   std::vector<std::string> details;
   std::size_t next = 0;  // of those that were read
-  for (const auto& [target, wanted] : step.entries) {
+  for (const ExpectStep::Entry& entry : step.entries) {
+    const Target& target = entry.target;
     std::string told;
     bool holds = false;
-    const auto look = [&, &wanted = wanted](world::Number value) {
+    const auto look = [&](world::Number value) {
       told = world::number_text(value);
-      holds = wanted.holds(value);
+      holds = entry.value.holds(value);
     };
     if (target.is_value) {
-      stage_->with_world([&, &name = target.name](world::World&) {
-        look(world::evaluate(world::parse_expression(name, eyes_->probes), eyes_->probes));
+      stage_->with_world([&](world::World&) {
+        look(world::evaluate(world::parse_expression(target.name, eyes_->probes), eyes_->probes));
       });
     } else {
       told = "not a number";
@@ -216,9 +217,9 @@ void Performance::perform(const ExpectStep& step) {
       ++next;
     }
     if (holds) continue;
-    expected.push_back(target.name + " = " + wanted.text);
+    expected.push_back(target.name + " = " + entry.value.text);
     came.push_back(target.name + " = " + told);
-    details.push_back(target.name + " is " + told + "; expected " + wanted.text);
+    details.push_back(target.name + " is " + told + "; expected " + entry.value.text);
   }
   if (details.empty()) return;
   throw StepError(details.front(), joined(expected), joined(came), {details.begin() + 1, details.end()});

@@ -31,6 +31,15 @@ std::vector<std::pair<std::string, world::YamlFields>> demand_entries(const worl
   return entries;
 }
 
+/// What must be in the message of a refusal; for `true` anything will do.
+std::string refusal_text(const world::YamlFields& field) {
+  const std::string text = field.text();
+  if (text == "false" || text.empty()) {
+    field.fail("expected true, or a part of what is said of the first mistake");
+  }
+  return text == "true" ? "" : text;
+}
+
 }  // namespace
 
 void read_inputs(StepsReader& reader, const world::YamlFields& step, const world::YamlFields& value) {
@@ -132,8 +141,14 @@ void read_program(StepsReader& reader, const world::YamlFields& step, const worl
       program.text = *text;
       reader.add_file(program.file, "a program that a step loads");
     }
-    reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
-    reader.add(step, "program " + name + (is_inline ? "" : " " + field.text()), std::move(program));
+    std::string text = "program " + name + (is_inline ? "" : " " + field.text());
+    if (const auto refused = step.find("refused")) {
+      program.refused = refusal_text(*refused);
+      text += " (refused)";
+    } else {
+      reader.trial().demand_program(field, program.device, program.text, is_inline ? "" : program.file);
+    }
+    reader.add(step, text, std::move(program));
   }
 }
 

@@ -124,7 +124,7 @@ std::string Parameters::evaluated(std::string_view written) const {
 }
 
 std::string Parameters::apply(const std::string& written) const {
-  constexpr std::size_t kLongest = 1'000'000;  // bytes; of what a few short lines could grow to
+  constexpr std::size_t kLongest = 1'000'000;  // bytes, which a few short lines could grow into
   std::string made;
   std::size_t at = 0;
   for (;;) {

@@ -152,7 +152,7 @@ class ScenarioReader {
     }
   }
 
-  /// Where one was meant and another is written, both are left over.
+  /// Where one was meant and another was written, both are left over.
   void demand_all_used(const Case& row, const Parameters& parameters) const {
     const auto demand_used = [&](const std::string& name, const world::YamlFields& field) {
       if (!parameters.was_used(name)) {

@@ -18,6 +18,10 @@ inline constexpr std::array kAnswerKeys{
     world::KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
     world::KeyRow{"within", "For how long none may come (500ms).", &world::kDuration}, kViaKey};
 
+inline constexpr std::array kProgramBesideKeys{world::KeyRow{
+    "refused", "The device must refuse it: `true`, or a part of what is said of its first mistake.",
+    &world::kText}};
+
 inline constexpr std::array kWaitKeys{
     world::KeyRow{"until", "The condition, looked at in every tick without the line.", &world::kText, true},
     world::KeyRow{"within", "It fails if this is not long enough.", &world::kDuration, true},

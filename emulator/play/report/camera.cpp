@@ -83,7 +83,7 @@ void Camera::ignore_lines() {
 }
 
 void Camera::world_restored(std::size_t steps) {
-  ignore_lines();  // what they were hearing is no more
+  ignore_lines();  // what they were hearing is gone
   end_scene();
   watch_lines();
   scene_.first_step = steps;

@@ -157,7 +157,8 @@ struct TextStep {
 struct ProgramStep {
   std::size_t device = 0;
   std::string text;
-  std::string file;  // for messages
+  std::string file;                      // for messages
+  std::optional<std::string> refused{};  // it must be; what is said of it has this in it
 };
 
 /// memory: { feeder: after.json }: the device's non-volatile memory must be what the file says; save: writes

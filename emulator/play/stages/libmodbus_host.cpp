@@ -69,7 +69,7 @@ LibmodbusHost::LibmodbusHost(const std::string& port, const pty::LineSettings& s
     throw pty::PortError(port + ": " + modbus_strerror(errno) + "; expected a serial port at " +
                          pty::to_string(settings));
   }
-  // libmodbus counts from when it has handed the request over, which the line takes its time for.
+  // libmodbus counts from when it has handed the request over, and the line needs time for that.
   set_time(modbus_set_response_timeout, context_.get(), timeout + settings.duration_of(256));
   set_time(modbus_set_byte_timeout, context_.get(), kLongestPause);
 }

@@ -38,9 +38,9 @@ namespace understudy::emulator::play {
 
 namespace {
 
-// The daemon sleeps until something is due; who watches every tick has it look up this often.
+// The daemon sleeps until something is due; for whoever watches every tick it looks up this often.
 constexpr serve::WallTime kLook = std::chrono::milliseconds(1);
-// How long a wait lasts at most before it asks whether it was given up.
+// How long a wait lasts at most before it asks whether the play was given up.
 constexpr serve::WallTime kLongestSleep = std::chrono::milliseconds(50);
 
 }  // namespace

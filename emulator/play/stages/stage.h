@@ -41,7 +41,7 @@ class Stage {
   virtual ~Stage() = default;
 
   // --- the host: as a master on a line, one request at a time, t3.5 and `gap` after whatever was on it
-  // before Each call lasts, in simulated time, until the reply has come or time runs out.
+  // before. Each call lasts, in simulated time, until the reply has come or time runs out.
   virtual HostReply read(std::size_t line, int station, Table table, std::uint16_t first, int count) = 0;
   /// To coils or holding registers.
   virtual HostReply write(std::size_t line, int station, Table table, std::uint16_t first,

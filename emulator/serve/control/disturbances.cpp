@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_error.h"
+#include "emulator/device/register_map/refusal.h"
 #include "emulator/device/user_program.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
@@ -79,6 +81,19 @@ Json refusal_of(const ProgramError& error) {
       {"mistakes", std::move(mistakes)}};
 }
 
+/// "it is busy (reason 5)"; the number is the device's own.
+std::string why_refused(const Objection& refused) {
+  const std::string reason = refused.reason == 0 ? "" : " (reason " + std::to_string(refused.reason) + ")";
+  switch (refused.refusal) {
+    case Refusal::busy: return "it is busy" + reason;
+    case Refusal::failure: return "it has failed" + reason;
+    case Refusal::none:
+    case Refusal::no_register:
+    case Refusal::bad_value: break;
+  }
+  return "the command does not suit it now" + reason;
+}
+
 }  // namespace
 
 Json input_message(Daemon& daemon, const Json& message) {
@@ -119,10 +134,34 @@ Json turn_message(Daemon& daemon, const Json& message) {
     world::FaultText text{
         .kind = "turn", .place = name, .fields = {{"counts", std::to_string(demand_integer(value, name))}}};
     if (message.contains("in")) text.fields.emplace_back("in", demand_text(message, "in"));
-    turns.push_back(world::find_fault(daemon.world().known(), text));
-    world::check_fault(daemon.world(), turns.back());
+    try {
+      turns.push_back(world::find_fault(daemon.world().known(), text));
+      world::check_fault(daemon.world(), turns.back());
+    } catch (const world::NameError& error) {
+      // As of a fault it begins with its kind, which is this message's own name.
+      const std::string_view what = error.what();
+      constexpr std::string_view kKind = "turn: ";
+      throw MessageError(std::string(what.starts_with(kKind) ? what.substr(kKind.size()) : what));
+    }
   }
   for (const world::Fault& turn : turns) daemon.world().inject(turn);
+  return Json{{"ok", true}};
+}
+
+Json command_message(Daemon& daemon, const Json& message) {
+  demand_keys(message, {"do", "device", "text"});
+  const std::size_t number = demand_device(daemon, message);
+  const std::string text = demand_text(message, "text");
+  daemon.catch_up();
+  const Device& device = daemon.world().device(number);
+  if (!device.powered()) throw MessageError(device.name() + " has no power; expected it switched on");
+  Objection refused;
+  try {
+    refused = daemon.world().command(number, text);
+  } catch (const ProgramError& error) {
+    throw MessageError(in_line(error.first()));
+  }
+  if (refused) throw MessageError(device.name() + " does not take it: " + why_refused(refused));
   return Json{{"ok", true}};
 }
 

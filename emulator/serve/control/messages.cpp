@@ -26,13 +26,14 @@ struct Verb {
   Json (*answer)(Daemon& daemon, const Json& message) = nullptr;
   void (*answer_later)(Daemon& daemon, const Json& message, const ControlServer::Reply& reply) = nullptr;
 };
-constexpr std::array<Verb, 31> kVerbs{{{"status", status_message},
+constexpr std::array<Verb, 32> kVerbs{{{"status", status_message},
                                        {"identify", identify_message},
                                        {"get", get_message},
                                        {"eval", eval_message},
                                        {"set", set_message},
                                        {"input", input_message},
                                        {"turn", turn_message},
+                                       {"command", command_message},
                                        {"power", power_message},
                                        {"program", program_message},
                                        {"inject", inject_message},
@@ -83,7 +84,7 @@ std::string take_author(Json& message) {
 }  // namespace
 
 void answer(const ControlServer::Reply& reply, const std::function<Json()>& make) {
-  // Names and programs come from outside and may be no UTF-8.
+  // Names and programs come from outside and may not be UTF-8.
   const auto say = [&](const Json& made) {
     reply(made.dump(-1, ' ', false, Json::error_handler_t::replace));
   };

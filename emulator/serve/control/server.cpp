@@ -25,8 +25,9 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-constexpr std::size_t kLongestMessage = 64 * 1024;
-constexpr std::size_t kMostUnread = 4 * 1024 * 1024;
+// A program that fills a device comes in one message, and goes back in one reply.
+constexpr std::size_t kLongestMessage = 4 * 1024 * 1024;
+constexpr std::size_t kMostUnread = 8 * 1024 * 1024;
 constexpr std::size_t kMostClients = 256;
 constexpr WallTime kRest = std::chrono::milliseconds(250);
 
@@ -151,7 +152,8 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   const std::shared_ptr<Client> client = clients_.at(descriptor);
   if ((ready & EventLoop::writable) != 0 && !write_out(*client)) return drop(descriptor);
   if ((ready & EventLoop::readable) == 0) return;
-  if (client->is_awaiting || client->has_said_all) return drop(descriptor);  // not read from: it has hung up
+  if (client->is_awaiting || client->has_said_all)
+    return drop(descriptor);  // nothing is read from it: it has hung up
   std::array<char, 4096> bytes;
   ssize_t count = recv(descriptor, bytes.data(), bytes.size(), MSG_PEEK);
   if (count > 0) {
@@ -169,7 +171,8 @@ void ControlServer::on_client(int descriptor, std::uint32_t ready) {
   client->input.append(bytes.data(), static_cast<std::size_t>(count));
   const bool is_whole = client->input.back() == '\n';
   if (client->input.size() > kLongestMessage + (is_whole ? 1 : 0)) {
-    send(client, R"({"ok":false,"error":"the message is too long; expected a line of at most 65536 bytes"})");
+    send(client,
+         R"({"ok":false,"error":"the message is too long; expected a line of at most 4194304 bytes"})");
     return drop(descriptor);
   }
   if (is_whole) serve(client);
@@ -185,12 +188,16 @@ void ControlServer::serve(const std::shared_ptr<Client>& client) {
     alive->is_awaiting = false;
     send(alive, reply);
   });
-  if (client->descriptor >= 0 && client->is_awaiting) write_out(*client);  // it is not read from meanwhile
+  if (client->descriptor >= 0 && client->is_awaiting)
+    write_out(*client);  // nothing is read from it meanwhile
 }
 
 void ControlServer::send(const std::shared_ptr<Client>& client, const std::string& line) {
   if (client->descriptor < 0) return;
-  client->output += line + "\n";
+  // A device may hold more than anybody could be given at once.
+  const bool is_too_long = line.size() >= kMostUnread;
+  client->output += is_too_long ? R"({"ok":false,"error":"the answer is longer than 8388608 bytes"})" : line;
+  client->output += "\n";
   if (!write_out(*client) || client->output.size() > kMostUnread) drop(client->descriptor);
 }
 

@@ -22,7 +22,7 @@ namespace understudy::emulator::serve {
 
 namespace {
 
-/// Absolute, because the daemon runs in another folder than who asks.
+/// Absolute, because the daemon may run in another folder than whoever asks.
 std::string demand_file(const Json& message) {
   demand_keys(message, {"do", "file"});
   const std::string path = demand_text(message, "file");
@@ -89,7 +89,7 @@ world::WorldState read_snapshot(const std::string& path, std::uint64_t bench_has
 }
 
 Json restored(Daemon& daemon, const std::string& path, const world::WorldState& state) {
-  demand_restorable(daemon);  // it may have become otherwise
+  demand_restorable(daemon);  // that may have changed
   try {
     daemon.restore(state);
   } catch (const StateError& error) {

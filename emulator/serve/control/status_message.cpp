@@ -90,7 +90,7 @@ Json device_status(const world::World& world, std::size_t number) {
   if (device.powered()) status["registers"] = telling_registers(device);
   status["inputs"] = Json::object();
   status["outputs"] = Json::object();
-  // What is no level is apart, where there is any.
+  // What is not a level stands apart, if there is anything.
   for (const TerminalSight& sight : terminal_sights(device)) {
     const bool is_count =
         sight.what == TerminalSight::What::pulses || sight.kind == TerminalRow::Kind::counted_in;

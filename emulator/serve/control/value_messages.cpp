@@ -48,7 +48,7 @@ bool is_real_register(const world::KnownDevices& known, const std::string& name)
   try {
     return world::find_register(known, name).place.is_real();
   } catch (const world::NameError&) {
-    return false;  // it is complained of where it is looked up
+    return false;  // the complaint comes where it is looked up
   }
 }
 

@@ -28,6 +28,8 @@ Json set_message(Daemon& daemon, const Json& message);
 Json input_message(Daemon& daemon, const Json& message);
 /// {"do":"turn","values":{"mill.MPG":400},"in":"2s"}; without a time at once
 Json turn_message(Daemon& daemon, const Json& message);
+/// {"do":"command","device":"mill","text":"MOVE X 1000"}
+Json command_message(Daemon& daemon, const Json& message);
 /// {"do":"power","device":"feeder","to":"off"}, "on" or "cycle"
 Json power_message(Daemon& daemon, const Json& message);
 /// {"do":"program","device":"feeder","text":"..."}; without a text the reply brings the one there is

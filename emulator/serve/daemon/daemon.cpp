@@ -231,7 +231,7 @@ void Daemon::catch_up(WallTime longest) {
   if (world_.now() >= target) {
     behind_since_.reset();
   } else if (is_free) {
-    pacer_.moved_to(world_.now(), wall_now());  // as fast as it goes: what it could not do is not a debt
+    pacer_.moved_to(world_.now(), wall_now());  // as fast as possible: what it could not do is not a debt
   } else if (!behind_since_) {
     behind_since_ = now;
   }

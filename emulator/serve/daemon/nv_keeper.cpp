@@ -115,7 +115,7 @@ bool NvKeeper::is_behind(const File& file) const {
 
 void NvKeeper::write(File& file) {
   file.written = world_.device(file.device).memory()->kept_revision();
-  writer_.write(file.path, world_.device(file.device).memory()->nv_image());
+  writer_.write(file.path, world_.device(file.device).memory()->kept_now());
 }
 
 void NvKeeper::world_restored() {

@@ -16,7 +16,7 @@ namespace understudy::emulator::serve {
 struct Speed {
   enum class Kind : std::uint8_t {
     factor,  // simulated seconds a second; 1 is real time
-    free,    // as fast as it goes, up to kFreest
+    free,    // as fast as possible, up to kFreest
     manual,  // only when told to
   } kind = Kind::factor;
   double factor = 1.0;

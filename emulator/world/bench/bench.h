@@ -80,8 +80,8 @@ struct Bench {
 KnownDevices known_devices_of(const Bench& bench);
 
 /// A bench of one device, with a line for each of its ports. `link` is that of the first; the others' have
-/// the port's name behind it. A device of one port is on the line "line", those of several are on lines that
-/// are called as the ports.
+/// the port's name behind it. A device of one port is on the line "line", those of several are on lines named
+/// after the ports.
 Bench bench_of_one(const Model& model, DeviceSettings settings, const std::string& link);
 
 /// "2%", "0.5%", 0% to 10% in millionths; nothing if it is not such a share.

@@ -15,8 +15,9 @@ inline constexpr KeyRow kVersionKey{"understudy", "The version of the format.", 
 
 // --- devices -------------------------------------------------------------------------------------
 inline constexpr Form kRegisterValueForm = integer_form(INT32_MIN, UINT32_MAX);
-inline constexpr std::array<const Form*, 2> kNvValueWays{&kRegisterValueForm, &kText};
-inline constexpr Form kNvValueForm = either_form(kNvValueWays);  // text: a real number, or the program
+// Text: a real number, or the program. A map: blocks of text of one kind, by their names.
+inline constexpr std::array<const Form*, 3> kNvValueWays{&kRegisterValueForm, &kText, &kTextByName};
+inline constexpr Form kNvValueForm = either_form(kNvValueWays);
 inline constexpr Form kNvValuesForm = names_form(kNvValueForm);
 inline constexpr std::array<const Form*, 2> kNvWays{&kText, &kNvValuesForm};
 inline constexpr Form kNvForm = either_form(kNvWays);

@@ -1,5 +1,5 @@
 // What of a bench has been read so far, by name, and the names of what could not be read: of those nothing
-// can be said, and what refers to them is left untold.
+// can be said, and what refers to them is not reported.
 #pragma once
 
 #include <set>

@@ -166,11 +166,16 @@ void EventLog::on_assign(std::size_t device, std::string_view name, double value
         .value = real_text(value)});
 }
 
-void EventLog::on_program(std::size_t device, std::string_view text) {
+void EventLog::on_program(std::size_t device, std::string_view text, bool is_refused) {
   note({.what = "program",
         .by = author_,
         .device = world_.device(device).name(),
-        .text = std::to_string(std::count(text.begin(), text.end(), '\n')) + " lines"});
+        .text = std::to_string(std::count(text.begin(), text.end(), '\n')) + " lines" +
+                (is_refused ? ", refused" : "")});
+}
+
+void EventLog::on_command(std::size_t device, std::string_view text) {
+  note({.what = "command", .by = author_, .device = world_.device(device).name(), .text = std::string(text)});
 }
 
 std::string EventLog::fault_text_of(std::size_t number) const {

@@ -66,7 +66,8 @@ class EventLog final : private OutsideListener {
   void on_clear_fault(std::size_t number) override;
   void on_write(std::size_t device, const PreparedWrite& write) override;
   void on_assign(std::size_t device, std::string_view name, double value) override;
-  void on_program(std::size_t device, std::string_view text) override;
+  void on_program(std::size_t device, std::string_view text, bool is_refused) override;
+  void on_command(std::size_t device, std::string_view text) override;
   void on_fault(std::size_t number, bool in_force) override;
 
   void note(Event event);

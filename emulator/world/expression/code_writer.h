@@ -13,7 +13,7 @@ inline constexpr std::size_t kDeepestStack = 64;
 
 class CodeWriter {
  public:
-  /// `offset` is where in the text it comes from. Throws Throws Throws ExpressionError if it needs too deep a
+  /// `offset` is where in the text it comes from. Throws ExpressionError if it needs too deep a
   /// stack.
   void emit(Instruction::Kind kind, std::size_t offset, Operator operation = Operator::add,
             std::size_t argument = 0);

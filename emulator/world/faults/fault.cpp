@@ -131,7 +131,7 @@ std::string expected_of(const FaultFieldRow& row) {
   }
 }
 
-/// Empty if it is as without it.
+/// Empty if the field says what its absence says.
 std::string text_of(const FaultFieldRow& row, const Fault& fault) {
   switch (row.form) {
     case Form::number:

@@ -28,9 +28,9 @@ struct Fault {
     power_cut,  // it has no power
     slow,       // it carries out each request `amount` ns late
     // of what a device, or all on a line, make of requests
-    busy,         // they are refused as a busy device does it
+    busy,         // they are refused as a busy device would
     exception,    // they are refused with exception `amount`
-    early_reply,  // they are taken for over with their last character, without the device's silence
+    early_reply,  // they are treated as over with their last character, without the device's silence
     // of a message on the wire (pty/wire_fault.h)
     drop,
     delay,             // by `amount` ns

@@ -36,7 +36,7 @@ struct FaultKindRow {
   Place place;
   std::span<const FaultFieldRow> fields;
   std::string_view effect;               // on a message, or with one: what onlookers are told
-  std::string_view effect_on_request{};  // where it is another; empty: the same
+  std::string_view effect_on_request{};  // where that differs; empty: the same
 };
 
 /// In the order of Fault::Kind.

@@ -15,7 +15,7 @@ std::vector<std::string> trigger_fields();
 /// Returns false if there is no such field; throws NameError if the field cannot have that value. An address
 /// is a number here, and names in `when` are not looked up.
 bool set_trigger_field(FaultTrigger& trigger, std::string_view name, const std::string& text);
-/// Throws Throws Throws NameError for fields that contradict each other.
+/// Throws NameError for fields that contradict each other.
 void demand_sense(const FaultTrigger& trigger);
 /// Those that are set.
 std::vector<std::pair<std::string, std::string>> fields_of(const FaultTrigger& trigger);

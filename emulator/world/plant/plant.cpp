@@ -134,7 +134,7 @@ Tick PlantAxis::next_active_tick(Tick done) const {
 
 void PlantAxis::turn(std::int64_t counts, Tick ticks) {
   disturb();
-  // What is left of the turn before goes with the new one.
+  // What is left of the earlier turn is added to the new one.
   state_.turn_counts = state_.turn_counts - turned(state_) + counts;
   state_.turn_ticks = state_.ticks_to_turn = std::max<Tick>({state_.ticks_to_turn, ticks, 1});
 }

@@ -13,7 +13,7 @@
 //   feeder.A.speed             what it runs at by plan, in pulses a second, real
 //   feeder.A.pwm               its duty in percent, 0 outside PWM mode; where the model has one
 //   feeder.A.greatest_speed, .greatest_acceleration    what it has reached by plan, as magnitudes, real; in
-//                              scenarios, since their begin or the last `reset: peaks`
+//                              scenarios, since their beginning or the last `reset: peaks`
 //   feeder.A.position          where the machine is, in pulses; .lost pulses that did not move it
 //   feeder.A.encoder           its encoder's count
 //   feeder.A.home, .upper_limit, .lower_limit, .ready, .alarm     its switches and its drive; and

@@ -70,6 +70,7 @@ std::string text_of(const RecordedEvent& event, const World& world) {
       return "set " + device() + "." + one_line(event.text) + "=" + value.data();
     }
     case What::program: return "program " + device();
+    case What::command: return "command " + device() + ": " + one_line(event.text);
     case What::bytes:
     case What::departed:
     case What::nothing_more:

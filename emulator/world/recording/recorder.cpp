@@ -125,11 +125,12 @@ void Recorder::on_assign(std::size_t device, std::string_view name, double value
   take({.what = What::assign, .where = device, .text = std::string(name), .real = value});
 }
 
-void Recorder::on_program(std::size_t device, std::string_view text) {
-  // It is not loaded yet.
-  const Device& of = world_.device(device);
-  const bool is_refused = !check_program(of.model(), text, of.settings()).empty();
+void Recorder::on_program(std::size_t device, std::string_view text, bool is_refused) {
   take({.what = What::program, .where = device, .value = is_refused ? 1 : 0, .text = std::string(text)});
+}
+
+void Recorder::on_command(std::size_t device, std::string_view text) {
+  take({.what = What::command, .where = device, .text = std::string(text)});
 }
 
 }  // namespace understudy::emulator::world

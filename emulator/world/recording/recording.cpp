@@ -30,7 +30,7 @@ using What = RecordedEvent::What;
 constexpr const char* kRecordingKind = "recording";
 constexpr int kRecordingFormat = 1;
 
-constexpr std::array<std::pair<What, std::string_view>, 15> kEventWords{{
+constexpr std::array<std::pair<What, std::string_view>, 16> kEventWords{{
     {What::opened, "open"},
     {What::closed, "close"},
     {What::settings, "settings"},
@@ -45,6 +45,7 @@ constexpr std::array<std::pair<What, std::string_view>, 15> kEventWords{{
     {What::write, "write"},
     {What::assign, "assign"},
     {What::program, "program"},
+    {What::command, "command"},
     {What::end, "end"},
 }};
 
@@ -58,7 +59,7 @@ constexpr std::string_view word_of(What what) {
 bool is_of_a_line(What what) { return what <= What::said; }
 bool is_of_a_device(What what) {
   return what == What::input || what == What::power || what == What::write || what == What::assign ||
-         what == What::program;
+         what == What::program || what == What::command;
 }
 
 std::string hex_of(const std::vector<std::uint8_t>& bytes) {
@@ -281,6 +282,7 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       line.json("text", Json(event.text));
       if (event.value != 0) line.json("refused", Json(true));
       break;
+    case What::command: line.json("text", Json(event.text)); break;
     case What::end:
       if (!event.text.empty()) line.json("state", Json(event.text));
       break;
@@ -341,6 +343,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
       event.text = text_at(line, "text");
       event.value = line.contains("refused") && truth_at(line, "refused") ? 1 : 0;
       break;
+    case What::command: event.text = text_at(line, "text"); break;
     case What::end:
       if (line.contains("state")) event.text = text_at(line, "state");
       break;
@@ -381,6 +384,7 @@ void apply(World& world, const RecordedEvent& event) {
     case What::write: world.write(event.where, event.write); break;
     case What::assign: world.assign(event.where, event.text, event.real); break;
     case What::program: load_as_recorded(world, event); break;
+    case What::command: world.command(event.where, event.text); break;
     case What::said:
     case What::end: break;
   }

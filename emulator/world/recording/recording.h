@@ -42,6 +42,7 @@ struct RecordedEvent {
     write,    // `write`, past the line
     assign,   // the value `real` by the name `text`, to one without registers
     program,  // the device was given the program `text`; it refused it if there is a `value`
+    command,  // and the command `text`, past the line
     end,      // the recording ends here; `text`: the state then (snapshot_file.h), or nothing
   } what = What::end;
   SimTime at{0};

@@ -43,7 +43,7 @@ class LineSpeech {
   virtual bool may_be_unasked() const { return false; }
 
   // --- hosts -------------------------------------------------------------------------------------
-  /// Whether the steps fit it that send and hear text.
+  /// Whether steps that send and hear text fit it.
   virtual bool carries_text() const { return false; }
   /// Whether a host leaves a silence between its messages.
   virtual bool is_framed_by_silence() const { return false; }
@@ -59,6 +59,12 @@ class LineSpeech {
   /// A message of a host in words.
   virtual std::string request_text(const LineStations& stations,
                                    std::span<const std::uint8_t> request) const = 0;
+  /// "mill: MOVE X 1000", of a message that is a command with a name (emulator/device/command_window.h); else
+  /// empty.
+  virtual std::string command_text(const LineStations& /*stations*/,
+                                   std::span<const std::uint8_t> /*request*/) const {
+    return {};
+  }
   /// What a station answered. `request` is empty if it is not known.
   virtual std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                                  std::span<const std::uint8_t> reply) const = 0;

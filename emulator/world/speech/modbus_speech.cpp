@@ -35,7 +35,9 @@ class ModbusSpeech final : public LineSpeech {
                                             const StationConditions& conditions) const override {
     if (device.modbus() == nullptr || device.register_bank() == nullptr)
       throw std::logic_error(device.name() + ": speaks Modbus, but is not a ModbusStation with registers");
-    return std::make_unique<RtuStation>(device, port, framing(device.model(), conditions));
+    pty::RtuFraming framed_by = framing(device.model(), conditions);
+    if (framed_by.silence != SimTime{0}) framed_by.silence = device.modbus()->end_silence(framed_by.silence);
+    return std::make_unique<RtuStation>(device, port, framed_by);
   }
   pty::RtuFraming framing(const Model& model, const StationConditions& conditions) const override {
     // Without wire time there is no silence to wait for, unless silence alone ends a frame.
@@ -64,6 +66,10 @@ class ModbusSpeech final : public LineSpeech {
   std::string request_text(const LineStations& stations,
                            std::span<const std::uint8_t> request) const override {
     return modbus_request_text(stations, request);
+  }
+  std::string command_text(const LineStations& stations,
+                           std::span<const std::uint8_t> request) const override {
+    return modbus_command_text(stations, request);
   }
   std::string reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                          std::span<const std::uint8_t> reply) const override {

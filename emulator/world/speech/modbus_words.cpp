@@ -200,6 +200,19 @@ bool is_write(std::span<const std::uint8_t> frame) {
   return frame.size() >= 2 && std::find(kWrites.begin(), kWrites.end(), frame[1]) != kWrites.end();
 }
 
+std::string modbus_command_text(const LineStations& stations, std::span<const std::uint8_t> request) {
+  if (request.size() < 8) return {};
+  const Device* const device = device_at(stations, request[0]);
+  const FunctionRow* const function = function_of(request);
+  const bool may_be_one = device != nullptr && device->model().window != nullptr && function != nullptr &&
+                          function->kind != Kind::read && function->table == Table::holding;
+  if (!may_be_one || !pty::rtu_crc_ok(request)) return {};
+  const auto values = written(*function, request);
+  if (!values) return {};
+  const auto command = window_text(*device, Table::holding, frame_word(request, 2), words_in(values->bytes));
+  return command ? device->name() + ": " + *command : std::string();
+}
+
 std::string modbus_request_text(const LineStations& stations, std::span<const std::uint8_t> request) {
   if (request.size() < 8 || !pty::rtu_crc_ok(request)) return hex_text(request);
   const Device* const device = device_at(stations, request[0]);
@@ -217,10 +230,8 @@ std::string modbus_request_text(const LineStations& stations, std::span<const st
     return request.size() == 8 ? told("read ", frame_word(request, 4), {}) : whom + hex_text(request);
   }
   const auto values = written(*function, request);
-  if (values && device != nullptr && !is_table_of_bits(table)) {
-    if (const auto command = window_text(*device, table, first, words_in(values->bytes))) {
-      return whom + "command " + place_text(table, first, values->count) + device->name() + ": " + *command;
-    }
+  if (const std::string command = modbus_command_text(stations, request); !command.empty()) {
+    return whom + "command " + place_text(table, first, values->count) + command;
   }
   return values ? told("write ", values->count, values->bytes) : whom + hex_text(request);
 }

@@ -19,6 +19,8 @@ bool is_write(std::span<const std::uint8_t> frame);
 
 /// A frame of a host to these stations. What cannot be read is given in bytes.
 std::string modbus_request_text(const LineStations& stations, std::span<const std::uint8_t> request);
+/// "mill: MOVE X 1000", of one that writes a command with a name; else empty.
+std::string modbus_command_text(const LineStations& stations, std::span<const std::uint8_t> request);
 /// What one of them answered. `request` is empty where it is not known.
 std::string modbus_reply_text(const LineStations& stations, std::span<const std::uint8_t> request,
                               std::span<const std::uint8_t> reply);

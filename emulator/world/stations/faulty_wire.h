@@ -25,7 +25,7 @@ class FaultyWire {
   /// Where it ends: the station.
   class End {
    public:
-    /// Judges what has become of a request as if it had come so.
+    /// Judges what has become of a request as if it had come that way.
     virtual void serve_piece(std::span<const std::uint8_t> bytes, std::uint64_t last_character,
                              pty::SimTime now, pty::Transmitter& out) = 0;
     /// Sends what is left of an answer to the request with that last character.

@@ -36,7 +36,7 @@ std::string binary(std::int64_t value) {
   return text;
 }
 
-/// Of a value by name that was whole when the trace began, and is no more.
+/// Of a value by name that was whole when the trace began, and no longer is.
 std::int64_t nearest_whole(Number value) {
   constexpr double kMost = 9e15;
   return value.is_whole() ? value.whole() : std::llround(std::clamp(value.real(), -kMost, kMost));

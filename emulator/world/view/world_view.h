@@ -29,6 +29,9 @@ struct WorldLine {
   std::string request_text(std::span<const std::uint8_t> request) const {
     return speech.request_text(stations, request);
   }
+  std::string command_text(std::span<const std::uint8_t> request) const {
+    return speech.command_text(stations, request);
+  }
   std::string reply_text(std::span<const std::uint8_t> request, std::span<const std::uint8_t> reply) const {
     return speech.reply_text(stations, request, reply);
   }

@@ -1,4 +1,4 @@
-// What of a program and its run a state consists of (base/state/fields.h), in the order of the bytes.
+// What the state of a program and its run consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
 #include <string>

@@ -129,10 +129,21 @@ const Model& with_frames() {
   return model;
 }
 
+const Model& without_port() {
+  static const Model model = [] {
+    Model made = bare_model();
+    made.line.ports = {};
+    made.make = make_bare<without_port>;
+    return made;
+  }();
+  return model;
+}
+
 TEST(BareDevice, IsNotMadeOfAModelThatListsMore) {
-  for (const Model* model : {&with_lamp(), &with_wheel(), &with_frames()}) {
-    EXPECT_EQ(complaint_of_making(*model), "bare: lacks a facet that its tables need");
-  }
+  EXPECT_EQ(complaint_of_making(with_lamp()), "bare: lacks the facet Terminals, for its terminals");
+  EXPECT_EQ(complaint_of_making(with_wheel()), "bare: lacks the facet Axes, for its axes");
+  EXPECT_EQ(complaint_of_making(with_frames()), "bare: lacks the facet ModbusStation, for its `rtu`");
+  EXPECT_EQ(complaint_of_making(without_port()), "bare: lacks a port on its line");
 }
 
 }  // namespace bare_device_test

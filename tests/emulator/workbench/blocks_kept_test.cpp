@@ -82,6 +82,21 @@ TEST(KeptBlocks, AFileFollowsThemAndIsBegunWith) {
   EXPECT_EQ(blocks_of(world).find("recipes", "00"), nullptr);
 }
 
+TEST(KeptBlocks, AFileThatTheDeviceRefusesIsToldWithItsLine) {
+  const Folder folder;
+  std::ofstream(folder.path("it.json"))
+      << "{\"understudy\": 1, \"kind\": \"nv-image\", \"model\": \"workbench\", \"firmware\": \"1.00\",\n"
+         "\"registers\": {},\n\"blocks\": {\n  \"files\": {\n    \"07\": [\"a\"],\n    \"B\": [\"a\"]\n}}}\n";
+  world::Bench bench = bench_of();
+  try {
+    serve::read_memories(bench, folder.path());
+    ADD_FAILURE() << "it is taken";
+  } catch (const NvError& error) {
+    EXPECT_EQ(error.what(),
+              folder.path("it.json") + ": line 6: blocks: files: 'B': is not a number; expected 00 to 99");
+  }
+}
+
 /// Empty if it passes.
 std::string failure_of(const Folder& folder, const std::string& steps, const std::string& nv) {
   const std::string text =
@@ -160,6 +175,29 @@ TEST(Ports, ACaptureNamesThemBesideTheLine) {
   EXPECT_NE(text_of("a.pcapng").find("hmi (mill HMI)"), std::string::npos);
   EXPECT_NE(text_of("a.txt").find(" pc "), std::string::npos) << text_of("a.txt");
   EXPECT_EQ(text_of("a.txt").find("(mill"), std::string::npos) << text_of("a.txt");
+}
+
+// A command has its name beside its bytes.
+TEST(Ports, ACaptureTellsCommandsByTheirNames) {
+  const Folder folder;
+  for (const char* name : {"a.pcapng", "a.txt"}) {
+    {
+      world::World world(workbench_bench(two_lines_text("timing: instant, ")), {}, {});
+      world::WorldCapture capture(world, folder.path(name), [](const std::string&) {});
+      capture.begin();
+      world.host_opened(0);
+      world.receive(0, frame_of("01 10 1F 40 00 04 08 0A 01 00 01 FF FF FC 18"));
+      world.advance_to(10ms);
+      world.receive(0, frame_of("01 10 00 64 00 01 02 00 05"));
+      world.advance_to(20ms);
+    }
+    std::ifstream file(folder.path(name), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t first = text.find("mill: MOVE Y -1000");
+    EXPECT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.find("mill: ", first + 1), std::string::npos)
+        << "of commands only, and of requests: " << text;
+  }
 }
 
 }  // namespace blocks_kept_test

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "emulator/device/device_of.h"
 #include "emulator/device/register_map/access.h"
 #include "tests/emulator/workbench/workbench.h"
 #include "tests/emulator/world/stations/pdus.h"
@@ -61,10 +62,10 @@ std::vector<Declaration> facts_of(const std::string& controller) {
 }
 
 /// Holds what its rows say; views are of numbers beside the image, by the row's number.
-class Declared final : public Device, public RegisterBankOf<Declared> {
+class Declared final : public DeviceOf<Declared>, public RegisterBankOf<Declared> {
  public:
   Declared(const Model& model, const DeviceSettings& settings)
-      : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
+      : DeviceOf(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
     for (const RegisterRow& row : model.registers->rows()) {
       const auto count = static_cast<std::size_t>(row.count);
       if (row.is_view) {
@@ -74,8 +75,6 @@ class Declared final : public Device, public RegisterBankOf<Declared> {
       }
     }
   }
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
   std::span<std::uint32_t> image() override { return stored; }
   std::span<const std::uint32_t> image() const override { return stored; }
   void register_written(const RegisterRow&, std::size_t) override {}

@@ -229,6 +229,28 @@ TEST(Edges, AtAHardStopLoseTheirPlaceAndFindIt) {
   EXPECT_EQ(rig.place(0), kIndex);
 }
 
+/// At 4 MPPS a tick goes 500 pulses beyond the stop: the index at 4007 is never passed by the machine.
+TEST(Edges, AnIndexBeyondAHardStopIsNeverSeen) {
+  struct Case {
+    std::int64_t position;
+    int way;
+    std::int64_t stop;
+  };
+  for (const auto& [position, way, stop] : {Case{3400, +1, 3500}, Case{-3400, -1, -3500}}) {
+    for (std::size_t motor = 0; motor < kMotorCount; ++motor) {
+      Rig rig({.position = position});
+      rig.axis(motor).settings.at_limit_plus = motion::Reaction::ignore;
+      rig.axis(motor).settings.at_limit_minus = motion::Reaction::ignore;
+      const motion::HomingProgram program = motion::rsm8194h_homing(
+          {.ways = {0, 0, sense(motor) * way, 0}, .drive = law(4e6), .home = law(4e6)});
+      ASSERT_EQ(rig.axis(motor).home(program, rig.device().now()), motion::Cause::none);
+      rig.advance(20);
+      EXPECT_EQ(rig.place(motor), stop);
+      EXPECT_TRUE(rig.axis(motor).homing.active()) << motor << " " << way;
+    }
+  }
+}
+
 TEST(Edges, AreKnownAfterPowerAndASnapshot) {
   Rig rig({.position = 2000});
   rig.world.switch_power(0, false);

@@ -26,11 +26,13 @@
 
 #include "base/text/one_line.h"
 #include "base/text/parse_integer.h"
+#include "base/text/utf8.h"
 #include "emulator/device/choices.h"
 #include "emulator/device/model.h"
 #include "emulator/device/program_cells.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/program_language.h"
+#include "tests/emulator/workbench/memory.h"
 #include "tests/emulator/workbench/registers.h"
 
 namespace understudy::emulator::workbench {
@@ -38,6 +40,9 @@ namespace understudy::emulator::workbench {
 inline constexpr ChoiceRow kChoices[] = {{"longest_area", "programs", "How many steps has an area?", "8|2",
                                           Confidence::proposal, "enough for the tests"}};
 inline constexpr std::size_t kAreaSteps[] = {8, 2};
+inline constexpr std::size_t kLongestLabel = 32;
+inline constexpr std::string_view kLabelLetters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 inline constexpr std::string_view kAreas[] = {"MAIN", "ALARM"};
 inline constexpr std::int64_t kUnset = INT32_MIN;  // what cells have for `*`
 
@@ -131,7 +136,13 @@ class ProgramReader {
 
   void read_line(std::string_view line) {
     if (file_ && line != "END") {
-      program.files[*file_] += std::string(line) + "\n";
+      if (const auto at = first_not_utf8(line))
+        fail(static_cast<int>(*at) + 1, "is not UTF-8; expected text");
+      std::string& its = program.files[*file_];
+      const bool fits = its.size() <= kLongestFile;
+      its += std::string(line) + "\n";
+      if (fits && its.size() > kLongestFile)
+        fail(0, "the file is too long; expected at most " + std::to_string(kLongestFile) + " bytes");
       return;
     }
     if (file_) return file_.reset();
@@ -144,6 +155,10 @@ class ProgramReader {
     std::string label;
     if (words[0].text.ends_with(':')) {
       label = words[0].text.substr(0, words[0].text.size() - 1);
+      const bool is_label = !label.empty() && label.size() <= kLongestLabel &&
+                            label.find_first_not_of(kLabelLetters) == std::string::npos;
+      if (!is_label)
+        return fail(words[0].column, quoted(label) + " is not a label; expected letters and digits");
       words.erase(words.begin());
       if (words.empty()) return fail(0, "a label marks nothing; expected an instruction behind it");
     }
@@ -159,9 +174,9 @@ class ProgramReader {
 
   void read_file(const std::vector<Word>& words) {
     if (words.size() != 2) return fail(words[0].column, "has no number; expected 00 to 99");
-    const auto number = parse_integer(words[1].text);
     file_ = words[1].text;
-    if (words[1].text.size() != 2 || !number) fail(words[1].column, "is not a number; expected 00 to 99");
+    const bool is_number = file_->size() == 2 && file_->find_first_not_of("0123456789") == std::string::npos;
+    if (!is_number) fail(words[1].column, "is not a number; expected 00 to 99");
     program.files[*file_];
   }
 

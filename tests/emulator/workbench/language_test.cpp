@@ -66,6 +66,15 @@ const Wrong kWrong[] = {
      {"line 3, column 7: no step of MAIN is labelled 'nowhere'; expected one",
       "line 4, column 6: is not an area; expected MAIN or ALARM"}},
     {"STOP\n", {"line 1, column 1: stands before the first area; expected AREA MAIN or AREA ALARM"}},
+    {"AREA MAIN\n:\tSTOP\n a-b: STOP\nlooooooooooooooooooooooooooooooong: STOP\n",
+     {"line 2, column 1: '' is not a label; expected letters and digits",
+      "line 3, column 2: 'a-b' is not a label; expected letters and digits",
+      "line 4, column 1: 'looooooooooooooooooooooooooooooong' is not a label; expected letters and digits"}},
+    {"FILE -5\na\n\xC3\xBC\xFF\nEND\n",
+     {"line 1, column 6: is not a number; expected 00 to 99",
+      "line 3, column 3: is not UTF-8; expected text"}},
+    {"FILE 05\n" + std::string(8191, 'a') + "\nEND\nFILE 06\n" + std::string(8191, 'a') + "\n\n\nEND\n",
+     {"line 6: the file is too long; expected at most 8192 bytes"}},
     {"FILE 3\n",
      {"line 1, column 6: is not a number; expected 00 to 99", "line 2: FILE 3 has no end; expected END"}},
 };
@@ -204,6 +213,36 @@ TEST(Languages, AScenarioLoadsAProgramAndTellsAllMistakes) {
   EXPECT_EQ(result.verdict, play::ScenarioResult::Verdict::passed) << why;
 }
 
+TEST(Languages, AScenarioExpectsThatAProgramIsRefused) {
+  const auto failure = [](const std::string& steps) {
+    const auto result =
+        play::run_scenario(play::parse_scenarios(kModels, scenario_text(steps), "s.yaml").front(), {})
+            .front();
+    std::string why;
+    for (const std::string& line : play::failure_lines(result)) why += line + "\n";
+    return why;
+  };
+  const std::string wrong = "  - program: { it: \"AREA MAIN\\nFLY\\n\" }\n";
+  const std::string good = "  - program: { it: \"AREA MAIN\\nSTOP\\n\" }\n";
+  EXPECT_EQ(failure(wrong + "    refused: true\n  - expect: { it.Program_Refused: 1 }\n"), "");
+  EXPECT_EQ(failure(wrong + "    refused: \"line 2, column 1: 'FLY'\"\n"), "");
+  EXPECT_NE(
+      failure(wrong + "    refused: is full\n").find("it refuses the program for another reason: line 2"),
+      std::string::npos);
+  EXPECT_NE(failure(good + "    refused: true\n").find("it has taken the program; expected it refused"),
+            std::string::npos);
+  // For what the device is doing, and not for its text.
+  EXPECT_EQ(failure("  - write: { it.Absent: 1 }\n" + good +
+                    "    refused: the module is absent\n  - expect: { it.Program_Refused: 1 }\n"),
+            "");
+  EXPECT_THROW(play::parse_scenarios(kModels, scenario_text(good + "    refused: false\n"), "s.yaml"),
+               FileError);
+  EXPECT_THROW(play::parse_scenarios(kModels, scenario_text("  - say: x\n    refused: true\n"), "s.yaml"),
+               FileError);
+  const auto read = play::parse_scenarios(kModels, scenario_text(wrong + "    refused: true\n"), "s.yaml");
+  EXPECT_EQ(read.front().steps[0].text, "program it (refused)");
+}
+
 struct Served {
   Served()
       : daemon(world::parse_bench(kModels, bench_text(""), "bench.yaml", "/tmp"), options(),
@@ -240,34 +279,52 @@ TEST(Languages, TheControlSocketLoadsListsAndTellsAllMistakes) {
   EXPECT_EQ(single["error"], kWrong[0].mistakes[0]);
 }
 
-// A device may show that a program was refused: a recording has that as well.
+// A device may show that a program was refused: a recording has that as well, also where its text is good.
 TEST(Languages, ARefusedProgramIsRecordedAndRefusedAgain) {
-  const world::Bench bench = world::parse_bench(kModels, bench_text(""), "bench.yaml", "/tmp");
-  world::World world(bench, {}, {});
-  std::string text;
-  std::uint64_t refused = 0;
-  const auto shown = [](world::World& of) {
-    return static_cast<std::uint64_t>(static_cast<Workbench&>(of.device(0)).state.program_refused);
+  struct Case {
+    std::string text;
+    bool is_absent;
   };
-  {
-    const world::RecordingHeader header{.version = std::string(program_version()),
-                                        .bench = world::to_text(bench),
-                                        .options = {},
-                                        .seed = 1,
-                                        .snapshot = {}};
-    world::Recorder recorder(world, header, [&](std::string_view line) { text += line; });
-    world.advance_to(std::chrono::milliseconds(3));
-    EXPECT_THROW(world.load_program(0, kWrong[0].text), ProgramError);
-    world.advance_to(std::chrono::milliseconds(5));
-    recorder.finish();
+  for (const auto& [program, is_absent] : {Case{kWrong[0].text, false}, Case{kGood, true}}) {
+    const world::Bench bench = world::parse_bench(kModels, bench_text(""), "bench.yaml", "/tmp");
+    world::World world(bench, {}, {});
+    std::string text;
+    std::uint64_t refused = 0;
+    const auto shown = [](world::World& of) {
+      return static_cast<std::uint64_t>(static_cast<Workbench&>(of.device(0)).state.program_refused);
+    };
+    {
+      const world::RecordingHeader header{.version = std::string(program_version()),
+                                          .bench = world::to_text(bench),
+                                          .options = {},
+                                          .seed = 1,
+                                          .snapshot = {}};
+      world::Recorder recorder(world, header, [&](std::string_view line) { text += line; });
+      world.advance_to(std::chrono::milliseconds(3));
+      EXPECT_TRUE(!world.command(0, "MOVE X 1000"));
+      PreparedWrite write;
+      const auto absent = world::find_register(world.known(), "it.Absent");
+      prepare_value(*world.device(0).register_bank(), absent.place, is_absent ? 1 : 0, write);
+      world.write(0, write);
+      EXPECT_THROW(world.load_program(0, program), ProgramError);
+      EXPECT_EQ(world.command(0, "STOP").refusal, is_absent ? Refusal::failure : Refusal::none);
+      world.advance_to(std::chrono::milliseconds(5));
+      recorder.finish();
+    }
+    EXPECT_EQ(shown(world), 1U);
+    EXPECT_NE(text.find("\"refused\":true"), std::string::npos) << text;
+    EXPECT_NE(text.find("\"do\":\"command\",\"device\":0,\"text\":\"MOVE X 1000\""), std::string::npos)
+        << text;
+    std::istringstream file(text);
+    std::size_t waiting = 0;
+    const auto again = world::replay(kModels, file, "a.jsonl", {}, {}, [&](world::World& of) {
+      refused = shown(of);
+      waiting = static_cast<Workbench&>(of.device(0)).state.fifo.size();
+    });
+    EXPECT_EQ(again.result.verdict, world::ReplayResult::Verdict::same) << again.result.difference;
+    EXPECT_EQ(refused, 1U);
+    EXPECT_EQ(waiting, is_absent ? 1U : 2U);
   }
-  EXPECT_EQ(shown(world), 1U);
-  EXPECT_NE(text.find("\"refused\":true"), std::string::npos) << text;
-  std::istringstream file(text);
-  const auto again =
-      world::replay(kModels, file, "a.jsonl", {}, {}, [&](world::World& of) { refused = shown(of); });
-  EXPECT_EQ(again.result.verdict, world::ReplayResult::Verdict::same) << again.result.difference;
-  EXPECT_EQ(refused, 1U);
 }
 
 // --- numbers ----------------------------------------------------------------------------------------

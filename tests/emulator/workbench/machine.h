@@ -75,6 +75,8 @@ class Motors {
         now.index_period = edges.index.period;
         now.index_at = edges.index.at;
         now.index_width = edges.index.width;
+        now.index_from = edges.index.first;
+        now.index_to = edges.index.last;
       } else {
         now.set_steady(signal, (device.input(input) != 0) == active_level);
       }

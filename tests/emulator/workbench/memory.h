@@ -33,8 +33,9 @@ inline std::string why_not_area(const std::string& name) {
   return name == "MAIN" || name == "ALARM" ? "" : "is not an area; expected MAIN or ALARM";
 }
 
+inline constexpr std::size_t kLongestFile = 8192;
 inline constexpr BlockKind kBlocks[] = {
-    {.name = "files", .most = 100, .longest = 8192, .why_not_called = why_not_number},
+    {.name = "files", .most = 100, .longest = kLongestFile, .why_not_called = why_not_number},
     {.name = "recipes", .most = 10, .longest = 200, .why_not_called = why_not_number},
     {.name = "areas", .most = 2, .longest = 4096, .why_not_called = why_not_area}};
 
@@ -87,7 +88,9 @@ class WorkbenchMemory final : public KeptMemory {
   void settle_memory() override { kept_.eeprom.settle(bank_.image()); }
 
  protected:
-  void write_memory(NvImage& image) const override { write_registers(bank_, kept_.eeprom.kept(), image); }
+  std::function<void(NvImage&)> memory_writer() const override {
+    return registers_writer(bank_, kept_.eeprom.kept());
+  }
   void read_memory(const NvImage& image) override {
     const auto values = read_registers(bank_, image, 100);
     for (std::size_t slot = 0; slot < values.size(); ++slot) kept_.eeprom.put(slot, values[slot]);

@@ -8,6 +8,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "emulator/device/register_map/access.h"
@@ -183,10 +184,63 @@ TEST(WorkbenchMemory, RefusesBadBlocksByLineAndName) {
             "line 6: blocks: files: '07': is not UTF-8; expected text");
   EXPECT_EQ(with("\"files\":{\n\"07\":[\"a\"],\n\"07\":[\"b\"]}"),
             "line 6: blocks: '07': appears twice; expected it once");
-  EXPECT_EQ(with("\"fils\":{\"07\":[\"a\"]}").substr(0, 38), "blocks: 'fils' is not a kind of block;");
-  EXPECT_EQ(with("\"files\":{\"A\":[\"a\"]}"), "blocks: files: 'A': is not a number; expected 00 to 99");
-  EXPECT_EQ(with("\"recipes\":{\"00\":[\"" + std::string(201, 'x') + "\"]}"),
-            "blocks: recipes: '00': has 201 bytes; expected at most 200");
+  // What the device itself refuses.
+  EXPECT_EQ(with("\"recipes\":{},\n\"fils\":{\"07\":[\"a\"]}").substr(0, 46),
+            "line 5: blocks: 'fils' is not a kind of block;");
+  EXPECT_EQ(with("\"files\":{\n\"07\":[\"a\"],\n\n\"A\":[\"a\"]}"),
+            "line 7: blocks: files: 'A': is not a number; expected 00 to 99");
+  EXPECT_EQ(with("\"recipes\":{\n\"00\":[\"" + std::string(201, 'x') + "\"]}"),
+            "line 5: blocks: recipes: '00': has 201 bytes; expected at most 200");
+  std::string many;
+  for (int i = 0; i < 11; ++i) many += (i == 0 ? "\"" : ",\n\"") + std::to_string(10 + i) + "\":[\"a\"]";
+  EXPECT_EQ(with("\"recipes\":{\n" + many + "}"),
+            "line 4: blocks: recipes: has 11 entries; expected at most 10");
+}
+
+// An image is made where it is wanted: of the moment at which it was asked for, and without the device.
+TEST(WorkbenchMemory, IsGivenAwayAsItIsAndMadeIntoAnImageLater) {
+  LateImage late;
+  NvImage wanted;
+  {
+    Rig rig;
+    rig.fill();
+    rig.set("Total", 70000);
+    wanted = rig.image();
+    late = rig.device().memory()->kept_now();
+    rig.set("Total", 5);
+    ASSERT_EQ(rig.blocks().put("files", "42", SharedText("b\n")), "");
+    rig.blocks().erase("files", "43");
+    EXPECT_NE(rig.image(), wanted);
+  }
+  NvImage made;
+  std::thread([&] { made = late(); }).join();
+  EXPECT_EQ(made, wanted);
+}
+
+TEST(WorkbenchMemory, SharesBlocksThatDidNotChangeWithItsImages) {
+  Rig rig;
+  rig.fill();
+  const auto before = rig.blocks().shared();
+  EXPECT_EQ(*before, rig.blocks().all());
+  rig.set("Total", 70000);
+  ASSERT_EQ(rig.blocks().put("files", "42", *rig.blocks().find("files", "42")), "") << "the same again";
+  EXPECT_EQ(rig.blocks().shared(), before);
+  ASSERT_EQ(rig.blocks().put("files", "42", SharedText("b\n")), "");
+  const auto after = rig.blocks().shared();
+  EXPECT_NE(after, before);
+  EXPECT_EQ(before->at("files").at("42").text().substr(0, 4), "MOVE") << "what was given away stays";
+  EXPECT_EQ(*after, rig.blocks().all());
+  EXPECT_EQ(&before->at("files").at("41").text(), &after->at("files").at("41").text());
+  ASSERT_TRUE(rig.blocks().erase("files", "41"));
+  EXPECT_EQ(*rig.blocks().shared(), rig.blocks().all());
+  rig.blocks().replace({});
+  EXPECT_TRUE(rig.blocks().shared()->empty());
+  // Of a state that was put back.
+  const std::vector<std::byte> none = rig.device().save_state();
+  rig.fill();
+  EXPECT_FALSE(rig.image().blocks.empty());
+  rig.device().restore_state(none);
+  EXPECT_TRUE(rig.image().blocks.empty());
 }
 
 TEST(WorkbenchMemory, RefusesWhatDoesNotFitAndChangesNothing) {

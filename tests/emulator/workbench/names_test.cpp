@@ -111,7 +111,7 @@ TEST(Memory, NamesRealsAndRegistersOfSeveralTables) {
   ASSERT_EQ(write_value(bank, *find("Gain_X"), value_of_real(3.25F)), Refusal::none);
   bank.image()[static_cast<std::size_t>(find("Gain_Y")->place.slot)] = 0x7FC00000;  // not a number
   NvImage image{.model = "workbench", .firmware = {}};
-  write_registers(bank, bank.image(), image);
+  registers_writer(bank, bank.image())(image);
   EXPECT_EQ(image.reals, (std::vector<std::pair<std::string, double>>{{"Gain_X", 3.25}}));
   EXPECT_EQ(image.registers,
             (std::vector<std::pair<std::string, std::int64_t>>{{"Speed_Z", 77}, {"Gain_Y", 0x7FC00000}}));

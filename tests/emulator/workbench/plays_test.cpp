@@ -14,8 +14,10 @@
 #include "emulator/play/stages/modbus_host.h"
 #include "emulator/play/stages/real_stage.h"
 #include "emulator/world/bench/bench_text.h"
+#include "emulator/world/bench_file/bench_file.h"
 #include "emulator/world/recording/replay.h"
 #include "emulator/world/trace/trace_file.h"
+#include "pty/rtu_crc.h"
 #include "tests/emulator/workbench/workbench.h"
 #include "tests/emulator/world/stations/pdus.h"
 
@@ -159,6 +161,27 @@ TEST(Plays, AreLinted) {
         "1 write to it.Servo_Z, which can only be read", "changes of it.Gain_X, which is kept in EEPROM"}) {
     EXPECT_NE(all.find(wanted), std::string::npos) << wanted << " in\n" << all;
   }
+}
+
+// What is found about a command is told with its name.
+TEST(Plays, AreLintedWithTheNamesOfCommands) {
+  const world::Bench bench = world::parse_bench(
+      kModels,
+      "understudy: 1\nlines: { a: { baud: 115200, stations: [ { name: it, model: workbench } ] } }\n",
+      "bench.yaml", "/tmp");
+  world::World world(bench, {}, {});
+  play::Lint lint(world);
+  world.host_settings(0, pty::HostSettings{.baud = 115200, .stop_bits = 1});
+  std::vector<std::uint8_t> move{1, 0x10, 0x1F, 0x40, 0,    4,   8, kMove >> 8, kMove & 0xFF,
+                                 0, 1,    0,    0,    0x03, 0xE8};
+  pty::append_rtu_crc(move);
+  world.receive(0, move, world.now());
+  world.advance_to(std::chrono::milliseconds(3));
+  world.receive(0, move, world.now());  // hardly after the answer
+  world.advance_to(std::chrono::seconds(1));
+  std::string all;
+  for (const std::string& finding : lint.findings()) all += finding + "\n";
+  EXPECT_NE(all.find("; first at 3ms (it: MOVE Y 1000)\n"), std::string::npos) << all;
 }
 
 TEST(Plays, AreTracedWithReals) {

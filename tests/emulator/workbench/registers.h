@@ -100,6 +100,7 @@ inline constexpr MapPolicy kPolicy{.unmapped = MapPolicy::Unmapped::holes_read_z
                                    .write_only = MapPolicy::WriteOnly::refused,
                                    .halves = MapPolicy::Halves::come_whole,
                                    .read_halves = MapPolicy::ReadHalves::come_whole,
-                                   .low_word_first = false};
+                                   .low_word_first = false,
+                                   .word_order_in = "Word_Order"};
 
 }  // namespace understudy::emulator::workbench

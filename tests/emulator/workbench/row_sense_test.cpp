@@ -100,6 +100,20 @@ TEST(RowSense, WhatCannotBeIsRefusedInWords) {
   }
 }
 
+TEST(RowSense, TheOrderOfWordsIsInAHoldingRegister) {
+  const RegisterRow rows[] = {coil(0, "Order"), reg(0, "Words", Type::u16, Access::read_write)};
+  EXPECT_NO_THROW(RegisterMap(rows, {.word_order_in = "Words"}));
+  for (const char* name : {"Order", "Word"}) {
+    try {
+      const RegisterMap map(rows, {.word_order_in = name});
+      ADD_FAILURE() << name << " is taken";
+    } catch (const std::logic_error& error) {
+      EXPECT_EQ(error.what(), "register map: " + std::string(name) +
+                                  " is to have the order of words, but is not a holding register");
+    }
+  }
+}
+
 TEST(RowSense, WhatIsAtTheEdgeIsTaken) {
   const RegisterRow rows[] = {
       coil(0, "C{}").times(32768, 2, 0),

@@ -126,6 +126,49 @@ TEST(ServedNames, WhatCannotBeSetIsToldInALine) {
   }
 }
 
+TEST(ServedNames, ACommandIsGivenByItsName) {
+  Served served;
+  const auto command = [&](const Json& device, const std::string& text) {
+    Json message{{"do", "command"}, {"text", text}};
+    if (!device.is_null()) message["device"] = device;
+    const Json reply = served.ask(message);
+    return reply["ok"] == true ? std::string() : reply["error"].get<std::string>();
+  };
+  EXPECT_EQ(command("it", "MOVE X -70000"), "");
+  EXPECT_EQ(command({}, "STOP"), "") << "the only device";
+  // In the order of words that it has now.
+  EXPECT_EQ(served.complaint_of_setting("Word_Order", 1), "");
+  EXPECT_EQ(command({}, "MOVE Z 65537"), "");
+  EXPECT_EQ(served.get("STATE.WAITING"), 3);
+  EXPECT_EQ(command({}, "STOP"), "it does not take it: it is busy (reason 193)") << "the FIFO holds three";
+  served.ask({{"do", "set"}, {"values", {{"Absent", 1}}}});
+  EXPECT_EQ(command({}, "STOP"), "it does not take it: it has failed (reason 194)");
+  served.ask({{"do", "set"}, {"values", {{"Absent", 0}, {"Run", 1}}}});
+  served.daemon.world().advance_to(std::chrono::seconds(30));
+  EXPECT_EQ(served.get("input.Position_X"), -70000);
+  EXPECT_EQ(served.get("input.Position_Z"), 65537);
+  const std::pair<std::string, std::string> wrong[] = {
+      {"MOVE W 5", "column 6: 'W' is not an axis; expected X, Y or Z"},
+      {"", "column 1: '' is not a command; expected MOVE or STOP"},
+  };
+  for (const auto& [text, why] : wrong) EXPECT_EQ(command({}, text), why) << text;
+  EXPECT_NE(command("mil", "STOP").find("'mil'"), std::string::npos);
+  EXPECT_EQ(served.ask({{"do", "command"}})["error"], "'text' is missing");
+  served.ask({{"do", "power"}, {"to", "off"}});
+  EXPECT_EQ(command({}, "STOP"), "it has no power; expected it switched on");
+}
+
+TEST(ServedNames, ATurnsComplaintIsNotToldTwice) {
+  Served served;
+  const auto complaint = [&](const Json& in) {
+    return served.ask({{"do", "turn"}, {"values", {{"it.MPG", 30}}}, {"in", in}})["error"].get<std::string>();
+  };
+  for (const char* in : {"2", "soon", "-1s"}) {
+    EXPECT_EQ(complaint(in).find("turn"), std::string::npos) << complaint(in);
+    EXPECT_EQ(complaint(in).substr(0, 4), "in: ") << complaint(in);
+  }
+}
+
 TEST(ServedNames, FramesTellInputRegistersByTheirNames) {
   Served served;
   const auto frame = [](std::string_view bytes) {

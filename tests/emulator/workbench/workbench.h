@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "base/state/state_bytes.h"
 #include "emulator/device/axes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/terminals.h"
@@ -69,7 +71,7 @@ struct StateOf<emulator::workbench::WorkbenchState> {
 
 namespace understudy::emulator::workbench {
 
-class Workbench final : public Device,
+class Workbench final : public DeviceOf<Workbench>,
                         public RegisterBankOf<Workbench>,
                         public ModbusStation,
                         public UserProgram,
@@ -77,7 +79,7 @@ class Workbench final : public Device,
                         public Axes {
  public:
   Workbench(const Model& model, const DeviceSettings& settings)
-      : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
+      : DeviceOf(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
     for (const RegisterRow& row : model.registers->rows()) {
       const auto slots = static_cast<std::size_t>(row.is_view ? 0 : row.count);
       state.image.insert(state.image.end(), slots, static_cast<std::uint32_t>(row.factory));
@@ -85,18 +87,12 @@ class Workbench final : public Device,
     state.kept = factory_kept(*model.registers);
   }
 
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
-  ModbusStation* modbus() override { return this; }
-  const ModbusStation* modbus() const override { return this; }
-  const Terminals* terminals() const override { return this; }
-  Axes* axes() override { return this; }
-  const Axes* axes() const override { return this; }
-
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
   /// Its areas and files are kept as blocks; what it sets is set at once.
   void load_program(std::string_view text) override {
+    if (stored(absent_) != 0) {
+      state.program_refused = 1;
+      throw ProgramError(0, 0, "the module is absent; expected it there");
+    }
     ProgramReader read = WorkbenchLanguage::read(text, settings());
     state.program_refused = read.mistakes.empty() ? 0 : 1;
     if (!read.mistakes.empty()) throw ProgramError(std::move(read.mistakes));
@@ -112,9 +108,14 @@ class Workbench final : public Device,
           state.image[first_d_ + static_cast<std::size_t>(step.operands[0])] =
               static_cast<std::uint32_t>(step.operands[1]);
       }
-      blocks.put("areas", std::string(area), SharedText(std::move(lines)));
+      keep("areas", std::string(area), std::move(lines));
     }
-    for (auto& [name, lines] : read.program.files) blocks.put("files", name, SharedText(std::move(lines)));
+    for (auto& [name, lines] : read.program.files) keep("files", name, std::move(lines));
+  }
+  /// What the language has taken fits.
+  void keep(std::string_view kind, const std::string& name, std::string text) {
+    const std::string why = state.kept.blocks.put(kind, name, SharedText(std::move(text)));
+    if (!why.empty()) throw std::logic_error(name + ": " + why);
   }
   std::string program_text() const override {
     std::string text;

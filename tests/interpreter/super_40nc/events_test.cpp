@@ -45,6 +45,7 @@ constexpr Cells kCells[] = {
     {Event::broken, {"-", "-", "I", "I", "-", "-", "I"}},
     {Event::plc_stop, {"-", "-", "-", "-", "-", "-", "-"}},
     {Event::plc_run, {"I", "-", "-", "-", "-", "I", "I drop"}},
+    {Event::limit_pauses, {"-", "-", "P", "P", "-", "-", "-"}},  // and the same line again
 };
 
 Phase phase_of(char letter) { return kPhases[std::string("IEMHWPQ").find(letter)]; }

@@ -50,7 +50,7 @@ class PlainMachine : public Machine {
   Areas stop(Area) override { return 0; }
   void plc_drive(const Drive&, int) override {}
   void plc_home(const HomeSearch&, int) override {}
-  bool plc_jog(const Jogs&) override { return false; }
+  bool plc_jog(const Jogs&, const JogSteps&) override { return false; }
   bool set_positions(const SetPositions&) override { return false; }
 
   std::array<std::uint32_t, 1800> memory{};

@@ -129,7 +129,7 @@ class ScriptedMachine : public Machine {
   void plc_home(const HomeSearch& search, int) override {
     say(Area::plc, "HOM " + std::to_string(search.axes));
   }
-  bool plc_jog(const Jogs& jogs) override {
+  bool plc_jog(const Jogs& jogs, const JogSteps&) override {
     say(Area::plc, "JOG " + std::to_string(jogs.positive) + ' ' + std::to_string(jogs.negative));
     return false;
   }

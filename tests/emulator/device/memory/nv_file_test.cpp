@@ -131,6 +131,22 @@ TEST_F(NvFile, AShorterImageLeavesNothingOfALongerOne) {
   }
 }
 
+// Whoever hands it over does not wait for it, and does not make it.
+TEST_F(NvFile, ALateImageIsMadeByTheWritersThread) {
+  std::thread::id maker;
+  {
+    NvWriter writer;
+    writer.write(path(), [&] {
+      maker = std::this_thread::get_id();
+      return image_of(7);
+    });
+    writer.flush();
+  }
+  EXPECT_EQ(read_nv_file(path()), image_of(7));
+  EXPECT_NE(maker, std::this_thread::get_id());
+  EXPECT_NE(maker, std::thread::id());
+}
+
 // --- one of many images ---------------------------------------------------------------------------------
 
 TEST_F(NvFile, ImagesInQuickSuccessionAreWrittenOnceTheLastOfThem) {

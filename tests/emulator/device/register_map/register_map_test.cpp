@@ -157,18 +157,27 @@ TEST(RegisterMap, RefusesRowsThatClaimOneAddress) {
   const auto u32 = [](std::uint16_t address, std::string_view name) {
     return reg(address, name, Type::u32, Access::read_write);
   };
-  const std::vector<std::vector<RegisterRow>> bad = {
-      {u16(0x10, "a"), u16(0x10, "b")},
-      {u32(0x10, "a"), u16(0x11, "b")},
-      {u16(0x11, "a"), u32(0x10, "b")},
-      {u32(0x10, "a"), u32(0x11, "b")},
-      {u16(0x10, "a{}").times(4, 2, 0), u16(0x16, "b")},
-      {u16(0x10, "a{}").times(4, 2, 0), u16(0x11, "b{}").times(4, 1, 0)},
-      {u32(0x10, "a{}").times(2, 1, 0)},
-      {u16(0x10, "a{}").times(2, 0, 0)},
+  struct Clash {
+    std::vector<RegisterRow> rows;
+    const char* what;
   };
-  for (const auto& rows : bad) {
-    EXPECT_THROW(RegisterMap(rows, {}), std::logic_error) << rows[0].name << " and " << rows.back().name;
+  const std::vector<Clash> clashes = {
+      {{u16(0x10, "a"), u16(0x10, "b")}, "b shares its address with a"},
+      {{u32(0x10, "a"), u16(0x11, "b")}, "b shares its address with a"},
+      {{u16(0x11, "a"), u32(0x10, "b")}, "b shares its address with a"},
+      {{u32(0x10, "a"), u32(0x11, "b")}, "b shares its address with a"},
+      {{u16(0x10, "a{}").times(4, 2, 0), u16(0x16, "b")}, "b shares its address with a3"},
+      {{u16(0x10, "a{}").times(4, 2, 0), u16(0x11, "b{}").times(4, 1, 0)}, "b1 shares its address with a1"},
+      {{u32(0x10, "a{}").times(2, 1, 0)}, "a{} has registers that overlap"},
+      {{u16(0x10, "a{}").times(2, 0, 0)}, "a{} has registers that overlap"},
+  };
+  for (const Clash& clash : clashes) {
+    try {
+      const RegisterMap map(clash.rows, {});
+      FAIL() << "taken, though " << clash.what;
+    } catch (const std::logic_error& error) {
+      EXPECT_STREQ(error.what(), (std::string("register map: ") + clash.what).c_str());
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_map.h"
@@ -26,16 +27,14 @@ inline constexpr int kToyBauds[] = {9600};
 inline constexpr PortRow kToyPorts[] = {{.name = "PORT", .bauds = kToyBauds, .settings = {}}};
 inline constexpr Firmware kToyFirmwares[] = {100, 200};
 
-class ToyDevice final : public Device, public RegisterBankOf<ToyDevice> {
+class ToyDevice final : public DeviceOf<ToyDevice>, public RegisterBankOf<ToyDevice> {
  public:
   ToyDevice(const Model& model, const DeviceSettings& settings)
-      : Device(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
+      : DeviceOf(model, settings), RegisterBankOf(*this, *model.registers, settings.firmware) {
     for (const RegisterRow& row : model.registers->rows()) {
       for (int i = 0; i < row.count; ++i) image_.push_back(static_cast<std::uint32_t>(row.factory));
     }
   }
-  RegisterBank* register_bank() override { return this; }
-  const RegisterBank* register_bank() const override { return this; }
   std::span<std::uint32_t> image() override { return image_; }
   std::span<const std::uint32_t> image() const override { return image_; }
   bool low_word_first() const override { return is_low_word_first; }

@@ -2,6 +2,9 @@
 // 100,000, a C signal at every multiple of 4,000; from 500 rpm the axis slows down within 833 pulses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/emulator/models/super_40nc/one_super40nc.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -54,6 +57,102 @@ TEST(Super40ncHoming, EndsWhereTheModeSays) {
       EXPECT_EQ(one.get("D8094"), 0);
     }
   }
+}
+
+// --- from everywhere, at two speeds, with one and with several C signals
+// ------------------------------------
+
+struct Search {
+  int mode;
+  int from;    // all places are in the direction of the search
+  int count;   // of C signals
+  double rpm;  // X21
+};
+struct Found {
+  double end = 0;
+  bool is_home = true;
+};
+
+/// By the manual's words alone. Ramps are as long up as down: whoever has come less far than a whole ramp
+/// when he begins to slow down, goes as far again.
+Found by_hand(const Search& search) {
+  const double slope = 5000 * 4000 / 60.0 / 0.5;
+  const double speed = search.rpm * 4000 / 60;
+  const double ramp = speed * speed / (2 * slope);
+  constexpr double kDog = 50'000, kDogEnd = 70'000, kLimit = 99'000, kIndex = 4000;
+  const double others = kIndex * (search.count - 1);
+  const auto behind = [&](double at, double from) { return at + std::min(ramp, at - from); };
+  const auto before = [&](double at, double from) { return at - std::min(ramp, from - at); };
+  const auto index_below = [&](double at) { return std::ceil(at / kIndex - 1) * kIndex; };
+  double from = search.from;
+  const bool is_by_limit = (search.mode >= 6 && search.mode <= 8) || search.mode == 12;
+  if (from >= kLimit && !is_by_limit) return {from, false};  // it does not start
+  if (is_by_limit) {
+    const double turns_at = from >= kLimit ? from : behind(kLimit, from);
+    const double index = index_below(turns_at) - others;
+    if (search.mode == 6) return {kLimit - 1};
+    // The way back to it is barred beyond the limit.
+    if (search.mode == 12) return {index, index < kLimit};
+    return {search.mode == 8 ? before(index, turns_at) : index};
+  }
+  if (from > kDogEnd) return {kLimit, false};
+  while (from >= kDog) from -= 5;  // X25
+  const double turns_at = behind(kDog, from);
+  const double index_on_dog = index_below(kDog + kIndex) + others;
+  const double index_below_it = index_below(turns_at) - others;
+  const bool is_off_again = turns_at > kDogEnd;
+  switch (search.mode) {
+    case 0: return {turns_at};
+    case 1: return {kDog, !is_off_again};
+    case 2:
+    case 10: return {index_on_dog};
+    case 3: return {behind(index_on_dog, from)};
+    case 4:
+    case 11: return {index_below_it, !is_off_again};
+    case 5: return {before(index_below_it, turns_at), !is_off_again};
+    default: return {kDog};  // 9
+  }
+}
+
+TEST(Super40ncHoming, EndsAlikeFromEverywhere) {
+  for (int mode = 0; mode <= 12; ++mode) {
+    const bool is_by_ramp = mode == 0 || mode == 3 || mode == 5 || mode == 8;
+    for (const int from : {-99'000, 0, 49'990, 50'000, 61'234, 69'990, 75'000, 99'000}) {
+      for (const int count : {1, 3}) {
+        for (const double rpm : {300.0, 3000.0}) {
+          const int way = (from / 10 + mode + count) % 2 == 0 ? +1 : -1;
+          const Found expected = by_hand({mode, from, count, rpm});
+          OneSuper40nc one(machine(way, way * from));
+          prepare(one, mode, way);
+          one.set("D9122", count - 1);
+          one.set("D9179", static_cast<Value>(rpm));
+          one.press("M8105");
+          for (int looks = 0; looks < 300 && one.on("M8197"); ++looks) one.run(200);
+          const std::string which = "mode " + std::to_string(mode) + " from " + std::to_string(way * from) +
+                                    ", C " + std::to_string(count) + ", rpm " + std::to_string(rpm);
+          EXPECT_EQ(one.on("M8195"), expected.is_home) << which;
+          EXPECT_EQ(one.get("D8094"), expected.is_home ? 0 : 15) << which;
+          if (!expected.is_home && expected.end != 99'000) continue;  // it stands wherever it has stopped
+          EXPECT_NEAR(static_cast<double>(one.get("D8140")), way * (expected.end - from),
+                      is_by_ramp ? 1 + rpm / 500 : 0)
+              << which;
+        }
+      }
+    }
+  }
+}
+
+/// The manual's second example (《X32.》): downwards, by the DOG's edge, which is shown as -100.000.
+TEST(Super40ncHoming, SecondExampleShowsItsPlace) {
+  OneSuper40nc one(machine(-1));
+  one.set("D9121", 1);
+  one.set("D9181", 1);
+  one.set("D9182", -100'000);
+  one.press("M8105");
+  one.run_while("M8197");
+  EXPECT_TRUE(one.on("M8195"));
+  EXPECT_EQ(one.get("D8117"), -100'000);
+  EXPECT_EQ(one.get("D8140"), -100'000);
 }
 
 TEST(Super40ncHoming, LeavesTheDogFirst) {

@@ -301,5 +301,31 @@ TEST(Super40ncPrograms, ASnapshotGoesOnAsTheOriginal) {
   }
 }
 
+/// What a snapshot was made with runs behind it, whatever has been loaded since.
+TEST(Super40ncPrograms, ARestoredSnapshotHasItsOwnPrograms) {
+  const auto program = [](int number) {
+    const std::string text = std::to_string(number);
+    return "AREA C\nMOV K" + text + " D1\nEND\nAREA PLC\nLD M8003\nMOV K" + text + " D2\nEND\n";
+  };
+  OneSuper40nc one({.program = program(1)});
+  const auto first = one.device().save_state();
+  one.it().load_program(program(2));
+  const auto second = one.device().save_state();
+  const auto expect_program = [&](int number) {
+    one.set("M8000", 1);
+    one.run(3);
+    EXPECT_EQ(one.get("D1"), number);
+    EXPECT_EQ(one.get("D2"), number);
+  };
+  expect_program(2);
+  for (const int number : {1, 2, 2, 1, 1}) {
+    one.device().restore_state(number == 1 ? first : second);
+    expect_program(number);
+  }
+  one.it().load_program("AREA C\nEND\nAREA PLC\nEND\n");
+  one.device().restore_state(first);
+  expect_program(1);
+}
+
 }  // namespace programs_test
 }  // namespace understudy::emulator::models::super_40nc

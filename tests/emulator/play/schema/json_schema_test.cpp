@@ -78,6 +78,24 @@ TEST(JsonSchema, RefusesBenchesOfAnotherForm) {
   }
 }
 
+// Blocks of text that a memory begins with, by kind and name.
+TEST(JsonSchema, KnowsBlocksOfAMemory) {
+  const auto with_nv = [](const std::string& model, const std::string& nv) {
+    return "understudy: 1\nlines: { a: { stations: [ { name: x, model: " + model + ", nv: " + nv +
+           " } ] } }\n";
+  };
+  const std::string taken =
+      with_nv("super-40nc", "{ D500: 5, recipes: { '01': \"D501 7\\n\", '02': \"\" } }");
+  EXPECT_EQ(of_bench(taken), "");
+  EXPECT_NO_THROW(world::parse(taken));
+  for (const std::string& bad : {with_nv("super-40nc", "{ recipes: { '01': [ D501 7 ] } }"),
+                                 with_nv("super-40nc", "{ recipes: { '01': { D501: 7 } } }"),
+                                 with_nv("super-40nc", "{ recipes: [ a ] }")}) {
+    EXPECT_NE(of_bench(bad), "") << bad;
+    EXPECT_THROW(world::parse(bad), FileError) << bad;
+  }
+}
+
 TEST(JsonSchema, RefusesScenariosOfAnotherForm) {
   const ScenarioFolder folder;
   for (const std::string step : {"- advance",

@@ -22,11 +22,13 @@
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/device/device.h"
+#include "emulator/device/device_of.h"
 #include "emulator/device/memory/kept_memory.h"
 #include "emulator/device/named_values.h"
 #include "emulator/device/program_language.h"
 #include "emulator/device/terminals.h"
-#include "emulator/device/text/text_device.h"
+#include "emulator/device/text/text_port.h"
+#include "emulator/device/text/text_speaker.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/models.h"
 #include "emulator/world/bench/bench.h"
@@ -70,22 +72,15 @@ inline constexpr CommandRow kEchoCommands[] = {
 inline constexpr TerminalRow kEchoTerminals[] = {{TerminalRow::Kind::digital_in, "IN_1"},
                                                  {TerminalRow::Kind::digital_out, "OUT_1"}};
 
-class EchoBox final : public TextDevice,
+class EchoBox final : public DeviceOf<EchoBox>,
+                      public TextSpeaker,
                       public NamedValues,
                       public KeptMemory,
                       public UserProgram,
                       public Terminals {
  public:
   EchoBox(const Model& model, const DeviceSettings& settings)
-      : TextDevice(model, settings), KeptMemory(model.name, settings.firmware) {}
-
-  NamedValues* named_values() override { return this; }
-  const NamedValues* named_values() const override { return this; }
-  KeptMemory* memory() override { return this; }
-  const KeptMemory* memory() const override { return this; }
-  UserProgram* user_program() override { return this; }
-  const UserProgram* user_program() const override { return this; }
-  const Terminals* terminals() const override { return this; }
+      : DeviceOf(model, settings), KeptMemory(model.name, settings.firmware) {}
 
   // --- the dialogue ----------------------------------------------------------------------------
   TextRules text_rules() const override { return {.echo = state_.echo, .longest_line = 20}; }
@@ -194,10 +189,12 @@ class EchoBox final : public TextDevice,
   std::string own_difference(StateReader& a, StateReader& b) const override {
     return difference_of_saved<EchoState>(a, b);
   }
-  void write_memory(NvImage& image) const override {
-    if (state_.n0 != 0) image.registers.emplace_back("N0", state_.n0);
-    if (state_.r0 != 0) image.reals.emplace_back("R0", state_.r0);
-    image.program = state_.program;
+  std::function<void(NvImage&)> memory_writer() const override {
+    return [state = state_](NvImage& image) {
+      if (state.n0 != 0) image.registers.emplace_back("N0", state.n0);
+      if (state.r0 != 0) image.reals.emplace_back("R0", state.r0);
+      image.program = state.program;
+    };
   }
   void read_memory(const NvImage& image) override {
     EchoState state;

@@ -1,0 +1,44 @@
+// What a device of type `Itself` derives from, beside its facets: whoever asks it for a facet gets the device
+// if it derives from that facet, and null if it does not. (Where a facet is a part of the device instead, the
+// device overrides the question.)
+#pragma once
+
+#include <type_traits>
+
+#include "emulator/device/device.h"
+
+namespace understudy::emulator {
+
+template <typename Itself>
+class DeviceOf : public Device {
+ public:
+  using Device::Device;
+
+  RegisterBank* register_bank() override { return facet<RegisterBank>(*this); }
+  const RegisterBank* register_bank() const override { return facet<const RegisterBank>(*this); }
+  ModbusStation* modbus() override { return facet<ModbusStation>(*this); }
+  const ModbusStation* modbus() const override { return facet<const ModbusStation>(*this); }
+  TextSpeaker* speaker() override { return facet<TextSpeaker>(*this); }
+  const TextSpeaker* speaker() const override { return facet<const TextSpeaker>(*this); }
+  NamedValues* named_values() override { return facet<NamedValues>(*this); }
+  const NamedValues* named_values() const override { return facet<const NamedValues>(*this); }
+  KeptMemory* memory() override { return facet<KeptMemory>(*this); }
+  const KeptMemory* memory() const override { return facet<const KeptMemory>(*this); }
+  UserProgram* user_program() override { return facet<UserProgram>(*this); }
+  const UserProgram* user_program() const override { return facet<const UserProgram>(*this); }
+  const Terminals* terminals() const override { return facet<const Terminals>(*this); }
+  Axes* axes() override { return facet<Axes>(*this); }
+  const Axes* axes() const override { return facet<const Axes>(*this); }
+
+ private:
+  template <typename Facet, typename Self>
+  static Facet* facet(Self& self) {
+    if constexpr (std::is_base_of_v<Facet, Itself>) {
+      return &static_cast<std::conditional_t<std::is_const_v<Self>, const Itself, Itself>&>(self);
+    } else {
+      return nullptr;
+    }
+  }
+};
+
+}  // namespace understudy::emulator

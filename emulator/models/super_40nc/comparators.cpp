@@ -1,0 +1,169 @@
+// The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48). By COUNTER1 the chip's stop it to the
+// pulse: as soft limits (6), = (1), set > count (4) and set < count (5). By other numbers, or on the way up
+// (2) or down (3) alone, they do so when a tick is over.
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+#include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/settings.h"
+#include "motion/axis.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+struct ComparatorRow {
+  Kept source, method, action, value;
+};
+constexpr std::array<ComparatorRow, kComparators> kComparatorRows{
+    {{kept_x(31), kept_x(32), kept_x(33), kept_d(8144)},
+     {kept_x(35), kept_x(36), kept_x(37), kept_d(8145)},
+     {kept_x(39), kept_x(40), kept_x(41), kept_d(8146)},
+     {kept_x(43), kept_x(44), kept_x(45), kept_d(8147)},
+     {kept_x(46), kept_x(47), kept_x(48), kept_d(8148)}}};
+
+enum Method : Value { kEqual = 1, kEqualUpwards, kEqualDownwards, kSetAbove, kSetBelow, kSoftLimit };
+constexpr Value kByRamp = 2;
+
+bool stops(Value action) { return action == 1 || action == kByRamp; }
+
+motion::Comparator::Relation relation_of(Value method) {
+  using Relation = motion::Comparator::Relation;
+  switch (method) {
+    case kEqual: return Relation::equal;
+    case kSetAbove: return Relation::below;
+    case kSetBelow: return Relation::at_least;
+    default: return Relation::off;
+  }
+}
+
+/// Whether a number that went from one value to another has met the condition on its way.
+bool is_met(Value method, std::int64_t before, std::int64_t present, std::int64_t set) {
+  const bool upwards = before < set && set <= present;
+  const bool downwards = before > set && set >= present;
+  switch (method) {
+    case kEqual: return upwards || downwards;
+    case kEqualUpwards: return upwards;
+    case kEqualDownwards: return downwards;
+    case kSetAbove: return set > present && !(set > before);
+    case kSetBelow: return set < present && !(set < before);
+    default: return false;
+  }
+}
+
+}  // namespace
+
+/// What it compares.
+std::int64_t Super40nc::compared_number(int number, std::size_t which) const {
+  switch (registers().of(kComparatorRows[which].source, number)) {
+    case 0: return counter(number, 0);
+    case 1: return counter(number, 1);
+    case 2: return std::abs(std::int64_t{counter(number, 2)});
+    case 3: return counter(number, 3);
+    case 4: return remaining_pulses(number);
+    default: return chip_speed(number);
+  }
+}
+
+bool Super40nc::comparator_holds(int number, int which) const {
+  const ComparatorRow& its = kComparatorRows[static_cast<std::size_t>(which)];
+  const Settings settings = registers();
+  const std::int32_t value = settings.raw(its.value, number);
+  const std::int64_t present = compared_number(number, static_cast<std::size_t>(which));
+  const int way = chip(number).last_direction;
+  switch (settings.of(its.method, number)) {
+    case kEqual: return present == value;
+    case kEqualUpwards: return present == value && way > 0;
+    case kEqualDownwards: return present == value && way < 0;
+    case kSetAbove: return value > present;
+    case kSetBelow: return value < present;
+    case kSoftLimit: return which == 0 ? present > value : which == 1 && present < value;
+    default: return false;
+  }
+}
+
+void Super40nc::set_comparators(int number) {
+  const Settings its = registers();
+  motion::Axis& motor = chip(number);
+  AxisState& state = axis(number);
+  std::size_t next = 0;
+  state.compares_by_tick = 0;
+  for (std::size_t which = 0; which < kComparators; ++which) {
+    const ComparatorRow& row = kComparatorRows[which];
+    const Value method = its.of(row.method, number);
+    const Value action = its.of(row.action, number);
+    if (!stops(action) || method == 0) continue;
+    const bool is_by_pulses = its.of(row.source, number) == 0;
+    if (is_by_pulses && method == kSoftLimit) continue;  // the axis' own
+    const motion::Comparator::Relation relation = relation_of(method);
+    if (!is_by_pulses || relation == motion::Comparator::Relation::off || next == motor.comparators.size()) {
+      state.compares_by_tick = static_cast<std::uint8_t>(state.compares_by_tick | 1U << which);
+      continue;
+    }
+    set_comparator(number, next++,
+                   {.relation = relation,
+                    .reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down,
+                    .counter = state.command,
+                    .value = its.raw(row.value, number) + (method == kSetBelow ? 1 : 0)});
+  }
+  while (next < motor.comparators.size()) set_comparator(number, next++, {});
+  see_counters(number);
+}
+
+/// The same again changes nothing.
+void Super40nc::set_comparator(int number, std::size_t place, motion::Comparator wanted) {
+  const motion::Comparator& present = chip(number).comparators[place];
+  wanted.was_true = present.was_true;
+  if (wanted.relation == motion::Comparator::Relation::off && present.relation == wanted.relation) return;
+  if (wanted != present) chip(number).set_comparator(place, wanted);
+}
+
+/// A number that was written has met nothing on its way.
+void Super40nc::see_counters(int number) {
+  AxisState& state = axis(number);
+  for (std::size_t which = 0; which < kComparators; ++which) {
+    if ((state.compares_by_tick >> which & 1U) == 0) continue;
+    state.compared[which] = compared_number(number, which);
+  }
+}
+
+/// At the end of a tick.
+void Super40nc::compare_counters(int number) {
+  AxisState& state = axis(number);
+  if (state.compares_by_tick == 0) return;
+  const Settings its = registers();
+  for (std::size_t which = 0; which < kComparators; ++which) {
+    if ((state.compares_by_tick >> which & 1U) == 0) continue;
+    const ComparatorRow& row = kComparatorRows[which];
+    const std::int64_t before = state.compared[which];
+    const std::int64_t present = compared_number(number, which);
+    state.compared[which] = present;
+    if (!chip(number).moving()) continue;
+    const bool by_ramp = its.of(row.action, number) == kByRamp;
+    const Value method = its.of(row.method, number);
+    if (method == kSoftLimit) {
+      const int way = which == 0 ? +1 : -1;
+      if (which > 1 || chip(number).last_direction != way ||
+          !comparator_holds(number, static_cast<int>(which)))
+        continue;
+      const motion::Cause why = way > 0 ? motion::Cause::soft_limit_plus : motion::Cause::soft_limit_minus;
+      stop_by_comparator(number, by_ramp, why);
+    } else if (is_met(method, before, present, its.raw(row.value, number))) {
+      stop_by_comparator(number, by_ramp, motion::Cause::comparator);
+    }
+  }
+}
+
+void Super40nc::stop_by_comparator(int number, bool by_ramp, motion::Cause why) {
+  state_.touched = true;
+  if (is_on_path(number)) {
+    if (by_ramp) return state_.path.slow_down(now(), why);
+    state_.path.stop(state_.chips, why);
+    return path_ended();
+  }
+  by_ramp ? chip(number).slow_down(now(), why) : chip(number).stop(why);
+}
+
+}  // namespace understudy::emulator::models::super_40nc

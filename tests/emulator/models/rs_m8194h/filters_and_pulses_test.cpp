@@ -1,0 +1,76 @@
+// The filter of the EMG input, pulses at OUT_X that last, the switch INIT, and Pause (3.14, 7.3.9, 14.1, 10).
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "tests/emulator/models/rs_m8194h/one_rsm.h"
+
+namespace understudy::emulator::models::rs_m8194h {
+namespace filters_and_pulses_test {
+
+TEST(RsM8194hFilters, EmgGoesThroughThatOfEachAxis) {
+  // FLn 5 is 4.096 ms, for X alone.
+  for (const int lasts : {3, 20}) {
+    OneRsm rsm;
+    rsm.send({"RSM_SET_FILTER X 1 5", "RSM_CONTINUE_MOVE XY 1000"});
+    rsm.run(10);
+    rsm.input(kEmergencyPin, true);
+    rsm.run(2);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), 1) << "Y stops at once";
+    EXPECT_EQ(rsm.get("DI_ALL_X") & 8, 0);
+    EXPECT_EQ(rsm.get("DI_ALL_Y") & 8, 8);
+    rsm.run(lasts - 2);
+    rsm.input(kEmergencyPin, false);
+    rsm.run(20);
+    EXPECT_EQ(rsm.get("DRIVING_AXIS"), lasts == 3 ? 1 : 0);
+    EXPECT_EQ(rsm.get("ERROR_CODE_X"), lasts == 3 ? 0 : 0x20);
+  }
+}
+
+TEST(RsM8194hPulses, LastAsLongAsPulseWidthSays) {
+  constexpr std::pair<int, Tick> kWidths[] = {{0, 0}, {3, 0}, {4, 1}, {5, 2}, {6, 10}, {7, 20}};
+  for (const auto& [code, ticks] : kWidths) {
+    for (const int level : {0, 1}) {
+      OneRsm rsm;
+      rsm.send("RSM_SET_OUT X " + std::to_string(level) + " " + std::to_string(code));
+      rsm.send({"RSM_SYNC_ACTION X X 0x20 0 0 0 1 0 0 0 0 0", "RSM_SET_V X 1000", "RSM_FIXED_MOVE X 5"});
+      const bool at_rest = level == 0;
+      EXPECT_EQ(rsm.rsm().output(kFirstOut), at_rest);
+      Tick active = 0;
+      for (int i = 0; i < 300; ++i) {
+        rsm.run(1);
+        active += rsm.rsm().output(kFirstOut) != at_rest ? 1 : 0;
+      }
+      EXPECT_EQ(active, ticks) << code;
+      EXPECT_EQ(rsm.rsm().output_pulses(kFirstOut), 1);
+    }
+  }
+}
+
+TEST(RsM8194hInit, IsAsPowerUpHasFoundIt) {
+  OneRsm rsm({.program = "MP 1\nRSM_MACRO_SET_VAR VAR1 1\nEND\nTRIGGER 8.0 on MP1\n"});
+  rsm.set("FRNET_EVENT", 1);
+  rsm.input(kInitSwitch, true);
+  rsm.run(10);
+  EXPECT_FALSE(rsm.rsm().is_deaf());
+  rsm.world().switch_power(0, false);
+  rsm.run(10);
+  rsm.world().switch_power(0, true);
+  rsm.input(kFirstDi, true);
+  rsm.run(20);
+  EXPECT_TRUE(rsm.rsm().is_deaf());
+  EXPECT_EQ(rsm.rsm().addressing(1), Addressing::ignore);
+  EXPECT_EQ(rsm.get("VAR1"), 0);
+  rsm.input(kInitSwitch, false);
+  rsm.run(10);
+  EXPECT_TRUE(rsm.rsm().is_deaf());
+  rsm.world().switch_power(0, false);
+  rsm.run(10);
+  rsm.world().switch_power(0, true);
+  rsm.run(20);
+  EXPECT_FALSE(rsm.rsm().is_deaf());
+  EXPECT_EQ(rsm.get("VAR1"), 1);
+}
+
+}  // namespace filters_and_pulses_test
+}  // namespace understudy::emulator::models::rs_m8194h

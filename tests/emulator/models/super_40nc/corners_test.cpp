@@ -1,0 +1,235 @@
+// Where things meet: what is ON at a start, numbers beyond what the chip or the box has room for, and which
+// line an error tells of.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/emulator/models/super_40nc/one_super40nc.h"
+
+namespace understudy::emulator::models::super_40nc {
+namespace corners_test {
+
+/// 65,535 steps of the chip's greatest multiplier, 100 (6.55 Mpps in print).
+TEST(Super40ncCorners, NoMotionIsFasterThanTheChip) {
+  OneSuper40nc one({.set = {{"D9003", 1}}, .program = "AREA C\nF K9999999\nLIN K90000000\nEND"});
+  one.set("D9170", 131072);
+  one.set("D9175", 10000);
+  one.set("D9196", 9999);
+  one.set("D8022", 2);
+  one.set("M8103", 1);
+  one.run(1000);
+  EXPECT_DOUBLE_EQ(one.device().axes()->speed_pps(0), 6553500);
+  EXPECT_EQ(one.get("D8170"), 65535);
+  one.press("M8102");
+  one.set("D8117", 0);
+  one.press("M8000");
+  one.run(1000);
+  EXPECT_LE(one.device().axes()->speed_pps(0), 6553500);
+}
+
+TEST(Super40ncCorners, TheStationIsOneOfSixteen) {
+  OneSuper40nc one({.set = {{"D9000", 0x1005}}});
+  EXPECT_EQ(one.ask(OneSuper40nc::kRs232, "05 01 00 00 00 01"), "");
+  EXPECT_EQ(one.ask(OneSuper40nc::kRs232, "0F 01 00 00 00 01"), "0F 01 01 00");
+}
+
+TEST(Super40ncCorners, AFileHasTheRoomOfD9042) {
+  const std::string file = "FILE 1\nLIN K1\nLIN K2\nEND\n";  // 9 steps
+  OneSuper40nc one({.program = file});
+  const auto text = [&] { return one.device().user_program()->program_text(); };
+  one.set("D9045", 8);
+  EXPECT_EQ(one.get("D9042"), 8);
+  one.set("D9001", 1);
+  EXPECT_EQ(one.get("D8094"), 10);
+  EXPECT_EQ(text().find("AREA C"), std::string::npos);
+  one.set("D9001", 0);
+  EXPECT_NE(text().find("FILE 1"), std::string::npos);  // it is as it was
+  EXPECT_THROW(one.device().user_program()->load_program(file), ProgramError);
+  EXPECT_EQ(one.get("D8094"), 10);
+  one.set("D9045", 9);
+  EXPECT_NO_THROW(one.device().user_program()->load_program(file));
+  one.set("D9001", 1);
+  EXPECT_NE(text().find("AREA C"), std::string::npos);
+}
+
+/// By EA/EB, as from the factory: what comes out in a tick is counted in it.
+TEST(Super40ncCorners, AnEncoderIsNotBehind) {
+  world::PlantSetup plant;
+  plant.encoder_counts_per_revolution = 4000;
+  plant.pulses_per_revolution = 4000;
+  OneSuper40nc one({.plant = {{0, plant}}});
+  one.set("D9125", 1);  // COUNTER4 as well
+  one.set("M8103", 1);
+  for (int i = 0; i < 40; ++i) {
+    one.run(1);
+    ASSERT_EQ(one.get("D8141"), one.get("D8140"));
+    ASSERT_EQ(one.get("D8142"), 0);
+    ASSERT_EQ(one.get("D8143"), one.get("D8140"));
+  }
+}
+
+/// As a single axis.
+TEST(Super40ncCorners, APathDoesNotBeginIntoALimit) {
+  struct Case {
+    const char* line;
+    const char* input;
+    const char* soft;  // D8x44, D8x45
+    Value code;        // 0: it begins
+  };
+  for (const auto& [line, input, soft, code] :
+       {Case{"LIN K1000 K1000", "X1", "", 11}, Case{"LIN K1000 K1000", "X5", "", 0},
+        Case{"LIN K1000 K-1000", "X5", "", 12}, Case{"LIN K-1000 K1000", "X1", "", 0},
+        Case{"CW K2000 K0 K1000 K0", "X4", "", 11}, Case{"CCW K2000 K0 K1000 K0", "X4", "", 0},
+        Case{"LIN K1000 K1000", "", "D8144", 13}, Case{"LIN K-1000 K1000", "", "D8144", 0}}) {
+    OneSuper40nc one(
+        {.set = {{"D9003", 2}, {"D9016", 0}}, .program = std::string("AREA C\nNOP\n") + line + "\nEND"});
+    if (*input != 0) one.input(input, 1);
+    if (*soft != 0) one.set(soft, -1);
+    one.run(2);
+    one.set("M8000", 1);
+    one.run(2);
+    EXPECT_EQ(one.on("M8120"), code == 0) << line << ' ' << input;
+    EXPECT_EQ(one.on("M8000"), code == 0) << line << ' ' << input;
+    EXPECT_EQ(one.get("D8094"), code) << line << ' ' << input;
+    EXPECT_EQ(one.get("D8095"), code == 0 ? 0 : 1) << line << ' ' << input;
+    if (code == 0) continue;
+    one.run(100);
+    EXPECT_EQ(one.get("D8140"), 0);
+    EXPECT_EQ(one.get("D8240"), 0);
+  }
+}
+
+/// "The signal resets the program": X33 and X34 are 0, as MRK wants them.
+TEST(Super40ncCorners, MrkWithoutADistanceMeetsItsSignal) {
+  for (const auto& [input, code] : {std::pair{"X1", 11}, std::pair{"X2", 0}}) {
+    OneSuper40nc one({.set = {{"D9163", 0}, {"D9164", 0}}, .program = "AREA X\nMRK K100000\nEND"});
+    one.set("M8100", 1);
+    one.run(50);
+    one.input(input, 1);
+    one.run(2);
+    EXPECT_EQ(one.get("D8094"), code) << input;
+    EXPECT_EQ(one.on("M8100"), code == 0) << input;
+    one.press("M8102");
+    one.input(input, 1);
+    one.set("M8103", 1);  // and is none again
+    one.run(5);
+    EXPECT_TRUE(one.on("M8120")) << input;
+  }
+}
+
+TEST(Super40ncCorners, NothingRunsBehindAnEmergencyStop) {
+  for (const auto& [area, contact, start] :
+       {std::array{"C", "M8002", "M8000"}, std::array{"X", "M8002", "M8100"},
+        std::array{"X", "M8102", "M8100"}}) {
+    OneSuper40nc one(
+        {.program = std::string("AREA ") + area + "\nSET Y10\nSET " + contact + "\nSET Y11\nEND"});
+    one.set(start, 1);
+    one.run(5);
+    EXPECT_TRUE(one.output("Y10"));
+    EXPECT_FALSE(one.output("Y11")) << area << ' ' << contact;
+    EXPECT_FALSE(one.on(start));
+    EXPECT_EQ(one.get("D8000"), 0);
+    EXPECT_EQ(one.get("D8100"), 0);
+  }
+}
+
+TEST(Super40ncCorners, AJogOfThePlcTellsItsLine) {
+  for (const auto& [input, line, code] : {std::tuple{"X1", 3501, 11}, std::tuple{"X2", 3503, 12}}) {
+    OneSuper40nc one({.program = "AREA PLC\nLD M1\nPJG K1\nLD M2\nMJG K1\nEND"});
+    one.input(input, 1);
+    one.run(2);
+    one.set(code == 11 ? "M1" : "M2", 1);
+    one.run(3);
+    EXPECT_EQ(one.get("D8094"), code);
+    EXPECT_EQ(one.get("D8095"), line);
+  }
+}
+
+/// Only the start of a program, or of a motion by hand, clears it.
+TEST(Super40ncCorners, ALineLeavesTheErrorOfAnother) {
+  OneSuper40nc one({.program = "AREA X\nDIV K1 K0 D0\nDRV K100\nEND"});
+  one.set("M8100", 1);
+  one.run(10);
+  EXPECT_TRUE(one.on("M8120"));
+  EXPECT_EQ(one.get("D8094"), 8);
+  EXPECT_EQ(one.get("D8095"), 1500);
+  one.run(500);
+  one.press("M8103");
+  EXPECT_EQ(one.get("D8094"), 0);
+}
+
+/// By what the chip's comparators do not watch: when the tick is over that has brought it about.
+TEST(Super40ncCorners, ComparatorsSeeEveryNumber) {
+  struct Case {
+    Value source;
+    Value method;
+    const char* contact;  // of the jog
+    Value value;
+    bool stops;
+  };
+  for (const auto& [source, method, contact, value, stops] :
+       {Case{1, 1, "M8103", 500, true}, Case{1, 2, "M8103", 500, true}, Case{1, 3, "M8103", 500, false},
+        Case{1, 3, "M8104", -500, true}, Case{1, 2, "M8104", -500, false}, Case{1, 5, "M8103", 500, true},
+        Case{1, 4, "M8104", -500, true}, Case{3, 1, "M8103", 500, true}, Case{0, 2, "M8103", 500, true},
+        Case{0, 3, "M8103", 500, false}, Case{0, 3, "M8104", -500, true}}) {
+    OneSuper40nc one({.set = {{"D9123", 1},  // COUNTER2: pulses
+                              {"D9139", source},
+                              {"D9140", method},
+                              {"D9141", 1},
+                              {"D8146", value}}});
+    one.set("D8146", value);
+    one.set(contact, 1);
+    one.run(1000);
+    const std::string where = std::to_string(source) + " by " + std::to_string(method);
+    EXPECT_EQ(one.on("M8120"), !stops) << where;
+    EXPECT_EQ(one.get("D8094"), stops ? 23 : 0) << where;
+    constexpr Value kPulsesOfATick = 4;  // 50 rpm
+    if (stops) {
+      EXPECT_LE(std::abs(one.get("D8140") - value), kPulsesOfATick + 1) << where;
+    }
+  }
+}
+
+TEST(Super40ncCorners, EachSoftLimitStopsInItsOwnWay) {
+  OneSuper40nc one({.set = {{"D9185", 500}, {"D9186", -500}, {"D9133", 1}, {"D9137", 2}}});
+  one.set("D9196", 3000);
+  one.set("D8022", 2);
+  one.set("M8103", 1);
+  one.run(2000);
+  EXPECT_EQ(one.get("D8140"), 501);
+  one.set("M8103", 0);
+  one.run(1);
+  one.set("M8104", 1);
+  one.run(2000);
+  EXPECT_LT(one.get("D8140"), -600);
+  EXPECT_EQ(one.get("D8094"), 14);
+}
+
+TEST(Super40ncCorners, WhatIsOnAtPowerUpIsNoEdge) {
+  world::PlantSetup plant;
+  plant.home = world::PulseSpan{-50, 50};
+  OneSuper40nc one({.plant = {{0, plant}},
+                    .program = "AREA PLC\nLDP X0\nSET Y10\nLDP M8142\nSET Y11\nLD M8142\nOUT Y12\nEND"});
+  for (const bool again : {false, true}) {
+    if (again) one.world().switch_power(0, false);
+    if (again) one.run(5);
+    if (again) one.world().switch_power(0, true);
+    one.run(10);
+    EXPECT_FALSE(one.output("Y10")) << again;
+    EXPECT_FALSE(one.output("Y11")) << again;
+    EXPECT_TRUE(one.output("Y12")) << again;
+  }
+}
+
+/// M8514 as the HOME key has that one's digit.
+TEST(Super40ncCorners, TheOriginKeyObeysItsLock) {
+  for (const auto& [mask, homes] : {std::pair{0, true}, std::pair{100000, false}, std::pair{1000, true}}) {
+    OneSuper40nc one({.set = {{"D9199", 1}, {"D9025", mask}}, .choices = {{"m8514_meaning", "home"}}});
+    one.press("M8514");
+    EXPECT_EQ(one.on("M8197"), homes) << mask;
+  }
+}
+
+}  // namespace corners_test
+}  // namespace understudy::emulator::models::super_40nc
