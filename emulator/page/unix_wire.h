@@ -3,12 +3,12 @@
 
 #include <sys/un.h>
 
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -32,7 +32,7 @@ class UnixWire final : public ControlWire {
  private:
   struct Link : std::enable_shared_from_this<Link> {
     Link(boost::asio::io_context& io, std::string to, std::size_t most)
-        : socket(io), path(std::move(to)), input(most) {}
+        : socket(io), path(std::move(to)), longest(most) {}
 
     void ask(std::string message, Answered answered) {
       asked.push_back({std::move(message) + "\n", std::move(answered)});
@@ -63,13 +63,12 @@ class UnixWire final : public ControlWire {
 
     void read() {
       boost::asio::async_read_until(
-          socket, input, '\n',
+          socket, boost::asio::dynamic_buffer(input, longest), '\n',
           [self = shared_from_this()](boost::system::error_code error, std::size_t count) {
             if (self->is_over) return;
             if (error) return self->fail();
-            const auto* const bytes = static_cast<const char*>(self->input.data().data());
-            std::string reply(bytes, count - 1);
-            self->input.consume(count);
+            std::string reply = self->input.substr(0, count - 1);
+            self->input.erase(0, count);
             const Answered answered = std::move(self->asked.front().answered);
             self->asked.pop_front();
             if (!self->asked.empty()) self->write();
@@ -83,7 +82,7 @@ class UnixWire final : public ControlWire {
       boost::system::error_code ignored;
       socket.close(ignored);
       is_connected = false;
-      input.consume(input.size());
+      input.clear();
       boost::asio::post(socket.get_executor(),
                         [self = shared_from_this(), failed = std::exchange(asked, {})] {
                           for (const Asked& one : failed) {
@@ -107,7 +106,8 @@ class UnixWire final : public ControlWire {
                                      boost::asio::io_context::executor_type>
         socket;
     std::string path;
-    boost::beast::flat_buffer input;
+    std::size_t longest;
+    std::string input;
     std::deque<Asked> asked;
     bool is_connected = false;
     bool is_over = false;

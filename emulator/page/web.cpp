@@ -131,6 +131,7 @@ class Web::Inside::Browser : public std::enable_shared_from_this<Browser> {
     socket_.set_option(timeout);
     socket_.set_option(
         websocket::stream_base::decorator([](websocket::response_type& response) { set_policy(response); }));
+    socket_.auto_fragment(false);  // a message is a frame
     socket_.read_message_max(inside_.limits.message_bytes);
     socket_.async_accept(request, [self = shared_from_this()](Error error) {
       if (error) return;
