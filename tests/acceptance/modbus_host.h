@@ -39,6 +39,7 @@ struct HostSetup {
 };
 
 using Registers = std::vector<std::uint16_t>;
+using Bits = std::vector<std::uint8_t>;  // 0 or 1 each
 
 /// A libmodbus context, connected. What fails gives no registers or false, and leaves its errno in error().
 class ModbusHost {
@@ -61,6 +62,15 @@ class ModbusHost {
   Registers read(int address, int count = 1) { return read_with(modbus_read_registers, address, count); }
   Registers read_input(int address, int count = 1) {
     return read_with(modbus_read_input_registers, address, count);
+  }
+  /// Coils, or discrete inputs.
+  Bits read_coils(int address, int count = 1) { return read_bits_with(modbus_read_bits, address, count); }
+  Bits read_inputs(int address, int count = 1) {
+    return read_bits_with(modbus_read_input_bits, address, count);
+  }
+  bool write_coils(int address, const Bits& bits) {
+    const int count = static_cast<int>(bits.size());
+    return note(modbus_write_bits(context_.get(), address, count, bits.data())) == count;
   }
   bool write(int address, int value) {
     return note(modbus_write_register(context_.get(), address, static_cast<std::uint16_t>(value))) == 1;
@@ -109,6 +119,12 @@ class ModbusHost {
   }
   Registers read_with(int (*function)(modbus_t*, int, int, std::uint16_t*), int address, int count) {
     Registers values(static_cast<std::size_t>(count));
+    if (note(function(context_.get(), address, count, values.data())) != count) values.clear();
+    return values;
+  }
+
+  Bits read_bits_with(int (*function)(modbus_t*, int, int, std::uint8_t*), int address, int count) {
+    Bits values(static_cast<std::size_t>(count));
     if (note(function(context_.get(), address, count, values.data())) != count) values.clear();
     return values;
   }
