@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -11,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace understudy {
 
@@ -20,7 +20,9 @@ constexpr std::size_t kLongestWord = 64;  // no name is longer, and the work gro
 constexpr std::size_t kLeastBeginning = 3;
 constexpr std::size_t kMostListed = 8;
 
-char small(char letter) { return static_cast<char>(std::tolower(static_cast<unsigned char>(letter))); }
+constexpr char small(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
 
 std::string small(std::string_view text) {
   std::string letters(text);
@@ -53,6 +55,16 @@ std::size_t least_distance(std::string_view a, std::uint64_t letters_of_a, std::
 /// Levenshtein's distance, where two neighbours that are swapped count once; `limit` if it is at least that.
 /// A row is about a longer and longer beginning of `b`; each of its cells about one of `a`, in small letters.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
+  // What both begin with, and what both end with, changes nothing: names of one family share much.
+  const auto is_same = [](char x, char y) { return x == small(y); };
+  const auto beginning = static_cast<std::size_t>(std::ranges::mismatch(a, b, is_same).in1 - a.begin());
+  a.remove_prefix(beginning);
+  b.remove_prefix(beginning);
+  while (!a.empty() && !b.empty() && is_same(a.back(), b.back())) {
+    a.remove_suffix(1);
+    b.remove_suffix(1);
+  }
+  if (a.empty() || b.empty()) return std::min(std::max(a.size(), b.size()), limit);
   using Row = std::array<std::size_t, kLongestWord + 1>;
   std::array<Row, 3> rows;
   Row* row = &rows[0];
@@ -83,6 +95,15 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
   return std::min((*row)[a.size()], limit);
 }
 
+/// The first known word that is longer than this one, and begins with it.
+std::optional<std::string> beginning_of(const std::string& written, std::span<const std::string> known) {
+  if (written.size() < kLeastBeginning) return std::nullopt;
+  const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
+    return begins_with(candidate, written);
+  });
+  return longer == known.end() ? std::nullopt : std::optional(*longer);
+}
+
 }  // namespace
 
 std::optional<std::string> near_word(std::string_view word, std::span<const std::string> known) {
@@ -90,21 +111,30 @@ std::optional<std::string> near_word(std::string_view word, std::span<const std:
   const std::string written = small(word);
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
   const std::uint64_t letters = letters_of(written);
+  std::vector<std::size_t> bounds;  // what each differs by at least
+  bounds.reserve(known.size());
+  for (const std::string& candidate : known) bounds.push_back(least_distance(written, letters, candidate));
+  const auto limit_of = [&](const std::string& candidate) {
+    return std::min(least, candidate.size());  // something of a short one must be left
+  };
+  if (!known.empty()) {
+    // The most alike first: the others then seldom need to be looked at closely.
+    const auto first = static_cast<std::size_t>(std::ranges::min_element(bounds) - bounds.begin());
+    const std::size_t limit = limit_of(known[first]);
+    if (bounds[first] >= least) return beginning_of(written, known);
+    if (const std::size_t apart = distance(written, known[first], limit); apart < limit) least = apart + 1;
+  }
   const std::string* nearest = nullptr;
-  for (const std::string& candidate : known) {
-    const std::size_t limit = std::min(least, candidate.size());  // something of a short one must be left
-    if (least_distance(written, letters, candidate) >= limit) continue;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const std::string& candidate = known[i];
+    const std::size_t limit = limit_of(candidate);
+    if (bounds[i] >= limit) continue;
     const std::size_t apart = distance(written, candidate, limit);
     if (apart >= limit) continue;
     least = apart;
     nearest = &candidate;
   }
-  if (nearest != nullptr) return *nearest;
-  if (word.size() < kLeastBeginning) return std::nullopt;
-  const auto longer = std::find_if(known.begin(), known.end(), [&](const std::string& candidate) {
-    return begins_with(candidate, written);
-  });
-  return longer == known.end() ? std::nullopt : std::optional(*longer);
+  return nearest != nullptr ? std::optional(*nearest) : beginning_of(written, known);
 }
 
 std::string suggestion(std::string_view word, std::span<const std::string> known, const std::string& none) {

@@ -214,11 +214,21 @@ const std::vector<std::string>& known_names() {
 }
 
 std::optional<std::uint16_t> code_of(std::string_view name) {
-  for (const CommandRow& row : kCommands) {
-    if (!row.real_time_name.empty() && is_word(name, row.real_time_name)) return real_time_code(row.verb);
-    if (!row.macro_name.empty() && is_word(name, row.macro_name)) return macro_code(row.verb);
-  }
-  return std::nullopt;
+  using Named = std::pair<std::string, std::uint16_t>;
+  static const std::vector<Named> kSorted = [] {
+    std::vector<Named> names;
+    for (const CommandRow& row : kCommands) {
+      if (!row.real_time_name.empty())
+        names.emplace_back(upper_case(row.real_time_name), real_time_code(row.verb));
+      if (!row.macro_name.empty()) names.emplace_back(upper_case(row.macro_name), macro_code(row.verb));
+    }
+    std::ranges::stable_sort(names, {}, &Named::first);
+    return names;
+  }();
+  const std::string word = upper_case(name);
+  const auto found = std::ranges::lower_bound(kSorted, word, {}, &Named::first);
+  if (found == kSorted.end() || found->first != word) return std::nullopt;
+  return found->second;
 }
 
 ParsedCommand failed(const Token& token, std::string message) {
