@@ -26,7 +26,7 @@ class BusyActs {
 
   std::vector<Act> make(int count) {
     std::vector<Act> acts;
-    for (const Event& event : events_.make(count)) {
+    for (const RandomEvent& event : events_.make(count)) {
       acts.push_back({event.at, [event](World& world) { apply(world, event); }});
       if (between(0, 2) == 0) acts.push_back({event.at, something_more()});
     }

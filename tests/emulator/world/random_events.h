@@ -9,7 +9,7 @@
 namespace understudy::emulator::world {
 
 /// Something from outside: bytes on the line, or an input's level.
-struct Event {
+struct RandomEvent {
   SimTime at{0};
   Bytes bytes{};
   std::size_t device = 0;
@@ -25,11 +25,11 @@ class RandomEvents {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random_);
   }
 
-  std::vector<Event> make(int count) {
-    std::vector<Event> events;
+  std::vector<RandomEvent> make(int count) {
+    std::vector<RandomEvent> events;
     for (int i = 0; i < count; ++i) {
       time_ += gap();
-      Event event{.at = time_};
+      RandomEvent event{.at = time_};
       if (between(0, 4) == 0) {
         event.device = static_cast<std::size_t>(between(0, 1));
         event.terminal = static_cast<int>(between(0, 10));
@@ -99,7 +99,7 @@ class RandomEvents {
   SimTime time_{0};
 };
 
-inline void apply(World& world, const Event& event) {
+inline void apply(World& world, const RandomEvent& event) {
   if (event.terminal >= 0) {
     world.set_external_input(event.device, event.terminal, event.on);
   } else {
