@@ -55,11 +55,15 @@ std::vector<ProgramPlace> RsM8194h::places() const {
     place.state =
         run.hold == lang::Hold::nothing ? ProgramPlace::State::running : ProgramPlace::State::waiting;
     place.waits_for = awaited_by(run.hold);
+    // A line that began to wait has been left; one that the machine does not take yet has not.
+    const bool is_left =
+        run.hold == lang::Hold::timer || run.hold == lang::Hold::axes || run.hold == lang::Hold::frnet;
+    const int line = level.line - (is_left ? 1 : 0);
     const lang::Macro* const found = macro(name);
-    if (found != nullptr && level.line < found->size()) {
-      place.text = lang::text_of(found->lines[level.line]);
-      place.line =
-          line_in(text, std::string(name.is_isr ? "ISR " : "MP ") + std::to_string(name.number), level.line);
+    if (found != nullptr && line >= 0 && line < static_cast<int>(found->size())) {
+      const std::string head = std::string(name.is_isr ? "ISR " : "MP ") + std::to_string(name.number);
+      place.text = lang::text_of(found->lines[static_cast<std::size_t>(line)]);
+      place.line = line_in(text, head, line);
     }
     const bool is_timed = run.hold == lang::Hold::begin || run.hold == lang::Hold::timer;
     if (is_timed) place.until = time_of(run.until_ms);

@@ -180,9 +180,8 @@ TEST(ControlMessages, WhatIsNoMessageGetsOneLineAndChangesNothing) {
       {"{\"do\":null}", no_object},
       {"{\"do\":[\"status\"]}", no_object},
       {"{\"do\":\"\"}",
-       "'' is not a command; expected one of status, identify, get, eval, set, input, turn, power, program, "
-       "inject, "
-       "clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
+       "'' is not a command; expected one of status, identify, get, eval, set, input, turn, command, power, "
+       "program, inject, clear, list, frames, snapshot, restore, advance, run-until, pause, resume"},
       {"{\"do\":\"jump\"}", "'jump' is not a command; expected "},
       {"{\"do\":\"a\\nb\"}", "'a\\nb' is not a command; expected "},
       {"{\"do\":\"status\",\"x\":1}", "'x' is not a key of this message"},
