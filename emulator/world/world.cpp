@@ -252,8 +252,7 @@ void World::run_tick() {
   disturbed_ = false;
   ++done_;
   if (!input_turns_.empty()) turn_inputs();
-  // Devices meet by their wires alone, which are latched when all are done. So one after another runs all its
-  // phases, while its state is in the processor's cache.
+  // Devices meet by wires alone, latched when all are done: each runs all its phases while it is cached.
   for (std::size_t d = 0; d < devices_.size(); ++d) {
     prefetch_device(d + 2);
     run_device(d);
