@@ -168,7 +168,8 @@ ModbusReply serve(Device& device, std::span<const std::uint8_t> pdu) {
   const std::uint8_t code = pdu.empty() ? 0 : pdu[0];
   const RtuRules& rules = *device.model().rtu;
   const FunctionRow* const row = find_function(rules, code);
-  const bool is_known = row != nullptr && device.modbus()->knows(code);
+  const ModbusStation* const station = device.modbus();
+  const bool is_known = row != nullptr && (station == nullptr || station->knows(code));
   if (!is_known) return exception(pdu, nullptr, bad_value(Cause::unknown_function));
   RegisterBank& bank = *device.register_bank();
   const Service service = service_of(*row, rules, bank.map());
