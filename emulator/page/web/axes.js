@@ -53,7 +53,7 @@ async function stick(device, terminal, level) {
 
 async function loosen(device, terminal) {
   for (const { number, fault } of store.status?.faults ?? []) {
-    if (fault.stuck === `${device}.${terminal}`) await ask({ do: 'clear', number });
+    if (fault.startsWith(`stuck ${device}.${terminal}`)) await ask({ do: 'clear', number });
   }
 }
 
@@ -110,7 +110,7 @@ function Axis({ device, axis }) {
   const value = (what) => valueOf(`${name}.${what}`);
   const present = (what) => value(what) !== undefined && value(what) !== null;
   const servo = axis.servo && valueOf(`${device.name}.${axis.servo}`);
-  const broken = (store.status?.faults ?? []).filter(({ fault }) => Object.values(fault).includes(name));
+  const broken = (store.status?.faults ?? []).filter(({ fault }) => fault.split(/[ ,]/)[1] === name);
   return html`<section class="axis" aria-label=${name}>
     <header>
       <h3>${axis.name}</h3>
@@ -130,7 +130,7 @@ function Axis({ device, axis }) {
     <div class="switches">
       ${kSwitches.filter((contact) => axis.machine[contact] || terminalOf(device, axis.name, contact))
         .map((contact) => html`<${Switch} key=${contact} device=${device} axis=${axis} contact=${contact} />`)}
-      ${broken.map(({ number, fault }) => html`<span class="bad" key=${number}>${Object.keys(fault)[0]}
+      ${broken.map(({ number, fault }) => html`<span class="bad" key=${number}>${fault.split(' ')[0]}
         <${Button} kind="small" title=${`clear fault ${number}`} disabled=${isReadOnly()}
           does=${() => ask({ do: 'clear', number })}>clear<//></span>`)}
     </div>

@@ -4,13 +4,11 @@ import { ask, askQuietly, isReadOnly, store } from './store.js';
 import { Button, Field, seconds } from './small.js';
 import { FaultForm } from './fault_form.js';
 
-const wordsOf = (fault) => Object.entries(fault).map(([key, value]) => `${key} ${value}`).join(', ');
-
 function InForce() {
   const faults = store.status?.faults ?? [];
   if (faults.length === 0) return html`<p>No fault is in force, and none waits.</p>`;
   return html`<div class="scroll"><table><thead><tr><th>fault</th><th></th><th>seen</th><th>matched</th><th>hits</th><th></th></tr></thead>
-    <tbody>${faults.map((it) => html`<tr key=${it.number}><td class="figure">${it.number}</td><td>${wordsOf(it.fault)}</td>
+    <tbody>${faults.map((it) => html`<tr key=${it.number}><td class="figure">${it.number}</td><td>${it.fault}</td>
       <td class="figure">${it.seen ?? ''}</td><td class="figure">${it.matched ?? ''}</td><td class="figure">${it.hits ?? ''}</td>
       <td><${Button} kind="small" title=${`clear fault ${it.number}`} disabled=${isReadOnly()}
         does=${() => ask({ do: 'clear', number: it.number })}>clear<//></td></tr>`)}</tbody></table></div>`;

@@ -72,6 +72,7 @@ function Page() {
       ${store.bench ? html`<${Shown} key=${`${store.number}/${panel}`} />` : html`<p>Looking for the bench...</p>`}</div>`;
 }
 
+document.getElementById('page').textContent = '';
 drawBy(() => render(html`<${Page} />`, document.getElementById('page')));
 draw();
 setInterval(draw, 1000);  // flashes end though nothing comes
