@@ -227,10 +227,13 @@ double simulated_seconds(const std::string& output) {
 
 /// Of all models, but for those that take four seconds and more: the clock on the wall has to pass.
 Words short_ones() {
-  const std::set<std::string> long_ones{"rs-m8194h/stop_lock.yaml",     "super-40nc/home_in_order.yaml",
-                                        "super-40nc/index_table.yaml",  "super-40nc/mill_a_slot.yaml",
-                                        "super-40nc/pause_an_arc.yaml", "super-40nc/pick_and_place.yaml",
-                                        "super-40nc/winder.yaml"};
+  const std::set<std::string> long_ones{
+      "rs-m8194h/stop_lock.yaml",      "super-40nc/home_in_order.yaml",
+      "super-40nc/index_table.yaml",   "super-40nc/mill_a_slot.yaml",
+      "super-40nc/pause_an_arc.yaml",  "super-40nc/pick_and_place.yaml",
+      "super-40nc/winder.yaml",        "super-40nc/mill_under_override.yaml",
+      "super-40nc/peck_drilling.yaml", "super-40nc/five_programs.yaml",
+      "super-40nc/cut_to_length.yaml"};
   Words files = files_in(kOfModel) + files_in(kOfSlim);
   for (const std::string model : {"rs-m8194h", "super-40nc"}) {
     for (const std::string& file : files_in(kFolder + "/" + model)) {
