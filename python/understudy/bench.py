@@ -1,0 +1,143 @@
+"""A running bench: names, inputs, faults, power, time, programs, commands, snapshots."""
+import os
+from typing import Any, Dict, List, Optional, Union
+
+from .connection import Connection
+from .daemon import Daemon
+from .errors import NotThere, WrongVersion
+
+KNOWN = (0, 2)  # the protocol is the program's: major and minor
+Value = Union[int, float]
+
+
+class Bench:
+    def __init__(self, control: str, daemon: Optional[Daemon] = None, timeout_s: Optional[float] = 60.0) -> None:
+        self._daemon = daemon
+        self.control = control
+        self._connection = Connection(control, timeout_s)
+        self.ask = self._connection.ask
+        identity = self.ask("identify")["daemon"]
+        self.version: str = identity["version"]
+        if tuple(int(part) for part in self.version.split(".")[:2]) != KNOWN:
+            self.close()
+            raise WrongVersion(f"understudy is {self.version}; this client knows {KNOWN[0]}.{KNOWN[1]}")
+        self.ports: Dict[str, str] = {line["name"]: line.get("link") or line["pty"] for line in identity["lines"]}
+
+    @property
+    def port(self) -> str:
+        """The path of the first line's port."""
+        return next(iter(self.ports.values()))
+
+    def __enter__(self) -> "Bench":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Leaves the bench; ends it, if we started it."""
+        self._connection.close()
+        if self._daemon is not None:
+            self._daemon.stop()
+            self._daemon = None
+
+    def get(self, *names: str) -> Dict[str, Value]:
+        return self.ask("get", names=list(names))["values"]
+
+    def __getitem__(self, name: str) -> Value:
+        return self.get(name)[name]
+
+    def __setitem__(self, name: str, value: Value) -> None:
+        self.ask("set", values={name: value})
+
+    def set(self, values: Dict[str, Value]) -> None:
+        """As a host's writes would, in this order; all are checked before the first is written."""
+        self.ask("set", values=values)
+
+    def eval(self, expression: str) -> Any:
+        return self.ask("eval", expression=expression)["value"]
+
+    def input(self, values: Dict[str, Union[int, str]]) -> None:
+        self.ask("input", values=values)
+
+    def power(self, to: str, device: Optional[str] = None) -> None:
+        self.ask("power", to=to, **_of(device))
+
+    def command(self, text: str, device: Optional[str] = None) -> None:
+        self.ask("command", text=text, **_of(device))
+
+    def program(self, text: Optional[str] = None, device: Optional[str] = None) -> Optional[str]:
+        """Writes a program; without a text reads the one that is there."""
+        if text is None:
+            return self.ask("program", **_of(device))["text"]
+        self.ask("program", text=text, **_of(device))
+        return None
+
+    def inject(self, fault: Dict[str, Any]) -> int:
+        """A fault as a bench file has it; its number."""
+        return self.ask("inject", fault=fault)["number"]
+
+    def clear(self, number: Optional[int] = None) -> None:
+        """Mends one fault, or all."""
+        self.ask("clear", **({} if number is None else {"number": number}))
+
+    def faults(self) -> List[Dict[str, Any]]:
+        return self.ask("list")["faults"]
+
+    def advance(self, by: str) -> int:
+        """Simulated time in nanoseconds, once it is there."""
+        return self.ask("advance", by=by)["simulated_time_ns"]
+
+    def run_until(self, condition: str, within: str = "1h") -> bool:
+        """Whether the condition came true."""
+        return self.ask("run-until", condition=condition, within=within)["reached"]
+
+    def step(self, ticks: int = 1) -> int:
+        return self.ask("step", ticks=ticks)["simulated_time_ns"]
+
+    def pause(self) -> int:
+        return self.ask("pause")["simulated_time_ns"]
+
+    def resume(self) -> int:
+        return self.ask("resume")["simulated_time_ns"]
+
+    def speed(self, to: str) -> None:
+        """`real`, a factor, `free` or `manual`."""
+        self.ask("speed", to=to)
+
+    def snapshot(self, name: str) -> None:
+        """Kept by the daemon, 16 at most."""
+        self.ask("snapshot", name=name)
+
+    def restore(self, name: str) -> None:
+        self.ask("restore", name=name)
+
+    def frames(self, last: int = 100) -> List[Dict[str, Any]]:
+        return self.ask("frames", last=last)["frames"]
+
+
+def _of(device: Optional[str]) -> Dict[str, str]:
+    return {} if device is None else {"device": device}
+
+
+def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None, speed: str = "manual",
+          record: Optional[str] = None, program: Optional[str] = None) -> Bench:
+    """A bench file, or one device of a model; further flags are `serve`'s."""
+    if (bench is None) == (model is None):
+        raise ValueError("either a bench file or a model")
+    what = [bench] if bench is not None else ["--model", str(model)]
+    recorded = [] if record is None else ["--record", record]
+    daemon = Daemon([*what, *flags, "--speed", speed, *recorded], program)
+    try:
+        return Bench(daemon.control, daemon)
+    except BaseException:
+        daemon.stop()
+        raise
+
+
+def attach(control: Optional[str] = None) -> Bench:
+    """A bench that runs already: by its control socket, or the one that `exec` names."""
+    control = control or os.environ.get("UNDERSTUDY_CONTROL")
+    if not control:
+        raise NotThere("no control socket was named, and UNDERSTUDY_CONTROL is not set")
+    return Bench(control)

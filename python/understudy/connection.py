@@ -1,0 +1,55 @@
+"""One line of JSON there, one back: docs/control.md."""
+import json
+import socket
+from typing import Any, Dict, Optional
+
+from .errors import NotThere, Refused
+
+MOST_REPLY_BYTES = 16 << 20  # messages are at most 4 MiB; a reply that does not end is not waited for
+
+
+class Connection:
+    def __init__(self, path: str, timeout_s: Optional[float] = 60.0) -> None:
+        self._socket = socket.socket(socket.AF_UNIX)
+        self._socket.settimeout(timeout_s)
+        self._rest = b""
+        try:
+            self._socket.connect(path)
+        except OSError as error:
+            self._socket.close()
+            raise NotThere(f"{path}: {error.strerror or error}") from error
+
+    def ask(self, do: str, **fields: Any) -> Dict[str, Any]:
+        """The reply to a message; raises Refused with the program's words."""
+        message = json.dumps({"do": do, **fields}, separators=(",", ":")).encode() + b"\n"
+        try:
+            self._socket.sendall(message)
+            line = self._line()
+        except OSError as error:
+            self.close()  # a late reply would be taken for the next message's
+            raise NotThere(f"no answer to {do!r}: {error}") from error
+        try:
+            reply = json.loads(line)
+        except ValueError as error:
+            self.close()
+            raise NotThere(f"the answer to {do!r} is not JSON") from error
+        if not isinstance(reply, dict) or reply.get("ok") is not True:
+            raise Refused(str(reply.get("error", reply)) if isinstance(reply, dict) else str(reply))
+        return reply
+
+    def close(self) -> None:
+        self._socket.close()
+
+    def _line(self) -> bytes:
+        parts = [self._rest]
+        length = len(self._rest)
+        while b"\n" not in parts[-1]:
+            some = self._socket.recv(1 << 16)
+            if not some:
+                raise OSError("the program has closed the connection")
+            parts.append(some)
+            length += len(some)
+            if length > MOST_REPLY_BYTES:
+                raise OSError(f"more than {MOST_REPLY_BYTES} bytes")
+        line, _, self._rest = b"".join(parts).partition(b"\n")
+        return line

@@ -1,0 +1,17 @@
+"""What can go wrong, in the program's own words."""
+
+
+class UnderstudyError(Exception):
+    """Whatever this package raises by itself."""
+
+
+class Refused(UnderstudyError):
+    """The message was refused, and changed nothing."""
+
+
+class NotThere(UnderstudyError):
+    """The program could not be started, or does not answer any more."""
+
+
+class WrongVersion(UnderstudyError):
+    """The program is of a version that this client does not know."""
