@@ -218,7 +218,7 @@ TEST_F(NvFile, AReaderFindsTheOldImageOrTheNewOneNeverAMixture) {
   {
     NvWriter writer;
     const auto until = Clock::now() + 700ms;
-    for (std::int64_t i = 1; Clock::now() < until || distinct < 5; ++i) {
+    for (std::int64_t i = 1; Clock::now() < until || distinct < 5 || reads <= 10; ++i) {
       writer.write(path(), to_json(image_of(i)));
       writer.flush();
       if (Clock::now() > until + 10s) break;
