@@ -2,6 +2,7 @@
 // models are handed their list.
 #pragma once
 
+#include <climits>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -166,10 +167,11 @@ void start_page_beside(const std::string& control, int port);
 struct PollArguments {
   std::string port;
   int station = 1;
-  // 0 or empty: as the model's port has them, without one 19200 8E1.
-  int baud = 0;
+  // Unsaid or empty: as the model's port has them, without one 19200 8E1.
+  static constexpr int kUnsaid = INT_MIN;
+  int baud = kUnsaid;
   std::string parity;
-  int stop_bits = 0;
+  int stop_bits = kUnsaid;
   std::string model;
   int function = 3;
   std::string type = "u16";

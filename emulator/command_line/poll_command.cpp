@@ -196,8 +196,8 @@ PollArguments with_line_of_model(ModelList models, PollArguments arguments) {
     line = port.settings;
     line.baud = port.bauds.front();
   }
-  if (arguments.baud == 0) arguments.baud = line.baud;
-  if (arguments.stop_bits == 0) arguments.stop_bits = line.stop_bits;
+  if (arguments.baud == PollArguments::kUnsaid) arguments.baud = line.baud;
+  if (arguments.stop_bits == PollArguments::kUnsaid) arguments.stop_bits = line.stop_bits;
   if (arguments.parity.empty()) {
     arguments.parity = line.parity == pty::Parity::none  ? "none"
                        : line.parity == pty::Parity::odd ? "odd"
