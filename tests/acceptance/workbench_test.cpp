@@ -266,14 +266,16 @@ TEST_F(ServedWorkbench, IsAskedByPollForItsOrderOfWords) {
   };
   EXPECT_EQ(polled({"holding.Position_X=70000", "holding.Position_X"}), "holding.Position_X 70000\n");
   EXPECT_EQ(polled({"Word_Order=1"}), "");
-  EXPECT_EQ(polled({"holding.Position_X", "holding.Position_Y=-5", "holding.Position_Y"}), "holding.Position_X 70000\nholding.Position_Y -5\n");
+  EXPECT_EQ(polled({"holding.Position_X", "holding.Position_Y=-5", "holding.Position_Y"}),
+            "holding.Position_X 70000\nholding.Position_Y -5\n");
   EXPECT_EQ(polled({"--type", "s32", "0x10"}), "0x10 70000\n");
   EXPECT_EQ(polled({"--command", "MOVE Z 65538", "Run=1"}), "");
   EXPECT_TRUE(eventually([&] { return polled({"holding.Position_Z"}) == "holding.Position_Z 65538\n"; }));
   // Or it is said: what the device has is not asked.
   EXPECT_EQ(polled({"--word-order", "high", "holding.Position_Z"}), "holding.Position_Z 131073\n");
   EXPECT_EQ(polled({"--word-order", "low", "holding.Position_Z"}), "holding.Position_Z 65538\n");
-  EXPECT_NE(polled({"--word-order", "middle", "holding.Position_Z"}).find("expected low or high"), std::string::npos);
+  EXPECT_NE(polled({"--word-order", "middle", "holding.Position_Z"}).find("expected low or high"),
+            std::string::npos);
   const std::string silent = polled({"--station", "9", "--timeout", "50ms", "holding.Position_Z"});
   EXPECT_NE(silent.find("Word_Order, the order of words: "), std::string::npos) << silent;
   EXPECT_EQ(polled({"Word_Order"}), "Word_Order 1\n");
