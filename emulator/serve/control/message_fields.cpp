@@ -8,6 +8,9 @@
 #include <string_view>
 
 #include "base/text/one_line.h"
+#include "emulator/serve/daemon/daemon.h"
+#include "emulator/world/names/names.h"
+#include "emulator/world/world.h"
 
 namespace understudy::emulator::serve {
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "emulator/device/device.h"
+#include "emulator/device/modbus/modbus_station.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/refusal.h"
