@@ -1,0 +1,267 @@
+// What an RS-M8194H costs: a tick with four axes in moves and a macro at work, alone and among 1,000, and one
+// with a stream of three axes and two synchronous actions, beside the bare arithmetic of four axes; a resting
+// one, which is crossed; its memory, and a snapshot with its restore, also with every macro full.
+#include <malloc.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "benchmarks/figures.h"
+#include "benchmarks/process.h"
+#include "benchmarks/processor_clock.h"
+#include "emulator/device/register_map/access.h"
+#include "emulator/device/register_map/register_bank.h"
+#include "emulator/device/user_program.h"
+#include "emulator/models/models.h"
+#include "emulator/world/snapshot.h"
+#include "emulator/world/world.h"
+#include "interpreter/rs_m8194h/macro.h"
+
+namespace understudy::benchmarks {
+
+namespace {
+
+using emulator::world::World;
+
+constexpr int kRounds = 21;
+constexpr Tick kTicks = 20'000;  // of a round
+constexpr Tick kWarmUp = 5000;
+constexpr Tick kHour = 3'600'000;
+constexpr std::size_t kCrowd = 1000;
+constexpr Tick kTicksOfCrowd = 100;
+constexpr std::size_t kStationsALine = 15;
+
+constexpr double kMovesBar = 40;    // bare loops
+constexpr double kStreamBar = 70;   // bare loops
+constexpr double kRestBar = 0.1;    // bare loops for each of its ticks
+constexpr double kBusyBar = 3'000;  // simulated seconds a second
+constexpr double kCrowdBar = 2.5;
+constexpr double kBytesBar = 256 * 1024;
+constexpr double kSnapshotBar_us = 150;
+constexpr double kFullSnapshotBar_us = 500;
+
+/// Four axes go to and fro while the macro counts.
+constexpr const char* kMoves =
+    "MP 91\n"
+    "RSM_MACRO_SET_SV XYZU 1000\nRSM_MACRO_SET_V XYZU 10000\nRSM_MACRO_SET_A XYZU 20000\n"
+    "RSM_MACRO_LABEL 0\n"
+    "RSM_MACRO_FIXED_MOVE XYZU 40000\n"
+    "RSM_MACRO_FOR 2000\nRSM_MACRO_VAR_CALCULATE VAR1 + 1 VAR1\nRSM_MACRO_TIMER 1\nRSM_MACRO_NEXT\n"
+    "RSM_MACRO_FIXED_MOVE XYZU -40000\n"
+    "RSM_MACRO_FOR 2000\nRSM_MACRO_VAR_CALCULATE VAR1 + 1 VAR1\nRSM_MACRO_TIMER 1\nRSM_MACRO_NEXT\n"
+    "RSM_MACRO_GOTO 0\nEND\n";
+
+/// A stream that never ends, round a triangle in space; at each round X latches and gives a pulse, and Y too.
+constexpr const char* kStream =
+    "MP 91\n"
+    "RSM_MACRO_SYNC_ACTION X X 1 0 1 0 1 0 0 0 0 0\nRSM_MACRO_SYNC_ACTION Y Y 4 0 2 0 1 0 0 0 0 0\n"
+    "RSM_MACRO_SET_COMPARE X 0 0 500\nRSM_MACRO_SET_COMPARE Y 1 1 400\n"
+    "RSM_MACRO_SET_MAX_V XYZ 80000\n"
+    "RSM_MACRO_LINE_3D_INITIAL X Y Z 1000 10000 100000\n"
+    "RSM_MACRO_LABEL 0\n"
+    "RSM_MACRO_LINE_3D_CONTINUE 0 1000 0 500\nRSM_MACRO_LINE_3D_CONTINUE 0 -500 1000 0\n"
+    "RSM_MACRO_LINE_3D_CONTINUE 0 -500 -1000 -500\n"
+    "RSM_MACRO_GOTO 0\nEND\n";
+
+constexpr int kMacro = 91;
+
+/// The least a tick of four axes can be: a cubic, two comparisons with limits and a count each.
+struct BareAxis {
+  double place, first, second, third, low, high;
+  std::int64_t pulses;
+};
+
+double bare_ns() {
+  std::array<BareAxis, 4> axes{};
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    axes[a] = {0, 10 + static_cast<double>(a), 0.001, 1e-9, -1e15, 1e15, 0};
+  }
+  constexpr Tick kLoops = 100'000;
+  const auto before = processor_time_here();
+  for (Tick tick = 1; tick <= kLoops; ++tick) {
+    const auto k = static_cast<double>(tick);
+    for (BareAxis& axis : axes) {
+      const double place = axis.place + k * (axis.first + k * (axis.second + k * axis.third));
+      if (place >= axis.low && place <= axis.high) axis.pulses = static_cast<std::int64_t>(place);
+    }
+    asm volatile("" : : "g"(&axes) : "memory");  // tick after tick, and all of it stored
+  }
+  return static_cast<double>((processor_time_here() - before).count()) / kLoops;
+}
+
+emulator::Device& set(emulator::Device& device, std::string_view name, emulator::Value value) {
+  const auto found = device.register_bank()->find(name);
+  if (!found || emulator::write_value(*device.register_bank(), *found, value) != emulator::Refusal::none) {
+    throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
+  }
+  return device;
+}
+
+emulator::Value get(emulator::Device& device, std::string_view name) {
+  const auto found = device.register_bank()->find(name);
+  if (!found) throw CannotRun("no " + std::string(name));
+  return emulator::read_value(*device.register_bank(), *found);
+}
+
+std::unique_ptr<World> make_world(std::size_t devices, const std::string& program) {
+  emulator::world::Bench bench;
+  for (std::size_t d = 0; d < devices; ++d) {
+    emulator::world::DeviceSetup device;
+    device.model = emulator::find_model(emulator::models::all_models(), "rs-m8194h");
+    device.settings.name = "d" + std::to_string(d);
+    device.settings.address = static_cast<int>(d % kStationsALine) + 1;
+    device.settings.program = program;
+    bench.devices.push_back(device);
+    if (d % kStationsALine == 0) {
+      emulator::world::LineSetup line;
+      line.name = "line" + std::to_string(bench.lines.size());
+      bench.lines.push_back(line);
+    }
+    bench.lines.back().stations.push_back({d});
+    for (int axis = 0; axis < 4; ++axis) {
+      emulator::world::PlantSetup plant;
+      plant.lower_limit = -1'000'000;
+      plant.upper_limit = 1'000'000;
+      bench.machines.push_back({.device = d, .axis = axis, .plant = plant});
+    }
+  }
+  return std::make_unique<World>(bench, emulator::world::WorldOptions{}, [](const std::string&) {});
+}
+
+/// Throws if it does not do what is to be measured.
+void expect_busy(World& world, emulator::Value driving) {
+  for (std::size_t d = 0; d < world.device_count(); ++d) {
+    if (get(world.device(d), "DRIVING_AXIS") != driving) throw CannotRun("axes stand that should move");
+  }
+}
+
+std::unique_ptr<World> make_busy(std::size_t devices, const char* program, emulator::Value driving) {
+  auto world = make_world(devices, program);
+  for (std::size_t d = 0; d < devices; ++d) set(world->device(d), "CALL_MP", kMacro);
+  world->advance_to(time_of(kWarmUp));
+  expect_busy(*world, driving);
+  return world;
+}
+
+/// Nanoseconds of processor time of a device's tick.
+double ticks_ns(World& world, Tick& done, Tick ticks) {
+  const auto before = processor_time_here();
+  world.advance_to(time_of(done += ticks));
+  return static_cast<double>((processor_time_here() - before).count()) / static_cast<double>(ticks) /
+         static_cast<double>(world.device_count());
+}
+
+void measure_ticks() {
+  constexpr emulator::Value kAllAxes = 15;
+  constexpr emulator::Value kThreeAxes = 7;
+  const auto moves = make_busy(1, kMoves, kAllAxes);
+  const auto stream = make_busy(1, kStream, kThreeAxes);
+  const auto crowd = make_busy(kCrowd, kMoves, kAllAxes);
+  Tick done_by_moves = kWarmUp;
+  Tick done_by_stream = kWarmUp;
+  Tick done_by_crowd = kWarmUp;
+  std::vector<double> bare, of_moves, of_stream, in_crowd, moves_in_bare, stream_in_bare, crowd_ratios;
+  for (int round = 0; round < kRounds; ++round) {
+    bare.push_back(bare_ns());
+    of_moves.push_back(ticks_ns(*moves, done_by_moves, kTicks));
+    of_stream.push_back(ticks_ns(*stream, done_by_stream, kTicks));
+    in_crowd.push_back(ticks_ns(*crowd, done_by_crowd, kTicksOfCrowd));
+    moves_in_bare.push_back(of_moves.back() / bare.back());
+    stream_in_bare.push_back(of_stream.back() / bare.back());
+    crowd_ratios.push_back(in_crowd.back() / of_moves.back());
+  }
+  expect_busy(*stream, kThreeAxes);
+  std::printf("a tick: bare %.1f ns, moves and a macro %.0f ns, among %zu %.0f ns, a stream %.0f ns\n",
+              median(bare), median(of_moves), kCrowd, median(in_crowd), median(of_stream));
+  print_verdict("four axes in moves and a macro, in bare loops", median(moves_in_bare), kMovesBar);
+  print_verdict("a stream of three axes, two actions, in bare loops", median(stream_in_bare), kStreamBar);
+  print_verdict("a device's tick among 1,000, against its own alone", median(crowd_ratios), kCrowdBar);
+  const double simulated = 1e6 / median(of_moves);  // a tick is a millisecond
+  std::printf("busy: %.0f simulated seconds a second\n", simulated);
+  print_verdict("3,000 simulated seconds a second against those", kBusyBar / simulated, 1.00);
+}
+
+void measure_rest() {
+  std::vector<double> ratios;
+  std::vector<double> all_ns;
+  for (int round = 0; round < 5; ++round) {
+    const double loop_ns = bare_ns();
+    const auto world = make_world(1, kMoves);
+    Tick done = kWarmUp;
+    world->advance_to(time_of(done));
+    all_ns.push_back(ticks_ns(*world, done, kHour));
+    ratios.push_back(all_ns.back() / loop_ns);
+  }
+  std::printf("an hour at rest: %.0f us\n", median(all_ns) * static_cast<double>(kHour) / 1000);
+  print_verdict("an hour at rest in bare loops for each tick", median(ratios), kRestBar);
+}
+
+/// Every macro, with as many lines as it has room for.
+std::string full_macros() {
+  namespace lang = interpreter::rs_m8194h;
+  std::string text;
+  for (const bool is_isr : {false, true}) {
+    const int count = is_isr ? 20 : 157;
+    for (int number = 1; number <= count; ++number) {
+      text += (is_isr ? "ISR " : "MP ") + std::to_string(number) + "\n";
+      for (int line = 0; line < lang::capacity_of({.is_isr = is_isr, .number = number}); ++line) {
+        text += "RSM_MACRO_SET_VAR VAR" + std::to_string(line % 512) + " " +
+                std::to_string(number * 1000 + line) + "\n";
+      }
+      text += "END\n";
+    }
+  }
+  return text;
+}
+
+double heap_bytes() { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); }
+
+/// Microseconds to save and to restore.
+double snapshot_us(World& world) {
+  std::vector<double> samples;
+  for (int i = 0; i < 200; ++i) {
+    set(world.device(0), "VAR500", i);
+    const auto before = processor_time_here();
+    const auto state = emulator::world::save(world);
+    emulator::world::restore(world, state);
+    samples.push_back(static_cast<double>((processor_time_here() - before).count()) / 1000);
+  }
+  return median(samples);
+}
+
+void measure_memory() {
+  constexpr std::size_t kMany = 100;
+  const auto first = make_busy(1, kMoves, 15);  // what all share is there
+  const double before = heap_bytes();
+  const auto many = make_busy(kMany, kMoves, 15);
+  const double each = (heap_bytes() - before) / kMany;
+  std::printf("memory of a device: %.0f KiB\n", each / 1024);
+  print_verdict("a device against 256 KiB", each / kBytesBar, 1.00);
+  const auto full = make_world(1, full_macros());
+  full->advance_to(time_of(kWarmUp));
+  const double usual_us = snapshot_us(*first);
+  const double full_us = snapshot_us(*full);
+  std::printf("snapshot and restore: %.0f us, with every macro full %.0f us\n", usual_us, full_us);
+  print_verdict("snapshot and restore against 150 us", usual_us / kSnapshotBar_us, 1.00);
+  print_verdict("with every macro full against 500 us", full_us / kFullSnapshotBar_us, 1.00);
+}
+
+}  // namespace
+
+}  // namespace understudy::benchmarks
+
+int main() {
+  using namespace understudy::benchmarks;
+  try {
+    measure_memory();
+    measure_ticks();
+    measure_rest();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rs_m8194h: %s\n", error.what());
+    return 2;
+  }
+}
