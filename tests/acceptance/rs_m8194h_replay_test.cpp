@@ -16,6 +16,10 @@ constexpr int kVar1 = 302;
 constexpr int kCallMp = 8;
 constexpr int kLpX = 90;
 constexpr int kWindow = 8000;
+constexpr int kHomeStateZ = 94;  // input registers
+constexpr int kModuleState = 101;
+constexpr std::uint16_t kInStep1 = 3;
+constexpr std::uint16_t kInAnIsr = 7;
 
 constexpr const char* kBench = R"(understudy: 1
 lines:
@@ -34,12 +38,13 @@ devices:
       ISR 1
         RSM_MACRO_VAR_CALCULATE VAR2 + 1 VAR2
         RSM_MACRO_FIXED_MOVE U 333
+        RSM_MACRO_FRNET_WAIT 9 0 1 0
       END
       TRIGGER 8.0 off_to_on MP41
 plant:
   cell.Z:
     home: { at: 3000, width: 400 }
-    limits: { lower: -7000, upper: 9000 }
+    limits: { lower: -7000, upper: 900000 }
 )";
 
 class RsM8194hReplay : public testing::Test {
@@ -82,6 +87,9 @@ class RsM8194hReplay : public testing::Test {
     };
     begin();
     EXPECT_TRUE(host.write(kVar1, Registers{0, 5}));
+    // The cut comes in the midst of an ISR and of homing.
+    EXPECT_TRUE(eventually([&] { return host.read_input(kModuleState, 1) == Registers{kInAnIsr}; }));
+    EXPECT_EQ(host.read_input(kHomeStateZ, 1), Registers{kInStep1});
     expect_done({"power", "cell", "cycle"});
     // A download that the power ends, and one that ends well.
     send({0x0AC9, 42});

@@ -227,6 +227,8 @@ inline constexpr ChoiceRow kChoices[] = {
      "ends_at_full_speed|slows_down_in_what_is_left", kFollows, "only the segment that is marked slows down"},
     {"last_ramp", "7.4.3", "where a stream's end ramp lies", "over_all_that_is_loaded|in_the_last_segment",
      kFollows, "the last segment of the example is shorter than its ramp"},
+    {"slow_stop_without_ramps", "7.5.5", "a slow stop of a path at constant speed", "ends_in_the_next_tick",
+     kProposal, "its speed profile has nothing to slow down by"},
     {"continue_without_initial", "7.4.2", "CONTINUE without its INITIAL",
      "void_with_module_error|as_axis_assign_and_vv_say", kProposal, "INITIAL should be defined before"},
     {"drive_in_open_stream", "7.4", "another drive for an axis of a stream", "waits_for_its_end|is_void",
