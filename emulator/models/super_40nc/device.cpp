@@ -327,6 +327,10 @@ double Super40nc::speed_pps(int number) const {
 double Super40nc::commanded_pps(int number) const {
   const motion::Axis& motor = chip(number);
   if (!motor.moving()) return 0;
+  if (axis(number).path_backlash != 0 && !state_.path_is_held) {
+    const double way = axis(number).path_backlash < 0 ? -1 : +1;
+    return way * motor.settings.backlash_speed_pps;
+  }
   if (is_on_path(number)) return state_.path.speed_pps(static_cast<std::size_t>(number), now());
   if (motor.task == motion::Task::following) {
     return static_cast<double>(axis(number).followed_pulses) * motion::kTicksPerSecond;

@@ -82,6 +82,7 @@ struct State {
   std::array<AxisState, kAxisCount> axes{};
   motion::Coordinated path;  // LIN and arcs of C
   bool path_is_held = false;
+  Tick path_backlash_ticks = 0;     // for which backlash has come before the path
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
   double path_limit_lu_s = 1;       // where an axis comes to its highest speed
   interpreter::super_40nc::PlcState plc;
@@ -363,6 +364,10 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void forget_end(int axis);
   void path_ended();
   void step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
+  bool awaits_path() const;
+  void begin_path_backlash(const motion::Path& path);
+  void end_path_backlash();
+  void step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
   double path_feed() const;
 
   void run_plc();
