@@ -136,7 +136,6 @@ class Checker {
     const auto row =
         std::find_if(kAreas.begin(), kAreas.end(), [&](const AreaRow& r) { return r.name == name; });
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
-    is_in_area_ = false;
     is_lost_ = true;  // nothing more is said of its lines
     if (row == kAreas.end()) {
       return fail(at, Code::unknown, name.empty() ? "AREA has no name" : quoted(at.text) + " is not an area",
@@ -151,7 +150,6 @@ class Checker {
 
   void begin_file(const std::vector<Token>& tokens) {
     end_area();
-    is_in_area_ = false;
     is_lost_ = true;
     const auto number = tokens.size() < 2 ? std::optional<std::int64_t>{} : decimal(tokens[1].text);
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];

@@ -241,6 +241,16 @@ const std::vector<Case>& cases() {
        "D8123",
        {{"d8022", 65500}, {"always_medium", 65533}, {"d8022_also_while_it_runs", 65500}}},
       {"jog_aliases", "", {}, {{{{"M8519", 1}}, 5}}, "M8103", {{"jog_keys", 1}, {"plain_contacts", 0}}},
+      // The keys that the table has jog all the same.
+      {"jog_aliases", "", {}, {{{{"M8560", 1}}, 5}}, "M8103", {{"jog_keys", 1}, {"plain_contacts", 1}}},
+      {"jog_aliases", "", {}, {{{{"M8561", 1}}, 5}}, "M8104", {{"jog_keys", 1}, {"plain_contacts", 1}}},
+      // A DRV of 7.5 s that M8004 meets.
+      {"m8004_scope",
+       "AREA X\nRPM K100\nDRV K50000\nEND",
+       {},
+       {{{{"M8100", 1}}, 200}, {{{"M8004", 1}}, 300}},
+       "M8121",
+       {{"new_motions_wait_or_are_void_running_ones_go_on", 1}, {"running_ones_are_held", 0}}},
       {"zero_set_enable",
        "",
        {{"D8117", 10}},
