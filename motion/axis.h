@@ -287,7 +287,10 @@ struct alignas(64) Axis {
   /// All ticks up to `tick`, one of those, at once: the state, and the sum of what comes out, are the same.
   std::int64_t cross_to(Tick tick);
   /// Whether carry() does nothing but count while travel stays within watch_low and watch_high.
-  bool carries_quietly(const Surroundings& here) const;
+  bool carries_quietly(const Surroundings& here) const {
+    return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 &&
+           task == Task::coordinated;
+  }
   /// So many pulses of carry(), of one sign, in ticks of which that is true.
   std::int64_t carry_across(std::int64_t pulses);
 

@@ -43,11 +43,6 @@ std::int64_t Axis::cross_to(Tick tick) {
   return inverted ? -pulses : pulses;
 }
 
-bool Axis::carries_quietly(const Surroundings& here) const {
-  return here.version == seen_version && !attentive && settings.backlash_pulses <= 0 &&
-         task == Task::coordinated;
-}
-
 std::int64_t Axis::carry_across(std::int64_t pulses) {
   if (pulses != 0) {
     drive.direction = pulses < 0 ? -1 : +1;

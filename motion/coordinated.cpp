@@ -93,7 +93,8 @@ double Coordinated::along_where(std::size_t i, std::int64_t travel, std::int64_t
   return is_there(gone.to_u) ? turnover(from_u, gone.to_u, is_there).after : gone.to_u;
 }
 
-Coordinated::Stopped Coordinated::first_stopped(const Point& place, const PathRun::Stretch& gone, Tick tick,
+Coordinated::Stopped Coordinated::first_stopped(const std::array<std::int64_t, kPathAxes>& target,
+                                                const PathRun::Stretch& gone, Tick tick,
                                                 std::span<const Axis> axes,
                                                 std::span<const Surroundings> here) const {
   Stopped stopped;
@@ -102,12 +103,9 @@ Coordinated::Stopped Coordinated::first_stopped(const Point& place, const PathRu
     const auto number = static_cast<std::size_t>(axis_of[i]);
     if (axis_of[i] < 0 || number >= axes.size()) continue;
     const Axis& axis = axes[number];
-    const std::int64_t target = travel_at(i, place[static_cast<Eigen::Index>(i)]);
-    const bool meets_nothing =
-        axis.carries_quietly(here[number]) && target >= axis.watch_low && target <= axis.watch_high;
-    if (axis.task != Task::coordinated || meets_nothing) continue;
+    if (axis.task != Task::coordinated) continue;
     Axis tried = axis;  // what stops it is its own affair
-    tried.carry(target - tried.travel_pulses, tick, here[number]);
+    tried.carry(target[i] - tried.travel_pulses, tick, here[number]);
     if (tried.task == Task::coordinated) continue;
     const double from_u = run.began_at(gone, tick);
     const double along_u = along_where(i, tried.travel_pulses, axis.travel_pulses, gone, from_u);
@@ -125,20 +123,30 @@ void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surround
                        std::span<std::int64_t> pulses, bool stays_engaged) {
   if (!engaged) return;
   PathRun::Stretch gone;
-  const Point place = run.step(tick, &gone);
-  const Stopped stopped = first_stopped(place, gone, tick, axes, here);
+  const Point& place = run.step(tick, &gone);
+  std::array<std::int64_t, kPathAxes> target{};
+  bool meets_something = false;
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    const Axis* axis = axis_at(axis_of[i], axes);
+    if (axis == nullptr || axis->task != Task::coordinated) continue;
+    target[i] = travel_at(i, place[static_cast<Eigen::Index>(i)]);
+    meets_something = meets_something || !axis->carries_quietly(here[static_cast<std::size_t>(axis_of[i])]) ||
+                      target[i] < axis->watch_low || target[i] > axis->watch_high;
+  }
+  Stopped stopped;
+  if (meets_something) [[unlikely]]
+    stopped = first_stopped(target, gone, tick, axes, here);
   Cause ended_by = Cause::none;
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);
     if (axis == nullptr) continue;
     const auto number = static_cast<std::size_t>(axis_of[i]);
     if (axis->task == Task::coordinated) {
-      const bool goes_on = !stopped.any || stopped.there[i];
-      const Point& until = goes_on ? place : stopped.place;
-      const bool stays = !goes_on && stopped.at_once;
-      const std::int64_t target =
-          stays ? axis->travel_pulses : travel_at(i, until[static_cast<Eigen::Index>(i)]);
-      pulses[number] += axis->carry(target - axis->travel_pulses, tick, here[number]);
+      if (stopped.any && !stopped.there[i]) {
+        target[i] =
+            stopped.at_once ? axis->travel_pulses : travel_at(i, stopped.place[static_cast<Eigen::Index>(i)]);
+      }
+      pulses[number] += axis->carry(target[i] - axis->travel_pulses, tick, here[number]);
     } else {
       // Stopped or begun otherwise between the ticks: it has its tick all the same.
       pulses[number] += axis->step(tick, here[number]);

@@ -58,8 +58,8 @@ struct Coordinated {
 
  private:
   struct Stopped;
-  Stopped first_stopped(const Point& place, const PathRun::Stretch& gone, Tick tick,
-                        std::span<const Axis> axes, std::span<const Surroundings> here) const;
+  Stopped first_stopped(const std::array<std::int64_t, kPathAxes>& target, const PathRun::Stretch& gone,
+                        Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here) const;
   double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
                      const PathRun::Stretch& gone, double from_u) const;
 };

@@ -288,11 +288,10 @@ void PathRun::drop_front() {
   ++completed_;
 }
 
-Point PathRun::place(double along_u) {
+void PathRun::go_to(double along_u) {
   while (chain_count_ > 1 && along_u >= piece(1).begin_u) drop_front();
   const Piece& here = piece(0);
   last_place_ = here.path.at(along_u - here.begin_u);
-  return last_place_;
 }
 
 void PathRun::check_queue() const {
@@ -320,16 +319,16 @@ Point PathRun::place_on(const Stretch& gone, double along_u) const {
   return pieces_[number].path.at(along_u - pieces_[number].begin_u);
 }
 
-Point PathRun::step(Tick tick, Stretch* gone) {
+const Point& PathRun::step(Tick tick, Stretch* gone) {
   completed_ = 0;
   if (chain_count_ == 0) return last_place_;
   const double elapsed_s = seconds(tick - begin_tick_);
   const bool over = elapsed_s * kTicksPerSecond >= profile_.duration_s * kTicksPerSecond - kTickTolerance;
   const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
   if (!over || along_u < chain_end_u_) {
-    const Point here = place(along_u);
+    go_to(along_u);
     if (gone != nullptr) *gone = {.to_u = along_u, .last_piece = head_};
-    return here;
+    return last_place_;
   }
   if (gone != nullptr) {
     *gone = {.to_u = chain_end_u_,

@@ -106,8 +106,9 @@ class PathRun {
     bool chain_is_over = false;
     double from_u = 0;
   };
-  /// One tick, in order. The place after it; where nothing runs, where the last path ended.
-  Point step(Tick tick, Stretch* gone = nullptr);
+  /// One tick, in order. The place after it, until the next one; where nothing runs, where the last path
+  /// ended.
+  const Point& step(Tick tick, Stretch* gone = nullptr);
   /// Of the tick just stepped, until something else is asked of the run: where it began, and the place at
   /// a length along the chain between there and `to_u`.
   double began_at(const Stretch& gone, Tick tick) const;
@@ -141,7 +142,7 @@ class PathRun {
   Profile cut_at_end(Profile profile) const;
   void replan(Tick now);
   void drop_front();
-  Point place(double along_u);
+  void go_to(double along_u);
 
   std::array<Piece, kMaxPaths> pieces_{};
   std::size_t head_ = 0;

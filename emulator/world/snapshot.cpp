@@ -30,7 +30,7 @@ namespace understudy::emulator::world {
 
 namespace {
 
-using Machines = std::vector<std::vector<PlantAxis::State>>;
+using PlantStates = std::vector<std::vector<PlantAxis::State>>;
 using LineStates = std::vector<pty::Line::State>;
 
 using OfWorld = StateOf<World>;
@@ -175,8 +175,8 @@ WorldValues read_values(const World& world, StateReader& reader) {
   return values;
 }
 
-Machines read_machines(const World& world, StateReader& reader) {
-  Machines machines;
+PlantStates read_machines(const World& world, StateReader& reader) {
+  PlantStates machines;
   for (const auto& axes : OfWorld::plants(world)) {
     auto& states = machines.emplace_back(axes.size());
     for (PlantAxis::State& state : states) {
@@ -254,7 +254,7 @@ std::function<void()> read_state(World& world, const WorldState& state) {
   Parts parts(state);
   auto own = parts.read("world", [&](StateReader reader) {
     WorldValues of_world = read_values(world, reader);
-    Machines of_machines = read_machines(world, reader);
+    PlantStates of_machines = read_machines(world, reader);
     reader.demand_end();
     return std::pair(std::move(of_world), std::move(of_machines));
   });
@@ -342,8 +342,8 @@ std::string difference(const World& world, const WorldState& a, const WorldState
     const WorldValues values_a = read_values(world, reader_a);
     const WorldValues values_b = read_values(world, reader_b);
     std::string found = difference_of_copies<World>(values_a, values_b, "world");
-    const Machines machines_a = read_machines(world, reader_a);
-    const Machines machines_b = read_machines(world, reader_b);
+    const PlantStates machines_a = read_machines(world, reader_a);
+    const PlantStates machines_b = read_machines(world, reader_b);
     for (std::size_t d = 0; d < machines_a.size(); ++d) {
       const Device& device = world.device(d);
       for (std::size_t i = 0; i < machines_a[d].size(); ++i) {

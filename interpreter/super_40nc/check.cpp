@@ -136,7 +136,6 @@ class Checker {
     const auto row =
         std::find_if(kAreas.begin(), kAreas.end(), [&](const AreaRow& r) { return r.name == name; });
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
-    is_in_area_ = false;
     is_lost_ = true;  // nothing more is said of its lines
     if (row == kAreas.end()) {
       return fail(at, Code::unknown, name.empty() ? "AREA has no name" : quoted(at.text) + " is not an area",
@@ -151,7 +150,6 @@ class Checker {
 
   void begin_file(const std::vector<Token>& tokens) {
     end_area();
-    is_in_area_ = false;
     is_lost_ = true;
     const auto number = tokens.size() < 2 ? std::optional<std::int64_t>{} : decimal(tokens[1].text);
     const Token& at = tokens[std::min<std::size_t>(1, tokens.size() - 1)];
@@ -285,6 +283,7 @@ class Checker {
 
   void look_at_fields(const InstructionRow& row, const Instruction& instruction,
                       const std::vector<Token>& tokens, std::size_t at) {
+    const std::size_t errors = checked_.errors.size();
     for (std::size_t i = 0; i < instruction.fields.size(); ++i) {
       const Operand field = instruction.fields[i];
       const Token& token = at + 1 + i < tokens.size() ? tokens[at + 1 + i] : tokens[at];
@@ -302,7 +301,7 @@ class Checker {
              "K0 to K" + std::to_string(kGreatestLabel));
       }
     }
-    if (row.op == Op::zrst) look_at_range(instruction, tokens[at]);
+    if (row.op == Op::zrst && checked_.errors.size() == errors) look_at_range(instruction, tokens[at]);
   }
   static constexpr std::int32_t kGreatestLabel = 9999999;
 
@@ -314,7 +313,6 @@ class Checker {
 
   void look_at_range(const Instruction& zrst, const Token& token) {
     const auto& [first, last, unused, unused2] = zrst.fields;
-    if (!first.is_set() || !last.is_set()) return;
     if (first.letter != last.letter || first.number > last.number || block_of(first) != block_of(last)) {
       fail(token, Code::out_of_range, text_of(first) + " to " + text_of(last) + " is not a range",
            "two of one kind, the lower one first, without a hole between them");

@@ -55,6 +55,28 @@ TEST(Documentation, TheSlimPageHasTheParametersOfTheTable) {
   }
 }
 
+/// Each line of the page that ends in a register's name, and each list of addresses.
+TEST(Documentation, TheSuper40ncPageHasTheAddressesOfTheMap) {
+  const Model* const model = find_model(models::all_models(), "super-40nc");
+  ASSERT_NE(model, nullptr);
+  const std::string page = contents(std::string(PROJECT_FOLDER) + "/docs/super-40nc.md");
+  const auto address = [&](std::string_view name) {
+    const auto found = model->registers->find(name, model->firmwares.back());
+    EXPECT_TRUE(found) << name;
+    return found ? std::to_string(found->place.address()) : "";
+  };
+  const std::string claims[] = {
+      "-r " + address("D8117") + " -c 1 -1 ./nc.port      # D8117",
+      "-r " + address("M8000") + " -c 10 -1 ./nc.port         # M8000 to M8009",
+      "| `D8117`, `D8217`, `D8317`, `D8417` | positions of X, Y, Z, U in 0.001 mm | registers " +
+          address("D8117") + ", " + address("D8217") + ", " + address("D8317") + ", " + address("D8417") +
+          " |",
+      "| `Y0`, `S0`, `M0`, `M8000` | contacts | coils " + address("Y0") + ", " + address("S0") + ", " +
+          address("M0") + ", " + address("M8000") + " on |",
+      "coil " + address("coil.T5") + ", registers " + address("holding.T5") + " and "};
+  for (const std::string& claim : claims) EXPECT_NE(page.find(claim), std::string::npos) << claim;
+}
+
 TEST(Documentation, TheShippedBenchesAreValid) {
   for (const char* name :
        {"quickstart.yaml", "two_stations.yaml", "slim_quickstart.yaml", "super40nc_quickstart.yaml"}) {

@@ -40,7 +40,7 @@ constexpr std::array<PortRow, 1> kPorts{
             .name = "COM",
             .bauds = kBauds,
             .settings = {.data_bits = 8, .parity = pty::Parity::none, .stop_bits = 1}}};
-constexpr std::uint8_t kFunctions[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
+constexpr std::uint8_t kServedFunctions[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10};
 
 constexpr std::string_view kStateRegisters[] = {
     "DRIVING_AXIS",     "LP_X",           "LP_Y",      "LP_Z",        "LP_U", "ERROR_STATE",
@@ -69,7 +69,7 @@ const Model& model() {
       .state_registers = kStateRegisters,
       .gaps = kGaps,
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{1, 247}},
-      .rtu = RtuRules{.end_silence = std::chrono::milliseconds(3), .functions = kFunctions},
+      .rtu = RtuRules{.end_silence = std::chrono::milliseconds(3), .functions = kServedFunctions},
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<RsM8194h>(settings);
       },

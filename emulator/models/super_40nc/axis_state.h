@@ -49,6 +49,7 @@ struct AxisState {
   std::int64_t offset_lu = 0;                         // of the work coordinate against the machine's
   std::int64_t encoder_counts = 0;
   std::int64_t backlash_seen = 0;  // of the motor's
+  std::int64_t path_backlash = 0;  // that comes before its path begins, signed by the way it goes
 
   Holder holder = Holder::nobody;
   bool asked_by_contact = false;  // the jog, by M8x03 or M8x04

@@ -58,11 +58,21 @@ Super40nc::Super40nc(const DeviceSettings& given)
       RegisterBankOf(*this, *Device::model().registers, given.firmware),
       KeptMemory(Device::model().name, given.firmware) {
   options_ = chosen_options();
+  map_policy_ = chosen_map_policy();
   lines_wait_ = chose(option("axis_conflicts", "programs_always_wait"));
   multiplies_by_x12_ = chose(option("multiplier", "from_x12"));
   state_.eeprom = factory_memory();
   state_.blocks = TextBlocks(block_kinds());
   set_input(kRunSwitch, 1);
+}
+
+MapPolicy Super40nc::chosen_map_policy() const {
+  MapPolicy policy = map().policy();
+  if (chose(option("holes", "read_0_swallow_writes"))) policy.unmapped = MapPolicy::Unmapped::reads_zero;
+  if (chose(option("read_only_write", "exception_2"))) policy.read_only = MapPolicy::ReadOnly::refused;
+  if (chose(option("range_checks", "exception_3"))) policy.out_of_range = MapPolicy::OutOfRange::refused;
+  if (chose(option("range_checks", "nearest_one"))) policy.out_of_range = MapPolicy::OutOfRange::clamped;
+  return policy;
 }
 
 language::Options Super40nc::chosen_options() const {
@@ -317,6 +327,10 @@ double Super40nc::speed_pps(int number) const {
 double Super40nc::commanded_pps(int number) const {
   const motion::Axis& motor = chip(number);
   if (!motor.moving()) return 0;
+  if (axis(number).path_backlash != 0 && !state_.path_is_held) {
+    const double way = axis(number).path_backlash < 0 ? -1 : +1;
+    return way * motor.settings.backlash_speed_pps;
+  }
   if (is_on_path(number)) return state_.path.speed_pps(static_cast<std::size_t>(number), now());
   if (motor.task == motion::Task::following) {
     return static_cast<double>(axis(number).followed_pulses) * motion::kTicksPerSecond;

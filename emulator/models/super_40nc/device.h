@@ -82,6 +82,7 @@ struct State {
   std::array<AxisState, kAxisCount> axes{};
   motion::Coordinated path;  // LIN and arcs of C
   bool path_is_held = false;
+  Tick path_backlash_ticks = 0;     // for which backlash has come before the path
   std::int32_t path_feed_lu_s = 0;  // F as it was when the path began
   double path_limit_lu_s = 1;       // where an axis comes to its highest speed
   interpreter::super_40nc::PlcState plc;
@@ -125,6 +126,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void register_written(const RegisterRow& row, std::size_t slot) override;
   void registers_written() override { state_.touched = true; }
   void mention_unmodelled(const RegisterRow& row) const override;
+  const MapPolicy& map_policy() const override { return map_policy_; }
   Addressing addressing(std::uint8_t address) const override;
   bool knows(std::uint8_t function) const override;
   bool answers_refusals() const override;
@@ -307,6 +309,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   Eeprom factory_memory() const;
   std::uint32_t factory_bits(const RegisterRow& row) const;
   interpreter::super_40nc::Options chosen_options() const;
+  MapPolicy chosen_map_policy() const;
   void reset_parameters();
 
   // --- commands.cpp, keys.cpp: the scan's step of contacts
@@ -361,6 +364,10 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void forget_end(int axis);
   void path_ended();
   void step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
+  bool awaits_path() const;
+  void begin_path_backlash(const motion::Path& path);
+  void end_path_backlash();
+  void step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCount>& sent);
   double path_feed() const;
 
   void run_plc();
@@ -401,6 +408,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   std::array<bool, kAxisCount> is_restored_{};  // and neither told its edges nor looked round since
   NamedBlocks::mapped_type ready_texts_;        // that those two are made of
   interpreter::super_40nc::Options options_;
+  MapPolicy map_policy_;
   bool lines_wait_ = false;                       // a choice that is asked for often
   bool multiplies_by_x12_ = false;                // likewise
   int plc_step_ = 0;                              // not state: 0 outside of a line

@@ -135,6 +135,7 @@ bool Super40nc::begin_path(const PathPlan& plan) {
   }
   state_.path = path;
   state_.path_is_held = false;
+  begin_path_backlash(plan.path);
   heed_override();
   return true;
 }
@@ -193,7 +194,7 @@ void Super40nc::go_on_path() {
   for (int number = 0; number < kAxisCount; ++number) {
     if (is_on_path(number)) axis(number).holder = Holder::move;
   }
-  state_.path.run.resume(now());
+  if (!awaits_path()) state_.path.run.resume(now());
 }
 
 /// VDRV 0: by the ramp of the path, and over.
@@ -207,6 +208,7 @@ void Super40nc::stop_path() {
   state_.path.stop(state_.chips, motion::Cause::stopped);
   state_.path = {};
   state_.path_is_held = false;
+  for (AxisState& its : state_.axes) its.path_backlash = 0;
   for (int number = 0; number < kAxisCount; ++number) {
     if (!took[static_cast<std::size_t>(number)]) continue;
     forget_end(number);
@@ -216,6 +218,7 @@ void Super40nc::stop_path() {
 }
 
 void Super40nc::step_path(Tick tick, std::array<std::int64_t, kAxisCount>& sent) {
+  step_path_backlash(tick, sent);
   state_.path.step(tick, state_.chips, state_.here, sent);
   if (!state_.path.engaged || !state_.path_is_held || !state_.path.run.at_rest(tick)) return;
   for (int number = 0; number < kAxisCount; ++number) {
@@ -230,6 +233,7 @@ void Super40nc::path_ended() {
   const Code code = code_of(why);
   for (int number = 0; number < kAxisCount; ++number) {
     AxisState& state = axis(number);
+    state.path_backlash = 0;
     if (state.rest.kind != RestKind::path) continue;
     forget_end(number);
     state.has_ended = true;

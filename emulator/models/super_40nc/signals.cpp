@@ -57,11 +57,13 @@ void Super40nc::look_round(int number) {
       (is_inside ? seen.add(function.signal, span->first, span->last, span->slack)
                  : seen.add_outside(function.signal, span->first, span->last, span->slack));
     } else if (edges.index.period != 0 && edges.index.input == function.input) {
-      seen.index_period = edges.index.period;
-      seen.index_at = edges.index.at;
-      seen.index_width = edges.index.width;
-      seen.index_from = edges.index.first;
-      seen.index_to = edges.index.last;
+      const MachineEdges::Index& index = edges.index;
+      const bool is_inside = index.level_inside == *function.active_level;
+      seen.index_period = index.period;
+      seen.index_at = is_inside ? index.at : index.at + index.width;
+      seen.index_width = is_inside ? index.width : index.period - index.width;
+      seen.index_from = index.first;
+      seen.index_to = index.last;
     } else {
       seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
     }

@@ -49,8 +49,9 @@ void StateOf<Rest>::check(const Rest& rest) {
 }
 
 void StateOf<AxisState>::check(const AxisState& axis) {
-  for (const std::int64_t number : {axis.sent_pulses, axis.followed_pulses, axis.offset_lu,
-                                    axis.encoder_counts, axis.backlash_seen, axis.target_lu}) {
+  for (const std::int64_t number :
+       {axis.sent_pulses, axis.followed_pulses, axis.offset_lu, axis.encoder_counts, axis.backlash_seen,
+        axis.path_backlash, axis.target_lu}) {
     demand_within(number, -kFar, kFar);
   }
   demand_within(axis.order, 0, 4);
@@ -60,6 +61,7 @@ void StateOf<AxisState>::check(const AxisState& axis) {
 void StateOf<State>::check(const State& state) {
   for (const Tick tick : state.signal_until) demand_reach(tick);
   demand_within(state.plc_quiet_scans, 0, kNever);
+  demand_within(state.path_backlash_ticks, 0, kNever);
   demand_within(state.logo_ms, 0, 10'000);
   demand_within(state.file, 0, 30'000);
   demand_within(state.recipe, 0, kRecipeCount - 1);

@@ -96,7 +96,7 @@ std::int32_t Super40nc::operation_of(int number) const {
   const motion::Axis& motor = chip(number);
   if (!motor.moving() || !its.moves()) return kStopped;
   if (motor.task == motion::Task::following) return kByWheel;
-  if (motor.in_backlash) return kBacklash;
+  if (motor.in_backlash || its.path_backlash != 0) return kBacklash;
   const motion::Sample sample = is_on_path(number) ? state_.path.run.sample(now()) : motor.sample(now());
   if (!(sample.speed_u_s > 0)) return kStopped;
   if (sample.acceleration_u_s2 > 0) return kSpeedingUp;

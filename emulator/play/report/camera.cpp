@@ -23,7 +23,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-using Kind = SeenSignal::Kind;
+using SignalKind = SeenSignal::Kind;
 
 // A scene keeps this many frames from its beginning, and as many from its end.
 constexpr std::size_t kFramesKept = 300;
@@ -37,24 +37,27 @@ Camera::Camera(world::World& world) : world_(world), probes_(world) {
     for (std::size_t a = 0; a < device.model->axes.size(); ++a) {
       if (!world.device(d).axes()->has_axis(static_cast<int>(a))) continue;
       const std::string axis = device.name + "." + std::string(device.model->axes[a].name);
-      add_sight(axis + ".position", Kind::position);
-      add_sight(axis + ".pulses", Kind::pulses);
-      add_sight(axis + ".speed", Kind::speed);
-      if (world.device(d).axes()->duty_percent(static_cast<int>(a))) add_sight(axis + ".pwm", Kind::duty);
+      add_sight(axis + ".position", SignalKind::position);
+      add_sight(axis + ".pulses", SignalKind::pulses);
+      add_sight(axis + ".speed", SignalKind::speed);
+      if (world.device(d).axes()->duty_percent(static_cast<int>(a)))
+        add_sight(axis + ".pwm", SignalKind::duty);
       for (const char* word : {".home", ".lower_limit", ".upper_limit", ".alarm"}) {
-        add_sight(axis + word, Kind::bit);
+        add_sight(axis + word, SignalKind::bit);
       }
       const world::PlantSetup& machine = world.machine(d, static_cast<int>(a));
-      if (machine.near_home) add_sight(axis + ".near_home", Kind::bit);
-      if (machine.mark) add_sight(axis + ".mark", Kind::bit);
+      if (machine.near_home) add_sight(axis + ".near_home", SignalKind::bit);
+      if (machine.mark) add_sight(axis + ".mark", SignalKind::bit);
     }
     for (const TerminalSight& sight : terminal_sights(world.device(d))) {
       if (sight.kind == TerminalRow::Kind::dip_switch) continue;
       const bool is_bit = sight.what == TerminalSight::What::level && has_two_levels(sight.kind);
-      const Kind kind = is_in_millivolts(sight.kind) ? Kind::voltage : is_bit ? Kind::bit : Kind::level;
+      const SignalKind kind = is_in_millivolts(sight.kind) ? SignalKind::voltage
+                              : is_bit                     ? SignalKind::bit
+                                                           : SignalKind::level;
       add_sight(device.name + "." + sight.name, kind);
     }
-    add_sight(device.name + ".power", Kind::bit);
+    add_sight(device.name + ".power", SignalKind::bit);
   }
   world_.add_watcher(*this);
   world_restored(0);
@@ -65,7 +68,7 @@ Camera::~Camera() {
   ignore_lines();
 }
 
-void Camera::add_sight(const std::string& name, Kind kind) {
+void Camera::add_sight(const std::string& name, SignalKind kind) {
   sights_.push_back({kind, name, probes_.resolve(name).handle, Envelope()});
 }
 
@@ -94,7 +97,7 @@ void Camera::world_restored(std::size_t steps) {
 void Camera::on_tick(Tick tick) {
   for (Sight& sight : sights_) {
     const double value = probes_.value(sight.handle).real();
-    sight.values.add(tick, sight.kind == Kind::voltage ? value / kMillivolts : value);
+    sight.values.add(tick, sight.kind == SignalKind::voltage ? value / kMillivolts : value);
   }
   scene_.end = std::max(scene_.end, time_of(tick));
 }

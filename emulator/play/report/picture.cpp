@@ -16,7 +16,7 @@ namespace understudy::emulator::play {
 
 namespace {
 
-using Kind = SeenSignal::Kind;
+using SignalKind = SeenSignal::Kind;
 
 // In the picture's own units, of which a browser makes as many pixels as there is room for.
 constexpr double kWidth = 1100;
@@ -93,7 +93,7 @@ std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
   std::size_t axis = 0;
   for (std::size_t i = 0; i + 2 < scene.signals.size(); ++i) {
     const SeenSignal& position = scene.signals[i];
-    if (position.kind != Kind::position) continue;
+    if (position.kind != SignalKind::position) continue;
     const SeenSignal& pulses = scene.signals[i + 1];
     const SeenSignal& speed = scene.signals[i + 2];
     const std::size_t colour = axis++ % kColours;
@@ -105,11 +105,11 @@ std::vector<Panel> panels_of(const Scene& scene, bool with_still_axes) {
     }
     if (!is_still) speeds.curves.push_back({.signal = &speed, .colour = colour});
   }
-  const auto panel_of = [&](Kind kind) -> Panel* {
+  const auto panel_of = [&](SignalKind kind) -> Panel* {
     switch (kind) {
-      case Kind::duty: return &duties;
-      case Kind::voltage: return &voltages;
-      case Kind::level: return &levels;
+      case SignalKind::duty: return &duties;
+      case SignalKind::voltage: return &voltages;
+      case SignalKind::level: return &levels;
       default: return nullptr;
     }
   };
@@ -314,7 +314,7 @@ std::string picture(const Scene& scene, const PictureMarks& marks) {
   std::vector<Panel> panels = panels_of(scene, false);
   std::vector<const SeenSignal*> bits;
   for (const SeenSignal& signal : scene.signals) {
-    if (signal.kind == Kind::bit && signal.varies()) bits.push_back(&signal);
+    if (signal.kind == SignalKind::bit && signal.varies()) bits.push_back(&signal);
   }
   if (panels.empty() && bits.empty()) {
     if (!marks.failed_at) return "";

@@ -12,17 +12,17 @@ namespace understudy::emulator::play {
 
 namespace {
 
-using Kind = SeenSignal::Kind;
+using SignalKind = SeenSignal::Kind;
 
-const char* unit_of(Kind kind) {
+const char* unit_of(SignalKind kind) {
   switch (kind) {
-    case Kind::position:
-    case Kind::pulses: return " pulses";
-    case Kind::speed: return " pulses/s";
-    case Kind::duty: return " %";
-    case Kind::voltage: return " V";
-    case Kind::level:
-    case Kind::bit: break;
+    case SignalKind::position:
+    case SignalKind::pulses: return " pulses";
+    case SignalKind::speed: return " pulses/s";
+    case SignalKind::duty: return " %";
+    case SignalKind::voltage: return " V";
+    case SignalKind::level:
+    case SignalKind::bit: break;
   }
   return "";
 }
@@ -30,7 +30,7 @@ const char* unit_of(Kind kind) {
 std::string words_of(const SeenSignal& signal) {
   const SeenSignal::Point& first = signal.points.front();
   const SeenSignal::Point& last = signal.points.back();
-  if (signal.kind == Kind::bit) {
+  if (signal.kind == SignalKind::bit) {
     const auto level = [](const SeenSignal::Point& point) { return point.value != 0 ? "on" : "off"; };
     return signal.name + " is " + level(first) + " at first and " + level(last) + " at the end";
   }

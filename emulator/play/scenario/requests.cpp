@@ -33,10 +33,10 @@ std::uint32_t bits_in(std::span<const std::uint16_t> words, bool low_word_first)
   return low_word_first ? first | second << 16 : second | first << 16;
 }
 
-using Kind = world::FunctionRow::Kind;
+using FunctionKind = world::FunctionRow::Kind;
 
 /// How many a request may read or write at once (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
-int most_of(Table table, Kind kind) {
+int most_of(Table table, FunctionKind kind) {
   const world::FunctionRow* const function = world::function_for(table, kind);
   return function != nullptr ? function->most : 1;
 }
@@ -48,7 +48,7 @@ bool is_of_one_table(const Words& a, const Words& b) { return a.device == b.devi
 Table table_of(const Target& target) { return target.place ? target.place->place.row->table : target.table; }
 
 bool can_be_sent(const Target& target) {
-  return world::function_for(table_of(target), Kind::write_one) != nullptr;
+  return world::function_for(table_of(target), FunctionKind::write_one) != nullptr;
 }
 
 Limits limits_of(const Target& target) {
@@ -77,7 +77,7 @@ std::vector<Request> read_requests(std::span<const Words> entries) {
       Words& last = requests.back().words;
       const int end = std::max(last.end(), next.end());
       if (is_of_one_table(next, last) && next.first >= last.first && next.first <= last.end() &&
-          end - last.first <= most_of(next.table, Kind::read)) {
+          end - last.first <= most_of(next.table, FunctionKind::read)) {
         last.count = end - last.first;
         requests.back().entries.push_back(i);
         continue;
@@ -98,7 +98,7 @@ std::vector<Request> write_requests(std::span<const Words> entries,
     if (is_open && !is_alone) {
       Words& last = requests.back().words;
       if (is_of_one_table(next, last) && next.first == last.end() &&
-          last.count + next.count <= most_of(next.table, Kind::write_several)) {
+          last.count + next.count <= most_of(next.table, FunctionKind::write_several)) {
         last.count += next.count;
         requests.back().entries.push_back(i);
         continue;

@@ -35,12 +35,12 @@ constexpr std::array<Hint, 4> kHints = {{
     {"..", "a range has no place here; expected low <= x && x <= high"},
 }};
 
-struct FunctionRow {
+struct ExpressionFunctionRow {
   std::string_view name;
   Operator operation;
   bool folds;  // two arguments or more, taken pair by pair
 };
-constexpr std::array<FunctionRow, 3> kFunctions = {
+constexpr std::array<ExpressionFunctionRow, 3> kExpressionFunctions = {
     {{"abs", Operator::absolute, false}, {"max", Operator::maximum, true}, {"min", Operator::minimum, true}}};
 
 /// What the words of other languages for on and off are here; empty for others.
@@ -255,11 +255,12 @@ Term ExpressionParser::name() {
 }
 
 Term ExpressionParser::call(const std::string& function, std::size_t offset) {
-  const auto* const row = std::find_if(kFunctions.begin(), kFunctions.end(),
-                                       [&](const FunctionRow& known) { return known.name == function; });
-  if (row == kFunctions.end()) {
+  const auto* const row =
+      std::find_if(kExpressionFunctions.begin(), kExpressionFunctions.end(),
+                   [&](const ExpressionFunctionRow& known) { return known.name == function; });
+  if (row == kExpressionFunctions.end()) {
     std::vector<std::string> known;
-    for (const FunctionRow& candidate : kFunctions) known.emplace_back(candidate.name);
+    for (const ExpressionFunctionRow& candidate : kExpressionFunctions) known.emplace_back(candidate.name);
     fail(offset, "no function is called " + quoted(function) + suggestion(function, known));
   }
   expect("(");

@@ -491,6 +491,7 @@ TEST(Super40ncPlc, CrossesScansOfTimersAsIfItHadRunThem) {
     crossed += static_cast<int>(quiet);
     ASSERT_EQ(one.machine.memory, other.machine.memory) << ms;
     ASSERT_EQ(one.plc, other.plc) << ms;
+    ASSERT_EQ(one.machine.kept_writes, other.machine.kept_writes) << ms;
   }
   EXPECT_GT(crossed, 1900);
 }

@@ -37,7 +37,10 @@ class ScriptedMachine : public Machine {
       .x = 5, .y = 60, .m = 100, .t = 620, .c = 690, .t_value = 730, .c_value = 800, .d = 840};
   CellLayout layout() const override { return kLayout; }
   std::span<std::uint32_t> cells() override { return memory; }
-  void kept_cell_written(std::uint32_t cell) override { kept.insert(cell); }
+  void kept_cell_written(std::uint32_t cell) override {
+    kept.insert(cell);
+    ++kept_writes;
+  }
 
   bool special_contact(int number) const override {
     return number == named::kAlwaysOn || special.contains(number);
@@ -152,6 +155,7 @@ class ScriptedMachine : public Machine {
 
   std::array<std::uint32_t, 1900> memory{};
   std::set<std::uint32_t> kept;
+  int kept_writes = 0;
   std::set<int> special;  // those that are ON
   std::map<int, std::int32_t> registers;
   std::vector<std::array<int, 3>> codes;

@@ -357,6 +357,23 @@ TEST(Super40ncStep, DecidesByTheContactBeforeEveryLine) {
   EXPECT_EQ(running.state(Area::c).step, 2);
 }
 
+/// What was held is dropped with the step that is written, and a start has nothing to go on with.
+TEST(Super40ncStep, AWrittenStepDropsWhatIsHeld) {
+  Running running = started("LIN K1000;SET Y0;TMR K500");
+  running.machine.motion_ticks = 50;
+  running.tick(2);
+  running.take(Event::hold, Area::c);
+  EXPECT_EQ(running.phase(Area::c), Phase::held);
+  running.programs().set_step(Area::c, 4);
+  EXPECT_EQ(running.phase(Area::c), Phase::paused);
+  EXPECT_EQ(running.machine.log.back(), "C: drop");
+  running.start(Area::c);
+  running.tick();
+  const auto& log = running.machine.log;
+  EXPECT_EQ(std::count(log.begin(), log.end(), "C: go on"), 0);
+  EXPECT_TRUE(running.machine.contact(y(0)));
+}
+
 TEST(Super40ncStep, AnEmptyProgramEndsAtOnce) {
   Running running("AREA C\n");
   running.machine.special.insert(8000);

@@ -40,8 +40,62 @@ Value answers_at_zero(OneSuper40nc& one) {
   return one.ask(OneSuper40nc::kRs232, "00 01 00 00 00 01").empty() ? 0 : 1;
 }
 
+/// The code of the exception that a request gets, or 0.
+Value exception_to(OneSuper40nc& one, std::string_view request) {
+  const std::string reply = one.ask(OneSuper40nc::kRs232, request);
+  return reply.size() == 8 ? reply.back() - '0' : 0;  // "00 83 02"
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
+      // D999 and the hole behind T63 and C31.
+      {"holes",
+       "",
+       {},
+       {},
+       "",
+       {{"exception_2", 2}, {"read_0_swallow_writes", 0}},
+       [](OneSuper40nc& one) { return exception_to(one, "00 03 0A 08 00 01"); }},
+      {"holes",
+       "",
+       {},
+       {},
+       "",
+       {{"exception_2", 2}, {"read_0_swallow_writes", 0}},
+       [](OneSuper40nc& one) { return exception_to(one, "00 06 0A 08 00 01"); }},
+      // D8094.
+      {"read_only_write",
+       "",
+       {},
+       {},
+       "",
+       {{"answered_ignored", 0}, {"exception_2", 2}},
+       [](OneSuper40nc& one) { return exception_to(one, "00 06 1C 14 00 01"); }},
+      // D9003 = 9, of at most 4 axes.
+      {"range_checks",
+       "",
+       {},
+       {},
+       "D9003",
+       {{"stored_limited_when_used", 9}, {"exception_3", 0}, {"nearest_one", 4}},
+       [](OneSuper40nc& one) {
+         one.ask(OneSuper40nc::kRs232, "00 10 23 2E 00 02 04 00 09 00 00");
+         return one.get("D9003");
+       }},
+      {"range_checks",
+       "",
+       {},
+       {},
+       "",
+       {{"stored_limited_when_used", 0}, {"exception_3", 3}, {"nearest_one", 0}},
+       [](OneSuper40nc& one) { return exception_to(one, "00 10 23 2E 00 02 04 00 09 00 00"); }},
+      // What a program writes beyond the range is refused as well: it stays as it was.
+      {"range_checks",
+       "AREA X\nMOV K9 D9003\nEND",
+       {},
+       {{{{"M8100", 1}}, 5}},
+       "D9003",
+       {{"stored_limited_when_used", 9}, {"exception_3", 0}, {"nearest_one", 4}}},
       {"factory_values", "", {}, {}, "D9178", {{"table_of_d9", 100}, {"panels", 500}}},
       {"factory_values", "", {}, {}, "D9181", {{"table_of_d9", 0}, {"panels", 1}}},
       {"factory_values", "", {}, {}, "D9183", {{"table_of_d9", 0}, {"panels", 1000}}},
@@ -187,6 +241,16 @@ const std::vector<Case>& cases() {
        "D8123",
        {{"d8022", 65500}, {"always_medium", 65533}, {"d8022_also_while_it_runs", 65500}}},
       {"jog_aliases", "", {}, {{{{"M8519", 1}}, 5}}, "M8103", {{"jog_keys", 1}, {"plain_contacts", 0}}},
+      // The keys that the table has jog all the same.
+      {"jog_aliases", "", {}, {{{{"M8560", 1}}, 5}}, "M8103", {{"jog_keys", 1}, {"plain_contacts", 1}}},
+      {"jog_aliases", "", {}, {{{{"M8561", 1}}, 5}}, "M8104", {{"jog_keys", 1}, {"plain_contacts", 1}}},
+      // A DRV of 7.5 s that M8004 meets.
+      {"m8004_scope",
+       "AREA X\nRPM K100\nDRV K50000\nEND",
+       {},
+       {{{{"M8100", 1}}, 200}, {{{"M8004", 1}}, 300}},
+       "M8121",
+       {{"new_motions_wait_or_are_void_running_ones_go_on", 1}, {"running_ones_are_held", 0}}},
       {"zero_set_enable",
        "",
        {{"D8117", 10}},
@@ -357,6 +421,14 @@ TEST(Super40ncChoices, ShowTheirEffects) {
       EXPECT_EQ(each.look ? each.look(one) : one.get(each.shown), value)
           << each.id << ": " << option << ", " << each.shown;
     }
+  }
+}
+
+/// A row with one option says that others are not modelled, or follows from the manual.
+TEST(Super40ncChoices, SayWhatIsNotModelled) {
+  for (const ChoiceRow& row : kChoices) {
+    if (options_of(row).size() > 1 || row.confidence == kFollows) continue;
+    EXPECT_NE(row.why.find("not modelled"), std::string_view::npos) << row.id;
   }
 }
 

@@ -78,7 +78,8 @@ void act_on(OneSuper40nc& one, const Act& act) {
 }
 
 Given drawn(std::uint64_t seed) {
-  Given given{.set = {{"D9003", 2}, {"D9390", 200}}};
+  Given given{
+      .set = {{"D9003", 2}, {"D9390", 200}, {"D9157", 1}, {"D9156", 90}, {"D9257", 2}, {"D9256", 60}}};
   given.set.emplace_back("D9128", 0);
   const char* const plcs[] = {"", kPlc, kCuriousPlc, kActingPlc};
   given.program = plcs[seed % 4];

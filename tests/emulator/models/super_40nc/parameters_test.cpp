@@ -118,6 +118,115 @@ TEST(Super40ncParameters, TheWheelKnowsNoBacklash) {
   EXPECT_EQ(one.get("D8117"), 40);
 }
 
+/// 400 pulses at 20 rpm (1333 pps) take 300 ms, in which a path waits: of Y 200, which are over before. D9x57
+/// = 1: where an axis turns round; 2: at every start.
+TEST(Super40ncParameters, BacklashComesBeforeAPath) {
+  struct Row {
+    std::int64_t x, y;                      // where C goes
+    std::int64_t pulses_x[3], pulses_y[3];  // of backlash, by D9x57
+  };
+  constexpr Row kRows[] = {{1000, 0, {0, 0, 400}, {0, 0, 0}},
+                           {2000, 500, {0, 0, 400}, {0, 0, 200}},
+                           {1000, 1000, {0, -400, -400}, {0, 0, 200}},
+                           {1000, 0, {0, 0, 0}, {0, -200, -200}},
+                           {3000, 500, {0, 400, 400}, {0, 200, 200}}};
+  for (const int kind : {0, 1, 2}) {
+    OneSuper40nc one(with_encoder());
+    for (const char* name : {"D9157", "D9257"}) one.set(name, kind);
+    one.set("D9156", 400);
+    one.set("D9256", 200);
+    one.set("D9003", 4);
+    one.it().load_program("AREA C\nF K20000\nLIN D100 D101\nEND");
+    std::int64_t all_x = 0;
+    std::int64_t all_y = 0;
+    for (const Row& row : kRows) {
+      one.set("D100", row.x);
+      one.set("D101", row.y);
+      const Value before = one.get("D8117");
+      const Value before_y = one.get("D8217");
+      one.set("M8000", 1);
+      const std::int64_t x = row.pulses_x[kind];
+      const std::int64_t y = row.pulses_y[kind];
+      const Tick waits = x != 0 ? 300 : y != 0 ? 150 : 0;
+      one.run(1 + waits / 2);
+      if (waits > 0) {
+        EXPECT_EQ(one.get("D8164"), x != 0 ? 7 : 0) << kind << ", to " << row.x;
+        EXPECT_EQ(one.get("D8264") == 7, x == 0) << kind << ", to " << row.x;  // 200 have come in 150 ms
+      }
+      one.run(waits / 2);
+      EXPECT_NEAR(static_cast<double>(one.get("D8117") - before), 0, 1) << kind << ", to " << row.x;
+      EXPECT_NEAR(static_cast<double>(one.get("D8217") - before_y), 0, 1);
+      one.run(20);
+      EXPECT_NE(one.get("D8117") + one.get("D8217"), before + before_y) << kind << ", to " << row.x;
+      one.run_while("M8000");
+      one.run(2);
+      EXPECT_EQ(one.get("D8117"), row.x);
+      EXPECT_EQ(one.get("D8217"), row.y);
+      all_x += x;
+      all_y += y;
+      EXPECT_EQ(one.it().chip(0).backlash_sent, all_x) << kind << ", to " << row.x;
+      EXPECT_EQ(one.it().chip(1).backlash_sent, all_y) << kind << ", to " << row.x;
+      EXPECT_EQ(one.get("D8141"), (row.x + all_x) / 4) << kind;  // the encoder has 1 count in 4 pulses
+    }
+  }
+}
+
+/// A circle turns both axes round, and nothing is corrected on it; behind it the last way of each counts.
+TEST(Super40ncParameters, AnArcIsNotCorrectedWithin) {
+  OneSuper40nc one(with_encoder());
+  for (const char* name : {"D9157", "D9257"}) one.set(name, 1);
+  for (const char* name : {"D9156", "D9256"}) one.set(name, 40);
+  one.set("D9003", 4);
+  one.it().load_program("AREA C\nXYP\nF K20000\nCCW * * K-1000 K0\nLIN K-100 K100\nEND");
+  one.set("M8000", 1);
+  one.run_while("M8000");
+  // It ends going up and to the right: X turns round for the line.
+  EXPECT_EQ(one.it().chip(0).backlash_sent, -40);
+  EXPECT_EQ(one.it().chip(1).backlash_sent, 0);
+  EXPECT_EQ(one.get("D8117"), -100);
+}
+
+/// A pause stands still in it and goes on; a stop leaves what has not come to the next start.
+TEST(Super40ncParameters, BacklashBeforeAPathCanBeHeld) {
+  OneSuper40nc one(with_encoder());
+  one.set("D9157", 1);
+  one.set("D9156", 400);
+  one.set("D9003", 4);
+  one.it().load_program("AREA C\nF K20000\nLIN D100\nEND");
+  const auto go = [&](Value to) {
+    one.set("D100", to);
+    one.set("M8000", 1);
+  };
+  go(1000);
+  one.run_while("M8000");
+  go(0);
+  one.run(150);
+  one.set("M8006", 1);
+  one.run(5);
+  const std::int64_t held_at = one.it().chip(0).backlash_sent;
+  EXPECT_NEAR(static_cast<double>(held_at), -200, 4);
+  EXPECT_EQ(one.get("D8164"), 0);
+  EXPECT_TRUE(one.on("M8022"));
+  one.run(500);
+  EXPECT_EQ(one.it().chip(0).backlash_sent, held_at);
+  EXPECT_EQ(one.get("D8117"), 1000);
+  one.set("M8006", 0);
+  one.set("M8000", 1);
+  one.run(100);
+  EXPECT_EQ(one.get("D8164"), 7);
+  one.set("M8002", 1);
+  one.run(2);
+  one.set("M8002", 0);
+  one.run(100);
+  const std::int64_t stopped_at = one.it().chip(0).backlash_sent;
+  EXPECT_NEAR(static_cast<double>(stopped_at), -334, 5);
+  EXPECT_EQ(one.get("D8117"), 1000);
+  go(0);
+  one.run_while("M8000");
+  EXPECT_EQ(one.it().chip(0).backlash_sent, -400);
+  EXPECT_EQ(one.get("D8117"), 0);
+}
+
 /// 400 pulses at 20 rpm (1333 pps) come before each of two moves in one direction, and before the way back.
 TEST(Super40ncParameters, SlipComesFirstAtEveryStart) {
   OneSuper40nc one(with_encoder());

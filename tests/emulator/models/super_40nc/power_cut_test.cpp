@@ -6,6 +6,7 @@
 #include <random>
 
 #include "emulator/device/memory/kept_memory.h"
+#include "emulator/models/super_40nc/files.h"
 #include "tests/emulator/models/super_40nc/listings.h"
 
 namespace understudy::emulator::models::super_40nc {
@@ -136,6 +137,21 @@ TEST(Super40ncPowerCut, LeavesWhatIsKeptWhole) {
       one.run(below(4) == 0 ? below(300) : below(2));
     }
   }
+}
+
+/// The text of a recipe that cannot be names the line.
+TEST(Super40ncPowerCut, ARecipeThatCannotBeSaysWhere) {
+  const auto kind = std::find_if(block_kinds().begin(), block_kinds().end(),
+                                 [](const BlockKind& one) { return one.name == kRecipes; });
+  ASSERT_NE(kind, block_kinds().end());
+  EXPECT_EQ(kind->why_not_text("D500 1\nD999 -2147483648\n"), "");
+  for (const char* wrong : {"D499 1", "D1000 1", "X500 1", "D500", "D500 2147483648", "D500 1 2"}) {
+    EXPECT_EQ(kind->why_not_text(wrong).substr(0, 8), "line 1: ") << wrong;
+    EXPECT_EQ(kind->why_not_text("D500 1\n" + std::string(wrong) + "\nD501 2\n").substr(0, 8), "line 2: ")
+        << wrong;
+  }
+  for (const char* name : {"00", "99"}) EXPECT_EQ(kind->why_not_called(name), "");
+  for (const char* name : {"", "0", "100", "1a", "-1"}) EXPECT_NE(kind->why_not_called(name), "") << name;
 }
 
 /// A program changes recipes for ever: each number keeps its own, whichever tick the power goes in.

@@ -1,0 +1,94 @@
+// Backlash before a LIN or an arc: every axis of it that turns round, or each one if it slips (D9x57 = 2),
+// first goes its X1 pulses at X22, all at once; the path begins when the last is done. Within an arc nothing
+// is corrected, as on the chip. (Manual, X1., X22.)
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simulated_time.h"
+#include "emulator/models/super_40nc/axis_state.h"
+#include "emulator/models/super_40nc/device.h"
+#include "motion/axis.h"
+#include "motion/path.h"
+#include "motion/path_run.h"
+
+namespace understudy::emulator::models::super_40nc {
+
+namespace {
+
+/// As a motion of its own would have it.
+std::int64_t play_before(const motion::Axis& motor, int way) {
+  const std::int64_t all = motor.settings.backlash_pulses;
+  if (motor.settings.slips) return all;
+  if (motor.last_direction == 0) return 0;
+  const std::int64_t play = std::clamp<std::int64_t>(motor.play_pulses, 0, all);
+  return way > 0 ? all - play : play;
+}
+
+/// Of so many pulses, those that have come after so many ticks.
+std::int64_t come_by(std::int64_t pulses, double speed_pps, Tick ticks) {
+  constexpr double kRounding = 1e-9;
+  const double come = speed_pps * static_cast<double>(ticks) / motion::kTicksPerSecond + kRounding;
+  return come < static_cast<double>(pulses) ? static_cast<std::int64_t>(come) : pulses;
+}
+
+}  // namespace
+
+bool Super40nc::awaits_path() const {
+  return std::any_of(state_.axes.begin(), state_.axes.end(),
+                     [](const AxisState& its) { return its.path_backlash != 0; });
+}
+
+void Super40nc::begin_path_backlash(const motion::Path& path) {
+  constexpr double kFirstPart = 1e-3;  // an arc may begin at right angles to the axis
+  state_.path_backlash_ticks = 0;
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!is_on_path(number)) continue;
+    const double ahead = path.at(path.length_u * kFirstPart)[number] - path.begin[number];
+    if (ahead == 0) continue;
+    const int way = ahead < 0 ? -1 : +1;
+    motion::Axis& motor = chip(number);
+    const std::int64_t play = play_before(motor, way);
+    if (play == 0) continue;
+    axis(number).path_backlash = play * way;
+    // As far as it has come, should it be stopped.
+    motor.play_pulses = way > 0 ? motor.settings.backlash_pulses - play : play;
+    motor.last_direction = static_cast<std::int8_t>(way);
+  }
+  awaits_path() ? state_.path.run.pause(before_motion()) : end_path_backlash();
+}
+
+/// All of it has come. On the path nothing is corrected.
+void Super40nc::end_path_backlash() {
+  for (int number = 0; number < kAxisCount; ++number) {
+    if (!is_on_path(number)) continue;
+    motion::AxisSettings without = chip(number).settings;
+    without.backlash_pulses = 0;
+    chip(number).set(without);
+  }
+}
+
+void Super40nc::step_path_backlash(Tick tick, std::array<std::int64_t, kAxisCount>& sent) {
+  if (state_.path_is_held || !awaits_path()) return;
+  const Tick ticks = ++state_.path_backlash_ticks;
+  for (int number = 0; number < kAxisCount; ++number) {
+    const std::int64_t all = std::abs(axis(number).path_backlash);
+    if (all == 0) continue;
+    motion::Axis& motor = chip(number);
+    const double speed_pps = motor.settings.backlash_speed_pps;
+    const std::int64_t come = come_by(all, speed_pps, ticks);
+    const std::int64_t now_come =
+        (come - come_by(all, speed_pps, ticks - 1)) * (axis(number).path_backlash < 0 ? -1 : +1);
+    motor.backlash_sent += now_come;
+    motor.play_pulses += now_come;
+    sent[static_cast<std::size_t>(number)] += motor.inverted ? -now_come : now_come;
+    if (come == all) axis(number).path_backlash = 0;
+  }
+  if (awaits_path()) return;
+  end_path_backlash();
+  if (state_.path.slowing_for == motion::Cause::none) state_.path.run.resume(tick);
+}
+
+}  // namespace understudy::emulator::models::super_40nc
