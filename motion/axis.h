@@ -259,13 +259,7 @@ struct alignas(64) Axis {
     const bool turns = settings.backlash_pulses > 0;
     if (here.version == seen_version && !attentive && !turns && travel >= watch_low && travel <= watch_high &&
         task == Task::coordinated) [[likely]] {
-      if (pulses != 0) {
-        drive.direction = pulses < 0 ? -1 : +1;
-        last_direction = static_cast<std::int8_t>(drive.direction);
-      }
-      travel_pulses = base_pulses = travel;
-      events = 0;
-      return inverted ? -pulses : pulses;
+      return carry_across(pulses);
     }
     carried_pulses = pulses;
     return step_with_care(tick, here);
@@ -292,7 +286,15 @@ struct alignas(64) Axis {
            task == Task::coordinated;
   }
   /// So many pulses of carry(), of one sign, in ticks of which that is true.
-  std::int64_t carry_across(std::int64_t pulses);
+  std::int64_t carry_across(std::int64_t pulses) {
+    if (pulses != 0) {
+      drive.direction = pulses < 0 ? -1 : +1;
+      last_direction = static_cast<std::int8_t>(drive.direction);
+    }
+    travel_pulses = base_pulses = travel_pulses + pulses;
+    events = 0;
+    return inverted ? -pulses : pulses;
+  }
 
  private:
   Cause forbidden(int way, Signals ignored) const;

@@ -43,14 +43,4 @@ std::int64_t Axis::cross_to(Tick tick) {
   return inverted ? -pulses : pulses;
 }
 
-std::int64_t Axis::carry_across(std::int64_t pulses) {
-  if (pulses != 0) {
-    drive.direction = pulses < 0 ? -1 : +1;
-    last_direction = static_cast<std::int8_t>(drive.direction);
-  }
-  travel_pulses = base_pulses = travel_pulses + pulses;
-  events = 0;
-  return inverted ? -pulses : pulses;
-}
-
 }  // namespace understudy::motion

@@ -93,9 +93,8 @@ double Coordinated::along_where(std::size_t i, std::int64_t travel, std::int64_t
   return is_there(gone.to_u) ? turnover(from_u, gone.to_u, is_there).after : gone.to_u;
 }
 
-Coordinated::Stopped Coordinated::first_stopped(const std::array<std::int64_t, kPathAxes>& target,
-                                                const PathRun::Stretch& gone, Tick tick,
-                                                std::span<const Axis> axes,
+Coordinated::Stopped Coordinated::first_stopped(const Targets& target, const PathRun::Stretch& gone,
+                                                Tick tick, std::span<const Axis> axes,
                                                 std::span<const Surroundings> here) const {
   Stopped stopped;
   double first_u = 0;
@@ -119,23 +118,10 @@ Coordinated::Stopped Coordinated::first_stopped(const std::array<std::int64_t, k
   return stopped;
 }
 
-void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
-                       std::span<std::int64_t> pulses, bool stays_engaged) {
-  if (!engaged) return;
-  PathRun::Stretch gone;
-  const Point& place = run.step(tick, &gone);
-  std::array<std::int64_t, kPathAxes> target{};
-  bool meets_something = false;
-  for (std::size_t i = 0; i < axis_of.size(); ++i) {
-    const Axis* axis = axis_at(axis_of[i], axes);
-    if (axis == nullptr || axis->task != Task::coordinated) continue;
-    target[i] = travel_at(i, place[static_cast<Eigen::Index>(i)]);
-    meets_something = meets_something || !axis->carries_quietly(here[static_cast<std::size_t>(axis_of[i])]) ||
-                      target[i] < axis->watch_low || target[i] > axis->watch_high;
-  }
-  Stopped stopped;
-  if (meets_something) [[unlikely]]
-    stopped = first_stopped(target, gone, tick, axes, here);
+/// Takes each axis to its target and gives what ended the motion of one, or Cause::none.
+Cause Coordinated::carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
+                         std::span<const Surroundings> here, std::span<std::int64_t> pulses) {
+  const Stopped stopped = first_stopped(target, gone, tick, axes, here);
   Cause ended_by = Cause::none;
   for (std::size_t i = 0; i < axis_of.size(); ++i) {
     Axis* axis = axis_at(axis_of[i], axes);
@@ -156,6 +142,33 @@ void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surround
       ended_by = axis->cause == Cause::none ? Cause::stopped : axis->cause;
     }
     if (axis->task == Task::coordinated && axis->slowing) slow_down(tick, axis->cause);
+  }
+  return ended_by;
+}
+
+void Coordinated::step(Tick tick, std::span<Axis> axes, std::span<const Surroundings> here,
+                       std::span<std::int64_t> pulses, bool stays_engaged) {
+  if (!engaged) return;
+  PathRun::Stretch gone;
+  const Point& place = run.step(tick, &gone);
+  Targets target{};
+  bool is_quiet = true;
+  for (std::size_t i = 0; i < axis_of.size(); ++i) {
+    const Axis* axis = axis_at(axis_of[i], axes);
+    if (axis == nullptr) continue;
+    target[i] = travel_at(i, place[static_cast<Eigen::Index>(i)]);
+    is_quiet = is_quiet && !axis->slowing && target[i] >= axis->watch_low && target[i] <= axis->watch_high &&
+               axis->carries_quietly(here[static_cast<std::size_t>(axis_of[i])]);
+  }
+  Cause ended_by = Cause::none;
+  if (is_quiet) [[likely]] {
+    for (std::size_t i = 0; i < axis_of.size(); ++i) {
+      Axis* axis = axis_at(axis_of[i], axes);
+      if (axis == nullptr) continue;
+      pulses[static_cast<std::size_t>(axis_of[i])] += axis->carry_across(target[i] - axis->travel_pulses);
+    }
+  } else {
+    ended_by = carry(target, gone, tick, axes, here, pulses);
   }
   if (ended_by != Cause::none) {
     stop(axes, ended_by);

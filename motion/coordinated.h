@@ -58,8 +58,11 @@ struct Coordinated {
 
  private:
   struct Stopped;
-  Stopped first_stopped(const std::array<std::int64_t, kPathAxes>& target, const PathRun::Stretch& gone,
-                        Tick tick, std::span<const Axis> axes, std::span<const Surroundings> here) const;
+  using Targets = std::array<std::int64_t, kPathAxes>;  // the travel of each coordinate's axis
+  Stopped first_stopped(const Targets& target, const PathRun::Stretch& gone, Tick tick,
+                        std::span<const Axis> axes, std::span<const Surroundings> here) const;
+  Cause carry(Targets target, const PathRun::Stretch& gone, Tick tick, std::span<Axis> axes,
+              std::span<const Surroundings> here, std::span<std::int64_t> pulses);
   double along_where(std::size_t i, std::int64_t travel, std::int64_t from_travel,
                      const PathRun::Stretch& gone, double from_u) const;
 };

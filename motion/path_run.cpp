@@ -327,7 +327,10 @@ const Point& PathRun::step(Tick tick, Stretch* gone) {
   const double along_u = over ? profile_.end_position_u : profile_.sample(elapsed_s).position_u;
   if (!over || along_u < chain_end_u_) {
     go_to(along_u);
-    if (gone != nullptr) *gone = {.to_u = along_u, .last_piece = head_};
+    if (gone != nullptr) {
+      gone->to_u = along_u;
+      gone->last_piece = head_;
+    }
     return last_place_;
   }
   if (gone != nullptr) {
