@@ -1,0 +1,37 @@
+"""The plugin, by test runs within a test."""
+import os
+
+pytest_plugins = ["pytester"]
+
+SUITE = """
+import os, pytest
+def test_time_stands(bench, port):
+    assert os.path.exists(port)
+    assert bench.advance("1ms") == 1_000_000
+def test_two(bench_factory):
+    assert bench_factory(model="simple2-r3").port != bench_factory(model="simple2-r3").port
+@pytest.mark.understudy(model="slim")
+def test_fails(bench):
+    bench.advance("3ms")
+    assert False
+"""
+
+
+def run(pytester, *flags):
+    pytester.makepyfile(SUITE)
+    return pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--basetemp=kept", *flags)
+
+
+def check(pytester, result):
+    result.assert_outcomes(passed=2, failed=1)
+    named = [line.strip() for line in result.outlines if "/understudy-1/" in line]
+    assert {os.path.basename(path) for path in named} == {"frames.json", "understudy.rec", "report.html"}
+    assert all(os.path.getsize(path) > 0 for path in named)
+
+
+def test_a_failure_names_what_it_kept(pytester):
+    check(pytester, run(pytester))
+
+
+def test_it_works_beside_itself(pytester):
+    check(pytester, run(pytester, "-n", "2"))
