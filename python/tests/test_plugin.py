@@ -35,3 +35,34 @@ def test_a_failure_names_what_it_kept(pytester):
 
 def test_it_works_beside_itself(pytester):
     check(pytester, run(pytester, "-n", "2"))
+
+
+FIRMWARE_SUITE = """
+import pytest
+
+@pytest.mark.parametrize("bench", [{"firmware": "1.40"}, {"firmware": "1.52"}], indirect=True)
+def test_firmware(bench):
+    assert bench["Cord_A"] == 0
+def test_unknown_firmware(bench_factory):
+    with pytest.raises(Exception, match="firmware"):
+        bench_factory(None, "--firmware", "9.99", model="simple2-r3")
+"""
+
+PACE_SUITE = """
+import time
+def test_time_runs(bench):
+    begin = bench.pause()
+    bench.resume()
+    time.sleep(0.1)
+    assert bench.pause() - begin > 50_000_000
+"""
+
+
+def test_firmware_is_a_parameter(pytester):
+    pytester.makepyfile(FIRMWARE_SUITE)
+    pytester.runpytest_subprocess("-p", "understudy.pytest_plugin").assert_outcomes(passed=3)
+
+
+def test_real_time_is_a_flag(pytester):
+    pytester.makepyfile(PACE_SUITE)
+    pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--understudy-real-time").assert_outcomes(passed=1)
