@@ -39,10 +39,9 @@ def test_it_works_beside_itself(pytester):
 
 FIRMWARE_SUITE = """
 import pytest
-
-@pytest.mark.parametrize("bench", [{"firmware": "1.40"}, {"firmware": "1.52"}], indirect=True)
-def test_firmware(bench):
-    assert bench["Cord_A"] == 0
+@pytest.mark.parametrize("bench, version", [({"firmware": "1.40"}, 140), ({"firmware": "1.52"}, 152)], indirect=["bench"])
+def test_firmware(bench, version):
+    assert bench["Version"] == version
 def test_unknown_firmware(bench_factory):
     with pytest.raises(Exception, match="firmware"):
         bench_factory(None, "--firmware", "9.99", model="simple2-r3")
