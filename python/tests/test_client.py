@@ -1,8 +1,10 @@
 """The client against the program, UNDERSTUDY_PROGRAM."""
+import glob
 import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import pytest
@@ -61,14 +63,60 @@ def test_a_second_client_attaches(bench):
 
 def test_it_ends_when_its_parent_is_killed():
     code = ("import understudy, time\nb = understudy.start(model='simple2-r3')\n"
-            "print(b._daemon.pid, b.port, flush=True)\ntime.sleep(60)")
+            "print(b._daemon.folder, b.port, flush=True)\ntime.sleep(60)")
     parent = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-    pid, port = parent.stdout.readline().split()
+    folder, port = parent.stdout.readline().split()
     assert os.path.exists(port)
     parent.send_signal(signal.SIGKILL)
     parent.wait()
     parent.stdout.close()
     end = time.monotonic() + 10
-    while os.path.exists(port) and time.monotonic() < end:
+    while (os.path.exists(port) or os.path.exists(folder)) and time.monotonic() < end:
         time.sleep(0.01)
     assert not os.path.lexists(port)
+    assert not os.path.exists(folder)
+
+
+def test_it_outlives_the_thread_that_started_it():
+    started = []
+    thread = threading.Thread(target=lambda: started.append(understudy.start(model="simple2-r3")))
+    thread.start()
+    thread.join()
+    time.sleep(0.1)
+    with started[0] as bench:
+        assert bench.advance("1ms") == 1_000_000
+
+
+def test_a_control_loop_in_lockstep(bench):
+    bench.set({**MOVE, "Aaxis_Move_INC": 1})
+    times = []
+    for now in bench.lockstep("1ms", 50):
+        times.append(now)
+        if now == 20_000_000:
+            assert bench["Cord_A"] > 0
+    assert times == [1_000_000 * step for step in range(50)]
+
+
+def test_a_snapshot_in_a_file_comes_back(bench, tmp_path):
+    bench["Aaxis_Pulse"] = 4
+    bench.save(str(tmp_path / "then.json"))
+    bench["Aaxis_Pulse"] = 77
+    bench.load(str(tmp_path / "then.json"))
+    assert bench["Aaxis_Pulse"] == 4
+
+
+def test_a_recording_is_whole_at_the_end(tmp_path):
+    recording = tmp_path / "day.rec"
+    with understudy.start(model="simple2-r3", record=str(recording)) as one:
+        one["Aaxis_Pulse"] = 9
+        one.advance("5ms")
+    program = os.environ.get("UNDERSTUDY_PROGRAM", "understudy")
+    subprocess.run([program, "replay", str(recording)], check=True, capture_output=True, timeout=20)
+
+
+def test_another_version_is_refused_and_ends(monkeypatch):
+    monkeypatch.setattr("understudy.bench.KNOWN", (0, 1))
+    before = set(glob.glob("/tmp/understudy-py-*"))
+    with pytest.raises(understudy.WrongVersion, match="knows 0.1"):
+        understudy.start(model="simple2-r3")
+    assert set(glob.glob("/tmp/understudy-py-*")) <= before

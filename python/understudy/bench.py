@@ -1,6 +1,6 @@
 """A running bench: names, inputs, faults, power, time, programs, commands, snapshots."""
 import os
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Dict, Iterator, List, Optional, Union, cast
 
 from .connection import Connection
 from .daemon import Daemon
@@ -16,10 +16,14 @@ class Bench:
         self.control = control
         self._connection = Connection(control, timeout_s)
         self.ask = self._connection.ask
-        identity = self.ask("identify")["daemon"]
+        try:
+            identity = self.ask("identify")["daemon"]
+        except BaseException:
+            self._connection.close()  # the daemon is its starter's to end
+            raise
         self.version: str = identity["version"]
         if tuple(int(part) for part in self.version.split(".")[:2]) != KNOWN:
-            self.close()
+            self._connection.close()
             raise WrongVersion(f"understudy is {self.version}; this client knows {KNOWN[0]}.{KNOWN[1]}")
         self.ports: Dict[str, str] = {line["name"]: line.get("link") or line["pty"] for line in identity["lines"]}
 
@@ -42,7 +46,7 @@ class Bench:
             self._daemon = None
 
     def get(self, *names: str) -> Dict[str, Value]:
-        return self.ask("get", names=list(names))["values"]
+        return cast(Dict[str, Value], self.ask("get", names=list(names))["values"])
 
     def __getitem__(self, name: str) -> Value:
         return self.get(name)[name]
@@ -69,41 +73,65 @@ class Bench:
     def program(self, text: Optional[str] = None, device: Optional[str] = None) -> Optional[str]:
         """Writes a program; without a text reads the one that is there."""
         if text is None:
-            return self.ask("program", **_of(device))["text"]
+            return str(self.ask("program", **_of(device))["text"])
         self.ask("program", text=text, **_of(device))
         return None
 
     def inject(self, fault: Dict[str, Any]) -> int:
         """A fault as a bench file has it; its number."""
-        return self.ask("inject", fault=fault)["number"]
+        return int(self.ask("inject", fault=fault)["number"])
 
     def clear(self, number: Optional[int] = None) -> None:
         """Mends one fault, or all."""
         self.ask("clear", **({} if number is None else {"number": number}))
 
     def faults(self) -> List[Dict[str, Any]]:
-        return self.ask("list")["faults"]
+        return cast(List[Dict[str, Any]], self.ask("list")["faults"])
 
     def advance(self, by: str) -> int:
         """Simulated time in nanoseconds, once it is there."""
-        return self.ask("advance", by=by)["simulated_time_ns"]
+        return int(self.ask("advance", by=by)["simulated_time_ns"])
 
     def run_until(self, condition: str, within: str = "1h") -> bool:
         """Whether the condition came true."""
-        return self.ask("run-until", condition=condition, within=within)["reached"]
+        return bool(self.ask("run-until", condition=condition, within=within)["reached"])
 
     def step(self, ticks: int = 1) -> int:
-        return self.ask("step", ticks=ticks)["simulated_time_ns"]
+        return int(self.ask("step", ticks=ticks)["simulated_time_ns"])
 
     def pause(self) -> int:
-        return self.ask("pause")["simulated_time_ns"]
+        return int(self.ask("pause")["simulated_time_ns"])
 
     def resume(self) -> int:
-        return self.ask("resume")["simulated_time_ns"]
+        return int(self.ask("resume")["simulated_time_ns"])
 
     def speed(self, to: str) -> None:
         """`real`, a factor, `free` or `manual`."""
         self.ask("speed", to=to)
+
+    def status(self) -> Dict[str, Any]:
+        return cast(Dict[str, Any], self.ask("status")["status"])
+
+    def turn(self, values: Dict[str, int], within: Optional[str] = None) -> None:
+        """A handwheel's counts, at once or evenly within a time."""
+        self.ask("turn", values=values, **({} if within is None else {"in": within}))
+
+    def events(self, last: int = 100) -> List[Dict[str, Any]]:
+        return cast(List[Dict[str, Any]], self.ask("events", last=last)["events"])
+
+    def lockstep(self, by: str, steps: int) -> Iterator[int]:
+        """A control loop: at each turn the time in nanoseconds, and after it, before the next, time advances."""
+        now = int(self.advance("0ns"))
+        for _ in range(steps):
+            yield now
+            now = self.advance(by)
+
+    def save(self, file: str) -> None:
+        """A snapshot into a file; the program's folder is not ours, so the path is made whole."""
+        self.ask("snapshot", file=os.path.abspath(file))
+
+    def load(self, file: str) -> None:
+        self.ask("restore", file=os.path.abspath(file))
 
     def snapshot(self, name: str) -> None:
         """Kept by the daemon, 16 at most."""
@@ -113,7 +141,7 @@ class Bench:
         self.ask("restore", name=name)
 
     def frames(self, last: int = 100) -> List[Dict[str, Any]]:
-        return self.ask("frames", last=last)["frames"]
+        return cast(List[Dict[str, Any]], self.ask("frames", last=last)["frames"])
 
 
 def _of(device: Optional[str]) -> Dict[str, str]:
