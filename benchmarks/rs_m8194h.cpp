@@ -1,8 +1,6 @@
 // What an RS-M8194H costs: a tick with four axes in moves and a macro at work, alone and among 1,000, and one
 // with a stream of three axes and two synchronous actions, beside the bare arithmetic of four axes; a resting
 // one, which is crossed; its memory, and a snapshot with its restore, also with every macro full.
-#include <malloc.h>
-
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -10,14 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "benchmarks/big_devices.h"
 #include "benchmarks/figures.h"
 #include "benchmarks/process.h"
 #include "benchmarks/processor_clock.h"
-#include "emulator/device/register_map/access.h"
-#include "emulator/device/register_map/register_bank.h"
-#include "emulator/device/user_program.h"
-#include "emulator/models/models.h"
-#include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 #include "interpreter/rs_m8194h/macro.h"
 
@@ -33,7 +27,6 @@ constexpr Tick kWarmUp = 5000;
 constexpr Tick kHour = 3'600'000;
 constexpr std::size_t kCrowd = 1000;
 constexpr Tick kTicksOfCrowd = 100;
-constexpr std::size_t kStationsALine = 15;
 
 constexpr double kMovesBar = 40;    // bare loops
 constexpr double kStreamBar = 70;   // bare loops
@@ -93,43 +86,10 @@ double bare_ns() {
   return static_cast<double>((processor_time_here() - before).count()) / kLoops;
 }
 
-emulator::Device& set(emulator::Device& device, std::string_view name, emulator::Value value) {
-  const auto found = device.register_bank()->find(name);
-  if (!found || emulator::write_value(*device.register_bank(), *found, value) != emulator::Refusal::none) {
-    throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
-  }
-  return device;
-}
-
-emulator::Value get(emulator::Device& device, std::string_view name) {
-  const auto found = device.register_bank()->find(name);
-  if (!found) throw CannotRun("no " + std::string(name));
-  return emulator::read_value(*device.register_bank(), *found);
-}
-
 std::unique_ptr<World> make_world(std::size_t devices, const std::string& program) {
-  emulator::world::Bench bench;
-  for (std::size_t d = 0; d < devices; ++d) {
-    emulator::world::DeviceSetup device;
-    device.model = emulator::find_model(emulator::models::all_models(), "rs-m8194h");
-    device.settings.name = "d" + std::to_string(d);
+  return make_devices(devices, "rs-m8194h", program, 0, [](auto& device, std::size_t d) {
     device.settings.address = static_cast<int>(d % kStationsALine) + 1;
-    device.settings.program = program;
-    bench.devices.push_back(device);
-    if (d % kStationsALine == 0) {
-      emulator::world::LineSetup line;
-      line.name = "line" + std::to_string(bench.lines.size());
-      bench.lines.push_back(line);
-    }
-    bench.lines.back().stations.push_back({d});
-    for (int axis = 0; axis < 4; ++axis) {
-      emulator::world::PlantSetup plant;
-      plant.lower_limit = -1'000'000;
-      plant.upper_limit = 1'000'000;
-      bench.machines.push_back({.device = d, .axis = axis, .plant = plant});
-    }
-  }
-  return std::make_unique<World>(bench, emulator::world::WorldOptions{}, [](const std::string&) {});
+  });
 }
 
 /// Throws if it does not do what is to be measured.
@@ -145,14 +105,6 @@ std::unique_ptr<World> make_busy(std::size_t devices, const char* program, emula
   world->advance_to(time_of(kWarmUp));
   expect_busy(*world, driving);
   return world;
-}
-
-/// Nanoseconds of processor time of a device's tick.
-double ticks_ns(World& world, Tick& done, Tick ticks) {
-  const auto before = processor_time_here();
-  world.advance_to(time_of(done += ticks));
-  return static_cast<double>((processor_time_here() - before).count()) / static_cast<double>(ticks) /
-         static_cast<double>(world.device_count());
 }
 
 void measure_ticks() {
@@ -218,21 +170,6 @@ std::string full_macros() {
   return text;
 }
 
-double heap_bytes() { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); }
-
-/// Microseconds to save and to restore.
-double snapshot_us(World& world) {
-  std::vector<double> samples;
-  for (int i = 0; i < 200; ++i) {
-    set(world.device(0), "VAR500", i);
-    const auto before = processor_time_here();
-    const auto state = emulator::world::save(world);
-    emulator::world::restore(world, state);
-    samples.push_back(static_cast<double>((processor_time_here() - before).count()) / 1000);
-  }
-  return median(samples);
-}
-
 void measure_memory() {
   constexpr std::size_t kMany = 100;
   const auto first = make_busy(1, kMoves, 15);  // what all share is there
@@ -243,8 +180,8 @@ void measure_memory() {
   print_verdict("a device against 256 KiB", each / kBytesBar, 1.00);
   const auto full = make_world(1, full_macros());
   full->advance_to(time_of(kWarmUp));
-  const double usual_us = snapshot_us(*first);
-  const double full_us = snapshot_us(*full);
+  const double usual_us = snapshot_us(*first, "VAR500");
+  const double full_us = snapshot_us(*full, "VAR500");
   std::printf("snapshot and restore: %.0f us, with every macro full %.0f us\n", usual_us, full_us);
   print_verdict("snapshot and restore against 150 us", usual_us / kSnapshotBar_us, 1.00);
   print_verdict("with every macro full against 500 us", full_us / kFullSnapshotBar_us, 1.00);
@@ -256,12 +193,9 @@ void measure_memory() {
 
 int main() {
   using namespace understudy::benchmarks;
-  try {
+  return run_benchmark("rs_m8194h", [] {
     measure_memory();
     measure_ticks();
     measure_rest();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "rs_m8194h: %s\n", error.what());
-    return 2;
-  }
+  });
 }

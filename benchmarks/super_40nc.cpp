@@ -1,21 +1,15 @@
 // What a SUPER-40NC costs: a tick with a PLC of 200 steps that changes something in every scan, C on a path
 // of three axes and U in a DRV, alone and among 200; a settled and standing one, which is crossed; its
 // memory, and a snapshot with its restore, also with every file and every recipe full.
-#include <malloc.h>
-
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "benchmarks/big_devices.h"
 #include "benchmarks/figures.h"
-#include "benchmarks/process.h"
 #include "benchmarks/processor_clock.h"
-#include "emulator/device/register_map/access.h"
-#include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/user_program.h"
-#include "emulator/models/models.h"
-#include "emulator/world/snapshot.h"
 #include "emulator/world/world.h"
 
 namespace understudy::benchmarks {
@@ -30,7 +24,6 @@ constexpr Tick kWarmUp = 3000;
 constexpr Tick kHour = 3'600'000;
 constexpr std::size_t kCrowd = 200;
 constexpr Tick kTicksOfCrowd = 200;
-constexpr std::size_t kStationsALine = 15;
 
 constexpr double kTickBar_us = 1;
 constexpr double kSettledBar = 20'000;  // simulated seconds a second
@@ -59,56 +52,22 @@ constexpr const char* kMotion =
     "AREA C\nF K30000\nLAB K1\nLIN K200000 K150000 K100000\nLIN K0 K0 K0\nJMP K1\nEND\n"
     "AREA U\nRPM K300\nLAB K1\nDRV K500000\nDRV K0\nJMP K1\nEND\n";
 
-emulator::Device& set(emulator::Device& device, std::string_view name, emulator::Value value) {
-  const auto found = device.register_bank()->find(name);
-  if (!found || emulator::write_value(*device.register_bank(), *found, value) != emulator::Refusal::none) {
-    throw CannotRun(std::string(name) + " does not take " + std::to_string(value));
-  }
-  return device;
-}
-
 std::unique_ptr<World> make_world(std::size_t devices, const std::string& program) {
-  emulator::world::Bench bench;
-  for (std::size_t d = 0; d < devices; ++d) {
-    emulator::world::DeviceSetup device;
-    device.model = emulator::find_model(emulator::models::all_models(), "super-40nc");
-    device.settings.name = "d" + std::to_string(d);
+  return make_devices(devices, "super-40nc", program, 1, [](auto& device, std::size_t d) {
     device.settings.set = {{"D9003", 3},
                            {"D9000", static_cast<emulator::Value>(d % kStationsALine) + 1},
                            {"D9004", 10'000 + static_cast<emulator::Value>(d)}};
-    device.settings.program = program;
-    bench.devices.push_back(device);
-    if (d % kStationsALine == 0) {
-      emulator::world::LineSetup line;
-      line.name = "line" + std::to_string(bench.lines.size());
-      bench.lines.push_back(line);
-    }
-    bench.lines.back().stations.push_back({d, 1});
-    for (int axis = 0; axis < 4; ++axis) {
-      emulator::world::PlantSetup plant;
-      plant.lower_limit = -1'000'000;
-      plant.upper_limit = 1'000'000;
-      bench.machines.push_back({.device = d, .axis = axis, .plant = plant});
-    }
-  }
-  return std::make_unique<World>(bench, emulator::world::WorldOptions{}, [](const std::string&) {});
+  });
 }
 
 std::unique_ptr<World> make_busy(std::size_t devices) {
   auto world = make_world(devices, ladder(true) + kMotion);
   for (std::size_t d = 0; d < devices; ++d) {
-    set(set(world->device(d), "M8000", 1), "M8400", 1);
+    set(world->device(d), "M8000", 1);
+    set(world->device(d), "M8400", 1);
   }
   world->advance_to(time_of(kWarmUp));
   return world;
-}
-
-/// Nanoseconds of processor time of a device's tick.
-double ticks_ns(World& world, Tick& done, Tick ticks) {
-  const auto before = processor_time_here();
-  world.advance_to(time_of(done += ticks));
-  return static_cast<double>((processor_time_here() - before).count()) / static_cast<double>(ticks) /
-         static_cast<double>(world.device_count());
 }
 
 void measure_ticks() {
@@ -169,21 +128,6 @@ void fill(World& world) {
   }
 }
 
-double heap_bytes() { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); }
-
-/// Microseconds to save and to restore.
-double snapshot_us(World& world) {
-  std::vector<double> samples;
-  for (int i = 0; i < 200; ++i) {
-    set(world.device(0), "D1", i);
-    const auto before = processor_time_here();
-    const auto state = emulator::world::save(world);
-    emulator::world::restore(world, state);
-    samples.push_back(static_cast<double>((processor_time_here() - before).count()) / 1000);
-  }
-  return median(samples);
-}
-
 void measure_memory() {
   constexpr std::size_t kMany = 30;
   const auto first = make_busy(1);  // what all share is there
@@ -198,8 +142,8 @@ void measure_memory() {
               of_full / 1024);
   print_verdict("a device against 512 KiB", each / kBytesBar, 1.00);
   print_verdict("a full one against 2 MiB", of_full / kFullBytesBar, 1.00);
-  const double empty_us = snapshot_us(*first);
-  const double full_us = snapshot_us(*full);
+  const double empty_us = snapshot_us(*first, "D1");
+  const double full_us = snapshot_us(*full, "D1");
   std::printf("snapshot and restore: %.0f us, full %.0f us\n", empty_us, full_us);
   print_verdict("snapshot and restore against 200 us", empty_us / kSnapshotBar_us, 1.00);
   print_verdict("of a full one against 1 ms", full_us / kFullSnapshotBar_us, 1.00);
@@ -211,12 +155,9 @@ void measure_memory() {
 
 int main() {
   using namespace understudy::benchmarks;
-  try {
+  return run_benchmark("super_40nc", [] {
     measure_memory();
     measure_ticks();
     measure_settled();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "super_40nc: %s\n", error.what());
-    return 2;
-  }
+  });
 }
