@@ -1,16 +1,28 @@
 """The client against the program, UNDERSTUDY_PROGRAM."""
-import glob
 import os
+import pathlib
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
 import pytest
 import understudy
 
+from leavings import gone, mentioned
+
 MOVE = {"Aaxis_SVON": 1, "Aaxis_Pulse": 1000, "Aaxis_Speed": 60, "Aaxis_AccTime": 1, "Aaxis_DecTime": 1}
+
+
+@pytest.fixture
+def folders():
+    """For the folders of benches: a longer path would not be taken."""
+    made = tempfile.mkdtemp(prefix="client-")
+    yield pathlib.Path(made)
+    shutil.rmtree(made)
 
 
 @pytest.fixture
@@ -70,11 +82,7 @@ def test_it_ends_when_its_parent_is_killed():
     parent.send_signal(signal.SIGKILL)
     parent.wait()
     parent.stdout.close()
-    end = time.monotonic() + 10
-    while (os.path.exists(port) or os.path.exists(folder)) and time.monotonic() < end:
-        time.sleep(0.01)
-    assert not os.path.lexists(port)
-    assert not os.path.exists(folder)
+    gone(lambda: os.path.lexists(port) or os.path.exists(folder))
 
 
 def test_it_outlives_the_thread_that_started_it():
@@ -114,9 +122,119 @@ def test_a_recording_is_whole_at_the_end(tmp_path):
     subprocess.run([program, "replay", str(recording)], check=True, capture_output=True, timeout=20)
 
 
-def test_another_version_is_refused_and_ends(monkeypatch):
+def test_another_version_is_refused_and_ends(monkeypatch, folders):
     monkeypatch.setattr("understudy.bench.KNOWN", (0, 1))
-    before = set(glob.glob("/tmp/understudy-py-*"))
+    monkeypatch.setattr("tempfile.tempdir", str(folders))
     with pytest.raises(understudy.WrongVersion, match="knows 0.1"):
         understudy.start(model="simple2-r3")
-    assert set(glob.glob("/tmp/understudy-py-*")) <= before
+    assert list(folders.iterdir()) == []
+
+
+def test_a_program_that_is_not_there(bench):
+    with pytest.raises(understudy.NotThere, match="no such program"):
+        understudy.start(model="simple2-r3", program="/nosuch/understudy")
+
+
+def test_a_guard_that_was_killed_leaves_its_work_to_us():
+    with understudy.start(model="simple2-r3") as one:
+        folder, pid, port = one._daemon.folder, one._daemon.pid, one.port
+        os.kill(one._daemon._guard.pid, signal.SIGKILL)
+    gone(lambda: os.path.lexists(port) or os.path.exists(folder) or os.path.exists(f"/proc/{pid}"))
+
+
+@pytest.mark.parametrize("after_ms", range(0, 30, 3))
+def test_killed_while_it_starts_it_leaves_nothing(folders, after_ms):
+    code = ("import understudy, tempfile, time\ntempfile.tempdir = " + repr(str(folders)) +
+            "\nprint(flush=True)\nb = understudy.start(model='simple2-r3')\ntime.sleep(60)")
+    parent = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
+    parent.stdout.readline()
+    time.sleep(after_ms / 1000)
+    parent.kill()
+    parent.wait()
+    parent.stdout.close()
+    time.sleep(0.02)  # a shell that was just begun makes its folder first
+    gone(lambda: any(folders.iterdir()) or mentioned(str(folders)))
+
+
+def test_a_forked_process_does_not_hold_it():
+    code = ("import os, sys, time, understudy\nb = understudy.start(model='simple2-r3')\n"
+            "print(b._daemon.folder, flush=True)\n"
+            "if os.fork() == 0:\n  b.close()\n  time.sleep(60)\n"
+            "b.advance('1ms')\nprint('still there', flush=True)\ntime.sleep(60)")
+    parent = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, start_new_session=True)
+    try:
+        folder = parent.stdout.readline().strip()
+        assert parent.stdout.readline() == "still there\n"
+        parent.kill()
+        gone(lambda: os.path.exists(folder))
+    finally:
+        os.killpg(parent.pid, signal.SIGKILL)  # the forked one
+        parent.wait()
+        parent.stdout.close()
+
+
+def test_choices_and_firmware_of_a_model():
+    with understudy.start(model="simple2-r3", firmware="1.40", choices={"station_0_request": "ignored"}) as one:
+        assert one["Version"] == 140
+        chosen = {row["id"]: row["chosen"] for row in one.choices()}
+        assert chosen["station_0_request"] == "ignored"
+    with pytest.raises(understudy.NotThere, match="nosuch"):
+        understudy.start(model="simple2-r3", choices={"nosuch": "x"})
+    with pytest.raises(ValueError, match="bench file says itself"):
+        understudy.start("bench.yaml", choices={"a": "b"})
+
+
+def test_an_oscilloscope_sees_a_move(bench):
+    bench.set(MOVE)
+    assert bench.scope("A.position", "Cord_A", when="Cord_A > 10", before="5ms", after="5ms")["state"] == "armed"
+    bench["Aaxis_Move_INC"] = 1
+    bench.advance("500ms")
+    assert bench.scope()["state"] == "done"
+    samples = bench.samples()
+    assert samples["A.position"] == samples["Cord_A"]  # no step is lost
+    assert len(samples["Cord_A"]) == 11
+    assert samples["Cord_A"][5] > 10 >= samples["Cord_A"][4]
+    bench.scope_off()
+    assert bench.scope() is None
+
+
+def test_what_is_looked_at(bench):
+    assert bench.where()[0]["state"] == "stopped"
+    assert [row["address"] for row in bench.registers(find="Aaxis_Speed")] == ["0x1002"]
+    assert len(bench.registers()) > 200  # more than one message has
+    assert bench.send(bytes.fromhex("010300010001"), checksum=True) == 1
+    bench.advance("50ms")
+    seen = bench.look("Cord_A", frames=0, events=0, status=True)
+    assert seen["values"] == [0]
+    assert [frame["text"] for frame in seen["frames"]] == ["read 0x0001 device.HW_Code", "device.HW_Code = 49153"]
+    assert seen["status"]["devices"]
+
+
+def test_to_and_fro_in_a_recording(folders):
+    recording, control = str(folders / "day.rec"), str(folders / "control")
+    with understudy.start(model="simple2-r3", record=recording) as one:
+        one.advance("5ms")
+        one.power("off")
+        one.advance("5ms")
+    program = os.environ.get("UNDERSTUDY_PROGRAM", "understudy")
+    replay = subprocess.Popen([program, "replay", recording, "--page", "--control", control], stdout=subprocess.DEVNULL)
+    try:
+        gone(lambda: not os.path.exists(control))
+        with understudy.attach(control) as one:
+            timeline = one.timeline()
+            assert timeline["end_ns"] == 10_000_000
+            assert [(mark["what"], mark["time_ns"]) for mark in timeline["marks"]] == [("power", 5_000_000)]
+            assert one.seek(to_ns=7_000_000) == 7_000_000
+            assert one.seek(by="tick", steps=-3) == 4_000_000
+            assert one.eval("power") == 1
+    finally:
+        replay.terminate()
+        replay.wait()
+
+
+def test_a_long_path_of_temporary_files_does_not_matter(monkeypatch, tmp_path):
+    deep = tmp_path / ("x" * 100)
+    deep.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(deep))
+    with understudy.start(model="simple2-r3") as one:
+        assert one.advance("1ms") == 1_000_000

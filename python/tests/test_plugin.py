@@ -1,5 +1,15 @@
 """The plugin, by test runs within a test."""
 import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+
+import pytest
+
+from leavings import gone, mentioned
 
 pytest_plugins = ["pytester"]
 
@@ -12,7 +22,8 @@ def test_two(bench_factory):
     assert bench_factory(model="simple2-r3").port != bench_factory(model="simple2-r3").port
 @pytest.mark.understudy(model="slim")
 def test_fails(bench):
-    bench.advance("3ms")
+    bench.send("MA 100")
+    bench.advance("30ms")
     assert False
 """
 
@@ -25,7 +36,7 @@ def run(pytester, *flags):
 def check(pytester, result):
     result.assert_outcomes(passed=2, failed=1)
     named = [line.strip() for line in result.outlines if "/understudy-1/" in line]
-    assert {os.path.basename(path) for path in named} == {"frames.json", "understudy.rec", "report.html"}
+    assert {os.path.basename(path) for path in named} == {"frames.txt", "understudy.rec", "report.html"}
     assert all(os.path.getsize(path) > 0 for path in named)
 
 
@@ -65,3 +76,102 @@ def test_firmware_is_a_parameter(pytester):
 def test_real_time_is_a_flag(pytester):
     pytester.makepyfile(PACE_SUITE)
     pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--understudy-real-time").assert_outcomes(passed=1)
+
+
+CHOICE_SUITE = """
+import pytest
+CHOSEN = [{"choices": {"station_0_request": answer}} for answer in ("broadcast", "ignored")]
+@pytest.mark.parametrize("bench", CHOSEN, indirect=True, ids=lambda chosen: chosen["choices"]["station_0_request"])
+def test_choice(bench, request):
+    (row,) = [row for row in bench.choices() if row["id"] == "station_0_request"]
+    assert row["chosen"] in request.node.name
+"""
+
+TEARDOWN_SUITE = """
+import pytest
+@pytest.fixture
+def other(bench):
+    yield
+    assert bench.get("Cord_A") == {"Cord_A": 1}
+def test_passes(other):
+    pass
+"""
+
+UNDRAWN_SUITE = """
+import os
+import pathlib
+import re
+def test_fails(bench_factory, monkeypatch, tmp_path):
+    first, second = bench_factory(model="slim"), bench_factory(model="slim")
+    program = tmp_path / "program"
+    program.write_text("#!/bin/sh\\necho it cannot >&2\\nexit 3\\n")
+    program.chmod(0o755)
+    os.environ["UNDERSTUDY_PROGRAM"] = str(program)
+    assert False
+"""
+
+SLOW_SUITE = """
+import os, time, pytest
+@pytest.mark.parametrize("number", range(2))
+def test_slow(bench_factory, number):
+    ports = [bench_factory(model=model).port for model in ("slim", "simple2-r3")]
+    text = " ".join([str(os.getpid())] + ports)
+    with open(f"begun{number}.part", "w") as file:
+        file.write(text)
+    os.rename(f"begun{number}.part", f"begun{number}")
+    time.sleep(60)
+"""
+
+
+def test_choices_are_a_parameter(pytester):
+    pytester.makepyfile(CHOICE_SUITE)
+    pytester.runpytest_subprocess("-p", "understudy.pytest_plugin").assert_outcomes(passed=2)
+
+
+def test_a_failed_teardown_keeps_files_too(pytester):
+    pytester.makepyfile(TEARDOWN_SUITE)
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--basetemp=kept")
+    result.assert_outcomes(passed=1, errors=1)
+    result.stdout.fnmatch_lines(["*/understudy-1/understudy.rec", "*/understudy-1/report.html"])
+
+
+def test_what_cannot_be_drawn_is_not_named(pytester):
+    pytester.makepyfile(UNDRAWN_SUITE)
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--basetemp=kept")
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines(["*/understudy-1/understudy.rec", "replay, exit code 3: it cannot",
+                                 "*/understudy-2/understudy.rec", "replay, exit code 3: it cannot"])
+    result.stdout.no_fnmatch_line("*report.html*")
+
+
+@pytest.mark.parametrize("flags, begun", [([], 1), (["-n", "2"], 2)], ids=["alone", "xdist"])
+def test_killed_it_leaves_nothing_behind(pytester, flags, begun):
+    pytester.makepyfile(SLOW_SUITE)
+    folders = pathlib.Path(tempfile.mkdtemp(prefix="killed-"))  # a short path, or it would not be taken
+    command = [sys.executable, "-m", "pytest", "-p", "understudy.pytest_plugin", "--basetemp=kept", *flags]
+    run = subprocess.Popen(command, env={**os.environ, "TMPDIR": str(folders)}, stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL, cwd=pytester.path)
+    marks = [pytester.path / f"begun{number}" for number in range(begun)]
+    try:
+        gone(lambda: not all(mark.exists() for mark in marks), within_s=40)
+    finally:
+        run.kill()
+        workers = [mark.read_text().split() for mark in marks if mark.exists()]
+        for pid in {int(worker[0]) for worker in workers} - {run.pid}:
+            os.kill(pid, signal.SIGKILL)
+        run.wait()
+    ports = [port for worker in workers for port in worker[1:]]
+    assert len(ports) == 2 * begun
+    gone(lambda: list(folders.iterdir()) or mentioned(str(folders)) or any(map(os.path.lexists, ports)))
+    folders.rmdir()
+
+
+def test_a_failing_course_shrinks_to_its_least(pytester):
+    pytest.importorskip("hypothesis")
+    example = pathlib.Path(__file__).parents[2] / "examples/hypothesis/test_course.py"
+    result = pytester.runpytest_subprocess("-p", "understudy.pytest_plugin", "--basetemp=kept", str(example))
+    result.assert_outcomes(failed=1)
+    # In the traceback alone: in a CI pytest's summary repeats it.
+    course = [line.partition("state.")[2] for line in result.outlines if re.match(r"E\s+state\.(?!machine_is)", line)]
+    # One pulse in 20 is lost: with fewer than 20 none is.
+    assert course == ["lose_steps(one_in=20)", "move(pulses=20)", "teardown()"]

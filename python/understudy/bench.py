@@ -1,6 +1,7 @@
 """A running bench: names, inputs, faults, power, time, programs, commands, snapshots."""
+import json
 import os
-from typing import Any, Dict, Iterator, List, Optional, Union, cast
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Union, cast
 
 from .connection import Connection
 from .daemon import Daemon
@@ -143,19 +144,107 @@ class Bench:
     def frames(self, last: int = 100) -> List[Dict[str, Any]]:
         return cast(List[Dict[str, Any]], self.ask("frames", last=last)["frames"])
 
+    def where(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
+        """Where each program stands, and what it waits for."""
+        return cast(List[Dict[str, Any]], self.ask("where", **_of(device))["programs"])
+
+    def scope(self, *names: str, when: Optional[str] = None, before: Optional[str] = None,
+              after: Optional[str] = None) -> Optional[Dict[str, Any]]:
+        """Arms the oscilloscope for these names; without a name tells how it is, None where it is off."""
+        asked = {"names": list(names) or None, "condition": when, "before": before, "after": after}
+        return cast(Optional[Dict[str, Any]], self.ask("scope", **_given(asked))["scope"])
+
+    def samples(self) -> Dict[str, List[Any]]:
+        """What the oscilloscope has kept: each name's values, a tick apart."""
+        kept: Dict[str, List[Any]] = {}
+        begin: Optional[int] = 0
+        while begin is not None:
+            reply = self.ask("scope", **{"from": begin})
+            for name, values in zip(reply["scope"]["names"], reply["samples"]):
+                kept.setdefault(name, []).extend(values)
+            begin = reply.get("next")
+        return kept
+
+    def scope_off(self) -> None:
+        self.ask("scope", off=True)
+
+    def send(self, said: Union[bytes, str], line: Optional[str] = None, checksum: bool = False) -> int:
+        """Bytes, or a text, on a line as a host's; the number that its first frame will have among the frames."""
+        what: Dict[str, Any] = {"text": said} if isinstance(said, str) else {"bytes": said.hex(" ")}
+        if checksum:
+            what["checksum"] = True
+        return int(self.ask("send", **what, **_given({"line": line}))["next_frame"])
+
+    def look(self, *names: str, frames: Optional[int] = None, events: Optional[int] = None,
+             status: bool = False) -> Dict[str, Any]:
+        """All that an onlooker wants at once: values in the names' order, frames and events from these numbers on."""
+        asked = {"names": list(names) or None, "frames": frames, "events": events, "status": status or None}
+        return self.ask("look", **_given(asked))
+
+    def registers(self, device: Optional[str] = None, section: Optional[int] = None,
+                  find: Optional[str] = None) -> List[Dict[str, Any]]:
+        """A device's registers as `describe` has them."""
+        return self._pages("registers", "registers", {"device": device, "section": section, "find": find})
+
+    def choices(self, device: Optional[str] = None) -> List[Dict[str, Any]]:
+        """What the manual leaves open and how this device decides it."""
+        return self._pages("choices", "choices", {"device": device})
+
+    def timeline(self) -> Dict[str, Any]:
+        """Of a recording: `begin_ns`, `end_ns`, `at_ns`, and all its marks."""
+        whole: Dict[str, Any] = {}
+        begin: Optional[int] = 0
+        while begin is not None:
+            reply = self.ask("timeline", **{"from": begin})
+            some = reply["timeline"]
+            whole = {**some, "marks": whole.get("marks", []) + some["marks"]}
+            begin = some.get("next", reply.get("next"))
+        whole.pop("next", None)
+        return whole
+
+    def seek(self, to_ns: Optional[int] = None, by: Optional[str] = None, steps: int = 1) -> int:
+        """In a recording: to a time, or that many of `tick`, `frame`, `event` on or back."""
+        if (to_ns is None) == (by is None):
+            raise ValueError("either a time, or a number of ticks, frames or events")
+        how: Dict[str, Any] = {"to_ns": to_ns} if by is None else {"by": by, "steps": steps}
+        return int(self.ask("seek", **how)["simulated_time_ns"])
+
+    def _pages(self, do: str, of: str, asked: Dict[str, Any]) -> List[Dict[str, Any]]:
+        rows: List[Dict[str, Any]] = []
+        begin: Optional[int] = 0
+        while begin is not None:
+            reply = self.ask(do, **_given({**asked, "from": begin}))
+            rows += reply[of]
+            begin = reply.get("next")
+        return rows
+
 
 def _of(device: Optional[str]) -> Dict[str, str]:
     return {} if device is None else {"device": device}
 
 
-def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None, speed: str = "manual",
-          record: Optional[str] = None, program: Optional[str] = None) -> Bench:
-    """A bench file, or one device of a model; further flags are `serve`'s."""
+def _given(fields: Dict[str, Any]) -> Dict[str, Any]:
+    return {name: value for name, value in fields.items() if value is not None}
+
+
+def start(bench: Optional[str] = None, *flags: str, model: Optional[str] = None, firmware: Optional[str] = None,
+          choices: Optional[Mapping[str, object]] = None, speed: str = "manual", record: Optional[str] = None,
+          program: Optional[str] = None) -> Bench:
+    """A bench file, or one device of a model, its firmware and choices; further flags are `serve`'s."""
     if (bench is None) == (model is None):
         raise ValueError("either a bench file or a model")
-    what = [bench] if bench is not None else ["--model", str(model)]
+    if bench is not None and (firmware is not None or choices):
+        raise ValueError("a bench file says itself what firmware and choices its devices have")
+    text, what = "", []
+    if choices:
+        device = _given({"name": "device", "model": model, "firmware": firmware, "choices": dict(choices)})
+        text = json.dumps({"understudy": 1, "lines": {"line": {"stations": [device]}}})
+    elif bench is not None:
+        what = [bench]
+    else:
+        what = ["--model", str(model), *([] if firmware is None else ["--firmware", firmware])]
     recorded = [] if record is None else ["--record", record]
-    daemon = Daemon([*what, *flags, "--speed", speed, *recorded], program)
+    daemon = Daemon([*what, *flags, "--speed", speed, *recorded], program, bench_text=text)
     try:
         return Bench(daemon.control, daemon)
     except BaseException:

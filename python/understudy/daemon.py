@@ -1,97 +1,129 @@
 """A `serve` of our own: it ends with our process, however that ends, and leaves nothing behind."""
 import os
+import select
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
-from typing import List, Optional, Sequence
+import weakref
+from typing import IO, List, Optional, Sequence
 
 from .errors import NotThere
 
-# Reads the pipe from us. A word says that all is done; its end without one says that we are gone. A number of a
-# process may be another's by then: the command line tells.
-GUARD = """read pid || pid=
-read word && exit 0
-ours() { [ -n "$pid" ] && grep -qF "$1" "/proc/$pid/cmdline" 2>/dev/null; }
-ours "$1" && kill -TERM "$pid"
+# A shell makes the folder and is the program's parent, so at no moment is either there without it. It reads the pipe
+# from us: its end says that we are done, or gone. The program holds the pipe to us: its end says that it is gone.
+GUARD = """program=$1 folders=$2 bench=$3
+shift 3
+folder=$(mktemp -d "$folders/understudy-py-XXXXXXXX") || exit
+: >"$folder/log"
+if [ -n "$bench" ]; then
+  printf '%s\\n' "$bench" >"$folder/bench.yaml"
+  set -- "$folder/bench.yaml" "$@"
+fi
+"$program" serve "$@" --control "$folder/control" 3>&1 </dev/null >"$folder/log" 2>&1 &
+pid=$!
+trap '' HUP INT TERM PIPE
+printf '%s\\n%s\\n' "$pid" "$folder"
+exec >&-
+read word
+kill -TERM "$pid" 2>/dev/null
 tries=0
-while ours "$1"; do
+while kill -0 "$pid" 2>/dev/null; do
   tries=$((tries + 1))
-  [ $tries -eq 200 ] && kill -KILL "$pid"
-  sleep 0.05
+  [ $tries -eq 1000 ] && kill -KILL "$pid"
+  sleep 0.01
 done
-rm -rf "$1"
+rm -rf "$folder"
 """
 
 
 class Daemon:
-    """A shell waits beside it for the end of our process, even by SIGKILL; then it ends the program and its folder."""
+    """The program and its guard. A process that is forked from ours has no part in them."""
 
-    def __init__(self, arguments: Sequence[str], program: Optional[str] = None, ready_within_s: float = 30.0) -> None:
+    def __init__(self, arguments: Sequence[str], program: Optional[str] = None, ready_within_s: float = 30.0,
+                 bench_text: str = "") -> None:
         program = program or os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
-        self.folder = tempfile.mkdtemp(prefix="understudy-py-")
-        self.control = os.path.join(self.folder, "control")
-        self._log = os.path.join(self.folder, "log")
-        self._guard = subprocess.Popen(["/bin/sh", "-c", GUARD, "understudy-guard", self.folder], bufsize=0,
-                                       stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                       start_new_session=True)
-        command: List[str] = [program, "serve", *arguments, "--control", self.control]
+        if shutil.which(program) is None:
+            raise NotThere(f"{program}: there is no such program; UNDERSTUDY_PROGRAM can name it")
+        command: List[str] = ["/bin/sh", "-c", GUARD, "understudy-guard", program, _folders(), bench_text, *arguments]
+        guard = subprocess.Popen(command, bufsize=0, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                 stderr=subprocess.DEVNULL, start_new_session=True)
+        assert guard.stdin is not None and guard.stdout is not None
+        self._guard: Optional["subprocess.Popen[bytes]"] = guard
+        self._to_guard: IO[bytes] = guard.stdin
+        self._from_program: IO[bytes] = guard.stdout
+        RUNNING.add(self)
         try:
-            with open(self._log, "wb") as log:
-                self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                                 start_new_session=True)
-        except OSError as error:
-            self._dismiss_guard()
-            raise NotThere(f"{program}: {error.strerror}") from error
-        try:
-            self._tell_guard(str(self._process.pid))
-            self._wait_until_ready(ready_within_s)
+            told = [self._from_program.readline().decode().rstrip("\n") for _ in range(2)]
+            if not told[1]:
+                raise NotThere(f"no folder for {program} could be made in {_folders()}")
+            self.pid = int(told[0])
+            self.folder = told[1]
+            self.control = os.path.join(self.folder, "control")
+            self._wait_until_ready(program, ready_within_s)
         except BaseException:
             self.stop()
             raise
 
-    @property
-    def pid(self) -> int:
-        return self._process.pid
-
     def said(self) -> str:
         """What the program printed."""
-        with open(self._log, encoding="utf-8", errors="replace") as log:
+        with open(os.path.join(self.folder, "log"), encoding="utf-8", errors="replace") as log:
             return log.read()
 
     def stop(self) -> None:
         """Ends the program as SIGTERM does (its links go, its recording is whole), and its folder."""
-        self._process.terminate()
-        try:
-            self._process.wait(10)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        self._dismiss_guard()
+        if self._guard is None:
+            return
+        guard, self._guard = self._guard, None
+        RUNNING.discard(self)
+        self._to_guard.close()
+        guard.wait()
+        self._from_program.close()
+        if guard.returncode == -signal.SIGKILL:  # somebody killed it: its work is ours
+            self._work_of_the_guard()
 
-    def _tell_guard(self, word: str) -> None:
-        assert self._guard.stdin is not None
-        self._guard.stdin.write(word.encode() + b"\n")
+    def forget(self) -> None:
+        """In a forked process: what is our parent's to end is not held open by us."""
+        self._guard = None
+        for end in (self._to_guard, self._from_program):
+            end.close()
 
-    def _dismiss_guard(self) -> None:
+    def _work_of_the_guard(self) -> None:
         try:
-            self._tell_guard("done\ndone")  # the first may stand for a number that was never told
+            with open(f"/proc/{self.pid}/cmdline", "rb") as line:  # its number may be another's by now
+                if os.fsencode(self.folder) in line.read():
+                    os.kill(self.pid, signal.SIGTERM)
         except OSError:
-            pass  # somebody killed it
-        assert self._guard.stdin is not None
-        self._guard.stdin.close()
-        self._guard.wait()
+            pass
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def _wait_until_ready(self, within_s: float) -> None:
+    def _wait_until_ready(self, program: str, within_s: float) -> None:
         end = time.monotonic() + within_s
         while True:
-            over = self._process.poll() is not None
+            over = bool(select.select([self._from_program], [], [], 0.003)[0])
             said = self.said()
             if over:
-                raise NotThere(said.strip() or f"exit code {self._process.returncode}")
+                raise NotThere(said.strip() or f"{program} ended without a word")
             if "ready " in said and os.path.exists(self.control):
                 return
             if time.monotonic() > end:
                 raise NotThere(f"not ready within {within_s:g} s: {said.strip()}")
-            time.sleep(0.005)
+
+
+def _folders() -> str:
+    """Where folders are made; a socket's path has at most 107 bytes, and build systems have long ones."""
+    folders = tempfile.gettempdir()
+    return folders if len(os.fsencode(folders)) <= 70 else "/tmp"
+
+
+RUNNING: "weakref.WeakSet[Daemon]" = weakref.WeakSet()
+
+
+def _forget_all() -> None:
+    for daemon in list(RUNNING):
+        daemon.forget()
+    RUNNING.clear()
+
+
+os.register_at_fork(after_in_child=_forget_all)

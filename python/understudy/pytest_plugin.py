@@ -1,17 +1,16 @@
 """Fixtures for pytest: `-p understudy.pytest_plugin`. A failed test keeps its recording, its report and its frames."""
-import json
+import contextlib
 import os
 import subprocess
 from pathlib import Path
-from typing import Any, Callable, Dict, Generator, List, Tuple
+from typing import Any, Callable, Dict, Generator, List
 
 import pytest
 
 from .bench import Bench, start
-from .errors import UnderstudyError
 
-Kept = List[Tuple[Bench, Path]]
-KEPT = pytest.StashKey[Kept]()
+REPLAYED_WITHIN_S = 60.0
+KEPT = pytest.StashKey[List[Path]]()
 FAILED = pytest.StashKey[bool]()
 
 
@@ -28,40 +27,52 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, Any, None]:
     outcome = yield
     report = outcome.get_result()
-    benches: Kept = item.stash.get(KEPT, [])
-    if not report.failed or not benches or report.when == "teardown":
-        return
-    item.stash[FAILED] = True
-    for bench, folder in benches:
-        try:
-            text = json.dumps(bench.frames(1000), indent=1)
-        except UnderstudyError as error:
-            text = json.dumps({"error": str(error)})
-        (folder / "frames.json").write_text(text + "\n")
-        report.sections.append(("understudy", "\n".join(str(folder / name) for name in (
-            "frames.json", "understudy.rec", "report.html"))))
+    item.stash[FAILED] = item.stash.get(FAILED, False) or report.failed
+    # The benches are closed by now, so their recordings are whole. pytest shows what a teardown says beside the failure
+    # if the section's name says so.
+    if report.when == "teardown" and item.stash[FAILED]:
+        lines = [line for folder in item.stash.get(KEPT, []) for line in draw(folder)]
+        if lines:
+            report.sections.append(("understudy (kept at teardown)", "\n".join(lines)))
+
+
+def draw(folder: Path) -> List[str]:
+    """Draws the report and the frames out of the recording; what there is then, and what went wrong."""
+    recording, page, frames = folder / "understudy.rec", folder / "report.html", folder / "frames.txt"
+    program = os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
+    said = []
+    try:
+        done = subprocess.run([program, "replay", str(recording), "--report", str(page), "--capture", str(frames)],
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+                              timeout=REPLAYED_WITHIN_S, check=False)
+        if done.returncode != 0:
+            said = [f"replay, exit code {done.returncode}: {(done.stderr or done.stdout).strip()}"]
+    except (OSError, subprocess.TimeoutExpired) as error:
+        said = [f"replay: {error}"]
+    return [str(file) for file in (recording, page, frames) if file.exists()] + said
 
 
 @pytest.fixture
 def bench_factory(request: pytest.FixtureRequest, tmp_path: Path) -> Generator[Callable[..., Bench], None, None]:
     """Starts benches as `understudy.start` does, each with a folder and a recording."""
-    kept: Kept = request.node.stash.setdefault(KEPT, [])
+    benches: List[Bench] = []
+    kept = request.node.stash.setdefault(KEPT, [])
     speed = "real" if request.config.getoption("--understudy-real-time") else "manual"
 
     def make(bench: Any = None, *flags: str, **arguments: Any) -> Bench:
         folder = tmp_path / f"understudy-{len(kept) + 1}"
         folder.mkdir()
-        made = start(bench, *flags, **{"speed": speed, "record": str(folder / "understudy.rec"), **arguments})
-        kept.append((made, folder))
+        if "record" not in arguments:
+            kept.append(folder)
+        settings: Dict[str, Any] = {"speed": speed, "record": str(folder / "understudy.rec"), **arguments}
+        made = start(bench, *flags, **settings)
+        benches.append(made)
         return made
 
     yield make
-    for made, folder in kept:
-        made.close()
-        if request.node.stash.get(FAILED, False):
-            program = os.environ.get("UNDERSTUDY_PROGRAM") or "understudy"
-            subprocess.run([program, "replay", str(folder / "understudy.rec"), "--report", str(folder / "report.html")],
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=60, check=False)
+    with contextlib.ExitStack() as all_of_them:
+        for made in benches:
+            all_of_them.callback(made.close)
 
 
 @pytest.fixture
@@ -70,11 +81,10 @@ def bench(request: pytest.FixtureRequest, bench_factory: Callable[..., Bench]) -
     marker = request.node.get_closest_marker("understudy")
     positional = list(marker.args) if marker else []
     arguments: Dict[str, Any] = {**(marker.kwargs if marker else {}), **getattr(request, "param", {})}
-    flags = ["--firmware", str(arguments.pop("firmware"))] if "firmware" in arguments else []
     if not positional and "bench" not in arguments:
         arguments.setdefault("model", "simple2-r3")
     named = positional[0] if positional else arguments.pop("bench", None)
-    return bench_factory(named, *positional[1:], *flags, **arguments)
+    return bench_factory(named, *positional[1:], **arguments)
 
 
 @pytest.fixture

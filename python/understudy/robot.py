@@ -1,0 +1,155 @@
+"""A library for Robot Framework: `Library    understudy.robot.Understudy`. Its public methods are the keywords.
+
+It needs nothing of Robot itself: what Robot hands over may be text, or what Robot made of it by the annotations.
+"""
+import os
+from typing import Any, Dict, List, Optional, Union
+
+from .bench import Bench, Value, attach, start
+
+__all__ = ["Understudy"]
+Given = Union[int, float, str]
+
+
+class Understudy:
+    """Benches of emulated motion controllers. Keywords speak with the bench that was started or attached to last.
+
+    Benches are closed at the end of the suite. A keyword fails with the program's own words.
+    """
+
+    ROBOT_LIBRARY_SCOPE = "SUITE"
+    ROBOT_LISTENER_API_VERSION = 3
+
+    def __init__(self) -> None:
+        self.ROBOT_LIBRARY_LISTENER = self
+        self._benches: List[Bench] = []
+
+    def start_bench(self, bench: Optional[str] = None, *flags: str, model: Optional[str] = None,
+                    firmware: Optional[str] = None, speed: str = "manual", record: Optional[str] = None) -> str:
+        """Serves a bench file, or one device of a model; the path of its first port."""
+        self._benches.append(start(bench, *flags, model=model, firmware=firmware, speed=speed, record=record))
+        return self._bench.port
+
+    def attach_to_bench(self, control: Optional[str] = None) -> str:
+        """Attaches to a bench that runs, by its control socket or UNDERSTUDY_CONTROL; the path of its first port."""
+        self._benches.append(attach(control))
+        return self._bench.port
+
+    def close_bench(self) -> None:
+        """Ends the bench that was started last, or leaves the one that was attached to."""
+        bench = self._bench
+        self._benches.pop()
+        bench.close()
+
+    def get_port(self, line: Optional[str] = None) -> str:
+        """The path of a line's port, or of the first."""
+        return self._bench.port if line is None else self._bench.ports[line]
+
+    def get_value(self, name: str) -> Value:
+        """A register, an input, or what else conditions can name."""
+        return self._bench[name]
+
+    def set_values(self, **values: Given) -> None:
+        """Registers, as a host's writes would, in this order: `Set Values    Aaxis_SVON=1    Aaxis_Speed=60`."""
+        self._bench.set({name: _number(value) for name, value in values.items()})
+
+    def value_should_be(self, name: str, expected: Given) -> None:
+        """Fails if the name has another value."""
+        value = self._bench[name]
+        if value != _number(expected):
+            raise AssertionError(f"{name} is {value}; expected {expected}")
+
+    def evaluate_expression(self, expression: str) -> Any:
+        """What an expression comes to: `feeder.Cord_A - feeder.A.position`."""
+        return self._bench.eval(expression)
+
+    def expression_should_hold(self, expression: str) -> None:
+        """Fails if an expression is 0, or false."""
+        if not self._bench.eval(expression):
+            raise AssertionError(f"{expression} does not hold")
+
+    def set_inputs(self, **levels: Given) -> None:
+        """Inputs: `Set Inputs    DIN_10=1    AIN_A=2.5V`."""
+        self._bench.input({name: _level(level) for name, level in levels.items()})
+
+    def switch_power(self, to: str, device: Optional[str] = None) -> None:
+        """`on`, `off` or `cycle`."""
+        self._bench.power(to, device)
+
+    def inject_fault(self, **fault: Any) -> int:
+        """A fault as bench files have it: `Inject Fault    lost_steps=A    one_in=50`; its number."""
+        return self._bench.inject({name: _level(value) for name, value in fault.items()})
+
+    def clear_fault(self, number: Union[int, str]) -> None:
+        """Mends the fault of that number."""
+        self._bench.clear(int(number))
+
+    def clear_all_faults(self) -> None:
+        """Mends all faults."""
+        self._bench.clear()
+
+    def advance_time(self, by: str) -> int:
+        """Moves simulated time on: `250ms`; the time in nanoseconds."""
+        return self._bench.advance(by)
+
+    def run_until(self, condition: str, within: str = "1h") -> None:
+        """Moves simulated time on until a condition is true; fails if it does not come true in that time."""
+        if not self._bench.run_until(condition, within):
+            raise AssertionError(f"{condition} did not come true within {within}")
+
+    def set_speed(self, to: str) -> None:
+        """`real`, a factor, `free` or `manual`."""
+        self._bench.speed(to)
+
+    def write_program(self, file: str, device: Optional[str] = None) -> None:
+        """Writes the program in a file."""
+        with open(file, encoding="utf-8") as text:
+            self._bench.program(text.read(), device)
+
+    def give_command(self, text: str, device: Optional[str] = None) -> None:
+        """A command by the name that the device's model has for it."""
+        self._bench.command(text, device)
+
+    def take_snapshot(self, name: str) -> None:
+        """Kept by the bench, until it ends. Not while a recording is made."""
+        self._bench.snapshot(name)
+
+    def restore_snapshot(self, name: str) -> None:
+        """Everything is as it was, simulated time included."""
+        self._bench.restore(name)
+
+    def send_bytes(self, bytes_in_hex: str, line: Optional[str] = None) -> int:
+        """On a line that no host has open, with the checksum added: `Send Bytes    01 03 00 01 00 01`."""
+        return self._bench.send(bytes.fromhex(bytes_in_hex), line, checksum=True)
+
+    def last_frames_should_contain(self, text: str, last: Union[int, str] = 100) -> None:
+        """Fails if none of the last frames has this in its words."""
+        frames: List[Dict[str, Any]] = self._bench.frames(int(last))
+        if not any(text in frame["text"] for frame in frames):
+            raise AssertionError(os.linesep.join([f"no frame has {text!r}:", *(frame["text"] for frame in frames)]))
+
+    @property
+    def _bench(self) -> Bench:
+        if not self._benches:
+            raise AssertionError("no bench; expected `Start Bench` or `Attach To Bench` before")
+        return self._benches[-1]
+
+    def _end_suite(self, data: object, result: object) -> None:
+        while self._benches:
+            self._benches.pop().close()
+
+
+def _number(value: Given) -> Value:
+    if not isinstance(value, str):
+        return value
+    try:
+        return int(value, 0)
+    except ValueError:
+        return float(value)
+
+
+def _level(value: Given) -> Union[int, str]:
+    """A number where it is one; `2.5V` and `on` are the program's to understand."""
+    if isinstance(value, str) and not value.lstrip("-").isdigit():
+        return value
+    return int(value)
