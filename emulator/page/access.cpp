@@ -1,6 +1,7 @@
 #include "emulator/page/access.h"
 
 #include <sys/random.h>
+#include <sys/types.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -1,8 +1,8 @@
 #include "emulator/page/page.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>

@@ -19,7 +19,7 @@ struct PassedVerb {
   bool changes = false;
   std::array<std::string_view, 2> only_with{};
 };
-constexpr std::array<PassedVerb, 32> kPassedVerbs{{{"status"},
+constexpr std::array<PassedVerb, 33> kPassedVerbs{{{"status"},
                                                    {"identify"},
                                                    {"bench"},
                                                    {"registers"},
@@ -37,6 +37,7 @@ constexpr std::array<PassedVerb, 32> kPassedVerbs{{{"status"},
                                                    {"set", true},
                                                    {"input", true},
                                                    {"turn", true},
+                                                   {"command", true},
                                                    {"power", true},
                                                    {"inject", true},
                                                    {"clear", true},
@@ -50,7 +51,7 @@ constexpr std::array<PassedVerb, 32> kPassedVerbs{{{"status"},
                                                    {"resume", true},
                                                    {"speed", true},
                                                    {"timeline"},
-                                                   {"seek"}}};
+                                                   {"seek", true}}};
 
 constexpr int kDeepest = 8;
 constexpr std::size_t kMostNames = 2'000;

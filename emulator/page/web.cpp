@@ -1,6 +1,5 @@
 #include "emulator/page/web.h"
 
-#include <algorithm>
 #include <boost/asio/error.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -21,7 +20,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <istream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,6 +27,7 @@
 #include <string_view>
 #include <utility>
 
+#include "emulator/page/access.h"
 #include "emulator/page/unix_wire.h"
 
 namespace understudy::emulator::page {
@@ -67,7 +66,7 @@ void set_policy(http::fields& fields) {
   fields.set(http::field::cache_control, "no-store");
 }
 
-Response answer_to(const Request& request, http::status status, std::string type, std::string body) {
+Response answer_to(const Request& request, http::status status, const std::string& type, std::string body) {
   Response response{status, 11};
   set_policy(response);
   response.set(http::field::content_type, type);
@@ -92,7 +91,7 @@ class Web::Inside {
   class Visit;
   class Browser;
 
-  Inside(const WebAddress& address, const WebLimits& limits, WebEvents& events);
+  Inside(const WebAddress& address, const WebLimits& given, WebEvents& hears);
   void accept();
 
   WebLimits limits;
@@ -274,7 +273,7 @@ class Web::Inside::Visit : public std::enable_shared_from_this<Visit> {
     }
     auto file = inside_.events.file(target.substr(0, target.find('?')));
     if (!file) return say(refusal_of(request, http::status::not_found, "there is nothing here"));
-    say(answer_to(request, http::status::ok, std::move(file->type), std::move(file->bytes)));
+    say(answer_to(request, http::status::ok, file->type, std::move(file->bytes)));
   }
 
   void say(Response&& response) {

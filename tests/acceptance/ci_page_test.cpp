@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/acceptance/page_blocks.h"
 #include "tests/acceptance/running_understudy.h"
 
 namespace understudy::acceptance {
@@ -14,21 +15,7 @@ namespace ci_page_test {
 
 namespace fs = std::filesystem;
 
-/// The blocks of the page in that language.
-std::vector<std::string> blocks(const std::string& language) {
-  std::ifstream page(PROJECT_FOLDER "/docs/ci.md");
-  std::vector<std::string> found;
-  bool is_inside = false;
-  for (std::string line; std::getline(page, line);) {
-    if (line.starts_with("```")) {
-      is_inside = !is_inside && line == "```" + language;
-      if (is_inside) found.emplace_back();
-    } else if (is_inside) {
-      found.back() += line + "\n";
-    }
-  }
-  return found;
-}
+std::vector<std::string> blocks(const std::string& language) { return page_blocks("ci.md", language); }
 
 /// The project that the page supposes; each scenario says what is expected of a register.
 class Project {

@@ -111,6 +111,39 @@ TEST(Page, BesideABenchEndsWithIt) {
   EXPECT_TRUE(eventually([&] { return !TestBrowser(address.port).is_connected(); }));
 }
 
+TEST(Page, ARecordingShowsWhereItsScenarioFailed) {
+  const PrivateFolder folder;
+  const std::string scenario =
+      folder.write("fails.yaml",
+                   "understudy: 1\n"
+                   "bench: { lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } } }\n"
+                   "steps:\n"
+                   "  - write: { feeder.Aaxis_Speed: 60000 }\n    exception: 3\n"
+                   "  - advance: 1700ms\n"
+                   "  - assert: feeder.Cord_A == 1\n");
+  ASSERT_EQ(understudy({"run", scenario, "--record", folder.path()}).exit_code, 1);
+  Process page({UNDERSTUDY_BINARY, "replay", folder / "fails.jsonl", "--page"});
+  const auto browser = browser_at(address_of(page));
+  int id = 0;
+  const auto ask = [&](const TestJson& message) {
+    browser->say({{"do", "ask"}, {"id", ++id}, {"message", message}});
+    return browser->hear_one("answer")["reply"];
+  };
+  const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
+  ASSERT_EQ(timeline["marks"].size(), 2U) << timeline;
+  EXPECT_EQ(timeline["marks"][0]["what"], "exception");
+  EXPECT_EQ(timeline["marks"][1]["what"], "failed");
+  EXPECT_EQ(timeline["marks"][1]["text"], "'feeder.Cord_A == 1' does not hold");
+  EXPECT_EQ(timeline["marks"][1]["time_ns"], timeline["end_ns"]);
+  EXPECT_FALSE(timeline.contains("marks_left_out"));
+  EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", timeline["end_ns"]}})["simulated_time_ns"], timeline["end_ns"]);
+  // What led there is told anew, once: the request of 1.7 s before and its answer.
+  browser->say({{"do", "watch"}, {"bench", 0}, {"frames", true}});
+  const TestJson look = browser->hear_one("look");
+  EXPECT_EQ(look.value("frames", TestJson::array()).size(), 2U) << look;
+  EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", 0}})["simulated_time_ns"], 0);
+}
+
 TEST(Page, ThatCannotHaveItsPortSaysSo) {
   const RunningUnderstudy server;
   Process first({UNDERSTUDY_BINARY, "page", "--control", server.control()});

@@ -9,6 +9,7 @@ import { Registers } from './registers.js';
 import { Bus } from './bus.js';
 import { Program } from './program.js';
 import { Faults } from './faults.js';
+import { Travel } from './travel.js';
 
 const kPanels = [['Axes', Axes], ['Signals', Signals], ['Plot', Plot], ['Registers', Registers], ['Bus', Bus],
                  ['Program', Program], ['Faults', Faults]];
@@ -17,6 +18,11 @@ const kSpeeds = ['0.1', '0.2', '0.5', 'real', '2', '5', '10', 'free', 'manual'];
 function Time() {
   const { look } = store;
   if (!look) return null;
+  if (store.timeline) {
+    return html`<div class="time" role="group" aria-label="time">
+      <output class="clock figure" aria-label="simulated time">${seconds(look.time_ns)}</output>
+      <span class="badge">recording</span></div>`;
+  }
   const stands = look.paused || look.speed === 'manual';
   const locked = isReadOnly();
   const speeds = kSpeeds.includes(look.speed) ? kSpeeds : [look.speed, ...kSpeeds];
@@ -65,6 +71,7 @@ function Page() {
       <${Time} />
     </header>
     <${Said} />
+    <${Travel} />
     <nav role="tablist" aria-label="panels" onKeyDown=${move}>${kPanels.map(([name]) => html`<button type="button" role="tab"
       key=${name} id=${`tab_${name}`} aria-selected=${name === panel} aria-controls="panel" tabindex=${name === panel ? 0 : -1}
       onClick=${() => setPanel(name)}>${name}</button>`)}</nav>

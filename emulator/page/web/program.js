@@ -4,14 +4,29 @@ import { ask, askQuietly, isReadOnly, store, unwant, valueOf, want } from './sto
 import { Button, Choice, grouped } from './small.js';
 
 const kLook_ms = 150;
+const kMostLines = 4000;  // of a listing; more would make the page slow
 
-function Waits({ program }) {
+// Since when each program waits for the same thing at the same line, in simulated time.
+const waits = new Map();
+function waited_ns(key, program) {
+  const what = `${program.line} ${program.waits_for}`;
+  const known = waits.get(key);
+  const now = store.look?.time_ns ?? 0;
+  if (!program.waits_for) return waits.delete(key) && null;
+  if (known?.what === what && known.since <= now) return now - known.since;
+  waits.set(key, { what, since: now });
+  return 0;
+}
+
+function Waits({ device, program }) {
   const left_ns = program.until_ns !== undefined && store.look ? program.until_ns - store.look.time_ns : null;
+  const waited = waited_ns(`${device}.${program.program}`, program);
   return html`<li><b>${program.program}</b> ${program.state}
     ${program.line ? html` at line <output class="figure">${program.line}</output>` : ''}
     ${program.text && html` <code>${program.text}</code>`}
     ${program.waits_for && html` waits for ${program.waits_for}`}
-    ${left_ns !== null && left_ns > 0 ? html` <output class="figure">${(left_ns / 1e9).toFixed(2)} s</output>` : ''}
+    ${waited > 0 ? html` since <output class="figure">${(waited / 1e9).toFixed(2)} s</output>` : ''}
+    ${left_ns !== null && left_ns > 0 ? html`, at most another <output class="figure">${(left_ns / 1e9).toFixed(2)} s</output>` : ''}
     ${program.why && html` <span class="bad">${program.why}</span>`}</li>`;
 }
 
@@ -49,6 +64,8 @@ export function Program() {
     setMistakes(reply.ok ? [] : reply.mistakes ?? [{ line: 0, column: 0, what: reply.error }]);
     if (reply.ok) { setEdited(null); read(); }
   };
+  const lines = text.split('\n');
+  const shown = lines.slice(0, kMostLines);
   const running = new Set(programs.filter((it) => it.line).map((it) => it.line));
   return html`<div class="bar">
       ${devices.length > 1 && html`<${Choice} label="device" value=${device.name} options=${devices.map((it) => it.name)}
@@ -60,11 +77,12 @@ export function Program() {
         : html`<${Button} title="load this text" does=${load}>load<//>
             <${Button} title="give up" does=${() => { setEdited(null); setMistakes([]); }}>give up<//>`}
     </div>
-    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} program=${program} />`)}</ul>
+    <ul class="programs">${programs.map((program) => html`<${Waits} key=${program.program} device=${device.name} program=${program} />`)}</ul>
     ${mistakes.map((it) => html`<p class="bad" role="alert">${it.line ? `line ${it.line}, column ${it.column}: ` : ''}${it.what}</p>`)}
+    ${lines.length > kMostLines && html`<p>The first ${grouped(kMostLines)} of ${grouped(lines.length)} lines; edit shows all.</p>`}
     <div class="with_values">
       ${edited === null
-        ? html`<ol class="listing">${text.split('\n').slice(0, 4000).map((line, i) => html`<li key=${i}
+        ? html`<ol class="listing">${shown.map((line, i) => html`<li key=${i}
             class=${running.has(i + 1) ? 'running' : ''}><code>${line || ' '}</code></li>`)}</ol>`
         : html`<textarea aria-label="program text" rows="24" spellcheck="false" value=${edited}
             onInput=${(event) => setEdited(event.target.value)}></textarea>`}

@@ -23,6 +23,7 @@ export const store = {
   changes: {},      // by name: when it changed last, and by whom
   heard: new Set(), // names that the host has spoken of
   said: null,       // the last thing that went wrong: { text, at }
+  timeline: null,   // of a recording: { begin_ns, end_ns, marks }
 };
 
 const listeners = new Set();
@@ -79,6 +80,9 @@ const wire = new Wire({
 function take(look) {
   if (look.bench !== store.number) return;
   const now = performance.now();
+  // Back to a snapshot: what came after has not happened. Elsewhere in a recording: what led there is told anew.
+  const moved = store.look ? look.time_ns - store.look.time_ns : 0;
+  if (moved < 0 || (store.timeline && moved !== 0)) Object.assign(store, { frames: [], events: [], changes: {} });
   store.look = look;
   for (const [name, value] of Object.entries(look.values ?? {})) {
     if (name in store.values && store.values[name] !== value) {
@@ -117,7 +121,19 @@ export function show(number) {
 
 function forget() {
   Object.assign(store, { bench: null, devices: {}, values: {}, frames: [], events: [], status: null, look: null,
-                         changes: {}, framesLost: 0, heard: new Set() });
+                         changes: {}, framesLost: 0, heard: new Set(), timeline: null });
+}
+
+/// A recording has a timeline; a bench that runs refuses the question.
+async function timelineOf(number) {
+  let timeline = null;
+  for (let from = 0; from !== undefined;) {
+    const reply = await wire.ask(number, { do: 'timeline', from });
+    if (!reply.timeline) return null;
+    timeline = { ...reply.timeline, marks: [...(timeline?.marks ?? []), ...reply.timeline.marks] };
+    from = reply.next;
+  }
+  return timeline;
 }
 
 async function learn() {
@@ -132,6 +148,9 @@ async function learn() {
     const reply = await wire.ask(number, { do: 'bench', device: device.name });
     if (reply.device) store.devices[device.name] = reply.device;
   }
+  const timeline = await timelineOf(number);
+  if (number !== store.number) return;
+  store.timeline = timeline;
   store.bench = bench;
   lastWatch = '';
   watch();

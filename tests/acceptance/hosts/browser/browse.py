@@ -1,12 +1,6 @@
 #!/usr/bin/env python3
-"""A person with a browser at the live page: looks at every panel, presses, and checks what became of it.
-
-browse.py ADDRESS CONTROL UNDERSTUDY [--pictures FOLDER]: prints a line for each thing seen; exits with 1 at the first
-that is not so. Needs chromium, chromium-driver and python3-selenium.
-"""
-import argparse
+"""A person with a browser at the live page: looks at every panel, presses, and checks what became of it (for live.py)."""
 import json
-import os
 import pathlib
 import subprocess
 import sys
@@ -156,26 +150,3 @@ def a_fault_comes_and_goes(visit):
     visit.until('and shown at its axis', lambda: visit.find('button[title^="clear fault"]'))
     visit.find('button[title^="clear fault"]')[0].click()
     visit.until('and cleared', lambda: not control(visit.arguments, 'list')['faults'])
-
-
-def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument('address')
-    parser.add_argument('control')
-    parser.add_argument('understudy')
-    parser.add_argument('--pictures')
-    parser.add_argument('--prefix', default='')
-    arguments = parser.parse_args()
-    os.environ.setdefault('HOME', '/tmp')
-    for width, height, dark in [(1400, 900, False), (1400, 900, True), (390, 844, False), (390, 844, True)]:
-        visit = Visit(arguments, width, height, dark)
-        look_at_panels(visit)
-        if width > 700 and not dark:
-            time_stands_and_goes(visit)
-            a_signal_is_held(visit)
-            a_fault_comes_and_goes(visit)
-        visit.close()
-
-
-if __name__ == '__main__':
-    main()

@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""Makes the pictures of docs/page.md from the running page: make_pictures.py UNDERSTUDY.
+
+Needs chromium, chromium-driver and python3-selenium. Fonts and edges differ from machine to machine, so the pictures are
+kept, and made anew by hand when the page has changed.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENARIOS = HERE.parent.parent / 'scenarios'
+FAILING = """understudy: 1
+name: the axis arrives
+bench:
+  lines: { rs485: { stations: [ { name: feeder, model: simple2-r3 } ] } }
+  plant: { feeder.A: { travel: [-12000, 12000], home: { at: 0, width: 200 }, limits: { lower: -10000, upper: 10000 } } }
+steps:
+  - write: { feeder.Aaxis_SVON: 1 }
+  - write: { feeder.Aaxis_Speed: 60000 }
+    exception: 3
+  - write: { feeder.Aaxis_Pulse: 9000, feeder.Aaxis_Speed: 60, feeder.Aaxis_Move_INC: 1 }
+  - advance: 1s
+  - inject: { lost_steps: feeder.A, one_in: 10 }
+  - wait: { until: feeder.STATUS.4 == 0, within: 9s }
+  - assert: feeder.A.position == 9000
+"""
+
+
+class Shown:
+    """A command of the program that shows a page, and a browser at it."""
+
+    def __init__(self, program, words, folder, height):
+        self.process = subprocess.Popen([program, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                        text=True)
+        address = next(found.group(1) for line in self.process.stdout if (found := re.match(r'page (http\S+)', line)))
+        options = webdriver.ChromeOptions()
+        for flag in ['--headless=new', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--hide-scrollbars',
+                     f'--window-size=1280,{height}', f'--user-data-dir={folder}/chromium-{height}']:
+            options.add_argument(flag)
+        self.browser = webdriver.Chrome(service=Service('/usr/bin/chromedriver'), options=options)
+        self.browser.execute_cdp_cmd('Emulation.setDeviceMetricsOverride', {
+            'width': 1280, 'height': height, 'deviceScaleFactor': 1, 'mobile': False})
+        self.browser.get(address)
+        self.until(lambda: self.find('.axis h3'))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.browser.quit()
+        self.process.terminate()
+        self.process.wait()
+
+    def find(self, selector):
+        return self.browser.find_elements(By.CSS_SELECTOR, selector)
+
+    def until(self, condition):
+        end = time.monotonic() + 30
+        while not condition():
+            assert time.monotonic() < end
+            time.sleep(0.05)
+
+    def show(self, panel):
+        self.browser.find_element(By.ID, f'tab_{panel}').click()
+        time.sleep(1)
+
+    def picture(self, name):
+        self.browser.save_screenshot(str(HERE / f'{name}.png'))
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    os.environ['HOME'] = tempfile.gettempdir()
+    with tempfile.TemporaryDirectory() as folder:
+        control = f'{folder}/control'
+        ctl = lambda *words: subprocess.run([program, 'ctl', '--control', control, *words], check=True,
+                                            stdout=subprocess.DEVNULL)
+        serve = ['serve', str(SCENARIOS / 'super40nc_quickstart.yaml'), '--links', folder, '--control', control, '--page']
+        with Shown(program, serve, folder, 760) as page:
+            ctl('set', 'M8000=1')
+            time.sleep(1.6)
+            page.picture('axes')
+            ctl('set', 'M8000=1')
+            page.show('Program')
+            page.picture('program')
+        serve = ['serve', str(SCENARIOS / 'quickstart.yaml'), '--links', folder, '--control', control, '--page']
+        with Shown(program, serve, folder, 620) as page:
+            host = [program, 'poll', f'{folder}/rs485.port', '--model', 'simple2-r3']
+            if not os.path.exists(host[2]):
+                host[2] = next(str(path) for path in pathlib.Path(folder).glob('*.port'))
+            for words in [['Aaxis_SVON=1'], ['Aaxis_Pulse=-9000', 'Aaxis_Speed=100', 'Aaxis_Move_INC=1'], ['Cord_A']]:
+                subprocess.run([*host, *words], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([*host, 'Aaxis_Speed=60000'], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            page.show('Bus')
+            page.picture('bus')
+        pathlib.Path(folder, 'fails.yaml').write_text(FAILING)
+        subprocess.run([program, 'run', 'fails.yaml', '--record', folder], cwd=folder, check=False, stdout=subprocess.DEVNULL)
+        with Shown(program, ['replay', 'the_axis_arrives.jsonl', '--page'], folder, 640) as page:
+            bar = page.find('.travel input[type=range]')[0]
+            page.browser.execute_script(
+                "Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(arguments[0], '2100');"
+                "arguments[0].dispatchEvent(new Event('input', { bubbles: true }))", bar)
+            time.sleep(1)
+            page.picture('recording')
+
+
+if __name__ == '__main__':
+    main()

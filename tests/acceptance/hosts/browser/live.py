@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+"""The live page with a real browser, a host on the line, and what goes wrong between them.
+
+live.py UNDERSTUDY [--only PART]... [--pictures FOLDER]: starts daemons and pages itself; prints a line for each thing
+seen; exits with 1 at the first that is not so. Needs chromium, chromium-driver, python3-selenium and mbpoll.
+"""
+import argparse
+import functools
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import types
+
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+import browse
+
+MODELS = ['simple2-r3', 'super-40nc', 'rs-m8194h', 'slim']
+BROWSERS = 16
+
+BENCH = """understudy: 1
+lines:
+  rs485:
+    link: ./host.port
+    stations: [ { device: feeder, address: 1 } ]
+devices:
+  feeder: { model: simple2-r3, nv: { DIN4_Aaxis_Home: 1 } }
+plant:
+  feeder.A: { home: { at: 900000000, width: 200 } }
+"""
+
+FAILING = """understudy: 1
+name: ends elsewhere
+bench:
+  lines:
+    rs485:
+      stations: [ { name: feeder, model: simple2-r3, address: 1 } ]
+steps:
+  - write: { feeder.Aaxis_SVON: 1 }
+  - write: { feeder.Aaxis_Pulse: 32000, feeder.Aaxis_Speed: 200, feeder.Aaxis_AccTime: 5, feeder.Aaxis_DecTime: 5, feeder.Aaxis_Move_INC: 1 }
+  - wait: { until: "feeder.STATUS.4 == 0", within: 20s }
+  - expect: { feeder.Cord_A: 32001 }
+"""
+
+
+class Stage:
+    """A daemon, a page beside it, and a folder of their own."""
+
+    def __init__(self, options, *serve):
+        self.options = options
+        self.room = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.room.name)
+        self.control = str(self.folder / 'control')
+        self.serve = serve
+        self.daemon = self.page = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for process in (self.page, self.daemon):
+            if process:
+                process.send_signal(signal.SIGCONT)
+                process.terminate()
+                process.wait()
+        self.room.cleanup()
+
+    def start(self, *words):
+        return subprocess.Popen([self.options.understudy, *words], stdout=subprocess.PIPE, text=True, cwd=self.folder)
+
+    def start_daemon(self):
+        self.daemon = self.start('serve', *self.serve, '--control', self.control)
+        first = self.daemon.stdout.readline()
+        self.port = first.split()[2] if first.startswith('ready') else ''
+
+    def start_page(self):
+        self.page = self.start('page', '--control', self.control)
+        self.address = self.page.stdout.readline().split()[1]
+
+    def start_recording(self, recording):
+        self.page = self.start('replay', str(recording), '--page', '--control', self.control)
+        for line in self.page.stdout:
+            if line.startswith('page '):
+                self.address = line.split()[1]
+                return
+
+    def visit(self, width=1400, height=900, dark=False, prefix=''):
+        return browse.Visit(types.SimpleNamespace(address=self.address, control=self.control, prefix=prefix,
+                            understudy=self.options.understudy, pictures=self.options.pictures), width, height, dark)
+
+    def value(self, name):
+        return browse.control(types.SimpleNamespace(understudy=self.options.understudy, control=self.control),
+                              'get', name)['values'][name]
+
+    def host_writes(self, register, *values):
+        subprocess.run(['mbpoll', '-m', 'rtu', '-a', '1', '-b', '19200', '-P', 'even', '-0', '-q', '-t', '4', '-r',
+                        str(register), self.port, *map(str, values)], check=True, stdout=subprocess.DEVNULL)
+
+
+def panels(options, model):
+    """Every panel of a model, light and dark, wide and narrow."""
+    with Stage(options, '--model', model) as stage:
+        stage.start_daemon()
+        stage.start_page()
+        for width, height, dark in [(1400, 900, False), (390, 844, True), (1400, 900, True), (390, 844, False)]:
+            visit = stage.visit(width, height, dark, f'{model}_')
+            browse.look_at_panels(visit)
+            if width > 700 and not dark:
+                browse.time_stands_and_goes(visit)
+                if visit.find('button.signal'):
+                    browse.a_signal_is_held(visit)
+                browse.a_fault_comes_and_goes(visit)
+            visit.close()
+
+
+def host(options):
+    """A host moves an axis; a switch that is pressed ends a homing; the clock that is stopped stops the axis."""
+    with Stage(options, 'bench.yaml') as stage:
+        (stage.folder / 'bench.yaml').write_text(BENCH, encoding='utf-8')
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit()
+        shown = lambda: int(visit.texts('.axis output.figure')[0].replace(',', ''))
+        stage.host_writes(0x1014, 1)
+        stage.host_writes(0x1000, 0, 1, 100, 5, 5, 1)  # 65,536 pulses at 100 RPM
+        visit.until('the axis moves as the host said', lambda: shown() > 2000)
+        visit.picture('moving')
+        visit.press('stop time')
+        visit.until('time is stopped', lambda: visit.find('button[title="let time go on"]'))
+        time.sleep(0.3)
+        before = shown()
+        time.sleep(0.5)
+        if shown() != before:
+            browse.fail('the axis moves though time stands')
+        visit.press('let time go on')
+        visit.until('and moves on', lambda: shown() > before)
+        visit.show('Bus')
+        visit.until('the bus says what was written', lambda: any('Aaxis_SVON' in text for text in visit.texts('.frames .words')))
+        visit.show('Axes')
+        stage.host_writes(0x100E, 1)
+        visit.until('the axis stands', lambda: stage.value('feeder.A.speed') == 0)
+        stage.host_writes(0xF000, 60)
+        stage.host_writes(0xF010, 1)
+        stage.host_writes(0x1011, 1)
+        visit.until('it looks for its home', lambda: stage.value('feeder.A.speed') != 0)
+        switch = lambda: visit.find('button[title^="home of A"][title$="hold or let go"]')[0]
+        visit.until('its home switch can be pressed', switch)
+        switch().click()
+        visit.until('the switch is held', lambda: switch().get_attribute('aria-pressed') == 'true')
+        time.sleep(0.3)
+        switch().click()
+        visit.until('the homing is over', lambda: stage.value('feeder.A.speed') == 0 and stage.value('feeder.STATUS.4') == 0)
+        visit.close()
+
+
+def restart(options):
+    """The daemon goes, and comes back: the page says so, and heals by itself."""
+    with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit()
+        stage.daemon.terminate()
+        stage.daemon.wait()
+        visit.until('the page says that the daemon is gone', lambda: 'gone' in visit.texts('.said')[0])
+        stage.start_daemon()
+        visit.until('and that it is back', lambda: 'gone' not in visit.texts('.said')[0] and visit.texts('.axis h3'))
+        before = visit.texts('.clock')[0]
+        visit.until('with its time', lambda: visit.texts('.clock')[0] != before)
+        visit.close()
+
+
+def recording(options):
+    """The recording of a scenario that failed, dragged to and fro."""
+    with Stage(options) as stage:
+        (stage.folder / 'failing.yaml').write_text(FAILING, encoding='utf-8')
+        subprocess.run([options.understudy, 'run', 'failing.yaml', '--record', 'kept'], cwd=stage.folder, check=False,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        kept = next(stage.folder.glob('kept/**/*.jsonl'))
+        stage.start_recording(kept)
+        visit = stage.visit()
+        shown = lambda: int(visit.texts('.axis output.figure')[0].replace(',', ''))
+        bar = lambda: visit.find('.travel input[type=range]')[0]
+        drag = lambda to: visit.driver.execute_script(
+            'const it = arguments[0]; it.value = arguments[1] * it.max; '
+            "it.dispatchEvent(new Event('input', { bubbles: true })); it.dispatchEvent(new Event('change', { bubbles: true }));",
+            bar(), to)
+        visit.until('there is a bar', bar)
+        visit.until('with the failure on it', lambda: visit.find('.travel .marks .failed'))
+        for to, fits in [(1, lambda: shown() == 32000), (0.5, lambda: 0 < shown() < 32000), (0, lambda: shown() == 0),
+                         (0.5, lambda: 0 < shown() < 32000), (1, lambda: shown() == 32000)]:
+            drag(to)
+            visit.until(f'at {to} of it the axis is where it was', fits)
+        visit.show('Bus')
+        visit.until('frames are there', lambda: len(visit.find('.frames tbody tr')) > 0)
+        drag(0)
+        visit.until('and forgotten where they have not been yet', lambda: len(visit.find('.frames tbody tr')) <= 1)
+        visit.press('on by one frame')
+        visit.until('the next frame is gone to', lambda: visit.find('.frames tbody tr'))
+        visit.show('Axes')
+        keys = lambda text: visit.driver.find_element(By.CSS_SELECTOR, '.travel button').send_keys(text)
+        drag(0)
+        visit.until('it begins at nought', lambda: visit.texts('.clock')[0] == '0.000 s')
+        keys(']]')
+        visit.until('a key goes on by frames', lambda: visit.texts('.clock')[0] > '0.000 s')
+        drag(0.5)
+        visit.until('to the middle', lambda: visit.texts('.clock')[0].startswith('1.5'))
+        before = visit.texts('.clock')[0]
+        keys(',,,')
+        visit.until('another some ticks back', lambda: visit.texts('.clock')[0] < before)
+        bar().send_keys(Keys.END)
+        visit.until('and go to the end', lambda: shown() == 32000)
+        visit.until('the failure is told', lambda: any('expected 32001' in text for text in visit.texts('.travel option')))
+        visit.picture('recording')
+        visit.close()
+
+
+def crowd(options):
+    """Sixteen browsers, one of which never reads again, and one too many."""
+    with Stage(options, '--model', 'simple2-r3', '--link', './host.port') as stage:
+        stage.start_daemon()
+        stage.start_page()
+        visit = stage.visit()
+        driver = visit.driver
+        first = driver.current_window_handle
+        for number in range(2, BROWSERS + 1):
+            driver.switch_to.new_window('tab')
+            driver.get(stage.address)
+            visit.until(f'browser {number} is there', lambda: visit.texts('.axis h3'))
+        driver.execute_script('setTimeout(() => { const end = Date.now() + 8000; while (Date.now() < end); }, 50)')
+        driver.switch_to.new_window('tab')
+        driver.get(stage.address)
+        visit.until('one too many is told so', lambda: 'too many' in visit.texts('.said')[0])
+        driver.close()
+        driver.switch_to.window(first)
+        before = visit.texts('.clock')[0]
+        visit.until('the first one goes on beside one that does not read', lambda: visit.texts('.clock')[0] != before)
+        stage.value('device.A.position')
+        visit.close()
+
+
+PARTS = {**{f'panels_{model}': functools.partial(panels, model=model) for model in MODELS}, 'host': host, 'restart': restart, 'recording': recording, 'crowd': crowd}
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument('understudy', type=os.path.abspath)
+    parser.add_argument('--only', action='append', choices=PARTS)
+    parser.add_argument('--pictures', type=os.path.abspath)
+    options = parser.parse_args()
+    os.environ.setdefault('HOME', '/tmp')
+    for name in options.only or PARTS:
+        print(f'== {name}', flush=True)
+        PARTS[name](options)
+
+
+if __name__ == '__main__':
+    main()

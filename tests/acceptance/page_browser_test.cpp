@@ -1,0 +1,36 @@
+// The live page in a real browser, with mbpoll as the host beside it. Chromium is heavy to install, so this
+// runs where UNDERSTUDY_HEAVY_HOSTS=1 is set (./test then installs it).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "tests/acceptance/running_understudy.h"
+
+namespace understudy::acceptance {
+namespace page_browser_test {
+
+class PageInABrowser : public testing::TestWithParam<const char*> {};
+
+TEST_P(PageInABrowser, ShowsAndDoesWhatItShould) {
+  const char* wanted = getenv("UNDERSTUDY_HEAVY_HOSTS");
+  if (wanted == nullptr || std::string(wanted) != "1") {
+    GTEST_SKIP()
+        << "UNDERSTUDY_HEAVY_HOSTS=1 is not set (it needs chromium, chromium-driver and python3-selenium)";
+  }
+  Process visit({"/usr/bin/python3", std::string(TEST_FACTS) + "/hosts/browser/live.py", UNDERSTUDY_BINARY,
+                 "--only", GetParam()});
+  EXPECT_EQ(visit.wait(std::chrono::seconds(110)), 0) << visit.output() << visit.errors();
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, PageInABrowser,
+                         testing::Values("panels_simple2-r3", "panels_slim", "panels_rs-m8194h",
+                                         "panels_super-40nc", "host", "restart", "recording", "crowd"),
+                         [](const testing::TestParamInfo<const char*>& part) {
+                           std::string name = part.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+}  // namespace page_browser_test
+}  // namespace understudy::acceptance

@@ -1,0 +1,96 @@
+// A recording opened in the page: any moment of it, and where a scenario failed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/acceptance/running_understudy.h"
+#include "tests/emulator/page/test_browser.h"
+
+namespace understudy::acceptance {
+namespace page_recording_test {
+
+using emulator::page::TestBrowser;
+using emulator::page::TestJson;
+
+constexpr const char* kFailing = R"(understudy: 1
+name: ends elsewhere
+bench:
+  lines:
+    rs485:
+      stations: [ { name: feeder, model: simple2-r3, address: 1 } ]
+steps:
+  - write: { feeder.Aaxis_SVON: 1 }
+  - write: { feeder.Aaxis_Pulse: 3200, feeder.Aaxis_Speed: 20, feeder.Aaxis_AccTime: 1, feeder.Aaxis_DecTime: 1, feeder.Aaxis_Move_INC: 1 }
+  - wait: { until: "feeder.STATUS.4 == 0", within: 20s }
+  - expect: { feeder.Cord_A: 3201 }
+)";
+
+/// The page over the recording of a scenario that failed.
+class PageOfAFailure : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string scenario = folder_.write("failing.yaml", kFailing);
+    const Finished run = understudy({"run", scenario, "--record", folder_.path()});
+    ASSERT_EQ(run.exit_code, 1) << run.errors;
+    std::string recording;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
+      if (entry.path().string().find("jsonl") != std::string::npos) recording = entry.path();
+    }
+    ASSERT_NE(recording, "") << run.output;
+    EXPECT_EQ(understudy({"replay", recording}).exit_code, 0);
+    process_ = std::make_unique<Process>(
+        Words{UNDERSTUDY_BINARY, "replay", recording, "--page", "--control", folder_ / "control"});
+    ASSERT_TRUE(eventually([&] {
+      return process_->output().find("#") != std::string::npos &&
+             process_->output().find('\n', process_->output().find('#')) != std::string::npos;
+    })) << process_->errors();
+    const std::string output = process_->output();
+    const std::size_t at = output.find("127.0.0.1:") + 10;
+    const std::size_t hash = output.find('#');
+    const auto port = static_cast<std::uint16_t>(std::stoi(output.substr(at)));
+    browser_ = std::make_unique<TestBrowser>(port);
+    ASSERT_TRUE(browser_->open_socket(port));
+    browser_->say({{"token", output.substr(hash + 1, output.find('\n', hash) - hash - 1)}});
+    ASSERT_EQ(browser_->hear().value("is", ""), "hello");
+  }
+  TestJson ask(const TestJson& message) {
+    browser_->say({{"do", "ask"}, {"id", 1}, {"message", message}});
+    return browser_->hear_one("answer")["reply"];
+  }
+  std::int64_t position_at(std::int64_t time_ns) {
+    EXPECT_EQ(ask({{"do", "seek"}, {"to_ns", time_ns}})["simulated_time_ns"], time_ns);
+    return ask({{"do", "get"}, {"names", {"feeder.A.position"}}})["values"]["feeder.A.position"]
+        .get<std::int64_t>();
+  }
+
+  const PrivateFolder folder_;
+  std::unique_ptr<Process> process_;
+  std::unique_ptr<TestBrowser> browser_;
+};
+
+TEST_F(PageOfAFailure, MarksWhereItFailedAndWhy) {
+  const TestJson timeline = ask({{"do", "timeline"}})["timeline"];
+  ASSERT_FALSE(timeline["marks"].empty());
+  const TestJson& mark = timeline["marks"].back();
+  EXPECT_EQ(mark["what"], "failed");
+  EXPECT_NE(mark["text"].get<std::string>().find("3201"), std::string::npos) << mark.dump();
+  EXPECT_LE(mark["time_ns"], timeline["end_ns"]);
+  EXPECT_FALSE(timeline.contains("marks_left_out"));
+}
+
+TEST_F(PageOfAFailure, GoesToAndFro) {
+  const std::int64_t end = ask({{"do", "timeline"}})["timeline"]["end_ns"].get<std::int64_t>();
+  EXPECT_EQ(position_at(end), 3200);
+  const std::int64_t half = position_at(end / 2);
+  EXPECT_GT(half, 0);
+  EXPECT_LT(half, 3200);
+  EXPECT_EQ(position_at(0), 0);
+  EXPECT_EQ(position_at(end / 2), half);
+  const TestJson one_back = ask({{"do", "seek"}, {"by", "tick"}, {"steps", -1}});
+  EXPECT_LE(end / 2 - one_back["simulated_time_ns"].get<std::int64_t>(), 1'000'000);
+  EXPECT_LT(one_back["simulated_time_ns"], end / 2);
+}
+
+}  // namespace page_recording_test
+}  // namespace understudy::acceptance
