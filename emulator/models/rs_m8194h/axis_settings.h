@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 
 #include "base/state/fields.h"
 #include "base/state/state_error.h"
@@ -127,30 +126,30 @@ namespace understudy {
 template <>
 struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
   using Value = emulator::models::rs_m8194h::BasicSettings;
-  static constexpr auto fields = std::tuple{field("pulse_mode", &Value::pulse_mode),
-                                            field("max_v", &Value::max_v),
-                                            field("forward_limit_level", &Value::forward_limit_level),
-                                            field("reverse_limit_level", &Value::reverse_limit_level),
-                                            field("limit_stop_mode", &Value::limit_stop_mode),
-                                            field("near_home_level", &Value::near_home_level),
-                                            field("home_level", &Value::home_level),
-                                            field("soft_limits", &Value::soft_limits),
-                                            field("forward_soft_limit", &Value::forward_soft_limit),
-                                            field("reverse_soft_limit", &Value::reverse_soft_limit),
-                                            field("soft_limit_source", &Value::soft_limit_source),
-                                            field("encoder_mode", &Value::encoder_mode),
-                                            field("encoder_division", &Value::encoder_division),
-                                            field("index_level", &Value::index_level),
-                                            field("servo", &Value::servo),
-                                            field("alarm", &Value::alarm),
-                                            field("alarm_level", &Value::alarm_level),
-                                            field("in_position", &Value::in_position),
-                                            field("in_position_level", &Value::in_position_level),
-                                            field("filtered", &Value::filtered),
-                                            field("filter_time", &Value::filter_time),
-                                            field("ring", &Value::ring),
-                                            field("ring_top", &Value::ring_top),
-                                            field("avoids_triangles", &Value::avoids_triangles)};
+  static constexpr auto fields = FieldList{field("pulse_mode", &Value::pulse_mode),
+                                           field("max_v", &Value::max_v),
+                                           field("forward_limit_level", &Value::forward_limit_level),
+                                           field("reverse_limit_level", &Value::reverse_limit_level),
+                                           field("limit_stop_mode", &Value::limit_stop_mode),
+                                           field("near_home_level", &Value::near_home_level),
+                                           field("home_level", &Value::home_level),
+                                           field("soft_limits", &Value::soft_limits),
+                                           field("forward_soft_limit", &Value::forward_soft_limit),
+                                           field("reverse_soft_limit", &Value::reverse_soft_limit),
+                                           field("soft_limit_source", &Value::soft_limit_source),
+                                           field("encoder_mode", &Value::encoder_mode),
+                                           field("encoder_division", &Value::encoder_division),
+                                           field("index_level", &Value::index_level),
+                                           field("servo", &Value::servo),
+                                           field("alarm", &Value::alarm),
+                                           field("alarm_level", &Value::alarm_level),
+                                           field("in_position", &Value::in_position),
+                                           field("in_position_level", &Value::in_position_level),
+                                           field("filtered", &Value::filtered),
+                                           field("filter_time", &Value::filter_time),
+                                           field("ring", &Value::ring),
+                                           field("ring_top", &Value::ring_top),
+                                           field("avoids_triangles", &Value::avoids_triangles)};
   static void check(const Value& value) {
     constexpr std::uint32_t kMostRing = 2'000'000'000;
     const bool fits = value.pulse_mode <= 5 && value.encoder_mode <= 3 && value.encoder_division <= 2 &&
@@ -162,14 +161,14 @@ struct StateOf<emulator::models::rs_m8194h::BasicSettings> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::SpeedSettings> {
   using Value = emulator::models::rs_m8194h::SpeedSettings;
-  static constexpr auto fields = std::tuple{field("mode", &Value::mode),
-                                            field("start_pps", &Value::start_pps),
-                                            field("drive_pps", &Value::drive_pps),
-                                            field("acceleration", &Value::acceleration),
-                                            field("deceleration", &Value::deceleration),
-                                            field("jerk_up", &Value::jerk_up),
-                                            field("jerk_down", &Value::jerk_down),
-                                            field("offset_pulses", &Value::offset_pulses)};
+  static constexpr auto fields = FieldList{field("mode", &Value::mode),
+                                           field("start_pps", &Value::start_pps),
+                                           field("drive_pps", &Value::drive_pps),
+                                           field("acceleration", &Value::acceleration),
+                                           field("deceleration", &Value::deceleration),
+                                           field("jerk_up", &Value::jerk_up),
+                                           field("jerk_down", &Value::jerk_down),
+                                           field("offset_pulses", &Value::offset_pulses)};
   static void check(const Value& value) {
     demand_state(value.mode < 12, "a speed mode is not one of the manual's");
     demand_state(value.offset_pulses >= INT16_MIN && value.offset_pulses <= INT16_MAX,
@@ -181,8 +180,8 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::HomeSettings> {
   using Value = emulator::models::rs_m8194h::HomeSettings;
   static constexpr auto fields =
-      std::tuple{field("home_pps", &Value::home_pps), field("limit_is_home", &Value::limit_is_home),
-                 field("steps", &Value::steps), field("offset_pulses", &Value::offset_pulses)};
+      FieldList{field("home_pps", &Value::home_pps), field("limit_is_home", &Value::limit_is_home),
+                field("steps", &Value::steps), field("offset_pulses", &Value::offset_pulses)};
   static void check(const Value& value) {
     constexpr std::uint32_t kMostOffset = 2'000'000'000;
     demand_state(value.offset_pulses <= kMostOffset, "an offset of homing is too far");

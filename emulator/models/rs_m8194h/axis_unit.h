@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <tuple>
 
 #include "base/simulated_time.h"
 #include "base/state/fields.h"
@@ -183,59 +182,59 @@ struct StateOf<emulator::models::rs_m8194h::Drive::What> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::Drive> {
   using Value = emulator::models::rs_m8194h::Drive;
-  static constexpr auto fields = std::tuple{field("what", &Value::what), field("value", &Value::value)};
+  static constexpr auto fields = FieldList{field("what", &Value::what), field("value", &Value::value)};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::Compare> {
   using Value = emulator::models::rs_m8194h::Compare;
-  static constexpr auto fields = std::tuple{field("value", &Value::value), field("source", &Value::source)};
+  static constexpr auto fields = FieldList{field("value", &Value::value), field("source", &Value::source)};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::OutSettings> {
   using Value = emulator::models::rs_m8194h::OutSettings;
   static constexpr auto fields =
-      std::tuple{field("level", &Value::level), field("width_code", &Value::width_code),
-                 field("pulses", &Value::pulses), field("pulse_until", &Value::pulse_until)};
+      FieldList{field("level", &Value::level), field("width_code", &Value::width_code),
+                field("pulses", &Value::pulses), field("pulse_until", &Value::pulse_until)};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::FilteredPins> {
   using Value = emulator::models::rs_m8194h::FilteredPins;
   static constexpr auto fields =
-      std::tuple{field("raw", &Value::raw), field("passed", &Value::passed), field("since", &Value::since)};
+      FieldList{field("raw", &Value::raw), field("passed", &Value::passed), field("since", &Value::since)};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::AxisUnit> {
   using Value = emulator::models::rs_m8194h::AxisUnit;
-  static constexpr auto fields = std::tuple{field("basic", &Value::basic),
-                                            field("speed", &Value::speed),
-                                            field("homing", &Value::homing),
-                                            field("logic", &Value::logic),
-                                            field("absolute", &Value::absolute),
-                                            field("encoder", &Value::encoder),
-                                            field("has_encoder", &Value::has_encoder),
-                                            field("encoder_raw", &Value::encoder_raw),
-                                            field("encoder_zero", &Value::encoder_zero),
-                                            field("sent_pulses", &Value::sent_pulses),
-                                            field("error_code", &Value::error_code),
-                                            field("locked", &Value::locked),
-                                            field("path_locked", &Value::path_locked),
-                                            field("held", &Value::held),
-                                            field("held_drive", &Value::held_drive),
-                                            field("pins", &Value::pins),
-                                            field("emergency", &Value::emergency),
-                                            field("external", &Value::external),
-                                            field("external_pps", &Value::external_pps),
-                                            field("external_seen", &Value::external_seen),
-                                            field("compare", &Value::compare),
-                                            field("factors", &Value::factors),
-                                            field("isr_of", &Value::isr_of),
-                                            field("action_isr", &Value::action_isr),
-                                            field("out", &Value::out),
-                                            field("latched", &Value::latched)};
+  static constexpr auto fields = FieldList{field("basic", &Value::basic),
+                                           field("speed", &Value::speed),
+                                           field("homing", &Value::homing),
+                                           field("logic", &Value::logic),
+                                           field("absolute", &Value::absolute),
+                                           field("encoder", &Value::encoder),
+                                           field("has_encoder", &Value::has_encoder),
+                                           field("encoder_raw", &Value::encoder_raw),
+                                           field("encoder_zero", &Value::encoder_zero),
+                                           field("sent_pulses", &Value::sent_pulses),
+                                           field("error_code", &Value::error_code),
+                                           field("locked", &Value::locked),
+                                           field("path_locked", &Value::path_locked),
+                                           field("held", &Value::held),
+                                           field("held_drive", &Value::held_drive),
+                                           field("pins", &Value::pins),
+                                           field("emergency", &Value::emergency),
+                                           field("external", &Value::external),
+                                           field("external_pps", &Value::external_pps),
+                                           field("external_seen", &Value::external_seen),
+                                           field("compare", &Value::compare),
+                                           field("factors", &Value::factors),
+                                           field("isr_of", &Value::isr_of),
+                                           field("action_isr", &Value::action_isr),
+                                           field("out", &Value::out),
+                                           field("latched", &Value::latched)};
   static void check(const Value& unit) {
     demand_state(unit.speed.mode < 4, "a speed mode of an axis is not one of the manual's");
     for (const Tick since : unit.pins.since)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -28,6 +29,7 @@
 #include "emulator/models/rs_m8194h/model.h"
 #include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
+#include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/state_fields.h"  // IWYU pragma: keep, write() goes through the fields
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "interpreter/rs_m8194h/run.h"
@@ -286,13 +288,13 @@ Tick RsM8194h::next_active_tick(Tick done) const {
 
 // --- terminals -------------------------------------------------------------------------------------------
 
-bool RsM8194h::output(int number) const {
-  if (number >= kFirstDo) return output_word(number, 1) != 0;
-  if (!powered() || number < kFirstServo) return false;
-  if (number < kFirstOut) return state_.units[static_cast<std::size_t>(number - kFirstServo)].basic.servo;
-  if (number >= kFirstDi) return false;
+bool RsM8194h::output(int terminal) const {
+  if (terminal >= kFirstDo) return output_word(terminal, 1) != 0;
+  if (!powered() || terminal < kFirstServo) return false;
+  if (terminal < kFirstOut) return state_.units[static_cast<std::size_t>(terminal - kFirstServo)].basic.servo;
+  if (terminal >= kFirstDi) return false;
   // At rest it is at the other level than its pulses: outEdge 0 is low, and low does not conduct.
-  const OutSettings& out = state_.units[static_cast<std::size_t>(number - kFirstOut)].out;
+  const OutSettings& out = state_.units[static_cast<std::size_t>(terminal - kFirstOut)].out;
   return (out.level == 0) != (now() < out.pulse_until);
 }
 
@@ -307,9 +309,9 @@ std::uint32_t RsM8194h::output_word(int first, int count) const {
   return static_cast<std::uint32_t>(words >> (at % kFrnetChannels) & ((std::uint64_t{1} << count) - 1));
 }
 
-std::int64_t RsM8194h::output_pulses(int number) const {
-  if (number < kFirstOut || number >= kFirstOut + kOuts) return 0;
-  return state_.units[static_cast<std::size_t>(number - kFirstOut)].out.pulses;
+std::int64_t RsM8194h::output_pulses(int terminal) const {
+  if (terminal < kFirstOut || terminal >= kFirstOut + kOuts) return 0;
+  return state_.units[static_cast<std::size_t>(terminal - kFirstOut)].out.pulses;
 }
 
 std::span<const std::string_view> RsM8194h::pulse_formats() const { return kPulseFormats; }

@@ -12,6 +12,7 @@
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/meetings.h"
 #include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "motion/axis.h"
 #include "motion/external_drive.h"

@@ -14,6 +14,7 @@
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/memory.h"
+#include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "emulator/models/rs_m8194h/terminals.h"

@@ -14,6 +14,7 @@
 #include "emulator/models/rs_m8194h/choices.h"
 #include "emulator/models/rs_m8194h/command_names.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/first_files.h"
 #include "emulator/models/rs_m8194h/language.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/terminals.h"
@@ -70,6 +71,7 @@ const Model& model() {
       .gaps = kGaps,
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{1, 247}},
       .rtu = RtuRules{.end_silence = std::chrono::milliseconds(3), .functions = kServedFunctions},
+      .first_files = &kFirstFiles,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<RsM8194h>(settings);
       },

@@ -6,6 +6,7 @@
 #include "emulator/device/choices.h"
 #include "emulator/device/model.h"
 #include "emulator/models/rs_m8194h/choices.h"
+#include "interpreter/rs_m8194h/check.h"
 #include "interpreter/rs_m8194h/download.h"
 #include "motion/axis.h"
 

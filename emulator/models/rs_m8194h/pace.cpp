@@ -3,6 +3,7 @@
 
 #include "emulator/models/rs_m8194h/commands.h"
 #include "emulator/models/rs_m8194h/device.h"
+#include "emulator/models/rs_m8194h/options.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/command.h"
 #include "interpreter/rs_m8194h/command_row.h"

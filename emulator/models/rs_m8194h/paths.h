@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 
 #include "base/state/fields.h"
 #include "emulator/models/rs_m8194h/axis_settings.h"
@@ -76,20 +75,20 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::StreamSettings> {
   using Value = emulator::models::rs_m8194h::StreamSettings;
   static constexpr auto fields =
-      std::tuple{field("given", &Value::given),         field("axes", &Value::axes),
-                 field("constant", &Value::constant),   field("start_pps", &Value::start_pps),
-                 field("drive_pps", &Value::drive_pps), field("acceleration", &Value::acceleration)};
+      FieldList{field("given", &Value::given),         field("axes", &Value::axes),
+                field("constant", &Value::constant),   field("start_pps", &Value::start_pps),
+                field("drive_pps", &Value::drive_pps), field("acceleration", &Value::acceleration)};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::Paths> {
   using Value = emulator::models::rs_m8194h::Paths;
   static constexpr auto fields =
-      std::tuple{field("together", &Value::together), field("runs", &Value::runs),
-                 field("stream", &Value::stream),     field("open", &Value::open),
-                 field("axes", &Value::axes),         field("let_go", &Value::let_go),
-                 field("assigned", &Value::assigned), field("vector", &Value::vector),
-                 field("streams", &Value::streams),   field("end", &Value::end)};
+      FieldList{field("together", &Value::together), field("runs", &Value::runs),
+                field("stream", &Value::stream),     field("open", &Value::open),
+                field("axes", &Value::axes),         field("let_go", &Value::let_go),
+                field("assigned", &Value::assigned), field("vector", &Value::vector),
+                field("streams", &Value::streams),   field("end", &Value::end)};
 };
 
 }  // namespace understudy

@@ -1,8 +1,6 @@
 // What the state of an RS-M8194H consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
-#include <tuple>
-
 #include "base/state/state_bytes.h"
 #include "emulator/models/rs_m8194h/state.h"
 #include "interpreter/rs_m8194h/state_fields.h"
@@ -18,7 +16,7 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::Fifo> {
   using Value = emulator::models::rs_m8194h::Fifo;
   static constexpr auto fields =
-      std::tuple{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
+      FieldList{field("waiting", &Value::waiting), field("stop_wait", &Value::stop_wait)};
   static void check(const Value& fifo) {
     // How many blocks they take is a choice: each takes one at least.
     demand_state(fifo.waiting.size() <= static_cast<std::size_t>(emulator::models::rs_m8194h::kFifoBlocks),
@@ -37,16 +35,16 @@ template <>
 struct StateOf<emulator::models::rs_m8194h::LineScan> {
   using Value = emulator::models::rs_m8194h::LineScan;
   static constexpr auto fields =
-      std::tuple{field("set", &Value::set),     field("type", &Value::type),
-                 field("pitch", &Value::pitch), field("running", &Value::running),
-                 field("begin", &Value::begin), field("triggered", &Value::triggered)};
+      FieldList{field("set", &Value::set),     field("type", &Value::type),
+                field("pitch", &Value::pitch), field("running", &Value::running),
+                field("begin", &Value::begin), field("triggered", &Value::triggered)};
 };
 
 template <>
 struct StateOf<emulator::models::rs_m8194h::IsrMark> {
   using Value = emulator::models::rs_m8194h::IsrMark;
-  static constexpr auto fields = std::tuple{field("tick", &Value::tick), field("axis", &Value::axis),
-                                            field("source", &Value::source), field("number", &Value::number)};
+  static constexpr auto fields = FieldList{field("tick", &Value::tick), field("axis", &Value::axis),
+                                           field("source", &Value::source), field("number", &Value::number)};
   static void check(const Value& mark) {
     demand_state(mark.axis < emulator::models::rs_m8194h::kAxes && mark.source <= Value::kCalled,
                  "an interrupt has no such source");
@@ -56,47 +54,47 @@ struct StateOf<emulator::models::rs_m8194h::IsrMark> {
 template <>
 struct StateOf<emulator::models::rs_m8194h::State> {
   using Value = emulator::models::rs_m8194h::State;
-  static constexpr auto fields = std::tuple{field("motors", &Value::motors),
-                                            field("here", &Value::here),
-                                            field("units", &Value::units),
-                                            field("sync", &Value::sync),
-                                            field("paths", &Value::paths),
-                                            field("scans", &Value::scans),
-                                            field("scanning", &Value::scanning),
-                                            field("fifo", &Value::fifo),
-                                            field("held_paths", &Value::held_paths),
-                                            field("rsm", &Value::rsm),
-                                            field("illegal_reason", &Value::illegal_reason),
-                                            field("download", &Value::download),
-                                            field("downloaded", &Value::downloaded),
-                                            field("emergency_state", &Value::emergency_state),
-                                            field("emergency_input", &Value::emergency_input),
-                                            field("emergency_since", &Value::emergency_since),
-                                            field("rint", &Value::rint),
-                                            field("interrupts", &Value::interrupts),
-                                            field("factor_axes", &Value::factor_axes),
-                                            field("marks", &Value::marks),
-                                            field("execution", &Value::execution),
-                                            field("execution_fault", &Value::execution_fault),
-                                            field("paused", &Value::paused),
-                                            field("paused_by", &Value::paused_by),
-                                            field("queued_triggers", &Value::queued_triggers),
-                                            field("trigger_holds", &Value::trigger_holds),
-                                            field("outputs", &Value::outputs),
-                                            field("sent", &Value::sent),
-                                            field("inputs", &Value::inputs),
-                                            field("powered_at", &Value::powered_at),
-                                            field("at_init", &Value::at_init),
-                                            field("unscanned", &Value::unscanned),
-                                            field("finished", &Value::finished),
-                                            field("finished_at", &Value::finished_at),
-                                            field("resetting_until", &Value::resetting_until),
-                                            field("steps_left", &Value::steps_left),
-                                            field("touched", &Value::touched),
-                                            field("initial_table", &Value::initial_table),
-                                            field("blocks", &Value::blocks),
-                                            field("eeprom", &Value::eeprom),
-                                            field("image", &Value::image)};
+  static constexpr auto fields = FieldList{field("motors", &Value::motors),
+                                           field("here", &Value::here),
+                                           field("units", &Value::units),
+                                           field("sync", &Value::sync),
+                                           field("paths", &Value::paths),
+                                           field("scans", &Value::scans),
+                                           field("scanning", &Value::scanning),
+                                           field("fifo", &Value::fifo),
+                                           field("held_paths", &Value::held_paths),
+                                           field("rsm", &Value::rsm),
+                                           field("illegal_reason", &Value::illegal_reason),
+                                           field("download", &Value::download),
+                                           field("downloaded", &Value::downloaded),
+                                           field("emergency_state", &Value::emergency_state),
+                                           field("emergency_input", &Value::emergency_input),
+                                           field("emergency_since", &Value::emergency_since),
+                                           field("rint", &Value::rint),
+                                           field("interrupts", &Value::interrupts),
+                                           field("factor_axes", &Value::factor_axes),
+                                           field("marks", &Value::marks),
+                                           field("execution", &Value::execution),
+                                           field("execution_fault", &Value::execution_fault),
+                                           field("paused", &Value::paused),
+                                           field("paused_by", &Value::paused_by),
+                                           field("queued_triggers", &Value::queued_triggers),
+                                           field("trigger_holds", &Value::trigger_holds),
+                                           field("outputs", &Value::outputs),
+                                           field("sent", &Value::sent),
+                                           field("inputs", &Value::inputs),
+                                           field("powered_at", &Value::powered_at),
+                                           field("at_init", &Value::at_init),
+                                           field("unscanned", &Value::unscanned),
+                                           field("finished", &Value::finished),
+                                           field("finished_at", &Value::finished_at),
+                                           field("resetting_until", &Value::resetting_until),
+                                           field("steps_left", &Value::steps_left),
+                                           field("touched", &Value::touched),
+                                           field("initial_table", &Value::initial_table),
+                                           field("blocks", &Value::blocks),
+                                           field("eeprom", &Value::eeprom),
+                                           field("image", &Value::image)};
   static void check(const Value& state) {
     demand_state(state.held_paths.size() <= 1, "more than one path is held");
     for (const auto& command : state.held_paths) {

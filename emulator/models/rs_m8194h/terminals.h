@@ -26,7 +26,7 @@ enum class Pin : std::uint8_t {
   alarm,
 };
 inline constexpr int kPinsOfAxis = 10;
-inline constexpr std::uint16_t bit_of(Pin pin) {
+constexpr std::uint16_t bit_of(Pin pin) {
   return static_cast<std::uint16_t>(1U << static_cast<unsigned>(pin));
 }
 

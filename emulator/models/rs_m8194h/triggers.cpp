@@ -8,6 +8,7 @@
 #include "emulator/models/rs_m8194h/axis_settings.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "emulator/models/rs_m8194h/options.h"
+#include "emulator/models/rs_m8194h/paths.h"
 #include "emulator/models/rs_m8194h/registers.h"
 #include "emulator/models/rs_m8194h/terminals.h"
 #include "interpreter/rs_m8194h/run.h"

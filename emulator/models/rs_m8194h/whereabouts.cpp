@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/rs_m8194h/device.h"
 #include "interpreter/rs_m8194h/macro.h"

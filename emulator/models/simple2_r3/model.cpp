@@ -15,6 +15,7 @@
 #include "emulator/models/simple2_r3/choices.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "emulator/models/simple2_r3/effects.h"
+#include "emulator/models/simple2_r3/first_files.h"
 #include "emulator/models/simple2_r3/language.h"
 #include "emulator/models/simple2_r3/parameters.h"
 #include "emulator/models/simple2_r3/registers.h"
@@ -135,6 +136,7 @@ const Model& model() {
                .station_numbers = StationNumbers{0, 15}},             // rotary switch 0: every station number
       .rtu = RtuRules{.end_silence = std::chrono::microseconds(750),  // END Time, at both speeds
                       .functions = kFunctions},
+      .first_files = &kFirstFiles,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Simple2R3>(settings);
       },

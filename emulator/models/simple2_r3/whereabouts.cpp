@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/simple2_r3/device.h"
 #include "interpreter/simple2/execution/execution.h"

@@ -1,8 +1,6 @@
 // What the state of a chain consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
-#include <tuple>
-
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "emulator/models/slim/chain.h"
@@ -45,76 +43,76 @@ template <>
 struct StateOf<emulator::models::slim::ModuleSettings> {
   using Value = emulator::models::slim::ModuleSettings;
   static constexpr auto fields =
-      std::tuple{field("scale", &Value::scale),
-                 field("pulses_per_revolution", &Value::pulses_per_revolution),
-                 field("speed_unit", &Value::speed_unit),
-                 field("working_speed", &Value::working_speed),
-                 field("jog_speed", &Value::jog_speed),
-                 field("acceleration", &Value::acceleration),
-                 field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
-                 field("path_speed_units_s", &Value::path_speed_units_s),
-                 field("smooth_corner_deg", &Value::smooth_corner_deg),
-                 field("line_speed_units_s", &Value::line_speed_units_s)};
-  static void check(const Value& value);
+      FieldList{field("scale", &Value::scale),
+                field("pulses_per_revolution", &Value::pulses_per_revolution),
+                field("speed_unit", &Value::speed_unit),
+                field("working_speed", &Value::working_speed),
+                field("jog_speed", &Value::jog_speed),
+                field("acceleration", &Value::acceleration),
+                field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
+                field("path_speed_units_s", &Value::path_speed_units_s),
+                field("smooth_corner_deg", &Value::smooth_corner_deg),
+                field("line_speed_units_s", &Value::line_speed_units_s)};
+  static void check(const Value& settings);
 };
 
 template <>
 struct StateOf<emulator::models::slim::Output> {
   using Value = emulator::models::slim::Output;
-  static constexpr auto fields = std::tuple{field("mode", &Value::mode),
-                                            field("on", &Value::on),
-                                            field("since", &Value::since),
-                                            field("width", &Value::width),
-                                            field("frequency_hz", &Value::frequency_hz),
-                                            field("duty_percent", &Value::duty_percent)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("mode", &Value::mode),
+                                           field("on", &Value::on),
+                                           field("since", &Value::since),
+                                           field("width", &Value::width),
+                                           field("frequency_hz", &Value::frequency_hz),
+                                           field("duty_percent", &Value::duty_percent)};
+  static void check(const Value& output);
 };
 
 template <>
 struct StateOf<emulator::models::slim::OutputOrder> {
   using Value = emulator::models::slim::OutputOrder;
-  static constexpr auto fields = std::tuple{field("kind", &Value::kind),
-                                            field("output", &Value::output),
-                                            field("mask", &Value::mask),
-                                            field("trigger", &Value::trigger),
-                                            field("trigger_sets", &Value::trigger_sets),
-                                            field("width", &Value::width),
-                                            field("frequency_hz", &Value::frequency_hz),
-                                            field("duty_percent", &Value::duty_percent),
-                                            field("at_units", &Value::at_units)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("kind", &Value::kind),
+                                           field("output", &Value::output),
+                                           field("mask", &Value::mask),
+                                           field("trigger", &Value::trigger),
+                                           field("trigger_sets", &Value::trigger_sets),
+                                           field("width", &Value::width),
+                                           field("frequency_hz", &Value::frequency_hz),
+                                           field("duty_percent", &Value::duty_percent),
+                                           field("at_units", &Value::at_units)};
+  static void check(const Value& order);
 };
 
 template <>
 struct StateOf<emulator::models::slim::PositionTrigger> {
   using Value = emulator::models::slim::PositionTrigger;
   static constexpr auto fields =
-      std::tuple{field("armed", &Value::armed), field("sets", &Value::sets), field("output", &Value::output),
-                 field("at_units", &Value::at_units)};
-  static void check(const Value& value);
+      FieldList{field("armed", &Value::armed), field("sets", &Value::sets), field("output", &Value::output),
+                field("at_units", &Value::at_units)};
+  static void check(const Value& trigger);
 };
 
 template <>
 struct StateOf<emulator::models::slim::Job> {
   using Value = emulator::models::slim::Job;
   static constexpr auto fields =
-      std::tuple{field("kind", &Value::kind),
-                 field("number", &Value::number),
-                 field("module_of", &Value::module_of),
-                 field("units", &Value::units),
-                 field("absolute", &Value::absolute),
-                 field("height_absolute", &Value::height_absolute),
-                 field("sweep_deg", &Value::sweep_deg),
-                 field("by_radius", &Value::by_radius),
-                 field("growth_units_turn", &Value::growth_units_turn),
-                 field("ends", &Value::ends),
-                 field("continuous", &Value::continuous),
-                 field("smooth_corner_deg", &Value::smooth_corner_deg),
-                 field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
-                 field("servo_on", &Value::servo_on),
-                 field("begun", &Value::begun),
-                 field("output", &Value::output)};
-  static void check(const Value& value);
+      FieldList{field("kind", &Value::kind),
+                field("number", &Value::number),
+                field("module_of", &Value::module_of),
+                field("units", &Value::units),
+                field("absolute", &Value::absolute),
+                field("height_absolute", &Value::height_absolute),
+                field("sweep_deg", &Value::sweep_deg),
+                field("by_radius", &Value::by_radius),
+                field("growth_units_turn", &Value::growth_units_turn),
+                field("ends", &Value::ends),
+                field("continuous", &Value::continuous),
+                field("smooth_corner_deg", &Value::smooth_corner_deg),
+                field("path_acceleration_units_s2", &Value::path_acceleration_units_s2),
+                field("servo_on", &Value::servo_on),
+                field("begun", &Value::begun),
+                field("output", &Value::output)};
+  static void check(const Value& job);
 };
 
 /// Only what is in it.
@@ -130,34 +128,34 @@ struct StateOf<
 template <>
 struct StateOf<emulator::models::slim::Module> {
   using Value = emulator::models::slim::Module;
-  static constexpr auto fields = std::tuple{field("settings", &Value::settings),
-                                            field("linked", &Value::linked),
-                                            field("homed", &Value::homed),
-                                            field("activity", &Value::activity),
-                                            field("jog_way", &Value::jog_way),
-                                            field("next_jog_way", &Value::next_jog_way),
-                                            field("next_thrust", &Value::next_thrust),
-                                            field("held_jog_way", &Value::held_jog_way),
-                                            field("held_thrust", &Value::held_thrust),
-                                            field("analog_speed", &Value::analog_speed),
-                                            field("starved", &Value::starved),
-                                            field("analog", &Value::analog),
-                                            field("thrust", &Value::thrust),
-                                            field("zero_pulses", &Value::zero_pulses),
-                                            field("place_units", &Value::place_units),
-                                            field("sent_pulses", &Value::sent_pulses),
-                                            field("late_error", &Value::late_error),
-                                            field("outputs", &Value::outputs),
-                                            field("triggers", &Value::triggers),
-                                            field("fifo", &Value::fifo)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("settings", &Value::settings),
+                                           field("linked", &Value::linked),
+                                           field("homed", &Value::homed),
+                                           field("activity", &Value::activity),
+                                           field("jog_way", &Value::jog_way),
+                                           field("next_jog_way", &Value::next_jog_way),
+                                           field("next_thrust", &Value::next_thrust),
+                                           field("held_jog_way", &Value::held_jog_way),
+                                           field("held_thrust", &Value::held_thrust),
+                                           field("analog_speed", &Value::analog_speed),
+                                           field("starved", &Value::starved),
+                                           field("analog", &Value::analog),
+                                           field("thrust", &Value::thrust),
+                                           field("zero_pulses", &Value::zero_pulses),
+                                           field("place_units", &Value::place_units),
+                                           field("sent_pulses", &Value::sent_pulses),
+                                           field("late_error", &Value::late_error),
+                                           field("outputs", &Value::outputs),
+                                           field("triggers", &Value::triggers),
+                                           field("fifo", &Value::fifo)};
+  static void check(const Value& module);
 };
 
 template <>
 struct StateOf<emulator::models::slim::Chain::Group> {
   using Value = emulator::models::slim::Chain::Group;
   static constexpr auto fields =
-      std::tuple{field("motion", &Value::motion), field("paths", &Value::paths), field("end", &Value::end)};
+      FieldList{field("motion", &Value::motion), field("paths", &Value::paths), field("end", &Value::end)};
   // Only as far as it is there.
   static void write(const Value& group, StateWriter& writer);
   static void read(Value& group, StateReader& reader);
@@ -166,23 +164,23 @@ struct StateOf<emulator::models::slim::Chain::Group> {
 template <>
 struct StateOf<emulator::models::slim::Chain> {
   using Value = emulator::models::slim::Chain;
-  static constexpr auto fields = std::tuple{field("modules", &Value::modules_),
-                                            field("axes", &Value::axes_),
-                                            field("surroundings", &Value::surroundings_),
-                                            field("groups", &Value::groups_),
-                                            field("map", &Value::map_),
-                                            field("continuous", &Value::continuous_),
-                                            field("paused", &Value::paused_),
-                                            field("queues_paused", &Value::queues_paused_),
-                                            field("last_number", &Value::last_number_),
-                                            field("now", &Value::now_)};
+  static constexpr auto fields = FieldList{field("modules", &Value::modules_),
+                                           field("axes", &Value::axes_),
+                                           field("surroundings", &Value::surroundings_),
+                                           field("groups", &Value::groups_),
+                                           field("map", &Value::map_),
+                                           field("continuous", &Value::continuous_),
+                                           field("paused", &Value::paused_),
+                                           field("queues_paused", &Value::queues_paused_),
+                                           field("last_number", &Value::last_number_),
+                                           field("now", &Value::now_)};
   static constexpr std::size_t members = 11;
   static constexpr std::size_t apart = 1;  // what was chosen, which is the bench's
   static void name_all(Value& all) {       // does not compile if there are others
     [[maybe_unused]] auto& [options, modules, axes, surroundings, groups, map, continuous, paused,
                             queues_paused, last_number, now] = all;
   }
-  static void check(const Value& value);
+  static void check(const Value& chain);
 };
 
 }  // namespace understudy

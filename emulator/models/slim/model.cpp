@@ -13,6 +13,7 @@
 #include "emulator/device/text/text_port.h"
 #include "emulator/models/slim/choices.h"
 #include "emulator/models/slim/device.h"
+#include "emulator/models/slim/first_files.h"
 #include "emulator/models/slim/language.h"
 #include "emulator/models/slim/module.h"
 #include "emulator/models/slim/numbers.h"
@@ -141,6 +142,7 @@ const Model& model() {
       .state_registers = kStateNames,
       .gaps = kGaps,
       .line = line_of_text(kPorts),
+      .first_files = &kFirstFiles,
       .most_modules = kModules,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Slim>(settings);

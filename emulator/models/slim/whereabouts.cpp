@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/slim/device.h"
 #include "interpreter/slim/flow.h"

@@ -56,41 +56,41 @@ Code code_of(motion::Cause why) {
 
 // ---- numbers
 
-std::int64_t Super40nc::work_lu(int number) const {
-  const AxisState& its = axis(number);
-  return registers().scale(number).to_units(machine_pulses(number)).value_or(0) + its.offset_lu;
+std::int64_t Super40nc::work_lu(int axis_number) const {
+  const AxisState& its = axis(axis_number);
+  return registers().scale(axis_number).to_units(machine_pulses(axis_number)).value_or(0) + its.offset_lu;
 }
 
-void Super40nc::set_work_lu(int number, std::int64_t position) {
-  AxisState& its = axis(number);
+void Super40nc::set_work_lu(int axis_number, std::int64_t position) {
+  AxisState& its = axis(axis_number);
   if (its.moves() && chose(option("pset_moving", "void"))) {
     report(Code::axis_taken);
     return;
   }
-  its.offset_lu += position - work_lu(number);
+  its.offset_lu += position - work_lu(axis_number);
   its.stands_on_target = false;
 }
 
-std::int32_t Super40nc::counter(int number, int which) const {
-  const AxisState& its = axis(number);
-  if (which == 0) return static_cast<std::int32_t>(machine_pulses(number));
-  return its.counts[static_cast<std::size_t>(which - 1)];
+std::int32_t Super40nc::counter(int axis_number, int number) const {
+  const AxisState& its = axis(axis_number);
+  if (number == 0) return static_cast<std::int32_t>(machine_pulses(axis_number));
+  return its.counts[static_cast<std::size_t>(number - 1)];
 }
 
-void Super40nc::set_counter(int number, int which, std::int32_t pulses) {
-  AxisState& its = axis(number);
-  if (which > 0) {
-    its.counts[static_cast<std::size_t>(which - 1)] = pulses;
-    see_counters(number);
+void Super40nc::set_counter(int axis_number, int number, std::int32_t pulses) {
+  AxisState& its = axis(axis_number);
+  if (number > 0) {
+    its.counts[static_cast<std::size_t>(number - 1)] = pulses;
+    see_counters(axis_number);
     return;
   }
-  its.command.set(pulses, chip(number).travel_pulses);
+  its.command.set(pulses, chip(axis_number).travel_pulses);
   its.stands_on_target = false;
-  heed_axis(number, 0);
+  heed_axis(axis_number, 0);
 }
 
-std::int64_t Super40nc::braking_pulses(int number) const {
-  const motion::Axis& motor = chip(number);
+std::int64_t Super40nc::braking_pulses(int axis) const {
+  const motion::Axis& motor = chip(axis);
   if (motor.task != motion::Task::move) return 0;
   const motion::RampLaw& down = motor.law.slow_down_reckoned_by.value_or(motor.law.down);
   return std::llround(motion::ramp_distance(down, motor.law.start_speed_u_s, motor.law.top_speed_u_s));
@@ -108,30 +108,30 @@ void Super40nc::error_is_over() {
   if (!chose(option("error_clears", "plc_to_run_alone"))) clear_error();
 }
 
-void Super40nc::fail(int number, Code code) {
-  axis(number).has_error = true;
-  report(code, line_step(axis(number).mover));
+void Super40nc::fail(int axis_number, Code code) {
+  axis(axis_number).has_error = true;
+  report(code, line_step(axis(axis_number).mover));
 }
 
 // ---- starts
 
-Grant Super40nc::ask(int number, Request request) {
-  const Grant given = granted(axis(number).holder, request);
+Grant Super40nc::ask(int axis_number, Request request) {
+  const Grant given = granted(axis(axis_number).holder, request);
   if (given == Grant::refused) report(Code::axis_taken, plc_step_);
   return given;
 }
 
-motion::AxisSettings Super40nc::motor_settings(int number) const {
+motion::AxisSettings Super40nc::motor_settings(int axis) const {
   const Settings its = registers();
   const auto reaction = [&](Kept kept) {
-    return its.is_on(kept, number) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
+    return its.is_on(kept, axis) ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
   };
-  motion::AxisSettings made = chip(number).settings;
+  motion::AxisSettings made = chip(axis).settings;
   made.needs_servo = false;
   made.at_limit_plus = made.at_limit_minus = reaction(kept_x(1));
   made.at_alarm = reaction(kept_x(3));
   made.soft_limit_plus = made.soft_limit_minus = std::nullopt;
-  const std::int64_t counter_lead = machine_pulses(number) - chip(number).travel_pulses;
+  const std::int64_t counter_lead = machine_pulses(axis) - chip(axis).travel_pulses;
   constexpr Value kSoftLimit = 6;
   constexpr Value kRamp = 2;
   struct Side {
@@ -142,11 +142,11 @@ motion::AxisSettings Super40nc::motor_settings(int number) const {
       {kept_x(31), kept_x(32), kept_x(33), kept_d(8144), &motion::AxisSettings::soft_limit_plus},
       {kept_x(35), kept_x(36), kept_x(37), kept_d(8145), &motion::AxisSettings::soft_limit_minus}};
   for (const Side& side : kSides) {
-    const Value action = its.of(side.action, number);
-    const bool is_limit = its.of(side.method, number) == kSoftLimit && its.of(side.source, number) == 0 &&
+    const Value action = its.of(side.action, axis);
+    const bool is_limit = its.of(side.method, axis) == kSoftLimit && its.of(side.source, axis) == 0 &&
                           (action == 1 || action == kRamp);
     if (!is_limit) continue;
-    made.*side.limit = its.raw(side.value, number) - counter_lead;
+    made.*side.limit = its.raw(side.value, axis) - counter_lead;
     const motion::Reaction way =
         action == kRamp ? motion::Reaction::slow_down : motion::Reaction::stop_at_once;
     if (side.limit == &motion::AxisSettings::soft_limit_plus) {
@@ -159,46 +159,46 @@ motion::AxisSettings Super40nc::motor_settings(int number) const {
 }
 
 /// What is taken from the parameters when a motion starts.
-void Super40nc::prepare(int number) {
+void Super40nc::prepare(int axis_number) {
   const Settings its = registers();
-  AxisState& state = axis(number);
-  motion::AxisSettings settings = motor_settings(number);
+  AxisState& state = axis(axis_number);
+  motion::AxisSettings settings = motor_settings(axis_number);
   constexpr Value kSlip = 2;
-  const Value correction = its.of(kept_x(57), number);
-  settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), number) : 0;
+  const Value correction = its.of(kept_x(57), axis_number);
+  settings.backlash_pulses = correction != 0 ? its.of(kept_x(56), axis_number) : 0;
   settings.slips = correction == kSlip;
   settings.waits_for_in_position = chose(option("inp_wait", "single_axes_wait"));
-  const auto creep_rpm = static_cast<double>(its.of(kept_x(80), number));
-  settings.backlash_speed_pps = std::min(its.pps(number, creep_rpm), its.top_pps(number));
-  chip(number).set(settings);
-  state.masked = its.is_on(kept_x(17), number);
+  const auto creep_rpm = static_cast<double>(its.of(kept_x(80), axis_number));
+  settings.backlash_speed_pps = std::min(its.pps(axis_number, creep_rpm), its.top_pps(axis_number));
+  chip(axis_number).set(settings);
+  state.masked = its.is_on(kept_x(17), axis_number);
   // What has come in this tick counts; the DOG's edge is left for the latch.
-  motion::Axis& motor = chip(number);
+  motion::Axis& motor = chip(axis_number);
   const motion::Signals mark = motion::bit(motion::Signal::mark);
-  const motion::Signals seen = here(number).at(motor.travel_pulses, motor.signals);
+  const motion::Signals seen = here(axis_number).at(motor.travel_pulses, motor.signals);
   motor.signals = static_cast<motion::Signals>((seen & ~mark) | (motor.signals & mark));
   // A host may have written the high half alone, by the manual's wrong example: the low one counts.
-  const std::int32_t direction = its.raw(kept_x(0), number) & 0xFFFF;
+  const std::int32_t direction = its.raw(kept_x(0), axis_number) & 0xFFFF;
   const bool inverted = direction == 3 || direction == 6;
-  if (inverted != chip(number).inverted) {
-    chip(number).inverted = inverted;
-    look_round(number);
+  if (inverted != chip(axis_number).inverted) {
+    chip(axis_number).inverted = inverted;
+    look_round(axis_number);
   }
 }
 
-void Super40nc::begun(int number, motion::Cause why_not, Holder holder) {
-  AxisState& state = axis(number);
+void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
+  AxisState& state = axis(axis_number);
   if (why_not == motion::Cause::none && holder != Holder::home &&
       chose(option("limits_blocking", "both_ways_blocked"))) {
-    const bool is_at_plus = has_signal(number, motion::Signal::limit_plus);
-    if (is_at_plus || has_signal(number, motion::Signal::limit_minus)) {
+    const bool is_at_plus = has_signal(axis_number, motion::Signal::limit_plus);
+    if (is_at_plus || has_signal(axis_number, motion::Signal::limit_minus)) {
       why_not = is_at_plus ? motion::Cause::limit_plus : motion::Cause::limit_minus;
-      chip(number).stop(why_not);
-      forget_end(number);
+      chip(axis_number).stop(why_not);
+      forget_end(axis_number);
     }
   }
   if (why_not != motion::Cause::none) {
-    fail(number, code_of(why_not));
+    fail(axis_number, code_of(why_not));
     return;
   }
   // Of a program only its start does.
@@ -208,12 +208,12 @@ void Super40nc::begun(int number, motion::Cause why_not, Holder holder) {
   state.stands_on_target = false;
 }
 
-motion::SpeedLaw Super40nc::jog_law(int number) const {
+motion::SpeedLaw Super40nc::jog_law(int axis) const {
   const Settings its = registers();
   const std::array<Kept, 3> speeds{kept_x(94), kept_x(95), kept_x(96)};
   const bool is_medium = chose(option("jog_selector", "always_medium"));
   const Kept chosen = is_medium ? speeds[1] : speeds[static_cast<std::size_t>(its.of(kept_d(8022)))];
-  return its.law(number, static_cast<double>(its.of(chosen, number)));
+  return its.law(axis, static_cast<double>(its.of(chosen, axis)));
 }
 
 void Super40nc::change_jog_speed() {
@@ -226,40 +226,40 @@ void Super40nc::change_jog_speed() {
 }
 
 /// Returns whether it runs for who asks.
-bool Super40nc::start_jog(int number, int way, bool AxisState::*asked_by) {
-  AxisState& state = axis(number);
-  const Grant given = ask(number, Request::jog);
-  const motion::SpeedLaw law = jog_law(number);
+bool Super40nc::start_jog(int axis_number, int way, bool AxisState::*asked_by) {
+  AxisState& state = axis(axis_number);
+  const Grant given = ask(axis_number, Request::jog);
+  const motion::SpeedLaw law = jog_law(axis_number);
   if (given == Grant::same_or_no) {
-    if (chip(number).last_direction != way) {
+    if (chip(axis_number).last_direction != way) {
       report(Code::axis_taken);
       return false;
     }
-    chip(number).resume(law, now());
+    chip(axis_number).resume(law, now());
     state.*asked_by = true;
     return true;
   }
   if (given != Grant::starts) return false;
-  prepare(number);
-  begun(number, chip(number).run(way, law, before_motion()), Holder::jog);
+  prepare(axis_number);
+  begun(axis_number, chip(axis_number).run(way, law, before_motion()), Holder::jog);
   if (state.holder != Holder::jog) return false;
   state.*asked_by = true;
-  mirror_start(number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
+  mirror_start(axis_number, kModeContinuous + (way < 0 ? kModeNegative : 0), 0, law);
   return true;
 }
 
 /// By a ramp, when nobody asks for it any more.
-void Super40nc::release_jog(int number, bool AxisState::*asked_by) {
-  AxisState& state = axis(number);
+void Super40nc::release_jog(int axis_number, bool AxisState::*asked_by) {
+  AxisState& state = axis(axis_number);
   if (state.holder != Holder::jog || !(state.*asked_by)) return;
   state.*asked_by = false;
-  if (!state.asked_by_contact && !state.asked_by_plc) chip(number).slow_down(now());
+  if (!state.asked_by_contact && !state.asked_by_plc) chip(axis_number).slow_down(now());
 }
 
 // ---- ends
 
-void Super40nc::let_go(int number) {
-  AxisState& state = axis(number);
+void Super40nc::let_go(int axis_number) {
+  AxisState& state = axis(axis_number);
   state.holder = Holder::nobody;
   state.asked_by_contact = state.asked_by_plc = false;
   state.wheel = WheelSource::none;
@@ -268,47 +268,47 @@ void Super40nc::let_go(int number) {
   state.awaited = state.shows_finish = state.is_held = false;
   const bool looked_for_mark = state.rest.kind == RestKind::mark || state.rest.limits_count;
   state.rest = {};
-  if (looked_for_mark) look_round(number);
+  if (looked_for_mark) look_round(axis_number);
 }
 
-void Super40nc::stop_axis(int number, Code code) {
-  AxisState& state = axis(number);
+void Super40nc::stop_axis(int axis_number, Code code) {
+  AxisState& state = axis(axis_number);
   if (state.holder == Holder::nobody) return;
-  if (is_on_path(number)) return stop_path();
+  if (is_on_path(axis_number)) return stop_path();
   const Holder held = state.holder;
-  chip(number).stop();
-  chip(number).homing.phase = -1;
-  forget_end(number);
+  chip(axis_number).stop();
+  chip(axis_number).homing.phase = -1;
+  forget_end(axis_number);
   state.has_ended = true;
   if (held == Holder::home) {
-    home_ended(number, false, code);
+    home_ended(axis_number, false, code);
   } else if (held == Holder::zero && state.order != 0) {
     state_.zeroing_by_key.has_failed = true;
   }
-  let_go(number);
+  let_go(axis_number);
 }
 
 /// The motor has come to rest by itself.
-void Super40nc::ended(int number) {
-  AxisState& state = axis(number);
-  const motion::Axis& motor = chip(number);
+void Super40nc::ended(int axis_number) {
+  AxisState& state = axis(axis_number);
+  const motion::Axis& motor = chip(axis_number);
   const Holder held = state.holder;
   const motion::Cause why = motor.cause;
   state.has_ended = true;
   if (held == Holder::nobody || held == Holder::rest) return;
   const bool has_found = (motor.events & motion::bit(motion::Event::homed)) != 0;
   const bool is_stopped = why == motion::Cause::stopped || motor.homing.ended_by == motion::Cause::stopped;
-  if (state.is_held && is_stopped && !has_found) return rest_axis(number);
-  if (held == Holder::wheel) return wheel_ended(number);
+  if (state.is_held && is_stopped && !has_found) return rest_axis(axis_number);
+  if (held == Holder::wheel) return wheel_ended(axis_number);
 
   const Mover mover = state.mover;
   const bool is_awaited = state.awaited;
   Code code = code_of(why);
   if (held == Holder::home) {
     if (!has_found && !is_stopped) code = Code::home_failed;
-    home_ended(number, has_found, code);
+    home_ended(axis_number, has_found, code);
   } else if (code != Code::none) {
-    fail(number, code);
+    fail(axis_number, code);
   }
   if (held == Holder::zero) {
     state.zeroed = why == motion::Cause::arrived;
@@ -317,21 +317,22 @@ void Super40nc::ended(int number) {
   const bool has_arrived = held == Holder::move && code == Code::none && (has_found || !is_stopped);
   const bool is_at_target = has_arrived && state.rest.kind == RestKind::move;
   const bool shows_finish = has_arrived && state.shows_finish;
-  let_go(number);
+  let_go(axis_number);
   state.stands_on_target = is_at_target;
-  if (shows_finish) show_finished(static_cast<std::size_t>(number));
+  if (shows_finish) show_finished(static_cast<std::size_t>(axis_number));
   const bool goes_on = held == Holder::home && chose(option("home_failure", "the_program_goes_on"));
-  if (code != Code::none && mover < Mover::plc && !goes_on) program_broken(mover, number, is_awaited, why);
+  if (code != Code::none && mover < Mover::plc && !goes_on)
+    program_broken(mover, axis_number, is_awaited, why);
 }
 
 // ---- what a start leaves in the chip's registers
 
-void Super40nc::mirror_start(int number, int mode, std::int64_t distance_pulses,
+void Super40nc::mirror_start(int axis_number, int mode, std::int64_t distance_pulses,
                              const motion::SpeedLaw& law) {
   const Settings its = registers();
-  AxisState& state = axis(number);
+  AxisState& state = axis(axis_number);
   const double top = std::max(law.top_speed_u_s, 1.0);
-  const double step = its.multiplier(number, top);
+  const double step = its.multiplier(axis_number, top);
   state.step_pps = step;
   if (chose(option("chip_mirror", "plain_registers"))) return;
   const auto rate = [&](const motion::RampLaw& ramp) {
@@ -339,7 +340,7 @@ void Super40nc::mirror_start(int number, int mode, std::int64_t distance_pulses,
     if (!(ramp.acceleration_u_s2 > 0)) return 0;
     return in_32_bits(std::clamp(std::round(step * kClock / (4 * ramp.acceleration_u_s2)) - 1, 1.0, 65535.0));
   };
-  const double creep_pps = its.pps(number, static_cast<double>(its.of(kept_x(80), number)));
+  const double creep_pps = its.pps(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)));
   struct Shown {
     int offset;  // from PRCMD
     std::int32_t value;
@@ -354,12 +355,12 @@ void Super40nc::mirror_start(int number, int mode, std::int64_t distance_pulses,
                          {7, 0},
                          {8, mode},
                          {9, 0},
-                         {10, its.raw(kept_x(68), number)},
-                         {11, its.raw(kept_x(69), number)}};
+                         {10, its.raw(kept_x(68), axis_number)},
+                         {11, its.raw(kept_x(69), axis_number)}};
   static constexpr Kept kFirst = kept_d(8120);
   static constexpr Kept kFirstWorking = kept_d(8151);  // RMV, behind which the rest follows
   const auto show = [&](Kept first, int offset, std::int32_t value) {
-    const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + number);
+    const auto slot = first.slot + static_cast<std::size_t>(offset * kAxisCount + axis_number);
     state_.image[slot] = static_cast<std::uint32_t>(value);
   };
   for (const Shown& each : shown) {
@@ -368,7 +369,7 @@ void Super40nc::mirror_start(int number, int mode, std::int64_t distance_pulses,
   }
   show(kept_d(8132), 0, in_32_bits(creep_pps / step));
   show(kept_d(8150), 0, 0);
-  show(kept_d(8162), 0, its.raw(kept_d(8148), number));
+  show(kept_d(8162), 0, its.raw(kept_d(8148), axis_number));
   show(kept_d(8163), 0, 0);
 }
 

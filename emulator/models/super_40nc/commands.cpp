@@ -1,12 +1,15 @@
 // What a scan does with command contacts, in this order: emergency, resets, STOP keys, M8008, ZERO SET, HOME,
 // ZERO, jog, hand-wheel. Levels that stay ON after they were void, or after a stop, need to go OFF first.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/keys.h"
+#include "emulator/models/super_40nc/manual_motions.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -50,21 +53,25 @@ constexpr auto kCommandContacts = [] {
 
 }  // namespace
 
-bool Super40nc::is_on(int number) const { return state_.contacts.on(number, contact(number)); }
-bool Super40nc::rises(int number) const { return state_.contacts.rose(number, contact(number)); }
+bool Super40nc::is_on(int contact_number) const {
+  return state_.contacts.on(contact_number, contact(contact_number));
+}
+bool Super40nc::rises(int contact_number) const {
+  return state_.contacts.rose(contact_number, contact(contact_number));
+}
 
 bool Super40nc::is_stopped_by_emergency() const {
   return is_on(8002) || (state_.emergency && !chose(option("cemg_input", "only_shown")));
 }
 
-bool Super40nc::is_held_in_reset(int number) const {
-  return is_stopped_by_emergency() || is_on(of_axis(number, kReset)) || is_pressed(KeyDoes::stop, number);
+bool Super40nc::is_held_in_reset(int axis) const {
+  return is_stopped_by_emergency() || is_on(of_axis(axis, kReset)) || is_pressed(KeyDoes::stop, axis);
 }
 
-bool Super40nc::is_inhibited(int number) const { return is_held_in_reset(number) || is_on(8004); }
+bool Super40nc::is_inhibited(int axis) const { return is_held_in_reset(axis) || is_on(8004); }
 
-std::optional<ManualMotion> Super40nc::manual_motion(int number) const {
-  const AxisState& its = axis(number);
+std::optional<ManualMotion> Super40nc::manual_motion(int axis_number) const {
+  const AxisState& its = axis(axis_number);
   const bool is_by_order = its.order != 0;
   const bool is_behind_end = its.mover < Mover::plc && !its.awaited;
   if (its.mover < Mover::plc && its.awaited) return std::nullopt;
@@ -83,26 +90,35 @@ std::optional<ManualMotion> Super40nc::manual_motion(int number) const {
   return its.wheel == WheelSource::selector ? ManualMotion::selected_wheel : ManualMotion::wheel;
 }
 
-void Super40nc::meet(int number, ManualEvent event, Code code) {
-  const std::optional<ManualMotion> motion = manual_motion(number);
-  if (motion) meet(number, *motion, event, code);
+void Super40nc::meet(int axis, ManualEvent event, Code code) {
+  const std::optional<ManualMotion> motion = manual_motion(axis);
+  if (motion) meet(axis, *motion, event, code);
 }
 
 /// As the table has it.
-void Super40nc::meet(int number, ManualMotion motion, ManualEvent event, Code code) {
+void Super40nc::meet(int axis, ManualMotion motion, ManualEvent event, Code code) {
   switch (answer_of(motion, event)) {
     case ManualAnswer::goes_on: break;
     case ManualAnswer::slows:
-      release_jog(number,
+      release_jog(axis,
                   motion == ManualMotion::plc_jog ? &AxisState::asked_by_plc : &AxisState::asked_by_contact);
       break;
-    case ManualAnswer::ends: stop_axis(number, code); break;
+    case ManualAnswer::ends: stop_axis(axis, code); break;
   }
+}
+
+bool Super40nc::has_errors_for_a_scan() const {
+  const bool has_one = std::any_of(state_.axes.begin(), state_.axes.end(),
+                                   [](const AxisState& axis) { return axis.has_error; });
+  return has_one && chose(option("serr_clears", "one_scan"));
 }
 
 void Super40nc::obey_stops() {
   using language::Area;
   using language::Event;
+  if (has_errors_for_a_scan()) {
+    for (AxisState& each : state_.axes) each.has_error = false;  // the scan has seen it
+  }
   if (is_stopped_by_emergency()) {
     const Code code = is_on(8002) ? Code::emergency_stop : Code::emergency_input;
     const bool is_new = code == Code::emergency_stop ? rises(8002) : !state_.emergency_obeyed;
@@ -139,19 +155,19 @@ void Super40nc::obey_stops() {
 }
 
 /// A level that has stayed ON behind a stop, if that is chosen to act.
-bool Super40nc::is_level_again(int number, int contact) const {
-  return state_.were_held[static_cast<std::size_t>(number)] && is_on(contact) &&
+bool Super40nc::is_level_again(int axis, int contact) const {
+  return state_.were_held[static_cast<std::size_t>(axis)] && is_on(contact) &&
          chose(option("level_after_stop", "act_at_once"));
 }
 
-void Super40nc::obey_jogs(int number) {
+void Super40nc::obey_jogs(int axis) {
   for (const int way : {+1, -1}) {
-    const int contact = of_axis(number, way > 0 ? kJogPlus : kJogMinus);
-    const bool asks = rises(contact) || is_level_again(number, contact);
-    if (asks && !is_inhibited(number)) start_jog(number, way, &AxisState::asked_by_contact);
+    const int contact = of_axis(axis, way > 0 ? kJogPlus : kJogMinus);
+    const bool asks = rises(contact) || is_level_again(axis, contact);
+    if (asks && !is_inhibited(axis)) start_jog(axis, way, &AxisState::asked_by_contact);
   }
-  const int contact = of_axis(number, chip(number).last_direction > 0 ? kJogPlus : kJogMinus);
-  if (!is_on(contact)) meet(number, ManualMotion::jog, ManualEvent::contact_off);
+  const int contact = of_axis(axis, chip(axis).last_direction > 0 ? kJogPlus : kJogMinus);
+  if (!is_on(contact)) meet(axis, ManualMotion::jog, ManualEvent::contact_off);
 }
 
 void Super40nc::obey_wheel() {

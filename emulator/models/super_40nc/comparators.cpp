@@ -1,10 +1,12 @@
 // The five comparators of an axis (D9x31 to D9x48, D8x44 to D8x48). By COUNTER1 the chip's stop it to the
 // pulse: as soft limits (6), = (1), set > count (4) and set < count (5). By other numbers, or on the way up
 // (2) or down (3) alone, they do so when a tick is over.
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 
+#include "emulator/device/register_map/row.h"
+#include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/settings.h"
@@ -56,114 +58,114 @@ bool is_met(Value method, std::int64_t before, std::int64_t present, std::int64_
 }  // namespace
 
 /// What it compares.
-std::int64_t Super40nc::compared_number(int number, std::size_t which) const {
-  switch (registers().of(kComparatorRows[which].source, number)) {
-    case 0: return counter(number, 0);
-    case 1: return counter(number, 1);
-    case 2: return std::abs(std::int64_t{counter(number, 2)});
-    case 3: return counter(number, 3);
-    case 4: return remaining_pulses(number);
-    default: return chip_speed(number);
+std::int64_t Super40nc::compared_number(int axis, std::size_t which) const {
+  switch (registers().of(kComparatorRows[which].source, axis)) {
+    case 0: return counter(axis, 0);
+    case 1: return counter(axis, 1);
+    case 2: return std::abs(std::int64_t{counter(axis, 2)});
+    case 3: return counter(axis, 3);
+    case 4: return remaining_pulses(axis);
+    default: return chip_speed(axis);
   }
 }
 
-bool Super40nc::comparator_holds(int number, int which) const {
-  const ComparatorRow& its = kComparatorRows[static_cast<std::size_t>(which)];
+bool Super40nc::comparator_holds(int axis, int number) const {
+  const ComparatorRow& its = kComparatorRows[static_cast<std::size_t>(number)];
   const Settings settings = registers();
-  const std::int32_t value = settings.raw(its.value, number);
-  const std::int64_t present = compared_number(number, static_cast<std::size_t>(which));
-  const int way = chip(number).last_direction;
-  switch (settings.of(its.method, number)) {
+  const std::int32_t value = settings.raw(its.value, axis);
+  const std::int64_t present = compared_number(axis, static_cast<std::size_t>(number));
+  const int way = chip(axis).last_direction;
+  switch (settings.of(its.method, axis)) {
     case kEqual: return present == value;
     case kEqualUpwards: return present == value && way > 0;
     case kEqualDownwards: return present == value && way < 0;
     case kSetAbove: return value > present;
     case kSetBelow: return value < present;
-    case kSoftLimit: return which == 0 ? present > value : which == 1 && present < value;
+    case kSoftLimit: return number == 0 ? present > value : number == 1 && present < value;
     default: return false;
   }
 }
 
-void Super40nc::set_comparators(int number) {
+void Super40nc::set_comparators(int axis_number) {
   const Settings its = registers();
-  motion::Axis& motor = chip(number);
-  AxisState& state = axis(number);
+  motion::Axis& motor = chip(axis_number);
+  AxisState& state = axis(axis_number);
   std::size_t next = 0;
   state.compares_by_tick = 0;
   for (std::size_t which = 0; which < kComparators; ++which) {
     const ComparatorRow& row = kComparatorRows[which];
-    const Value method = its.of(row.method, number);
-    const Value action = its.of(row.action, number);
+    const Value method = its.of(row.method, axis_number);
+    const Value action = its.of(row.action, axis_number);
     if (!stops(action) || method == 0) continue;
-    const bool is_by_pulses = its.of(row.source, number) == 0;
+    const bool is_by_pulses = its.of(row.source, axis_number) == 0;
     if (is_by_pulses && method == kSoftLimit) continue;  // the axis' own
     const motion::Comparator::Relation relation = relation_of(method);
     if (!is_by_pulses || relation == motion::Comparator::Relation::off || next == motor.comparators.size()) {
       state.compares_by_tick = static_cast<std::uint8_t>(state.compares_by_tick | 1U << which);
       continue;
     }
-    set_comparator(number, next++,
+    set_comparator(axis_number, next++,
                    {.relation = relation,
                     .reaction = action == 1 ? motion::Reaction::stop_at_once : motion::Reaction::slow_down,
                     .counter = state.command,
-                    .value = its.raw(row.value, number) + (method == kSetBelow ? 1 : 0)});
+                    .value = its.raw(row.value, axis_number) + (method == kSetBelow ? 1 : 0)});
   }
-  while (next < motor.comparators.size()) set_comparator(number, next++, {});
-  see_counters(number);
+  while (next < motor.comparators.size()) set_comparator(axis_number, next++, {});
+  see_counters(axis_number);
 }
 
 /// The same again changes nothing.
-void Super40nc::set_comparator(int number, std::size_t place, motion::Comparator wanted) {
-  const motion::Comparator& present = chip(number).comparators[place];
+void Super40nc::set_comparator(int axis, std::size_t place, motion::Comparator wanted) {
+  const motion::Comparator& present = chip(axis).comparators[place];
   wanted.was_true = present.was_true;
   if (wanted.relation == motion::Comparator::Relation::off && present.relation == wanted.relation) return;
-  if (wanted != present) chip(number).set_comparator(place, wanted);
+  if (wanted != present) chip(axis).set_comparator(place, wanted);
 }
 
 /// A number that was written has met nothing on its way.
-void Super40nc::see_counters(int number) {
-  AxisState& state = axis(number);
+void Super40nc::see_counters(int axis_number) {
+  AxisState& state = axis(axis_number);
   for (std::size_t which = 0; which < kComparators; ++which) {
     if ((state.compares_by_tick >> which & 1U) == 0) continue;
-    state.compared[which] = compared_number(number, which);
+    state.compared[which] = compared_number(axis_number, which);
   }
 }
 
 /// At the end of a tick.
-void Super40nc::compare_counters(int number) {
-  AxisState& state = axis(number);
+void Super40nc::compare_counters(int axis_number) {
+  AxisState& state = axis(axis_number);
   if (state.compares_by_tick == 0) return;
   const Settings its = registers();
   for (std::size_t which = 0; which < kComparators; ++which) {
     if ((state.compares_by_tick >> which & 1U) == 0) continue;
     const ComparatorRow& row = kComparatorRows[which];
     const std::int64_t before = state.compared[which];
-    const std::int64_t present = compared_number(number, which);
+    const std::int64_t present = compared_number(axis_number, which);
     state.compared[which] = present;
-    if (!chip(number).moving()) continue;
-    const bool by_ramp = its.of(row.action, number) == kByRamp;
-    const Value method = its.of(row.method, number);
+    if (!chip(axis_number).moving()) continue;
+    const bool by_ramp = its.of(row.action, axis_number) == kByRamp;
+    const Value method = its.of(row.method, axis_number);
     if (method == kSoftLimit) {
       const int way = which == 0 ? +1 : -1;
-      if (which > 1 || chip(number).last_direction != way ||
-          !comparator_holds(number, static_cast<int>(which)))
+      if (which > 1 || chip(axis_number).last_direction != way ||
+          !comparator_holds(axis_number, static_cast<int>(which)))
         continue;
       const motion::Cause why = way > 0 ? motion::Cause::soft_limit_plus : motion::Cause::soft_limit_minus;
-      stop_by_comparator(number, by_ramp, why);
-    } else if (is_met(method, before, present, its.raw(row.value, number))) {
-      stop_by_comparator(number, by_ramp, motion::Cause::comparator);
+      stop_by_comparator(axis_number, by_ramp, why);
+    } else if (is_met(method, before, present, its.raw(row.value, axis_number))) {
+      stop_by_comparator(axis_number, by_ramp, motion::Cause::comparator);
     }
   }
 }
 
-void Super40nc::stop_by_comparator(int number, bool by_ramp, motion::Cause why) {
+void Super40nc::stop_by_comparator(int axis, bool by_ramp, motion::Cause why) {
   state_.touched = true;
-  if (is_on_path(number)) {
+  if (is_on_path(axis)) {
     if (by_ramp) return state_.path.slow_down(now(), why);
     state_.path.stop(state_.chips, why);
     return path_ended();
   }
-  by_ramp ? chip(number).slow_down(now(), why) : chip(number).stop(why);
+  by_ramp ? chip(axis).slow_down(now(), why) : chip(axis).stop(why);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

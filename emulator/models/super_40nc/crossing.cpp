@@ -33,16 +33,19 @@ Tick Super40nc::quiet_scans(bool moves) const {
   return moves && ladder_.reads_special() ? 0 : state_.plc_quiet_scans;
 }
 
-bool Super40nc::is_quiet(int number) const {
-  const motion::Axis& motor = chip(number);
-  const AxisState& state = axis(number);
+bool Super40nc::is_quiet(int axis_number) const {
+  const motion::Axis& motor = chip(axis_number);
+  const AxisState& state = axis(axis_number);
   return !motor.moving() && !motor.attentive && motor.events == 0 && motor.events_between == 0 &&
-         state.sent_pulses == 0 && state.followed_pulses == 0 && here(number).version == motor.seen_version;
+         state.sent_pulses == 0 && state.followed_pulses == 0 &&
+         here(axis_number).version == motor.seen_version;
 }
 
 Tick Super40nc::next_active_tick(Tick done) const {
   const bool scans = !ladder_.is_empty() && state_.plc.runs;  // they are crossed, not skipped
-  if (scans || state_.touched || inputs_changed() || programs_are_busy()) return done + 1;
+  if (scans || state_.touched || inputs_changed() || programs_are_busy() || has_errors_for_a_scan()) {
+    return done + 1;
+  }
   for (int number = 0; number < kAxisCount; ++number) {
     if (!is_quiet(number)) return done + 1;
   }
@@ -50,8 +53,8 @@ Tick Super40nc::next_active_tick(Tick done) const {
 }
 
 Tick Super40nc::next_event_tick(Tick done, Tick most, const MachineAhead& ahead) const {
-  if (state_.touched || inputs_changed() || programs_are_busy() || state_.path.engaged ||
-      input(kWheelTerminal) != state_.wheel_edges) {
+  if (state_.touched || inputs_changed() || programs_are_busy() || has_errors_for_a_scan() ||
+      state_.path.engaged || input(kWheelTerminal) != state_.wheel_edges) {
     return done + 1;
   }
   const bool moves = std::any_of(state_.chips.begin(), state_.chips.end(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
@@ -315,25 +316,25 @@ std::int32_t Super40nc::analog_level(int terminal) const {
   return static_cast<std::int32_t>((steps * kMostMillivolts + kVoltageSteps / 2) / kVoltageSteps);
 }
 
-std::int64_t Super40nc::pulses_this_tick(int number) const { return axis(number).sent_pulses; }
+std::int64_t Super40nc::pulses_this_tick(int axis_number) const { return axis(axis_number).sent_pulses; }
 
-double Super40nc::speed_pps(int number) const {
-  const AxisState& its = axis(number);
+double Super40nc::speed_pps(int axis_number) const {
+  const AxisState& its = axis(axis_number);
   if (its.masked) return 0;
-  const double speed = commanded_pps(number);
-  return (chip(number).inverted ? -speed : speed) + 0.0;  // 0 has no sign
+  const double speed = commanded_pps(axis_number);
+  return (chip(axis_number).inverted ? -speed : speed) + 0.0;  // 0 has no sign
 }
 
-double Super40nc::commanded_pps(int number) const {
-  const motion::Axis& motor = chip(number);
+double Super40nc::commanded_pps(int axis_number) const {
+  const motion::Axis& motor = chip(axis_number);
   if (!motor.moving()) return 0;
-  if (axis(number).path_backlash != 0 && !state_.path_is_held) {
-    const double way = axis(number).path_backlash < 0 ? -1 : +1;
+  if (axis(axis_number).path_backlash != 0 && !state_.path_is_held) {
+    const double way = axis(axis_number).path_backlash < 0 ? -1 : +1;
     return way * motor.settings.backlash_speed_pps;
   }
-  if (is_on_path(number)) return state_.path.speed_pps(static_cast<std::size_t>(number), now());
+  if (is_on_path(axis_number)) return state_.path.speed_pps(static_cast<std::size_t>(axis_number), now());
   if (motor.task == motion::Task::following) {
-    return static_cast<double>(axis(number).followed_pulses) * motion::kTicksPerSecond;
+    return static_cast<double>(axis(axis_number).followed_pulses) * motion::kTicksPerSecond;
   }
   return motor.sample(now()).speed_u_s * static_cast<double>(motor.drive.direction);
 }

@@ -159,9 +159,9 @@ class Super40nc final : public DeviceOf<Super40nc>,
   // --- terminals and axes --------------------------------------------------------------------------
   bool output(int terminal) const override;
   std::int32_t analog_level(int terminal) const override;
-  std::int64_t pulses_this_tick(int axis) const override;
-  double speed_pps(int axis) const override;
-  void set_encoder(int axis, std::int64_t counts) override;
+  std::int64_t pulses_this_tick(int axis_number) const override;
+  double speed_pps(int axis_number) const override;
+  void set_encoder(int axis_number, std::int64_t counts) override;
   bool meets_edges() const override { return true; }
   std::int64_t place_pulses(int axis) const override;
   void set_edges(int axis, const MachineEdges& edges) override;
@@ -189,22 +189,22 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void keep_slot(std::size_t slot) { state_.eeprom.write(slot, state_.image[slot], 0, now()); }
 
   /// In the work coordinate, as D8x17 shows it.
-  std::int64_t work_lu(int axis) const;
-  void set_work_lu(int axis, std::int64_t position);
-  std::int32_t counter(int axis, int number) const;
-  void set_counter(int axis, int number, std::int32_t pulses);
+  std::int64_t work_lu(int axis_number) const;
+  void set_work_lu(int axis_number, std::int64_t position);
+  std::int32_t counter(int axis_number, int number) const;
+  void set_counter(int axis_number, int number, std::int32_t pulses);
   bool comparator_holds(int axis, int number) const;
-  bool status(int axis, AxisStatus what) const;
+  bool status(int axis_number, AxisStatus what) const;
   /// D8x64.
-  std::int32_t operation_of(int axis) const;
+  std::int32_t operation_of(int axis_number) const;
   /// In its own sense.
-  double commanded_pps(int axis) const;
+  double commanded_pps(int axis_number) const;
   /// D8x70, in steps of the chip.
-  std::int32_t chip_speed(int axis) const;
+  std::int32_t chip_speed(int axis_number) const;
   std::int64_t braking_pulses(int axis) const;
-  std::int64_t remaining_pulses(int axis) const;
+  std::int64_t remaining_pulses(int axis_number) const;
   /// A parameter of an axis was written: D9x00 + `number`, or a D8x, 0.
-  void heed_axis(int axis, int number);
+  void heed_axis(int axis_number, int number);
   /// The parameters of all axes may have changed.
   void heed_all();
   /// D9001, D9002: another path file or recipe.
@@ -231,34 +231,34 @@ class Super40nc final : public DeviceOf<Super40nc>,
   /// The step of the line that a step program is at, as D8095 counts.
   int line_step(Mover mover) const;
   /// What runs by hand, or nothing where a line of a program waits for it.
-  std::optional<ManualMotion> manual_motion(int axis) const;
+  std::optional<ManualMotion> manual_motion(int axis_number) const;
   /// What it does then (manual_motions.h).
   void meet(int axis, ManualEvent event, Code code = Code::none);
   void meet(int axis, ManualMotion motion, ManualEvent event, Code code = Code::none);
-  Grant ask(int axis, Request request);
+  Grant ask(int axis_number, Request request);
   /// By the table, as it is chosen.
   Grant granted(Holder holder, Request request) const { return grant(holder, request, lines_wait_); }
-  std::int64_t relative_base_lu(int axis) const;
-  std::int64_t distance_to(int axis, std::int64_t target_lu) const;
+  std::int64_t relative_base_lu(int axis_number) const;
+  std::int64_t distance_to(int axis_number, std::int64_t target_lu) const;
   std::int64_t search_pulses(int axis) const;
   // Each of these returns whether it has begun; if not, its error is reported.
-  bool begin_drive(int axis, std::int64_t target_lu, std::int32_t rpm, Mover mover);
-  bool begin_mark(int axis, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
-  bool begin_blind_mark(int axis, std::int64_t target_lu, std::int32_t rpm, Mover mover);
-  bool begin_turning(int axis, std::int32_t rpm, Mover mover);
-  void change_turning(int axis, std::int32_t rpm, Mover mover);
-  bool end_by_ramp(int axis, Mover mover);
-  void start_home(int axis, int order = 0);
-  void start_wheel(int axis, WheelSource source);
-  bool start_jog(int axis, int way, bool AxisState::*asked_by);
-  void release_jog(int axis, bool AxisState::*asked_by);
-  void hold_axis(int axis);
-  void go_on_axis(int axis);
+  bool begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);
+  bool begin_mark(int axis_number, std::int64_t distance, std::int64_t search, std::int32_t rpm, Mover mover);
+  bool begin_blind_mark(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover);
+  bool begin_turning(int axis_number, std::int32_t rpm, Mover mover);
+  void change_turning(int axis_number, std::int32_t rpm, Mover mover);
+  bool end_by_ramp(int axis_number, Mover mover);
+  void start_home(int axis_number, int order = 0);
+  void start_wheel(int axis_number, WheelSource source);
+  bool start_jog(int axis_number, int way, bool AxisState::*asked_by);
+  void release_jog(int axis_number, bool AxisState::*asked_by);
+  void hold_axis(int axis_number);
+  void go_on_axis(int axis_number);
   void break_program(Mover mover, int but_for = -1);
   void stop_all_of(Mover mover);
   bool is_awaited_by(Mover mover) const;
   /// At once; of a home or zero return that is given up nothing is done.
-  void stop_axis(int axis, Code code = Code::none);
+  void stop_axis(int axis_number, Code code = Code::none);
   bool is_held_in_reset(int axis) const;
   /// M8004, or one of those above: starts by hand are lost without a code.
   bool is_inhibited(int axis) const;
@@ -283,7 +283,7 @@ class Super40nc final : public DeviceOf<Super40nc>,
   bool has_room_on_path(const std::array<bool, kAxisCount>& takes) const;
   void join_path(const PathPlan& plan);
   /// Where a LIN or an arc begins that comes now.
-  std::int64_t path_base_lu(int axis) const;
+  std::int64_t path_base_lu(int axis_number) const;
   bool is_on_path(int axis) const { return state_.path.takes(static_cast<std::size_t>(axis)); }
   void hold_path();
   void go_on_path();
@@ -313,8 +313,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void reset_parameters();
 
   // --- commands.cpp, keys.cpp: the scan's step of contacts
-  bool is_on(int contact) const;
-  bool rises(int contact) const;
+  bool is_on(int contact_number) const;
+  bool rises(int contact_number) const;
   void read_keys();
   void read_jog_keys();
   bool is_locked(const Key& key) const;
@@ -323,6 +323,8 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void obey_order_keys();
   void follow_order(OrderKey& key, Holder holder, Kept order_of_axis, void (Super40nc::*start)(int, int));
   void obey_contacts();
+  /// Errors of axes that fall at the next tick, where that is chosen.
+  bool has_errors_for_a_scan() const;
   void obey_stops();
   void obey_jogs(int axis);
   void obey_wheel();
@@ -332,34 +334,34 @@ class Super40nc final : public DeviceOf<Super40nc>,
   void see_contacts();
 
   // --- axes.cpp: what moves them
-  void prepare(int axis);
+  void prepare(int axis_number);
   /// What a scan starts moves in its own tick.
   Tick before_motion() const { return now() - 1; }
-  void begun(int axis, motion::Cause why_not, Holder holder);
-  void start_zero(int axis, int order = 0);
-  void set_zero(int axis);
-  void ended(int axis);
+  void begun(int axis_number, motion::Cause why_not, Holder holder);
+  void start_zero(int axis_number, int order = 0);
+  void set_zero(int axis_number);
+  void ended(int axis_number);
   void wheel_ended(int axis);
   /// An axis that a program moves has met something, and let go.
   void program_broken(Mover mover, int axis, bool is_awaited, motion::Cause why);
-  void home_ended(int axis, bool found, Code code);
-  void fail(int axis, Code code);
-  void let_go(int axis);
-  void mirror_start(int axis, int mode, std::int64_t distance_pulses, const motion::SpeedLaw& law);
+  void home_ended(int axis_number, bool found, Code code);
+  void fail(int axis_number, Code code);
+  void let_go(int axis_number);
+  void mirror_start(int axis_number, int mode, std::int64_t distance_pulses, const motion::SpeedLaw& law);
   void feed_wheel(std::int32_t edges);
-  std::int64_t wheel_lu_per_count(int axis) const;
+  std::int64_t wheel_lu_per_count(int axis_number) const;
   void follow_ratio(int axis);
-  void count(int axis, std::int64_t travel_before, std::int64_t wheel_counts);
-  void add_to_counter(int axis, int which, std::int64_t counts);
-  bool counts_now(int axis) const;
-  void clear_counters(int axis);
+  void count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts);
+  void add_to_counter(int axis_number, int which, std::int64_t counts);
+  bool counts_now(int axis_number) const;
+  void clear_counters(int axis_number);
   motion::SpeedLaw jog_law(int axis) const;
-  motion::Cause blocked_on_path(int axis, const motion::Path& path) const;
-  void count_index(int axis, std::int8_t phase_before);
-  void latch(int axis);
+  motion::Cause blocked_on_path(int axis_number, const motion::Path& path) const;
+  void count_index(int axis_number, std::int8_t phase_before);
+  void latch(int axis_number);
   motion::AxisSettings motor_settings(int axis) const;
 
-  void rest_axis(int axis);
+  void rest_axis(int axis_number);
   /// What has ended between ticks has been dealt with.
   void forget_end(int axis);
   void path_ended();
@@ -386,20 +388,20 @@ class Super40nc final : public DeviceOf<Super40nc>,
   Tick quiet_scans(bool moves) const;
   /// The first tick after `done` at which anything is due by its time.
   Tick next_timed_tick(Tick done) const;
-  bool is_quiet(int axis) const;
+  bool is_quiet(int axis_number) const;
 
   // --- comparators.cpp
   std::int64_t compared_number(int axis, std::size_t which) const;
-  void set_comparators(int axis);
+  void set_comparators(int axis_number);
   void set_comparator(int axis, std::size_t place, motion::Comparator wanted);
-  void see_counters(int axis);
-  void compare_counters(int axis);
+  void see_counters(int axis_number);
+  void compare_counters(int axis_number);
   void stop_by_comparator(int axis, bool by_ramp, motion::Cause why);
 
   // --- signals.cpp: what they meet
   void look_at_inputs();
   void see_first_signals();
-  void look_round(int axis);
+  void look_round(int axis_number);
 
   State state_;
   // Made from the listings that the memory has: not state.

@@ -18,6 +18,7 @@
 #include "emulator/models/super_40nc/registers.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/options.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -162,7 +163,7 @@ void Super40nc::change_recipe(std::int32_t number) {
   }
   if (number == state_.recipe) return;
   const int first = first_of_recipe();
-  const auto count = static_cast<std::size_t>(kLastOfRecipe - first + 1);
+  const auto count = static_cast<std::size_t>(kLastOfRecipe - first) + 1;
   const std::size_t slot = kept_d(kFirstOfRecipe).slot + (kRecipeRegisters - count);
   const std::string text = recipe_text(std::span(state_.image).subspan(slot, count), first);
   if (text.empty()) {

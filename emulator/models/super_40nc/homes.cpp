@@ -7,7 +7,6 @@
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/settings.h"
-#include "interpreter/super_40nc/error.h"
 #include "motion/axis.h"
 #include "motion/homing.h"
 #include "motion/homing_tables.h"
@@ -29,93 +28,95 @@ std::int64_t home_pulses(const motion::UnitScale& scale, std::int64_t lu) {
 
 }  // namespace
 
-void Super40nc::start_home(int number, int order) {
-  if (ask(number, Request::home_or_zero) != Grant::starts) return;
+void Super40nc::start_home(int axis_number, int order) {
+  if (ask(axis_number, Request::home_or_zero) != Grant::starts) return;
   const Settings its = registers();
-  AxisState& state = axis(number);
-  const auto rpm = [&](Kept kept) { return static_cast<double>(its.of(kept, number)); };
-  const int mode = static_cast<int>(its.of(kept_x(21), number));
-  const int way = its.is_on(kept_x(81), number) ? -1 : +1;
+  AxisState& state = axis(axis_number);
+  const auto rpm = [&](Kept kept) { return static_cast<double>(its.of(kept, axis_number)); };
+  const int mode = static_cast<int>(its.of(kept_x(21), axis_number));
+  const int way = its.is_on(kept_x(81), axis_number) ? -1 : +1;
   state.homed = false;
   state.order = static_cast<std::int8_t>(order);
-  const bool has_limit = its.of(way > 0 ? kept_d(8118) : kept_d(8119), number) != 0;
+  const bool has_limit = its.of(way > 0 ? kept_d(8118) : kept_d(8119), axis_number) != 0;
   if (motion::super40nc_homes_by_limit(mode) && !has_limit) {
-    home_ended(number, false, Code::home_failed);
-    let_go(number);
+    home_ended(axis_number, false, Code::home_failed);
+    let_go(axis_number);
     return;
   }
-  prepare(number);
-  const bool limit_stops_at_once = chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), number);
-  const motion::SpeedLaw fast = its.law(number, rpm(kept_x(79)));
+  prepare(axis_number);
+  const bool limit_stops_at_once =
+      chose(option("home_el_stop", "by_d9x01")) && !its.is_on(kept_x(1), axis_number);
+  const motion::SpeedLaw fast = its.law(axis_number, rpm(kept_x(79)));
   const motion::HomingProgram program = motion::super40nc_homing(
       {.mode = mode,
        .way = way,
        .fast = fast,
-       .creep = its.law(number, rpm(kept_x(80))),
-       .index_count = static_cast<std::int32_t>(its.of(kept_x(22), number) + 1),
-       .leave_pulses = its.of(kept_x(93), number),
-       .offset_pulses = home_pulses(its.scale(number), its.of(kept_x(83), number)),
+       .creep = its.law(axis_number, rpm(kept_x(80))),
+       .index_count = static_cast<std::int32_t>(its.of(kept_x(22), axis_number) + 1),
+       .leave_pulses = its.of(kept_x(93), axis_number),
+       .offset_pulses = home_pulses(its.scale(axis_number), its.of(kept_x(83), axis_number)),
        .limit_stops_at_once = limit_stops_at_once,
        .offset_creeps = chose(option("home_offset_speed", "creep")),
        .plate_may_be_short = chose(option("home_short_plate", "goes_on_all_the_same"))});
-  if (chip(number).home(program, before_motion()) != motion::Cause::none) {
-    home_ended(number, false, Code::home_failed);
-    let_go(number);
+  if (chip(axis_number).home(program, before_motion()) != motion::Cause::none) {
+    home_ended(axis_number, false, Code::home_failed);
+    let_go(axis_number);
     return;
   }
-  begun(number, motion::Cause::none, Holder::home);
-  mirror_start(number, way < 0 ? kModeGoHomeBack : kModeGoHome, 0, fast);
+  begun(axis_number, motion::Cause::none, Holder::home);
+  mirror_start(axis_number, way < 0 ? kModeGoHomeBack : kModeGoHome, 0, fast);
 }
 
-void Super40nc::start_zero(int number, int order) {
-  if (ask(number, Request::home_or_zero) != Grant::starts) return;
+void Super40nc::start_zero(int axis_number, int order) {
+  if (ask(axis_number, Request::home_or_zero) != Grant::starts) return;
   const Settings its = registers();
-  AxisState& state = axis(number);
+  AxisState& state = axis(axis_number);
   state.zeroed = false;
-  prepare(number);
-  const std::int64_t distance = home_pulses(its.scale(number), -state.offset_lu) - machine_pulses(number);
-  const motion::SpeedLaw law = its.law(number, static_cast<double>(its.of(kept_x(77), number)));
-  begun(number, chip(number).move(distance, law, before_motion()), Holder::zero);
+  prepare(axis_number);
+  const std::int64_t distance =
+      home_pulses(its.scale(axis_number), -state.offset_lu) - machine_pulses(axis_number);
+  const motion::SpeedLaw law = its.law(axis_number, static_cast<double>(its.of(kept_x(77), axis_number)));
+  begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::zero);
   if (state.holder != Holder::zero) {
     state_.zeroing_by_key.has_failed = state_.zeroing_by_key.has_failed || order != 0;
     return;
   }
   state.order = static_cast<std::int8_t>(order);
-  mirror_start(number, kModeGoToZero, distance, law);
+  mirror_start(axis_number, kModeGoToZero, distance, law);
   if (distance != 0) return;
-  let_go(number);
+  let_go(axis_number);
   state.zeroed = state.has_ended = true;
 }
 
-void Super40nc::set_zero(int number) {
-  AxisState& state = axis(number);
+void Super40nc::set_zero(int axis_number) {
+  AxisState& state = axis(axis_number);
   if (state.moves() && !chose(option("zero_set_moving", "carried_out"))) {
     report(Code::axis_taken);
     return;
   }
   state.offset_lu = 0;
-  set_counter(number, 0, 0);
-  set_counter(number, 1, 0);
+  set_counter(axis_number, 0, 0);
+  set_counter(axis_number, 1, 0);
 }
 
 /// `code`: why it has failed; none: it was given up.
-void Super40nc::home_ended(int number, bool found, Code code) {
-  AxisState& state = axis(number);
+void Super40nc::home_ended(int axis_number, bool found, Code code) {
+  AxisState& state = axis(axis_number);
   const Settings its = registers();
   if (!found) {
-    if (code != Code::none) fail(number, code);
+    if (code != Code::none) fail(axis_number, code);
     if (state.order != 0) state_.homing_by_key.has_failed = true;
     return;
   }
   state.homed = true;
-  const std::int32_t cleared = its.raw(kept_x(28), number);
-  const std::int64_t home_lu = its.of(kept_x(82), number);
-  const motion::UnitScale scale = its.scale(number);
+  const std::int32_t cleared = its.raw(kept_x(28), axis_number);
+  const std::int64_t home_lu = its.of(kept_x(82), axis_number);
+  const motion::UnitScale scale = its.scale(axis_number);
   if ((cleared & 1) != 0) {
-    set_counter(number, 0, static_cast<std::int32_t>(home_pulses(scale, home_lu)));
+    set_counter(axis_number, 0, static_cast<std::int32_t>(home_pulses(scale, home_lu)));
     state.offset_lu = 0;
   } else {
-    set_work_lu(number, home_lu);
+    set_work_lu(axis_number, home_lu);
   }
   state.clears = static_cast<std::uint8_t>(cleared & 0xE);
 }

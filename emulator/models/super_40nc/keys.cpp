@@ -33,10 +33,10 @@ int jog_contact(int axis, int way) { return 8100 + 100 * axis + (way > 0 ? 3 : 4
 }  // namespace
 
 /// The wheel key of an axis' page has no contact; what it selects is D8020.
-bool Super40nc::is_wheel_locked(int number) const {
+bool Super40nc::is_wheel_locked(int axis) const {
   constexpr int kWheelDigit = 1;
   return chose(option("lock_scope", "keys_and_d8020")) &&
-         has_digit(registers().raw(kept_x(98), number), kAxisLockDigits, kWheelDigit);
+         has_digit(registers().raw(kept_x(98), axis), kAxisLockDigits, kWheelDigit);
 }
 
 bool Super40nc::is_locked(const Key& key) const {
@@ -103,9 +103,9 @@ void Super40nc::read_keys() {
   }
 }
 
-bool Super40nc::is_pressed(KeyDoes what, int number) const {
+bool Super40nc::is_pressed(KeyDoes what, int axis) const {
   return std::any_of(kKeys.begin(), kKeys.end(), [&](const Key& key) {
-    return key.does == what && key.axis == number && rises(key.contact) && !is_locked(key);
+    return key.does == what && key.axis == axis && rises(key.contact) && !is_locked(key);
   });
 }
 

@@ -13,6 +13,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/choices.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/first_files.h"
 #include "emulator/models/super_40nc/language.h"
 #include "emulator/models/super_40nc/parameters.h"
 #include "emulator/models/super_40nc/registers.h"
@@ -113,6 +114,7 @@ const Model& model() {
       .line = {.protocol = kModbusRtu, .ports = kPorts, .station_numbers = StationNumbers{0, 15, "D9000"}},
       .rtu = RtuRules{.end_silence = std::chrono::nanoseconds(3'500'000'000LL * kCharacterBits / kBauds[0]),
                       .functions = kFunctions},
+      .first_files = &kFirstFiles,
       .make = [](const DeviceSettings& settings) -> std::unique_ptr<Device> {
         return std::make_unique<Super40nc>(settings);
       },

@@ -10,9 +10,11 @@
 #include "base/simulated_time.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/row_words.h"
 #include "motion/axis.h"
 #include "motion/path.h"
 #include "motion/path_run.h"
+#include "motion/tick.h"
 
 namespace understudy::emulator::models::super_40nc {
 

@@ -15,11 +15,14 @@
 #include "emulator/models/super_40nc/registers.h"
 #include "emulator/models/super_40nc/row_words.h"
 #include "emulator/models/super_40nc/settings.h"
+#include "interpreter/super_40nc/events.h"
 #include "motion/axis.h"
 #include "motion/coordinated.h"
 #include "motion/move.h"
 #include "motion/path.h"
 #include "motion/path_limits.h"
+#include "motion/path_run.h"
+#include "motion/surroundings.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -51,15 +54,15 @@ Grant Super40nc::ask_for_path(const std::array<bool, kAxisCount>& takes) {
 }
 
 /// Why an axis may not begin on a path: it stands on a limit that the path goes into.
-motion::Cause Super40nc::blocked_on_path(int number, const motion::Path& path) const {
+motion::Cause Super40nc::blocked_on_path(int axis_number, const motion::Path& path) const {
   if (chose(option("limits_blocking", "both_ways_blocked"))) {
-    if (has_signal(number, motion::Signal::limit_plus)) return motion::Cause::limit_plus;
-    if (has_signal(number, motion::Signal::limit_minus)) return motion::Cause::limit_minus;
+    if (has_signal(axis_number, motion::Signal::limit_plus)) return motion::Cause::limit_plus;
+    if (has_signal(axis_number, motion::Signal::limit_minus)) return motion::Cause::limit_minus;
   }
   constexpr double kFirstPart = 1e-3;  // an arc may begin at right angles to the axis
-  const double ahead = path.at(path.length_u * kFirstPart)[number] - path.begin[number];
-  if (ahead == 0) return chip(number).forbidden_anywhere();
-  return chip(number).forbidden(ahead > 0 ? +1 : -1);
+  const double ahead = path.at(path.length_u * kFirstPart)[axis_number] - path.begin[axis_number];
+  if (ahead == 0) return chip(axis_number).forbidden_anywhere();
+  return chip(axis_number).forbidden(ahead > 0 ? +1 : -1);
 }
 
 bool Super40nc::begin_path(const PathPlan& plan) {
@@ -171,8 +174,9 @@ void Super40nc::join_path(const PathPlan& plan) {
   heed_override();
 }
 
-std::int64_t Super40nc::path_base_lu(int number) const {
-  return joins_paths() && is_on_path(number) ? axis(number).target_lu : relative_base_lu(number);
+std::int64_t Super40nc::path_base_lu(int axis_number) const {
+  return joins_paths() && is_on_path(axis_number) ? axis(axis_number).target_lu
+                                                  : relative_base_lu(axis_number);
 }
 
 void Super40nc::heed_override() {

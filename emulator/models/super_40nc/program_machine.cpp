@@ -9,6 +9,7 @@
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
 #include "emulator/models/super_40nc/device.h"
+#include "emulator/models/super_40nc/manual_motions.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/ownership.h"
 #include "emulator/models/super_40nc/registers.h"

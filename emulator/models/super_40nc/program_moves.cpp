@@ -28,120 +28,120 @@ int way_of(std::int64_t distance) { return distance < 0 ? -1 : +1; }
 
 }  // namespace
 
-std::int64_t Super40nc::relative_base_lu(int number) const {
-  const AxisState& state = axis(number);
+std::int64_t Super40nc::relative_base_lu(int axis_number) const {
+  const AxisState& state = axis(axis_number);
   const bool goes_on = state.stands_on_target && !chose(option("relative_base", "present_position"));
-  return goes_on ? state.target_lu : work_lu(number);
+  return goes_on ? state.target_lu : work_lu(axis_number);
 }
 
-std::int64_t Super40nc::distance_to(int number, std::int64_t target_lu) const {
-  const motion::UnitScale scale = registers().scale(number);
-  return scale.to_pulses(target_lu - axis(number).offset_lu).value_or(0) - machine_pulses(number);
+std::int64_t Super40nc::distance_to(int axis_number, std::int64_t target_lu) const {
+  const motion::UnitScale scale = registers().scale(axis_number);
+  return scale.to_pulses(target_lu - axis(axis_number).offset_lu).value_or(0) - machine_pulses(axis_number);
 }
 
-bool Super40nc::begin_drive(int number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
-  AxisState& state = axis(number);
-  prepare(number);
+bool Super40nc::begin_drive(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(axis_number);
+  prepare(axis_number);
   state.mover = mover;  // whose line D8095 tells, if it cannot begin
-  const std::int64_t distance = distance_to(number, target_lu);
-  const motion::SpeedLaw law = registers().law(number, rpm);
-  begun(number, chip(number).move(distance, law, before_motion()), Holder::move);
+  const std::int64_t distance = distance_to(axis_number, target_lu);
+  const motion::SpeedLaw law = registers().law(axis_number, rpm);
+  begun(axis_number, chip(axis_number).move(distance, law, before_motion()), Holder::move);
   if (state.holder != Holder::move) {
     state.mover = Mover::hand;
     return false;
   }
   state.target_lu = target_lu;
-  mirror_start(number, kModePositionMove, distance, law);
+  mirror_start(axis_number, kModePositionMove, distance, law);
   if (distance == 0) {
-    let_go(number);
+    let_go(axis_number);
     state.has_ended = state.stands_on_target = true;
-    show_finished(static_cast<std::size_t>(number));
+    show_finished(static_cast<std::size_t>(axis_number));
     return true;
   }
   state.shows_finish = true;
-  state.rest = {.kind = RestKind::move, .travel = chip(number).travel_pulses + distance};
+  state.rest = {.kind = RestKind::move, .travel = chip(axis_number).travel_pulses + distance};
   return true;
 }
 
 /// MRK with X16 = 0: a signal in the way resets the program, as a limit would, whatever X33 and X34 say.
-bool Super40nc::begin_blind_mark(int number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
-  AxisState& state = axis(number);
+bool Super40nc::begin_blind_mark(int axis_number, std::int64_t target_lu, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(axis_number);
   if (chose(option("mark_without_distance", "a_plain_move"))) {
-    return begin_drive(number, target_lu, rpm, mover);
+    return begin_drive(axis_number, target_lu, rpm, mover);
   }
   state.rest.limits_count = true;
-  look_round(number);
-  const bool begins = begin_drive(number, target_lu, rpm, mover);
+  look_round(axis_number);
+  const bool begins = begin_drive(axis_number, target_lu, rpm, mover);
   if (state.holder == Holder::move) {
     state.rest.limits_count = true;
   } else {
     state.rest = {};
-    look_round(number);
+    look_round(axis_number);
   }
   return begins;
 }
 
-bool Super40nc::begin_mark(int number, std::int64_t distance, std::int64_t search, std::int32_t rpm,
+bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t search, std::int32_t rpm,
                            Mover mover) {
-  AxisState& state = axis(number);
+  AxisState& state = axis(axis_number);
   const Settings its = registers();
   state.rest = {.kind = RestKind::mark, .marks_positive = search > 0, .rpm = rpm};
   state.mover = mover;
-  look_round(number);
-  prepare(number);
-  const motion::SpeedLaw fast = its.law(number, rpm);
-  const motion::HomingProgram program =
-      motion::super40nc_mark({.distance_pulses = distance,
-                              .search_pulses = search,
-                              .fast = fast,
-                              .creep = its.law(number, static_cast<double>(its.of(kept_x(80), number)))});
-  begun(number, chip(number).home(program, before_motion()), Holder::move);
+  look_round(axis_number);
+  prepare(axis_number);
+  const motion::SpeedLaw fast = its.law(axis_number, rpm);
+  const motion::HomingProgram program = motion::super40nc_mark(
+      {.distance_pulses = distance,
+       .search_pulses = search,
+       .fast = fast,
+       .creep = its.law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)))});
+  begun(axis_number, chip(axis_number).home(program, before_motion()), Holder::move);
   if (state.holder != Holder::move) {
-    let_go(number);
+    let_go(axis_number);
     return false;
   }
-  mirror_start(number, kModePositionMove, distance, fast);
+  mirror_start(axis_number, kModePositionMove, distance, fast);
   state.shows_finish = true;
   return true;
 }
 
-bool Super40nc::begin_turning(int number, std::int32_t rpm, Mover mover) {
-  AxisState& state = axis(number);
-  prepare(number);
+bool Super40nc::begin_turning(int axis_number, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(axis_number);
+  prepare(axis_number);
   state.mover = mover;
-  const motion::SpeedLaw law = registers().law(number, std::abs(static_cast<double>(rpm)));
-  begun(number, chip(number).run(way_of(rpm), law, before_motion()), Holder::vdrv);
+  const motion::SpeedLaw law = registers().law(axis_number, std::abs(static_cast<double>(rpm)));
+  begun(axis_number, chip(axis_number).run(way_of(rpm), law, before_motion()), Holder::vdrv);
   if (state.holder != Holder::vdrv) {
     state.mover = Mover::hand;
     return false;
   }
   state.rest = {.kind = RestKind::turning, .rpm = rpm};
-  mirror_start(number, rpm < 0 ? kModeTurningBack : kModeTurning, 0, law);
+  mirror_start(axis_number, rpm < 0 ? kModeTurningBack : kModeTurning, 0, law);
   return true;
 }
 
-void Super40nc::change_turning(int number, std::int32_t rpm, Mover mover) {
-  AxisState& state = axis(number);
-  const motion::SpeedLaw law = registers().law(number, std::abs(static_cast<double>(rpm)));
-  if (!chip(number).resume(law, now())) chip(number).change_speed(law, now());
+void Super40nc::change_turning(int axis_number, std::int32_t rpm, Mover mover) {
+  AxisState& state = axis(axis_number);
+  const motion::SpeedLaw law = registers().law(axis_number, std::abs(static_cast<double>(rpm)));
+  if (!chip(axis_number).resume(law, now())) chip(axis_number).change_speed(law, now());
   state.mover = mover;
   state.rest.rpm = way_of(state.rest.rpm) * std::abs(rpm);
   state.stop_awaited_by = Mover::hand;
 }
 
 /// VDRV 0. Returns whether it has to come to rest first.
-bool Super40nc::end_by_ramp(int number, Mover mover) {
-  AxisState& state = axis(number);
+bool Super40nc::end_by_ramp(int axis_number, Mover mover) {
+  AxisState& state = axis(axis_number);
   if (state.holder == Holder::nobody) return false;
-  if (state.holder == Holder::rest || state.holder == Holder::wheel || is_on_path(number)) {
-    if (is_on_path(number)) {
+  if (state.holder == Holder::rest || state.holder == Holder::wheel || is_on_path(axis_number)) {
+    if (is_on_path(axis_number)) {
       slow_path();
     } else {
-      stop_axis(number);
+      stop_axis(axis_number);
       return false;
     }
   } else {
-    chip(number).slow_down(now());
+    chip(axis_number).slow_down(now());
   }
   state.is_held = false;
   state.stop_awaited_by = mover;
@@ -150,12 +150,12 @@ bool Super40nc::end_by_ramp(int number, Mover mover) {
 
 // ---- held, and on again
 
-void Super40nc::hold_axis(int number) {
-  AxisState& state = axis(number);
+void Super40nc::hold_axis(int axis_number) {
+  AxisState& state = axis(axis_number);
   if (state.holder == Holder::wheel || state.holder == Holder::rest) return;
   if (state.holder == Holder::vdrv && chose(option("pause_scope", "not_vdrv_nor_the_wheel"))) return;
   if (state.holder == Holder::home && chose(option("pause_home", "the_search_ends_first"))) return;
-  motion::Axis& motor = chip(number);
+  motion::Axis& motor = chip(axis_number);
   if (state.rest.kind == RestKind::mark && motor.homing.active()) {
     const motion::HomingPhase& row = motor.homing.row();
     const bool searches = row.does == motion::HomingPhase::Does::search;
@@ -169,29 +169,29 @@ void Super40nc::hold_axis(int number) {
 }
 
 /// It has come to rest, and waits.
-void Super40nc::rest_axis(int number) {
-  AxisState& state = axis(number);
+void Super40nc::rest_axis(int axis_number) {
+  AxisState& state = axis(axis_number);
   if (state.rest.kind == RestKind::mark) {
-    const std::int64_t left = state.rest.travel - chip(number).travel_pulses;
-    const std::int64_t search = search_pulses(number);
+    const std::int64_t left = state.rest.travel - chip(axis_number).travel_pulses;
+    const std::int64_t search = search_pulses(axis_number);
     state.rest.distance = state.rest.searches ? 0 : left;
     state.rest.search = state.rest.searches ? left : search;
   }
   state.holder = Holder::rest;
 }
 
-void Super40nc::go_on_axis(int number) {
-  AxisState& state = axis(number);
-  motion::Axis& motor = chip(number);
+void Super40nc::go_on_axis(int axis_number) {
+  AxisState& state = axis(axis_number);
+  motion::Axis& motor = chip(axis_number);
   if (!state.is_held) return;
   state.is_held = false;
   if (state.holder != Holder::rest && state.rest.kind != RestKind::home &&
       state.rest.kind != RestKind::mark && motor.resume(motor.law, now())) {
     return;
   }
-  if (state.holder != Holder::rest) rest_axis(number);
+  if (state.holder != Holder::rest) rest_axis(axis_number);
   motor.stop();
-  forget_end(number);
+  forget_end(axis_number);
   const Rest rest = state.rest;
   const Mover mover = state.mover;
   const bool is_awaited = state.awaited;
@@ -203,38 +203,38 @@ void Super40nc::go_on_axis(int number) {
     case RestKind::path: break;
     case RestKind::move: {
       const std::int64_t distance = rest.travel - motor.travel_pulses;
-      prepare(number);
-      begun(number, motor.move(distance, law, before_motion()), Holder::move);
+      prepare(axis_number);
+      begun(axis_number, motor.move(distance, law, before_motion()), Holder::move);
       if (state.holder != Holder::move) break;
       state.rest = rest;
       state.target_lu = target_lu;
       state.shows_finish = true;
       if (distance != 0) break;
-      let_go(number);
+      let_go(axis_number);
       state.has_ended = state.stands_on_target = true;
-      show_finished(static_cast<std::size_t>(number));
+      show_finished(static_cast<std::size_t>(axis_number));
       return;
     }
     case RestKind::mark:
-      if (rest.search != 0) begin_mark(number, rest.distance, rest.search, rest.rpm, mover);
+      if (rest.search != 0) begin_mark(axis_number, rest.distance, rest.search, rest.rpm, mover);
       break;
-    case RestKind::turning: begin_turning(number, rest.rpm, mover); break;
-    case RestKind::home: start_home(number); break;
+    case RestKind::turning: begin_turning(axis_number, rest.rpm, mover); break;
+    case RestKind::home: start_home(axis_number); break;
   }
-  if (state.holder == Holder::nobody) return let_go(number);
+  if (state.holder == Holder::nobody) return let_go(axis_number);
   state.mover = mover;
   state.awaited = is_awaited;
 }
 
 /// X16, of MRK.
-std::int64_t Super40nc::search_pulses(int number) const {
+std::int64_t Super40nc::search_pulses(int axis) const {
   const Settings its = registers();
-  return its.scale(number).to_pulses(its.of(kept_x(90), number)).value_or(0);
+  return its.scale(axis).to_pulses(its.of(kept_x(90), axis)).value_or(0);
 }
 
 /// What has ended between ticks has been dealt with.
-void Super40nc::forget_end(int number) {
-  motion::Axis& motor = chip(number);
+void Super40nc::forget_end(int axis) {
+  motion::Axis& motor = chip(axis);
   motor.events_between =
       static_cast<motion::Events>(motor.events_between & ~motion::bit(motion::Event::ended));
 }

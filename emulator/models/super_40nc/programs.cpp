@@ -1,5 +1,6 @@
 // A SUPER-40NC's programs: as texts in its memory, made ready to run, and what happens to them.
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -15,9 +16,11 @@
 #include "emulator/models/super_40nc/device.h"
 #include "emulator/models/super_40nc/files.h"
 #include "emulator/models/super_40nc/language.h"
+#include "emulator/models/super_40nc/manual_motions.h"
 #include "emulator/models/super_40nc/options.h"
 #include "emulator/models/super_40nc/program_machine.h"
 #include "emulator/models/super_40nc/registers.h"
+#include "emulator/models/super_40nc/row_words.h"
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/listing.h"
@@ -26,6 +29,7 @@
 #include "interpreter/super_40nc/program.h"
 #include "interpreter/super_40nc/step_code.h"
 #include "interpreter/super_40nc/step_programs.h"
+#include "motion/axis.h"
 
 namespace understudy::emulator::models::super_40nc {
 
@@ -191,8 +195,8 @@ int Super40nc::line_step(Mover mover) const {
   return program.phase == language::Phase::idle ? 0 : language::base_of(area, options_) + program.step;
 }
 
-void Super40nc::program_broken(Mover mover, int but_for, bool is_awaited, motion::Cause why) {
-  break_program(mover, but_for);
+void Super40nc::program_broken(Mover mover, int axis, bool is_awaited, motion::Cause why) {
+  break_program(mover, axis);
   const auto area = static_cast<language::Area>(mover);
   const language::Phase phase = state_.steps.programs[language::index_of(area)].phase;
   // A motion beside the lines resets a program that runs as well; one that is over is left alone.

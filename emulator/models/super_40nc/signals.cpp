@@ -17,10 +17,10 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-void Super40nc::look_round(int number) {
+void Super40nc::look_round(int axis_number) {
   const Settings its = registers();
   const auto limit_level = [&](Kept logic) -> std::optional<bool> {  // of an active one; none: not in use
-    const Value how = its.of(logic, number);
+    const Value how = its.of(logic, axis_number);
     return how == 0 ? std::nullopt : std::optional(how == 1);
   };
   struct Function {
@@ -29,7 +29,7 @@ void Super40nc::look_round(int number) {
     std::optional<bool> active_level;
   };
   // MRK looks for its mark on one of them, whatever it is as a limit.
-  const Rest& rest = axis(number).rest;
+  const Rest& rest = axis(axis_number).rest;
   const auto limit_of_line = [&](Kept logic) {
     const std::optional<bool> level = limit_level(logic);
     return rest.limits_count ? level.value_or(true) : level;
@@ -38,17 +38,17 @@ void Super40nc::look_round(int number) {
     const bool is_mark = rest.kind == RestKind::mark && rest.marks_positive == is_positive;
     return is_mark ? std::optional(true) : limit_of_line(logic);
   };
-  const bool dog_level = !its.is_on(kept_x(2), number);
+  const bool dog_level = !its.is_on(kept_x(2), axis_number);
   const Function functions[] = {
-      {limit_plus_input(number), motion::Signal::limit_plus, limit_or_mark(kept_d(8118), true)},
-      {limit_minus_input(number), motion::Signal::limit_minus, limit_or_mark(kept_d(8119), false)},
-      {dog_input(number), motion::Signal::home, dog_level},
-      {dog_input(number), motion::Signal::mark, dog_level},  // for latches
-      {pin_of(number, kIndexPin), motion::Signal::index, true},
-      {pin_of(number, kAlarmPin), motion::Signal::alarm, true},
-      {pin_of(number, kInPositionPin), motion::Signal::in_position, true}};
-  const MachineEdges& told = edges_[static_cast<std::size_t>(number)];
-  const MachineEdges edges = chip(number).inverted ? told.reversed() : told;
+      {limit_plus_input(axis_number), motion::Signal::limit_plus, limit_or_mark(kept_d(8118), true)},
+      {limit_minus_input(axis_number), motion::Signal::limit_minus, limit_or_mark(kept_d(8119), false)},
+      {dog_input(axis_number), motion::Signal::home, dog_level},
+      {dog_input(axis_number), motion::Signal::mark, dog_level},  // for latches
+      {pin_of(axis_number, kIndexPin), motion::Signal::index, true},
+      {pin_of(axis_number, kAlarmPin), motion::Signal::alarm, true},
+      {pin_of(axis_number, kInPositionPin), motion::Signal::in_position, true}};
+  const MachineEdges& told = edges_[static_cast<std::size_t>(axis_number)];
+  const MachineEdges edges = chip(axis_number).inverted ? told.reversed() : told;
   motion::Surroundings seen;
   for (const Function& function : functions) {
     if (!function.active_level) continue;
@@ -68,10 +68,10 @@ void Super40nc::look_round(int number) {
       seen.set_steady(function.signal, (input(function.input) != 0) == *function.active_level);
     }
   }
-  seen.version = here(number).version;
-  if (seen == here(number)) return;
+  seen.version = here(axis_number).version;
+  if (seen == here(axis_number)) return;
   ++seen.version;
-  here(number) = seen;
+  here(axis_number) = seen;
 }
 
 /// What is ON at power-up is no edge of a contact that shows it.
@@ -82,42 +82,42 @@ void Super40nc::see_first_signals() {
   }
 }
 
-void Super40nc::set_edges(int number, const MachineEdges& edges) {
-  edges_[static_cast<std::size_t>(number)] = edges;
+void Super40nc::set_edges(int axis, const MachineEdges& edges) {
+  edges_[static_cast<std::size_t>(axis)] = edges;
   // A restored state has seen these already, and not yet what has come to its inputs since the last tick.
-  if (!std::exchange(is_restored_[static_cast<std::size_t>(number)], false)) look_round(number);
+  if (!std::exchange(is_restored_[static_cast<std::size_t>(axis)], false)) look_round(axis);
 }
 
-std::int64_t Super40nc::place_pulses(int number) const {
-  const motion::Axis& motor = chip(number);
+std::int64_t Super40nc::place_pulses(int axis) const {
+  const motion::Axis& motor = chip(axis);
   return motor.inverted ? -motor.travel_pulses : motor.travel_pulses;
 }
 
-void Super40nc::heed_axis(int number, int parameter) {
+void Super40nc::heed_axis(int axis_number, int number) {
   const Settings its = registers();
   const auto limit_pulses = [&](Kept kept) {
     constexpr std::int64_t kRange = std::int64_t{1} << 28;  // the chip's numbers wrap
-    const std::int64_t pulses = its.scale(number).to_pulses(its.of(kept, number)).value_or(0);
+    const std::int64_t pulses = its.scale(axis_number).to_pulses(its.of(kept, axis_number)).value_or(0);
     const std::int64_t wrapped = ((pulses + kRange / 2) % kRange + kRange) % kRange - kRange / 2;
     return static_cast<std::int32_t>(wrapped);
   };
-  switch (parameter) {
-    case 63: put(kept_d(8118), its.raw(kept_x(63), number), number); break;
-    case 64: put(kept_d(8119), its.raw(kept_x(64), number), number); break;
+  switch (number) {
+    case 63: put(kept_d(8118), its.raw(kept_x(63), axis_number), axis_number); break;
+    case 64: put(kept_d(8119), its.raw(kept_x(64), axis_number), axis_number); break;
     case 71:
     case 72:
     case 85:
     case 86:
-      if (parameter != 86) put(kept_d(8144), limit_pulses(kept_x(85)), number);
-      if (parameter != 85) put(kept_d(8145), limit_pulses(kept_x(86)), number);
-      if (parameter <= 72) axis(number).stands_on_target = false;
+      if (number != 86) put(kept_d(8144), limit_pulses(kept_x(85)), axis_number);
+      if (number != 85) put(kept_d(8145), limit_pulses(kept_x(86)), axis_number);
+      if (number <= 72) axis(axis_number).stands_on_target = false;
       break;
     default: break;
   }
-  const motion::AxisSettings wanted = motor_settings(number);
-  if (wanted != chip(number).settings) chip(number).set(wanted);
-  set_comparators(number);
-  look_round(number);
+  const motion::AxisSettings wanted = motor_settings(axis_number);
+  if (wanted != chip(axis_number).settings) chip(axis_number).set(wanted);
+  set_comparators(axis_number);
+  look_round(axis_number);
 }
 
 void Super40nc::heed_all() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <tuple>
 
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
@@ -42,11 +41,11 @@ template <>
 struct StateOf<emulator::models::super_40nc::Rest> {
   using Value = emulator::models::super_40nc::Rest;
   static constexpr auto fields =
-      std::tuple{field("kind", &Value::kind),         field("travel", &Value::travel),
-                 field("distance", &Value::distance), field("search", &Value::search),
-                 field("searches", &Value::searches), field("marks_positive", &Value::marks_positive),
-                 field("rpm", &Value::rpm),           field("limits_count", &Value::limits_count)};
-  static void check(const Value& value);
+      FieldList{field("kind", &Value::kind),         field("travel", &Value::travel),
+                field("distance", &Value::distance), field("search", &Value::search),
+                field("searches", &Value::searches), field("marks_positive", &Value::marks_positive),
+                field("rpm", &Value::rpm),           field("limits_count", &Value::limits_count)};
+  static void check(const Value& rest);
 };
 
 template <>
@@ -57,110 +56,110 @@ struct StateOf<interpreter::super_40nc::Code> {
 template <>
 struct StateOf<emulator::models::super_40nc::Contacts> {
   using Value = emulator::models::super_40nc::Contacts;
-  static constexpr auto fields = std::tuple{field("flags", &Value::flags)};
+  static constexpr auto fields = FieldList{field("flags", &Value::flags)};
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::ErrorReport> {
   using Value = emulator::models::super_40nc::ErrorReport;
   static constexpr auto fields =
-      std::tuple{field("code", &Value::code), field("step", &Value::step),
-                 field("other_step", &Value::other_step), field("tick", &Value::tick)};
+      FieldList{field("code", &Value::code), field("step", &Value::step),
+                field("other_step", &Value::other_step), field("tick", &Value::tick)};
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::OrderKey> {
   using Value = emulator::models::super_40nc::OrderKey;
-  static constexpr auto fields = std::tuple{field("runs", &Value::runs), field("order", &Value::order),
-                                            field("has_failed", &Value::has_failed)};
+  static constexpr auto fields = FieldList{field("runs", &Value::runs), field("order", &Value::order),
+                                           field("has_failed", &Value::has_failed)};
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::AxisState> {
   using Value = emulator::models::super_40nc::AxisState;
-  static constexpr auto fields = std::tuple{field("sent_pulses", &Value::sent_pulses),
-                                            field("followed_pulses", &Value::followed_pulses),
-                                            field("command", &Value::command),
-                                            field("counts", &Value::counts),
-                                            field("latched", &Value::latched),
-                                            field("index_count", &Value::index_count),
-                                            field("latch_was_on", &Value::latch_was_on),
-                                            field("clears", &Value::clears),
-                                            field("compares_by_tick", &Value::compares_by_tick),
-                                            field("compared", &Value::compared),
-                                            field("offset_lu", &Value::offset_lu),
-                                            field("encoder_counts", &Value::encoder_counts),
-                                            field("backlash_seen", &Value::backlash_seen),
-                                            field("path_backlash", &Value::path_backlash),
-                                            field("holder", &Value::holder),
-                                            field("asked_by_contact", &Value::asked_by_contact),
-                                            field("mover", &Value::mover),
-                                            field("awaited", &Value::awaited),
-                                            field("stop_awaited_by", &Value::stop_awaited_by),
-                                            field("shows_finish", &Value::shows_finish),
-                                            field("is_held", &Value::is_held),
-                                            field("rest", &Value::rest),
-                                            field("plc_jog_way", &Value::plc_jog_way),
-                                            field("asked_by_plc", &Value::asked_by_plc),
-                                            field("masked", &Value::masked),
-                                            field("homed", &Value::homed),
-                                            field("zeroed", &Value::zeroed),
-                                            field("has_ended", &Value::has_ended),
-                                            field("has_error", &Value::has_error),
-                                            field("order", &Value::order),
-                                            field("step_pps", &Value::step_pps),
-                                            field("stands_on_target", &Value::stands_on_target),
-                                            field("target_lu", &Value::target_lu),
-                                            field("wheel", &Value::wheel),
-                                            field("wheel_lu", &Value::wheel_lu),
-                                            field("wheel_edges", &Value::wheel_edges)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("sent_pulses", &Value::sent_pulses),
+                                           field("followed_pulses", &Value::followed_pulses),
+                                           field("command", &Value::command),
+                                           field("counts", &Value::counts),
+                                           field("latched", &Value::latched),
+                                           field("index_count", &Value::index_count),
+                                           field("latch_was_on", &Value::latch_was_on),
+                                           field("clears", &Value::clears),
+                                           field("compares_by_tick", &Value::compares_by_tick),
+                                           field("compared", &Value::compared),
+                                           field("offset_lu", &Value::offset_lu),
+                                           field("encoder_counts", &Value::encoder_counts),
+                                           field("backlash_seen", &Value::backlash_seen),
+                                           field("path_backlash", &Value::path_backlash),
+                                           field("holder", &Value::holder),
+                                           field("asked_by_contact", &Value::asked_by_contact),
+                                           field("mover", &Value::mover),
+                                           field("awaited", &Value::awaited),
+                                           field("stop_awaited_by", &Value::stop_awaited_by),
+                                           field("shows_finish", &Value::shows_finish),
+                                           field("is_held", &Value::is_held),
+                                           field("rest", &Value::rest),
+                                           field("plc_jog_way", &Value::plc_jog_way),
+                                           field("asked_by_plc", &Value::asked_by_plc),
+                                           field("masked", &Value::masked),
+                                           field("homed", &Value::homed),
+                                           field("zeroed", &Value::zeroed),
+                                           field("has_ended", &Value::has_ended),
+                                           field("has_error", &Value::has_error),
+                                           field("order", &Value::order),
+                                           field("step_pps", &Value::step_pps),
+                                           field("stands_on_target", &Value::stands_on_target),
+                                           field("target_lu", &Value::target_lu),
+                                           field("wheel", &Value::wheel),
+                                           field("wheel_lu", &Value::wheel_lu),
+                                           field("wheel_edges", &Value::wheel_edges)};
+  static void check(const Value& axis);
 };
 
 template <>
 struct StateOf<emulator::models::super_40nc::State> {
   using Value = emulator::models::super_40nc::State;
   static constexpr auto fields =
-      std::tuple{field("image", &Value::image, emulator::models::super_40nc::register_at_slot),
-                 field("chips", &Value::chips),
-                 field("here", &Value::here),
-                 field("axes", &Value::axes),
-                 field("path", &Value::path),
-                 field("path_is_held", &Value::path_is_held),
-                 field("path_backlash_ticks", &Value::path_backlash_ticks),
-                 field("path_feed_lu_s", &Value::path_feed_lu_s),
-                 field("path_limit_lu_s", &Value::path_limit_lu_s),
-                 field("plc", &Value::plc),
-                 field("plc_quiet_scans", &Value::plc_quiet_scans),
-                 field("steps", &Value::steps),
-                 field("contacts", &Value::contacts),
-                 field("error", &Value::error),
-                 field("touched", &Value::touched),
-                 field("run_switch", &Value::run_switch),
-                 field("emergency", &Value::emergency),
-                 field("has_ticked", &Value::has_ticked),
-                 field("emergency_obeyed", &Value::emergency_obeyed),
-                 field("were_held", &Value::were_held),
-                 field("was_inhibited", &Value::was_inhibited),
-                 field("wheel_selected", &Value::wheel_selected),
-                 field("analog", &Value::analog),
-                 field("wheel_edges", &Value::wheel_edges),
-                 field("signal_until", &Value::signal_until),
-                 field("receive_errors", &Value::receive_errors),
-                 field("homing_by_key", &Value::homing_by_key),
-                 field("zeroing_by_key", &Value::zeroing_by_key),
-                 field("logo_at", &Value::logo_at),
-                 field("logo_over", &Value::logo_over),
-                 field("file_changed", &Value::file_changed),
-                 field("shows_file_changed", &Value::shows_file_changed),
-                 field("file", &Value::file),
-                 field("recipe", &Value::recipe),
-                 field("rpm_at_power_up", &Value::rpm_at_power_up),
-                 field("logo_ms", &Value::logo_ms),
-                 field("station", &Value::station),
-                 field("eeprom", &Value::eeprom),
-                 field("blocks", &Value::blocks)};
-  static void check(const Value& value);
+      FieldList{field("image", &Value::image, emulator::models::super_40nc::register_at_slot),
+                field("chips", &Value::chips),
+                field("here", &Value::here),
+                field("axes", &Value::axes),
+                field("path", &Value::path),
+                field("path_is_held", &Value::path_is_held),
+                field("path_backlash_ticks", &Value::path_backlash_ticks),
+                field("path_feed_lu_s", &Value::path_feed_lu_s),
+                field("path_limit_lu_s", &Value::path_limit_lu_s),
+                field("plc", &Value::plc),
+                field("plc_quiet_scans", &Value::plc_quiet_scans),
+                field("steps", &Value::steps),
+                field("contacts", &Value::contacts),
+                field("error", &Value::error),
+                field("touched", &Value::touched),
+                field("run_switch", &Value::run_switch),
+                field("emergency", &Value::emergency),
+                field("has_ticked", &Value::has_ticked),
+                field("emergency_obeyed", &Value::emergency_obeyed),
+                field("were_held", &Value::were_held),
+                field("was_inhibited", &Value::was_inhibited),
+                field("wheel_selected", &Value::wheel_selected),
+                field("analog", &Value::analog),
+                field("wheel_edges", &Value::wheel_edges),
+                field("signal_until", &Value::signal_until),
+                field("receive_errors", &Value::receive_errors),
+                field("homing_by_key", &Value::homing_by_key),
+                field("zeroing_by_key", &Value::zeroing_by_key),
+                field("logo_at", &Value::logo_at),
+                field("logo_over", &Value::logo_over),
+                field("file_changed", &Value::file_changed),
+                field("shows_file_changed", &Value::shows_file_changed),
+                field("file", &Value::file),
+                field("recipe", &Value::recipe),
+                field("rpm_at_power_up", &Value::rpm_at_power_up),
+                field("logo_ms", &Value::logo_ms),
+                field("station", &Value::station),
+                field("eeprom", &Value::eeprom),
+                field("blocks", &Value::blocks)};
+  static void check(const Value& state);
 };
 
 }  // namespace understudy

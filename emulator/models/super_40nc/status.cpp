@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "emulator/device/register_map/row.h"
 #include "emulator/models/super_40nc/axis_state.h"
@@ -48,10 +49,10 @@ std::int32_t wrapped(std::int64_t number) {
 
 }  // namespace
 
-bool Super40nc::status(int number, AxisStatus what) const {
-  const AxisState& its = axis(number);
-  const motion::Axis& motor = chip(number);
-  const std::int32_t operation = operation_of(number);
+bool Super40nc::status(int axis_number, AxisStatus what) const {
+  const AxisState& its = axis(axis_number);
+  const motion::Axis& motor = chip(axis_number);
+  const std::int32_t operation = operation_of(axis_number);
   switch (what) {
     case SSCM: return its.holder != Holder::nobody;
     case SRUN: return operation == kByWheel ? its.followed_pulses != 0 : operation != kStopped;
@@ -59,23 +60,23 @@ bool Super40nc::status(int number, AxisStatus what) const {
       return !chose(option("seni_flag", "always_0")) && its.has_ended && its.holder == Holder::nobody;
     case SEND: return its.holder == Holder::nobody;
     case SERR: return its.has_error;
-    case SCP1: return comparator_holds(number, 0);
-    case SCP2: return comparator_holds(number, 1);
-    case SCP3: return comparator_holds(number, 2);
-    case SCP4: return comparator_holds(number, 3);
-    case SCP5: return comparator_holds(number, 4);
+    case SCP1: return comparator_holds(axis_number, 0);
+    case SCP2: return comparator_holds(axis_number, 1);
+    case SCP3: return comparator_holds(axis_number, 2);
+    case SCP4: return comparator_holds(axis_number, 3);
+    case SCP5: return comparator_holds(axis_number, 4);
     case SFU: return operation == kSpeedingUp;
     case SFD: return operation == kSlowingDown;
     case SFC: return operation == kAtFa || operation == kAtFl || operation == kAtFh || operation == kBacklash;
-    case SALM: return has_signal(number, motion::Signal::alarm);
-    case SPEL: return has_signal(number, motion::Signal::limit_plus);
-    case SMEL: return has_signal(number, motion::Signal::limit_minus);
-    case SORG: return has_signal(number, motion::Signal::home);
+    case SALM: return has_signal(axis_number, motion::Signal::alarm);
+    case SPEL: return has_signal(axis_number, motion::Signal::limit_plus);
+    case SMEL: return has_signal(axis_number, motion::Signal::limit_minus);
+    case SORG: return has_signal(axis_number, motion::Signal::home);
     case SDIR: return motor.last_direction < 0;
     case SEMG: return state_.emergency;
-    case SEZ: return has_signal(number, motion::Signal::index);
-    case SINP: return input(pin_of(number, kInPositionPin)) != 0;
-    case SRDY: return input(pin_of(number, kReadyPin)) != 0;
+    case SEZ: return has_signal(axis_number, motion::Signal::index);
+    case SINP: return input(pin_of(axis_number, kInPositionPin)) != 0;
+    case SRDY: return input(pin_of(axis_number, kReadyPin)) != 0;
     case HOME_DONE: return its.homed;
     case ZERO_DONE: return its.zeroed;
     case HOME_RUNS:
@@ -91,13 +92,13 @@ bool Super40nc::status(int number, AxisStatus what) const {
   return false;
 }
 
-std::int32_t Super40nc::operation_of(int number) const {
-  const AxisState& its = axis(number);
-  const motion::Axis& motor = chip(number);
+std::int32_t Super40nc::operation_of(int axis_number) const {
+  const AxisState& its = axis(axis_number);
+  const motion::Axis& motor = chip(axis_number);
   if (!motor.moving() || !its.moves()) return kStopped;
   if (motor.task == motion::Task::following) return kByWheel;
   if (motor.in_backlash || its.path_backlash != 0) return kBacklash;
-  const motion::Sample sample = is_on_path(number) ? state_.path.run.sample(now()) : motor.sample(now());
+  const motion::Sample sample = is_on_path(axis_number) ? state_.path.run.sample(now()) : motor.sample(now());
   if (!(sample.speed_u_s > 0)) return kStopped;
   if (sample.acceleration_u_s2 > 0) return kSpeedingUp;
   if (sample.acceleration_u_s2 < 0) return kSlowingDown;
@@ -106,86 +107,87 @@ std::int32_t Super40nc::operation_of(int number) const {
   return sample.speed_u_s > motor.law.start_speed_u_s ? kAtFh : kAtFl;
 }
 
-std::int64_t Super40nc::remaining_pulses(int number) const {
-  const AxisState& its = axis(number);
+std::int64_t Super40nc::remaining_pulses(int axis_number) const {
+  const AxisState& its = axis(axis_number);
   const bool has_target = its.rest.kind == RestKind::path || its.holder == Holder::rest;
-  return has_target ? std::abs(its.rest.travel - chip(number).travel_pulses)
-                    : chip(number).remaining_pulses();
+  return has_target ? std::abs(its.rest.travel - chip(axis_number).travel_pulses)
+                    : chip(axis_number).remaining_pulses();
 }
 
-std::int32_t Super40nc::chip_speed(int number) const {
-  return wrapped(std::llround(std::abs(commanded_pps(number)) / axis(number).step_pps));
+std::int32_t Super40nc::chip_speed(int axis_number) const {
+  return wrapped(std::llround(std::abs(commanded_pps(axis_number)) / axis(axis_number).step_pps));
 }
 
 // ---- counters
 
 /// Of COUNTER2 to COUNTER4.
-void Super40nc::add_to_counter(int number, int which, std::int64_t counts) {
+void Super40nc::add_to_counter(int axis_number, int which, std::int64_t counts) {
   constexpr int kDeviation = 2;
-  if (counts == 0 || is_bit(registers().raw(kept_x(30), number), which - 1)) return;
-  std::int32_t& its_count = axis(number).counts[static_cast<std::size_t>(which - 1)];
+  if (counts == 0 || is_bit(registers().raw(kept_x(30), axis_number), which - 1)) return;
+  std::int32_t& its_count = axis(axis_number).counts[static_cast<std::size_t>(which - 1)];
   its_count = wrapped(its_count + counts);
   if (which == kDeviation) its_count = static_cast<std::int16_t>(its_count);  // 16 bits on the chip
 }
 
 /// COUNTER4, which may be told to do so only while the axis moves.
-bool Super40nc::counts_now(int number) const {
-  const AxisState& its = axis(number);
-  return !registers().is_on(kept_x(26), number) || its.moves() || its.followed_pulses != 0;
+bool Super40nc::counts_now(int axis_number) const {
+  const AxisState& its = axis(axis_number);
+  return !registers().is_on(kept_x(26), axis_number) || its.moves() || its.followed_pulses != 0;
 }
 
 /// The machine's encoder, which has moved by what came out in this tick.
-void Super40nc::set_encoder(int number, std::int64_t counts) {
-  AxisState& state = axis(number);
+void Super40nc::set_encoder(int axis_number, std::int64_t counts) {
+  AxisState& state = axis(axis_number);
   const Settings its = registers();
   const std::int64_t turned = counts - state.encoder_counts;
   state.encoder_counts = counts;
-  if (turned == 0 || !powered() || its.is_on(kept_x(19), number)) return;
-  const std::int64_t counted = its.is_on(kept_x(13), number) ? -turned : turned;
-  if (its.of(kept_x(23), number) == 0) add_to_counter(number, 1, counted);
-  const Value deviation = its.of(kept_x(24), number);
-  if (deviation == 0) add_to_counter(number, 2, -counted);
-  if (deviation == 2) add_to_counter(number, 2, counted);
-  if (its.of(kept_x(25), number) == 1 && counts_now(number)) add_to_counter(number, 3, counted);
+  if (turned == 0 || !powered() || its.is_on(kept_x(19), axis_number)) return;
+  const std::int64_t counted = its.is_on(kept_x(13), axis_number) ? -turned : turned;
+  if (its.of(kept_x(23), axis_number) == 0) add_to_counter(axis_number, 1, counted);
+  const Value deviation = its.of(kept_x(24), axis_number);
+  if (deviation == 0) add_to_counter(axis_number, 2, -counted);
+  if (deviation == 2) add_to_counter(axis_number, 2, counted);
+  if (its.of(kept_x(25), axis_number) == 1 && counts_now(axis_number))
+    add_to_counter(axis_number, 3, counted);
 }
 
 /// At the end of a home: the counts of its last tick have come in.
-void Super40nc::clear_counters(int number) {
-  const std::uint8_t cleared = std::exchange(axis(number).clears, std::uint8_t{0});
+void Super40nc::clear_counters(int axis_number) {
+  const std::uint8_t cleared = std::exchange(axis(axis_number).clears, std::uint8_t{0});
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
-    if (is_bit(cleared, which)) set_counter(number, which, 0);
+    if (is_bit(cleared, which)) set_counter(axis_number, which, 0);
   }
 }
 
 /// What a tick, or many of them, have sent out, and the wheel's; the encoder's come by set_encoder().
-void Super40nc::count(int number, std::int64_t travel_before, std::int64_t wheel_counts) {
-  AxisState& state = axis(number);
+void Super40nc::count(int axis_number, std::int64_t travel_before, std::int64_t wheel_counts) {
+  AxisState& state = axis(axis_number);
   const Settings its = registers();
-  const std::int64_t extra = chip(number).backlash_sent - state.backlash_seen;
-  state.backlash_seen = chip(number).backlash_sent;
+  const std::int64_t extra = chip(axis_number).backlash_sent - state.backlash_seen;
+  state.backlash_seen = chip(axis_number).backlash_sent;
   const CountedThisTick now_counted{
-      .pulses = chip(number).travel_pulses - travel_before, .backlash = extra, .wheel = wheel_counts};
-  const std::int32_t with_backlash = its.raw(kept_x(29), number);
+      .pulses = chip(axis_number).travel_pulses - travel_before, .backlash = extra, .wheel = wheel_counts};
+  const std::int32_t with_backlash = its.raw(kept_x(29), axis_number);
   if (extra != 0 && is_bit(with_backlash, 0)) {
-    state.command.set(machine_pulses(number) + extra, chip(number).travel_pulses);
-    heed_axis(number, 0);
+    state.command.set(machine_pulses(axis_number) + extra, chip(axis_number).travel_pulses);
+    heed_axis(axis_number, 0);
   }
   const auto pulses_for = [&](int counter) {
     return now_counted.pulses + (is_bit(with_backlash, counter) ? now_counted.backlash : 0);
   };
-  const auto add = [&](int counter, std::int64_t counts) { add_to_counter(number, counter, counts); };
-  switch (its.of(kept_x(23), number)) {
+  const auto add = [&](int counter, std::int64_t counts) { add_to_counter(axis_number, counter, counts); };
+  switch (its.of(kept_x(23), axis_number)) {
     case 0: break;
     case 1: add(1, pulses_for(1)); break;
     default: add(1, now_counted.wheel); break;
   }
-  switch (its.of(kept_x(24), number)) {
+  switch (its.of(kept_x(24), axis_number)) {
     case 0: add(2, pulses_for(2)); break;
     case 1: add(2, pulses_for(2) - now_counted.wheel); break;
     default: add(2, -now_counted.wheel); break;
   }
-  if (!counts_now(number)) return;
-  switch (its.of(kept_x(25), number)) {
+  if (!counts_now(axis_number)) return;
+  switch (its.of(kept_x(25), axis_number)) {
     case 0: add(3, pulses_for(3)); break;
     case 2: add(3, now_counted.wheel); break;
     default: break;  // the encoder's, or a fixed frequency, which stands
@@ -193,41 +195,41 @@ void Super40nc::count(int number, std::int64_t travel_before, std::int64_t wheel
 }
 
 /// D8x71: edges of C in the row of the search that counts them.
-void Super40nc::count_index(int number, std::int8_t phase_before) {
-  const motion::Homing& homing = chip(number).homing;
+void Super40nc::count_index(int axis_number, std::int8_t phase_before) {
+  const motion::Homing& homing = chip(axis_number).homing;
   if (phase_before < 0) return;
   const motion::HomingPhase& row = homing.program.phases[static_cast<std::size_t>(phase_before)];
   if (row.until != motion::Signal::index) return;
   const bool is_over = homing.phase != phase_before;
   const bool has_met = !is_over || homing.reference_known;
-  if (has_met) axis(number).index_count = is_over ? row.count : homing.counted;
+  if (has_met) axis(axis_number).index_count = is_over ? row.count : homing.counted;
 }
 
 /// D9x50: at the DOG's edge, to the pulse, or when a comparator becomes true, at the end of the tick.
-void Super40nc::latch(int number) {
-  AxisState& state = axis(number);
+void Super40nc::latch(int axis_number) {
+  AxisState& state = axis(axis_number);
   const Settings its = registers();
-  const Value by = its.of(kept_x(50), number);
-  const bool is_on = by == 2 ? comparator_holds(number, 3) : by == 3 && comparator_holds(number, 4);
-  const bool has_dog = (chip(number).events & motion::bit(motion::Event::mark_on)) != 0;
+  const Value by = its.of(kept_x(50), axis_number);
+  const bool is_on = by == 2 ? comparator_holds(axis_number, 3) : by == 3 && comparator_holds(axis_number, 4);
+  const bool has_dog = (chip(axis_number).events & motion::bit(motion::Event::mark_on)) != 0;
   const bool comes = by == 1 ? has_dog : is_on && !state.latch_was_on;
   state.latch_was_on = is_on;
-  if (!comes || its.is_on(kept_x(52), number)) return;
+  if (!comes || its.is_on(kept_x(52), axis_number)) return;
   const auto edge = static_cast<std::size_t>(motion::Event::mark_on);
-  const std::int64_t travel =
-      by == 1 ? chip(number).travel_at(chip(number).event_at[edge]) : chip(number).travel_pulses;
+  const std::int64_t travel = by == 1 ? chip(axis_number).travel_at(chip(axis_number).event_at[edge])
+                                      : chip(axis_number).travel_pulses;
   state.latched[0] = wrapped(state.command.at(travel));
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
-    state.latched[static_cast<std::size_t>(which)] = counter(number, which);
+    state.latched[static_cast<std::size_t>(which)] = counter(axis_number, which);
   }
-  if (its.is_on(kept_x(51), number)) state.latched[2] = chip_speed(number);
-  const std::int32_t cleared = its.raw(kept_x(55), number);
+  if (its.is_on(kept_x(51), axis_number)) state.latched[2] = chip_speed(axis_number);
+  const std::int32_t cleared = its.raw(kept_x(55), axis_number);
   if (is_bit(cleared, 0)) {
     state.command.set(0, travel);
-    heed_axis(number, 0);
+    heed_axis(axis_number, 0);
   }
   for (int which = 1; which < static_cast<int>(kCounters); ++which) {
-    if (is_bit(cleared, which)) set_counter(number, which, 0);
+    if (is_bit(cleared, which)) set_counter(axis_number, which, 0);
   }
 }
 

@@ -19,60 +19,60 @@
 
 namespace understudy::emulator::models::super_40nc {
 
-std::int64_t Super40nc::wheel_lu_per_count(int number) const {
+std::int64_t Super40nc::wheel_lu_per_count(int axis_number) const {
   const Settings its = registers();
-  if (its.is_on(kept_x(20), number)) return 0;
-  switch (axis(number).wheel) {
+  if (its.is_on(kept_x(20), axis_number)) return 0;
+  switch (axis(axis_number).wheel) {
     case WheelSource::none: return 0;
-    case WheelSource::mpg_line: return axis(number).wheel_lu;
-    case WheelSource::contact_1: return its.of(kept_x(87), number);
-    case WheelSource::contact_10: return its.of(kept_x(88), number);
-    case WheelSource::contact_100: return its.of(kept_x(89), number);
+    case WheelSource::mpg_line: return axis(axis_number).wheel_lu;
+    case WheelSource::contact_1: return its.of(kept_x(87), axis_number);
+    case WheelSource::contact_10: return its.of(kept_x(88), axis_number);
+    case WheelSource::contact_100: return its.of(kept_x(89), axis_number);
     case WheelSource::selector: break;
   }
   switch (its.raw(kept_d(8021))) {
-    case 0: return its.of(kept_x(87), number);
-    case 1: return its.of(kept_x(88), number);
-    case 2: return its.of(kept_x(89), number);
+    case 0: return its.of(kept_x(87), axis_number);
+    case 1: return its.of(kept_x(88), axis_number);
+    case 2: return its.of(kept_x(89), axis_number);
     default: return 0;
   }
 }
 
 /// As the parameters are now; what a division has left over stays.
-void Super40nc::follow_ratio(int number) {
-  motion::Follower& follower = chip(number).follower;
+void Super40nc::follow_ratio(int axis) {
+  motion::Follower& follower = chip(axis).follower;
   const Settings its = registers();
-  const motion::UnitScale scale = its.scale(number);
-  const int sense = its.is_on(kept_x(16), number) ? -1 : +1;
+  const motion::UnitScale scale = its.scale(axis);
+  const int sense = its.is_on(kept_x(16), axis) ? -1 : +1;
   constexpr std::int64_t kMost = INT32_MAX;
   follower.numerator =
-      std::clamp<std::int64_t>(wheel_lu_per_count(number) * scale.multiplier, -kMost, kMost) * sense;
+      std::clamp<std::int64_t>(wheel_lu_per_count(axis) * scale.multiplier, -kMost, kMost) * sense;
   if (follower.denominator != scale.divider) follower.left_over = 0;
   follower.denominator = scale.divider;
   if (chose(option("wheel_ratio", "pulses_per_count"))) {
-    follower.numerator = wheel_lu_per_count(number) * sense;
+    follower.numerator = wheel_lu_per_count(axis) * sense;
     follower.denominator = 1;
   }
   follower.catches_up = chose(option("wheel_speed", "caught_up"));
-  follower.top_speed_pps = std::max<std::int64_t>(1, std::llround(std::min(its.top_pps(number), 2e9)));
+  follower.top_speed_pps = std::max<std::int64_t>(1, std::llround(std::min(its.top_pps(axis), 2e9)));
 }
 
-void Super40nc::start_wheel(int number, WheelSource source) {
-  AxisState& state = axis(number);
-  const Grant given = ask(number, Request::wheel);
+void Super40nc::start_wheel(int axis_number, WheelSource source) {
+  AxisState& state = axis(axis_number);
+  const Grant given = ask(axis_number, Request::wheel);
   if (given == Grant::same_or_no && state.wheel != source) report(Code::axis_taken);
   if (given != Grant::starts) return;
-  prepare(number);
-  motion::AxisSettings without_backlash = chip(number).settings;
+  prepare(axis_number);
+  motion::AxisSettings without_backlash = chip(axis_number).settings;
   without_backlash.backlash_pulses = 0;
-  chip(number).set(without_backlash);
-  begun(number, chip(number).follow({}), Holder::wheel);
+  chip(axis_number).set(without_backlash);
+  begun(axis_number, chip(axis_number).follow({}), Holder::wheel);
   if (state.holder != Holder::wheel) return;
   state.wheel = source;
   state.wheel_edges = 0;
-  follow_ratio(number);
+  follow_ratio(axis_number);
   constexpr int kModeWheel = 0x01;
-  mirror_start(number, kModeWheel, 0, {});
+  mirror_start(axis_number, kModeWheel, 0, {});
 }
 
 /// Each axis decodes the edges as its own parameter says.
@@ -93,14 +93,14 @@ void Super40nc::feed_wheel(std::int32_t edges) {
 }
 
 /// At a limit the wheel turns in vain, and back.
-void Super40nc::wheel_ended(int number) {
-  const motion::Cause why = chip(number).cause;
+void Super40nc::wheel_ended(int axis) {
+  const motion::Cause why = chip(axis).cause;
   const bool is_limit = why == motion::Cause::limit_plus || why == motion::Cause::limit_minus ||
                         why == motion::Cause::soft_limit_plus || why == motion::Cause::soft_limit_minus;
-  if (why != motion::Cause::stopped) fail(number, code_of(why));
+  if (why != motion::Cause::stopped) fail(axis, code_of(why));
   const bool ends = chose(option("wheel_at_limit", "following_ends"));
-  if (!is_limit || ends || chip(number).follow({}) != motion::Cause::none) return let_go(number);
-  follow_ratio(number);
+  if (!is_limit || ends || chip(axis).follow({}) != motion::Cause::none) return let_go(axis);
+  follow_ratio(axis);
 }
 
 }  // namespace understudy::emulator::models::super_40nc

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/device/user_program.h"
 #include "emulator/models/super_40nc/device.h"
-#include "emulator/models/super_40nc/program_machine.h"
+#include "emulator/models/super_40nc/program_machine.h"  // IWYU pragma: keep (namespace language)
 #include "interpreter/super_40nc/areas.h"
 #include "interpreter/super_40nc/events.h"
 #include "interpreter/super_40nc/listing.h"
+#include "interpreter/super_40nc/step_code.h"
 #include "interpreter/super_40nc/step_programs.h"
 
 namespace understudy::emulator::models::super_40nc {

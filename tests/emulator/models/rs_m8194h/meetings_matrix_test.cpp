@@ -24,7 +24,9 @@ const Situation kStates[] = {
     {"interpolating", {"RSM_LINE_2D 1000000 500000"}},
     {"homing", {"RSM_SET_HOME_MODE X 1 0 0 0 0", "RSM_HOME_START X"}},
     // X stands; its drive begins together with that of Y, which moves. A lock of X voids its part alone, and
-    // what is no stop waits behind it.
+    // what is no stop waits behind it (7.5.3, 7.5.4: a stop locks the axes that it names). VSTOP locks all
+    // axes that are assigned, and their drives are void (7.5.5, 7.5.6): none of it is left to wait. EMG ends
+    // Y's drive, too, so this one is tried at once, and void.
     {"waited for", {"RSM_CONTINUE_MOVE Y 10000", "RSM_FIXED_MOVE XY 100000"}},
     {"held", {"RSM_DRV_HOLD X", "RSM_FIXED_MOVE X 100000"}},
     {"locked", {"RSM_STOP_SUDDENLY X"}},

@@ -48,6 +48,13 @@ Value exception_to(OneSuper40nc& one, std::string_view request) {
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{
+      // Beyond a soft limit; the contact is on in the scan that follows.
+      {"serr_clears",
+       "AREA X\nRPM K100\nDRV K5000\nEND",
+       {{"D9185", 3000}, {"D9186", -2000}},
+       {{{{"M8100", 1}}, 600}},
+       "M8124",
+       {{"next_start_m8x02_plc_to_run", 1}, {"one_scan", 0}}},
       // D999 and the hole behind T63 and C31.
       {"holes",
        "",
