@@ -31,8 +31,9 @@ endif()
 
 find_program(UNDERSTUDY_CCACHE ccache)
 if(UNDERSTUDY_CCACHE)
-  # Without this it does not keep what is compiled with precompiled headers.
+  # Without the sloppiness it does not keep what is compiled with precompiled headers. By the compiler's own list of
+  # headers it need not read all of them once more for what it has not got yet.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${UNDERSTUDY_CCACHE})
+      ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${UNDERSTUDY_CCACHE})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()

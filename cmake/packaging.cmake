@@ -16,12 +16,13 @@ install(TARGETS understudy RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS understudy_tty_shim LIBRARY DESTINATION lib/understudy)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios/ DESTINATION ${scenarios_folder} USE_SOURCE_PERMISSIONS
   PATTERN "*.port" EXCLUDE)
+install(FILES ${packaging}/vscode/settings.json DESTINATION ${CMAKE_INSTALL_DATADIR}/understudy/vscode)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${packaging}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 # Pages and pictures only; install(DIRECTORY) would leave empty folders where there are none.
 file(GLOB_RECURSE pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
-     ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg)
+     ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.svg ${PROJECT_SOURCE_DIR}/docs/*.png)
 foreach(page IN LISTS pages)
   cmake_path(GET page PARENT_PATH folder)
   install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
@@ -39,6 +40,7 @@ install(CODE "
   set(MANUALS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1)
   set(DOCUMENTATION \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR})
   set(COMPLETIONS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR})
+  set(SCHEMAS \${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/understudy/schemas)
   set(SCENARIOS \${CMAKE_INSTALL_PREFIX}/${scenarios_folder})
   # systemd looks here below /usr and /usr/local, whatever the libraries' folder is called.
   set(UNITS \${CMAKE_INSTALL_PREFIX}/lib/systemd/system)")
@@ -51,12 +53,13 @@ set(CPACK_COMPONENTS_ALL understudy)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PROJECT_CONFIG_FILE ${packaging}/demand_debian_tools.cmake)
+set(CPACK_PROJECT_CONFIG_FILE ${packaging}/debian_depends.cmake)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${UNDERSTUDY_DEBIAN_REVISION})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)  # see debian_depends.cmake
+set(CPACK_UNDERSTUDY_PROGRAMS ${PROJECT_BINARY_DIR}/understudy ${PROJECT_BINARY_DIR}/lib/understudy/tty_shim.so)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, gtkwave, mbpoll, wireshark")
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${packaging}/postinst ${packaging}/prerm ${packaging}/postrm)

@@ -17,7 +17,7 @@ namespace understudy::motion {
 namespace {
 
 /// As motion/axis.h bounds a move.
-constexpr std::int64_t kFarthest = std::int64_t{1} << 53;
+constexpr std::int64_t kFarthestPlace_pulses = std::int64_t{1} << 53;
 
 void demand(bool holds, const char* what) {
   if (!holds) throw BadMotion(Refusal::out_of_range, "homing table", what);
@@ -62,10 +62,11 @@ void check(const HomingProgram& program) {
            "a signal to be counted must be awaited");
     demand(row.way == +1 || row.way == -1, "way must be +1 or -1");
     demand(row.count >= 1, "count must be at least 1");
-    demand(row.distance_pulses >= -kFarthest && row.distance_pulses <= kFarthest,
+    demand(row.distance_pulses >= -kFarthestPlace_pulses && row.distance_pulses <= kFarthestPlace_pulses,
            "distance must be within 2^53 pulses");
     demand(row.again_while == 0 || row.distance_pulses != 0, "a distance to be repeated must not be 0");
-    demand(row.within_pulses >= 0 && row.within_pulses <= kFarthest, "a search must be within 2^53 pulses");
+    demand(row.within_pulses >= 0 && row.within_pulses <= kFarthestPlace_pulses,
+           "a search must be within 2^53 pulses");
     demand(is_row(row.if_far), "the phase after a search too far must be one of the table");
     demand(row.speed >= 0 && static_cast<std::size_t>(row.speed) < HomingProgram::kMaxSpeeds,
            "speed must be one of the table");

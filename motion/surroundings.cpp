@@ -11,10 +11,13 @@ namespace understudy::motion {
 
 namespace {
 
+/// 0 .. index_period - 1. Both rests lie between -period and period, so their difference is brought back
+/// without a third division.
 std::int64_t index_phase(const Surroundings& here, std::int64_t travel) {
-  const std::int64_t phase =
-      (travel % here.index_period - here.index_at % here.index_period) % here.index_period;
-  return phase < 0 ? phase + here.index_period : phase;
+  const std::int64_t period = here.index_period;
+  const std::int64_t phase = travel % period - here.index_at % period;
+  if (phase < 0) return phase < -period ? phase + period + period : phase + period;
+  return phase < period ? phase : phase - period;
 }
 
 /// a - b, or the last number there is: a zone may well end at INT64_MAX.
@@ -48,13 +51,17 @@ Signals Surroundings::at(std::int64_t travel, Signals before) const {
   Signals on = steady;
   for (std::size_t i = 0; i < zone_count; ++i) {
     const Zone& zone = zones[i];
-    const std::int64_t slack = (before & bit(zone.signal)) != 0 ? zone.slack : 0;
-    const bool is_inside = zone.from <= zone.to && travel >= bounded_difference(zone.from, slack) &&
-                           travel <= bounded_difference(zone.to, -slack);
+    bool is_inside = travel >= zone.from && travel <= zone.to;
+    if (!is_inside && zone.slack != 0 && zone.from <= zone.to && (before & bit(zone.signal)) != 0) {
+      is_inside = travel >= bounded_difference(zone.from, zone.slack) &&
+                  travel <= bounded_difference(zone.to, -zone.slack);
+    }
     if (is_inside) on |= bit(zone.signal);
   }
-  const std::int64_t seen_at = std::clamp(travel, index_from, index_to);
-  if (index_period > 0 && index_phase(*this, seen_at) < index_width) on |= bit(Signal::index);
+  if (index_period > 0) {
+    const std::int64_t seen_at = std::clamp(travel, index_from, index_to);
+    if (index_phase(*this, seen_at) < index_width) on |= bit(Signal::index);
+  }
   return on;
 }
 

@@ -27,3 +27,11 @@ endfunction()
 completion(bash bash-completion/completions understudy)
 completion(zsh zsh/vendor-completions _understudy)
 completion(fish fish/vendor_completions.d understudy.fish)
+
+function(schema what)
+  execute_process(COMMAND "${PROGRAM}" schema ${what}
+                  OUTPUT_FILE "${STAGING}/${what}.schema.json" COMMAND_ERROR_IS_FATAL ANY)
+  file(INSTALL "${STAGING}/${what}.schema.json" DESTINATION "${SCHEMAS}")
+endfunction()
+schema(bench)
+schema(scenario)

@@ -34,7 +34,7 @@ std::string number_text(std::uint64_t value);
 std::string number_text(double value);
 
 template <class T>
-std::string value_text(T value) {
+std::string value_text(const T& value) {
   if constexpr (std::is_same_v<T, bool>) {
     return value ? "true" : "false";
   } else if constexpr (std::is_same_v<T, std::string>) {
@@ -107,9 +107,8 @@ void look_at_field(const Named& named, const T& a, const T& b, const std::string
 template <class T>
 std::string difference_in_fields(const T& a, const T& b, const std::string& path) {
   std::string found;
-  std::apply(
-      [&](const auto&... named) { (look_at_field(named, a.*named.at, b.*named.at, path, found), ...); },
-      fields_of<T>());
+  fields_of<T>().apply(
+      [&](const auto&... named) { (look_at_field(named, a.*named.at, b.*named.at, path, found), ...); });
   return found;
 }
 
@@ -120,11 +119,12 @@ template <HasFields T>
 std::string difference_of_copies(const CopiedFields<T>& a, const CopiedFields<T>& b,
                                  const std::string& path) {
   std::string found;
-  const auto look = [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (state_fields::look_at_field(std::get<i>(fields_of<T>()), std::get<i>(a), std::get<i>(b), path, found),
-     ...);
-  };
-  look(std::make_index_sequence<std::tuple_size_v<CopiedFields<T>>>());
+  fields_of<T>().apply([&](const auto&... named) {
+    const auto look = [&]<std::size_t... i>(std::index_sequence<i...>) {
+      (state_fields::look_at_field(named, std::get<i>(a), std::get<i>(b), path, found), ...);
+    };
+    look(std::index_sequence_for<decltype(named)...>());
+  });
   return found;
 }
 

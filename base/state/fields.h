@@ -2,7 +2,7 @@
 //
 //   template <>
 //   struct understudy::StateOf<Timer> {
-//     static constexpr auto fields = std::tuple{field("mode", &Timer::mode), field("since", &Timer::since)};
+//     static constexpr auto fields = FieldList{field("mode", &Timer::mode), field("since", &Timer::since)};
 //     static void check(const Timer& timer);   // optional: throws StateError for what no timer can be
 //   };
 //   template <>
@@ -52,6 +52,24 @@ constexpr NamedField<Owner, T> field(std::string_view name, T Owner::*at, Elemen
 
 namespace state_fields {
 
+template <std::size_t number, class Field>
+struct Numbered {
+  Field field;
+};
+
+template <class Numbers, class... Field>
+struct NumberedFields;
+template <std::size_t... number, class... Field>
+struct NumberedFields<std::index_sequence<number...>, Field...> : Numbered<number, Field>... {
+  static constexpr std::size_t count = sizeof...(Field);
+
+  constexpr explicit NumberedFields(Field... field) : Numbered<number, Field>{field}... {}
+  /// visit(field...), of all.
+  constexpr decltype(auto) apply(auto&& visit) const {
+    return visit(static_cast<const Numbered<number, Field>&>(*this).field...);
+  }
+};
+
 template <class T>
 inline constexpr bool kIsOptional = false;
 template <class T>
@@ -70,15 +88,14 @@ constexpr bool is_made_of(std::index_sequence<i...>) {
   return requires { T{(static_cast<void>(i), AnyMember{})...}; };
 }
 
-/// How many members an aggregate has.
-template <class T, std::size_t count = 48>
-constexpr std::size_t member_count() {
+/// Whether a class has just so many members.
+template <class T, std::size_t count>
+constexpr bool has_members() {
   if constexpr (requires { StateOf<T>::members; }) {
-    return StateOf<T>::members;  // one that cannot be counted
-  } else if constexpr (count == 0 || is_made_of<T>(std::make_index_sequence<count>())) {
-    return count;
+    return StateOf<T>::members == count;  // one that cannot be counted
   } else {
-    return member_count<T, count - 1>();
+    return is_made_of<T>(std::make_index_sequence<count>()) &&
+           !is_made_of<T>(std::make_index_sequence<count + 1>());
   }
 }
 
@@ -94,6 +111,15 @@ constexpr std::size_t apart_of() {
 
 }  // namespace state_fields
 
+/// The fields of a type. Not a std::tuple: there are hundreds of these lists, and a tuple takes compilers
+/// much longer.
+template <class... Field>
+struct FieldList : state_fields::NumberedFields<std::index_sequence_for<Field...>, Field...> {
+  using state_fields::NumberedFields<std::index_sequence_for<Field...>, Field...>::NumberedFields;
+};
+template <class... Field>
+FieldList(Field...) -> FieldList<Field...>;
+
 template <class T>
 concept HasFields = requires {
   StateOf<std::remove_cv_t<T>>::fields;
@@ -106,7 +132,7 @@ constexpr const auto& fields_of() {
   static_assert(
       std::is_aggregate_v<T> || requires { StateOf<T>::members; },
       "the members of a class cannot be counted: StateOf must say how many there are");
-  static_assert(std::tuple_size_v<Fields> + state_fields::apart_of<T>() == state_fields::member_count<T>(),
+  static_assert(state_fields::has_members<T, Fields::count + state_fields::apart_of<T>()>(),
                 "StateOf does not list the fields that the type has");
   return StateOf<T>::fields;
 }
@@ -114,20 +140,20 @@ constexpr const auto& fields_of() {
 /// Calls visit(field) for each field of a value, in order.
 template <HasFields T>
 constexpr void for_each_field(T& value, auto visit) {
-  std::apply([&](const auto&... named) { (visit(value.*named.at), ...); }, fields_of<std::remove_cv_t<T>>());
+  fields_of<std::remove_cv_t<T>>().apply([&](const auto&... named) { (visit(value.*named.at), ...); });
 }
 
 /// The fields by themselves, of a class that cannot be copied: read first, put in force when all is read.
 template <HasFields T>
 auto copy_fields(const T& value) {
-  return std::apply([&](const auto&... named) { return std::tuple(value.*named.at...); }, fields_of<T>());
+  return fields_of<T>().apply([&](const auto&... named) { return std::tuple(value.*named.at...); });
 }
 template <HasFields T>
 using CopiedFields = decltype(copy_fields(std::declval<const T&>()));
 
 template <HasFields T>
 void assign_fields(T& value, const CopiedFields<T>& fields) {
-  std::apply([&](const auto&... named) { std::tie(value.*named.at...) = fields; }, fields_of<T>());
+  fields_of<T>().apply([&](const auto&... named) { std::tie(value.*named.at...) = fields; });
 }
 
 }  // namespace understudy

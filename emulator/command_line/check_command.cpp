@@ -1,14 +1,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "base/files/file_error.h"
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/command_line/findings.h"
 #include "emulator/command_line/model_option.h"
 #include "emulator/command_line/program_texts.h"
 #include "emulator/command_line/text_argument.h"
@@ -42,9 +46,19 @@ std::size_t count_steps(const play::Steps& steps) {
   return count;
 }
 
+std::string_view kind_name(play::FileKind kind) {
+  switch (kind) {
+    case play::FileKind::bench: return "bench";
+    case play::FileKind::scenario: return "scenario";
+    case play::FileKind::steps: return "steps";
+  }
+  return "file";
+}
+
 /// What the file is, if nothing is wrong with it.
-std::string checked(ModelList models, const std::string& file, const std::string& save_below) {
-  switch (play::kind_of_file(file)) {
+std::string described(ModelList models, const std::string& file, play::FileKind kind,
+                      const std::string& save_below) {
+  switch (kind) {
     case play::FileKind::bench: {
       world::Bench bench = world::load_bench(models, file);
       serve::read_memories(bench, "");
@@ -63,49 +77,74 @@ std::string checked(ModelList models, const std::string& file, const std::string
   return "";
 }
 
-int check_programs(ModelList models, const CheckArguments& arguments) {
-  const Model& model = demand_model(models, arguments.programs.model);
-  const ProgramLanguage& language = demand_language(model);
-  const DeviceSettings settings = program_settings(model, arguments.programs);
-  const std::string_view endings[] = {language.file_ending()};
+CheckedFile checked_file(ModelList models, const std::string& file, const std::string& save_below) {
+  CheckedFile checked{.file = file, .kind = "file"};
+  try {
+    const play::FileKind kind = play::kind_of_file(file);
+    checked.kind = kind_name(kind);
+    checked.is = described(models, file, kind, save_below);
+  } catch (const FileError& error) {
+    for (const FileError::Complaint& complaint : error.complaints()) {
+      checked.findings.push_back(finding_of(complaint, file));
+    }
+  } catch (const NvError& error) {
+    checked.findings.push_back(finding_of({.place = {}, .text = one_line(error.what())}, file));
+  }
+  return checked;
+}
+
+CheckedFile checked_program(const Model& model, const std::string& file, const DeviceSettings& settings) {
+  CheckedFile checked{.file = file, .kind = "program"};
+  const auto text = read_text_argument(file);
+  const auto mistakes =
+      text ? check_program(model, *text, settings)
+           : std::vector<ProgramMistake>{{.line = 0, .column = 0, .what = text.why + "; expected a file"}};
+  for (const ProgramMistake& mistake : mistakes) {
+    checked.findings.push_back({.place = {file, mistake.line, mistake.column}, .text = mistake.what});
+  }
+  if (!mistakes.empty()) return checked;
+  const auto lines = static_cast<std::size_t>(std::count(text->begin(), text->end(), '\n'));
+  const bool has_rest = !text->empty() && text->back() != '\n';
+  checked.is = std::string(model.language->name()) + " with " + counted(lines + (has_rest ? 1 : 0), "line");
+  return checked;
+}
+
+/// Checks one file after the other, and tells of each at once where a person reads along.
+int check_all(const CheckArguments& arguments, std::span<const std::string_view> endings,
+              const std::function<CheckedFile(const std::string&)>& check) {
+  const auto format = finding_format_called(arguments.format);
+  if (!format)
+    throw UsageError("--format: " + quoted(arguments.format) +
+                     " is not a format; expected text, json, sarif or github");
+  std::vector<CheckedFile> all;
   int code = kExitWell;
   for (const std::string& file : with_folders_opened(arguments.files, endings)) {
-    const auto text = read_text_argument(file);
-    const auto mistakes =
-        text ? check_program(model, *text, settings)
-             : std::vector<ProgramMistake>{{.line = 0, .column = 0, .what = text.why + "; expected a file"}};
-    print_mistakes(mistakes, file);
-    if (!mistakes.empty()) {
-      code = kExitBadInput;
-      continue;
+    CheckedFile checked = check(file);
+    if (!checked.findings.empty()) code = kExitBadInput;
+    if (*format == FindingFormat::text) {
+      print_as_text(checked);
+    } else {
+      all.push_back(std::move(checked));
     }
-    const auto lines = static_cast<std::size_t>(std::count(text->begin(), text->end(), '\n'));
-    const bool has_rest = !text->empty() && text->back() != '\n';
-    std::printf("%s: %s with %s\n", file.c_str(), std::string(language.name()).c_str(),
-                counted(lines + (has_rest ? 1 : 0), "line").c_str());
   }
+  std::fputs(findings_as(*format, all).c_str(), stdout);
   return code;
 }
 
 }  // namespace
 
 int check_files(ModelList models, const CheckArguments& arguments) {
-  if (!arguments.programs.model.empty()) return check_programs(models, arguments);
+  if (!arguments.programs.model.empty()) {
+    const Model& model = demand_model(models, arguments.programs.model);
+    const std::string_view endings[] = {demand_language(model).file_ending()};
+    const DeviceSettings settings = program_settings(model, arguments.programs);
+    return check_all(arguments, endings,
+                     [&](const std::string& file) { return checked_program(model, file, settings); });
+  }
   if (!arguments.programs.firmware.empty() || !arguments.programs.choices.empty())
     throw UsageError("check: --firmware and --choice belong to --model; a bench says them itself");
-  int code = kExitWell;
-  for (const std::string& file : with_folders_opened(arguments.files, kYamlEndings)) {
-    try {
-      std::printf("%s: %s\n", file.c_str(), checked(models, file, arguments.save_below).c_str());
-    } catch (const FileError& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      code = kExitBadInput;
-    } catch (const NvError& error) {
-      std::fprintf(stderr, "%s\n", one_line(error.what()).c_str());
-      code = kExitBadInput;
-    }
-  }
-  return code;
+  return check_all(arguments, kYamlEndings,
+                   [&](const std::string& file) { return checked_file(models, file, arguments.save_below); });
 }
 
 }  // namespace understudy::emulator::command_line

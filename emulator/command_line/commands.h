@@ -57,8 +57,9 @@ struct ServeArguments {
   std::string trace;  // a file: .csv or .vcd
   std::vector<std::string> trace_also;
   bool lint = false;
-  std::optional<int> page;  // the port of a live page beside it; 0: any
-  std::string version;      // of this program
+  std::vector<std::string> listen;  // addresses at which lines can be reached by TCP
+  std::optional<int> page;          // the port of a live page beside it; 0: any
+  std::string version;              // of this program
 };
 int serve(ModelList models, const ServeArguments& arguments);
 
@@ -199,10 +200,21 @@ struct CheckArguments {
   std::vector<std::string> files;  // and folders with such files
   std::string save_below;          // the folder that scenarios may save in; empty: their own
   ProgramTextArguments programs;   // with a model the files are programs for it
+  std::string format = "text";     // or json, sarif, github
 };
 /// Benches, scenarios, and files of steps that scenarios include; or programs.
 int check_files(ModelList models, const CheckArguments& arguments);
-/// The JSON Schema of "bench" or "scenario" files.
-int print_schema(const std::string& what);
+struct InitArguments {
+  std::string model = "simple2-r3";
+  std::string folder = ".";
+};
+/// A bench, a scenario and their schemas, for a model of one's choice.
+int write_first_files(ModelList models, const InitArguments& arguments);
+struct SchemaArguments {
+  std::string what;   // "bench" or "scenario"
+  std::string bench;  // whose names scenarios may use; empty: any
+};
+/// The JSON Schema of a kind of file.
+int print_schema(ModelList models, const SchemaArguments& arguments);
 
 }  // namespace understudy::emulator::command_line

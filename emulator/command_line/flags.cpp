@@ -40,7 +40,8 @@ struct CommandLine {
   PlotArguments plot;
   ProgramTextArguments program;
   CheckArguments check;
-  std::string schema;
+  InitArguments init;
+  SchemaArguments schema;
   std::string shell;
   std::function<int()> chosen;
 
@@ -63,6 +64,7 @@ struct CommandLine {
     add_program_text();
     add_check();
     add_schema();
+    add_init();
     add_tty_shim();
     add_completion();
   }
@@ -88,6 +90,13 @@ struct CommandLine {
   void add_serve() {
     CLI::App* command = app.add_subcommand("serve", "Stand in for the devices of a bench, in the foreground");
     add_serving_flags(*command, serve);
+    command
+        ->add_option(
+            "--listen", serve.listen,
+            "Let one TCP client at a time use a line: rtu://[HOST]:PORT (its raw bytes) or "
+            "modbus-tcp://[HOST]:PORT, after LINE= where there are several lines; without HOST on this "
+            "machine only")
+        ->check(kNotEmpty);
     command->add_option("--page", serve.page, "Show the bench in a browser as well, at this port [any]")
         ->expected(0, 1)
         ->default_str("0");
@@ -349,13 +358,28 @@ struct CommandLine {
         ->check(kNotEmpty);
     add_firmware_and_choices(*command, check.programs);
     add_save_below(*command, check.save_below);
+    command->add_option("--format", check.format, "text, json, sarif or github")->capture_default_str();
     command->callback([this] { chosen = [this] { return check_files(models, check); }; });
   }
 
   void add_schema() {
     CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
-    command->add_option("WHAT", schema, "bench or scenario")->required();
-    command->callback([this] { chosen = [this] { return print_schema(schema); }; });
+    command->add_option("WHAT", schema.what, "bench or scenario")->required();
+    command->add_option("--bench", schema.bench, "List the names of this bench for its scenarios [any name]")
+        ->check(kNotEmpty);
+    command->callback([this] { chosen = [this] { return print_schema(models, schema); }; });
+  }
+
+  void add_init() {
+    CLI::App* command =
+        app.add_subcommand("init", "Write a bench, a scenario and their schemas, to begin with");
+    command->add_option("DIR", init.folder, "The folder that they are written into")
+        ->check(kNotEmpty)
+        ->capture_default_str();
+    command->add_option("--model", init.model, "A name from `understudy models`")
+        ->check(kNotEmpty)
+        ->capture_default_str();
+    command->callback([this] { chosen = [this] { return write_first_files(models, init); }; });
   }
 
   void add_completion() {

@@ -364,40 +364,40 @@ void keep_silent(const PollArguments& arguments) {
 
 }  // namespace
 
-int poll_port(ModelList models, const PollArguments& given) {
-  const PollArguments arguments = with_line_of_model(models, given);
-  if (arguments.items.empty() && arguments.commands.empty())
+int poll_port(ModelList models, const PollArguments& arguments) {
+  const PollArguments polled = with_line_of_model(models, arguments);
+  if (polled.items.empty() && polled.commands.empty())
     throw UsageError("poll: nothing to read; expected names or addresses, such as 0x0E04");
-  std::vector<Item> items = items_of(models, arguments, given_word_order(arguments));
+  std::vector<Item> items = items_of(models, polled, given_word_order(polled));
   SimTime every{0};
-  if (!arguments.every.empty()) {
-    const auto parsed = parse_duration(arguments.every);
+  if (!polled.every.empty()) {
+    const auto parsed = parse_duration(polled.every);
     if (!parsed)
-      throw UsageError("--every: " + quoted(arguments.every) + " is not a duration; expected one like 500ms");
+      throw UsageError("--every: " + quoted(polled.every) + " is not a duration; expected one like 500ms");
     every = *parsed;
   }
-  const Context context = connect(arguments);
+  const Context context = connect(polled);
   if (modbus_connect(context.get()) != 0) {
-    std::fprintf(stderr, "understudy: poll: %s: %s; expected a serial port\n",
-                 one_line(arguments.port).c_str(), modbus_strerror(errno));
+    std::fprintf(stderr, "understudy: poll: %s: %s; expected a serial port\n", one_line(polled.port).c_str(),
+                 modbus_strerror(errno));
     return kExitNoResource;
   }
-  if (const auto order = word_order_item(models, arguments, items)) {
+  if (const auto order = word_order_item(models, polled, items)) {
     std::uint16_t word = 0;
-    keep_silent(arguments);
+    keep_silent(polled);
     if (modbus_read_registers(context.get(), order->address, 1, &word) < 0) {
       std::fprintf(stderr, "understudy: poll: %s, the order of words: %s (--word-order says it)\n",
                    order->label.c_str(), modbus_strerror(errno));
       return kExitFailed;
     }
-    items = items_of(models, arguments, word == 1);
+    items = items_of(models, polled, word == 1);
   }
-  for (int round = 0; round < arguments.times || arguments.times == 0; ++round) {
+  for (int round = 0; round < polled.times || polled.times == 0; ++round) {
     if (round > 0) std::this_thread::sleep_for(every);
     for (const Item& item : items) {
-      keep_silent(arguments);
+      keep_silent(polled);
       const bool good = item.write ? write_item(context.get(), item) : read_item(context.get(), item);
-      const bool is_broadcast = arguments.station == 0 && errno == ETIMEDOUT;  // nobody answers that
+      const bool is_broadcast = polled.station == 0 && errno == ETIMEDOUT;  // nobody answers that
       if (good || is_broadcast) continue;
       std::fprintf(stderr, "understudy: poll: %s: %s\n", item.label.c_str(), modbus_strerror(errno));
       return kExitFailed;

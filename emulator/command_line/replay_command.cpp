@@ -25,6 +25,7 @@
 #include "emulator/serve/control/control_door.h"
 #include "emulator/serve/control/timeline_door.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/daemon/door.h"
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/replay.h"
@@ -69,7 +70,8 @@ class Rememberer final : public world::ReplayWatcher {
     begin = world::save(world);
   }
   void happened(const world::RecordedEvent& event, std::size_t) override {
-    if (event.what != world::RecordedEvent::What::end) events_.push_back(event);
+    const bool is_told = event.what != world::RecordedEvent::What::end || !event.failed.empty();
+    if (is_told) events_.push_back(event);
   }
 
  private:
@@ -86,8 +88,7 @@ int travel_in(ModelList models, const ReplayArguments& arguments) {
                     [&](world::World& world) { return std::make_unique<Rememberer>(world, begin, events); });
   if (!replayed.result.difference.empty())
     log_line(arguments.recording + ": differs: " + replayed.result.difference);
-  const auto door =
-      serve::timeline_door(arguments.control, *begin, std::move(events), replayed.result.reached);
+  const auto door = serve::timeline_door(arguments.control, *begin, events, replayed.result.reached);
   return serve_from(replayed, *begin, arguments.recording, door, arguments.page);
 }
 

@@ -3,15 +3,25 @@
 
 #include "base/text/one_line.h"
 #include "emulator/command_line/commands.h"
+#include "emulator/device/model.h"
 #include "emulator/play/schema/json_schema.h"
+#include "emulator/world/bench_file/bench_file.h"
 
 namespace understudy::emulator::command_line {
 
-int print_schema(const std::string& what) {
-  if (what != "bench" && what != "scenario") {
-    throw UsageError(quoted(what) + " has no schema; expected bench or scenario");
+int print_schema(ModelList models, const SchemaArguments& arguments) {
+  const bool is_bench = arguments.what == "bench";
+  if (!is_bench && arguments.what != "scenario") {
+    throw UsageError(quoted(arguments.what) + " has no schema; expected bench or scenario");
   }
-  std::fputs((what == "bench" ? play::bench_schema() : play::scenario_schema()).c_str(), stdout);
+  if (is_bench && !arguments.bench.empty()) {
+    throw UsageError("schema: --bench belongs to `scenario`: the names are the bench's");
+  }
+  const std::string schema = is_bench ? play::bench_schema()
+                             : arguments.bench.empty()
+                                 ? play::scenario_schema()
+                                 : play::scenario_schema(world::load_bench(models, arguments.bench));
+  std::fputs(schema.c_str(), stdout);
   return kExitWell;
 }
 

@@ -181,6 +181,12 @@ struct DeviceSettings {
   std::vector<std::pair<std::string, double>> assignments{};  // the same for a model without registers
 };
 
+/// What `understudy init` writes for whoever begins: a bench, and the steps of a first move on it.
+struct FirstFiles {
+  std::string_view bench;
+  std::string_view steps;
+};
+
 struct Model {
   std::string_view name;  // "simple2-r3"
   std::string_view title;
@@ -199,8 +205,9 @@ struct Model {
   std::span<const std::string_view> state_registers;  // those that show best what it is doing
   std::span<const std::string_view> gaps;  // what is missing beyond single registers, a sentence each
   LineRules line;
-  std::optional<RtuRules> rtu{};  // of a model with ModbusStation
-  int most_modules = 0;           // the most that one device can consist of; 0: it is not a chain
+  std::optional<RtuRules> rtu{};            // of a model with ModbusStation
+  const FirstFiles* first_files = nullptr;  // null: there are none
+  int most_modules = 0;                     // the most that one device can consist of; 0: it is not a chain
   /// Settings are checked by make_device() before it is called.
   std::unique_ptr<Device> (*make)(const DeviceSettings& settings);
 };

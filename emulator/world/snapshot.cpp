@@ -38,15 +38,11 @@ using OfWorld = StateOf<World>;
 using WorldValues = CopiedFields<World>;
 
 enum : std::size_t { kSentPulses, kInputs, kSupplies, kFaults, kNextFault, kDisturbed, kNow, kDone, kTurns };
-static_assert(std::get<kSentPulses>(OfWorld::fields).name == "sent_pulses");
-static_assert(std::get<kInputs>(OfWorld::fields).name == "inputs");
-static_assert(std::get<kSupplies>(OfWorld::fields).name == "supplies");
-static_assert(std::get<kFaults>(OfWorld::fields).name == "faults");
-static_assert(std::get<kNextFault>(OfWorld::fields).name == "next_fault");
-static_assert(std::get<kDisturbed>(OfWorld::fields).name == "disturbed");
-static_assert(std::get<kNow>(OfWorld::fields).name == "now");
-static_assert(std::get<kDone>(OfWorld::fields).name == "done");
-static_assert(std::get<kTurns>(OfWorld::fields).name == "input_turns");
+constexpr auto kFieldNames =
+    OfWorld::fields.apply([](const auto&... named) { return std::array{named.name...}; });
+static_assert(kFieldNames == std::array<std::string_view, 9>{"sent_pulses", "inputs", "supplies", "faults",
+                                                             "next_fault", "disturbed", "now", "done",
+                                                             "input_turns"});
 
 // --- saving ----------------------------------------------------------------------------------------
 

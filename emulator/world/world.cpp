@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +23,7 @@
 #include "emulator/world/bench/bench.h"
 #include "emulator/world/fault_watch.h"
 #include "emulator/world/faults/fault.h"
+#include "emulator/world/outside.h"
 #include "emulator/world/plant/plant.h"
 #include "emulator/world/speech/line_speech.h"
 #include "emulator/world/view/world_view.h"

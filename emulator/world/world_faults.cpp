@@ -9,6 +9,7 @@
 #include "emulator/world/check_fault.h"
 #include "emulator/world/fault_watch.h"
 #include "emulator/world/faults/fault.h"
+#include "emulator/world/outside.h"
 #include "emulator/world/plant/plant.h"
 #include "emulator/world/world.h"
 

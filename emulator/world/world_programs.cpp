@@ -6,8 +6,8 @@
 #include "emulator/device/device.h"
 #include "emulator/device/program_error.h"
 #include "emulator/device/register_map/access.h"
-#include "emulator/device/register_map/register_bank.h"
-#include "emulator/device/user_program.h"
+#include "emulator/device/register_map/refusal.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/world/outside.h"
 #include "emulator/world/world.h"
 

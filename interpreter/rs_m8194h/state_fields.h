@@ -2,8 +2,6 @@
 // the bytes.
 #pragma once
 
-#include <tuple>
-
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "interpreter/rs_m8194h/command.h"
@@ -48,13 +46,13 @@ struct StateOf<interpreter::rs_m8194h::Command> {
 template <>
 struct StateOf<interpreter::rs_m8194h::MacroName> {
   using Value = interpreter::rs_m8194h::MacroName;
-  static constexpr auto fields = std::tuple{field("is_isr", &Value::is_isr), field("number", &Value::number)};
+  static constexpr auto fields = FieldList{field("is_isr", &Value::is_isr), field("number", &Value::number)};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Download> {
   using Value = interpreter::rs_m8194h::Download;
-  static constexpr auto fields = std::tuple{
+  static constexpr auto fields = FieldList{
       field("name", &Value::name), field("lines", &Value::lines), field("fault", &Value::fault),
       field("code", &Value::code), field("line", &Value::line),   field("is_spoilt", &Value::is_spoilt)};
   static void check(const Value& download);
@@ -64,53 +62,53 @@ template <>
 struct StateOf<interpreter::rs_m8194h::DownloadStatus> {
   using Value = interpreter::rs_m8194h::DownloadStatus;
   static constexpr auto fields =
-      std::tuple{field("mp", &Value::mp), field("isr", &Value::isr), field("command", &Value::command),
-                 field("line", &Value::line), field("error", &Value::error)};
+      FieldList{field("mp", &Value::mp), field("isr", &Value::isr), field("command", &Value::command),
+                field("line", &Value::line), field("error", &Value::error)};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::ExecutionFault> {
   using Value = interpreter::rs_m8194h::ExecutionFault;
-  static constexpr auto fields = std::tuple{field("macro", &Value::macro), field("code", &Value::code),
-                                            field("line", &Value::line), field("fault", &Value::fault)};
+  static constexpr auto fields = FieldList{field("macro", &Value::macro), field("code", &Value::code),
+                                           field("line", &Value::line), field("fault", &Value::fault)};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Trigger> {
   using Value = interpreter::rs_m8194h::Trigger;
   static constexpr auto fields =
-      std::tuple{field("condition", &Value::condition), field("event", &Value::event),
-                 field("argument", &Value::argument)};
+      FieldList{field("condition", &Value::condition), field("event", &Value::event),
+                field("argument", &Value::argument)};
   static void check(const Value& trigger);
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Loop> {
   using Value = interpreter::rs_m8194h::Loop;
-  static constexpr auto fields = std::tuple{field("line", &Value::line), field("left", &Value::left)};
+  static constexpr auto fields = FieldList{field("line", &Value::line), field("left", &Value::left)};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Level> {
   using Value = interpreter::rs_m8194h::Level;
   static constexpr auto fields =
-      std::tuple{field("number", &Value::number), field("line", &Value::line), field("loops", &Value::loops)};
+      FieldList{field("number", &Value::number), field("line", &Value::line), field("loops", &Value::loops)};
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::Run> {
   using Value = interpreter::rs_m8194h::Run;
   static constexpr auto fields =
-      std::tuple{field("is_isr", &Value::is_isr),   field("levels", &Value::levels),
-                 field("hold", &Value::hold),       field("until_ms", &Value::until_ms),
-                 field("awaited", &Value::awaited), field("saw_other_level", &Value::saw_other_level)};
+      FieldList{field("is_isr", &Value::is_isr),   field("levels", &Value::levels),
+                field("hold", &Value::hold),       field("until_ms", &Value::until_ms),
+                field("awaited", &Value::awaited), field("saw_other_level", &Value::saw_other_level)};
   static void check(const Value& run);
 };
 
 template <>
 struct StateOf<interpreter::rs_m8194h::ReturnRegister> {
   using Value = interpreter::rs_m8194h::ReturnRegister;
-  static constexpr auto fields = std::tuple{field("value", &Value::value), field("is_full", &Value::is_full)};
+  static constexpr auto fields = FieldList{field("value", &Value::value), field("is_full", &Value::is_full)};
 };
 
 /// Restored, it still has to be sound with the macros of its machine: is_sound().
@@ -118,8 +116,8 @@ template <>
 struct StateOf<interpreter::rs_m8194h::Execution> {
   using Value = interpreter::rs_m8194h::Execution;
   static constexpr auto fields =
-      std::tuple{field("mp", &Value::mp), field("isrs", &Value::isrs), field("mp_return", &Value::mp_return),
-                 field("isr_return", &Value::isr_return)};
+      FieldList{field("mp", &Value::mp), field("isrs", &Value::isrs), field("mp_return", &Value::mp_return),
+                field("isr_return", &Value::isr_return)};
   static void check(const Value& execution);
 };
 

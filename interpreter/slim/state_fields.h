@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "base/state/fields.h"
@@ -46,52 +45,52 @@ template <>
 struct StateOf<interpreter::slim::Operand> {
   using Value = interpreter::slim::Operand;
   static constexpr auto fields =
-      std::tuple{field("kind", &Value::kind), field("number", &Value::number), field("index", &Value::index),
-                 field("index_is_variable", &Value::index_is_variable), field("text", &Value::text)};
-  static void check(const Value& value);
+      FieldList{field("kind", &Value::kind), field("number", &Value::number), field("index", &Value::index),
+                field("index_is_variable", &Value::index_is_variable), field("text", &Value::text)};
+  static void check(const Value& operand);
 };
 
 template <>
 struct StateOf<interpreter::slim::Frame> {
   using Value = interpreter::slim::Frame;
-  static constexpr auto fields = std::tuple{field("line", &Value::line), field("of_event", &Value::of_event),
-                                            field("hold", &Value::hold), field("until_ms", &Value::until_ms)};
+  static constexpr auto fields = FieldList{field("line", &Value::line), field("of_event", &Value::of_event),
+                                           field("hold", &Value::hold), field("until_ms", &Value::until_ms)};
   static void check(const Value& frame) { demand_reach(frame.until_ms); }
 };
 
 template <>
 struct StateOf<interpreter::slim::Event> {
   using Value = interpreter::slim::Event;
-  static constexpr auto fields = std::tuple{field("has_condition", &Value::has_condition),
-                                            field("condition", &Value::condition),
-                                            field("operands", &Value::operands),
-                                            field("has_address", &Value::has_address),
-                                            field("address", &Value::address),
-                                            field("armed", &Value::armed),
-                                            field("pending", &Value::pending)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("has_condition", &Value::has_condition),
+                                           field("condition", &Value::condition),
+                                           field("operands", &Value::operands),
+                                           field("has_address", &Value::has_address),
+                                           field("address", &Value::address),
+                                           field("armed", &Value::armed),
+                                           field("pending", &Value::pending)};
+  static void check(const Value& event);
 };
 
 template <>
 struct StateOf<interpreter::slim::Execution> {
   using Value = interpreter::slim::Execution;
-  static constexpr auto fields = std::tuple{field("running", &Value::running),
-                                            field("ending", &Value::ending),
-                                            field("error", &Value::error),
-                                            field("line", &Value::line),
-                                            field("hold", &Value::hold),
-                                            field("until_ms", &Value::until_ms),
-                                            field("stack", &Value::stack),
-                                            field("events", &Value::events),
-                                            field("has_number", &Value::has_number),
-                                            field("number", &Value::number)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("running", &Value::running),
+                                           field("ending", &Value::ending),
+                                           field("error", &Value::error),
+                                           field("line", &Value::line),
+                                           field("hold", &Value::hold),
+                                           field("until_ms", &Value::until_ms),
+                                           field("stack", &Value::stack),
+                                           field("events", &Value::events),
+                                           field("has_number", &Value::has_number),
+                                           field("number", &Value::number)};
+  static void check(const Value& execution);
 };
 
 template <>
 struct StateOf<interpreter::slim::Editor> {
   using Value = interpreter::slim::Editor;
-  static constexpr auto fields = std::tuple{field("mode", &Value::mode), field("line", &Value::line)};
+  static constexpr auto fields = FieldList{field("mode", &Value::mode), field("line", &Value::line)};
 };
 
 /// Its lines as they were entered. Read, it holds whatever any dialect knows: set_texts() again makes of it

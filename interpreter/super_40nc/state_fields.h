@@ -1,8 +1,6 @@
 // What of programs at work a state consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
-#include <tuple>
-
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
 #include "interpreter/super_40nc/plc.h"
@@ -24,17 +22,17 @@ template <>
 struct StateOf<interpreter::super_40nc::Jogs> {
   using Value = interpreter::super_40nc::Jogs;
   static constexpr auto fields =
-      std::tuple{field("positive", &Value::positive), field("negative", &Value::negative)};
+      FieldList{field("positive", &Value::positive), field("negative", &Value::negative)};
 };
 
 template <>
 struct StateOf<interpreter::super_40nc::PlcState> {
   using Value = interpreter::super_40nc::PlcState;
   static constexpr auto fields =
-      std::tuple{field("runs", &Value::runs),         field("is_first_scan", &Value::is_first_scan),
-                 field("memories", &Value::memories), field("targets", &Value::targets),
-                 field("rpm", &Value::rpm),           field("jogs", &Value::jogs),
-                 field("unit_ms", &Value::unit_ms)};
+      FieldList{field("runs", &Value::runs),         field("is_first_scan", &Value::is_first_scan),
+                field("memories", &Value::memories), field("targets", &Value::targets),
+                field("rpm", &Value::rpm),           field("jogs", &Value::jogs),
+                field("unit_ms", &Value::unit_ms)};
   static void check(const Value& state) { demand_reach(state.unit_ms); }
 };
 
@@ -42,26 +40,26 @@ template <>
 struct StateOf<interpreter::super_40nc::Call> {
   using Value = interpreter::super_40nc::Call;
   static constexpr auto fields =
-      std::tuple{field("back", &Value::back), field("label", &Value::label), field("passes", &Value::passes)};
+      FieldList{field("back", &Value::back), field("label", &Value::label), field("passes", &Value::passes)};
 };
 
 template <>
 struct StateOf<interpreter::super_40nc::StepState> {
   using Value = interpreter::super_40nc::StepState;
-  static constexpr auto fields = std::tuple{field("phase", &Value::phase),
-                                            field("resumes", &Value::resumes),
-                                            field("is_paused_by_key", &Value::is_paused_by_key),
-                                            field("machine_holds", &Value::machine_holds),
-                                            field("waits_to_resume", &Value::waits_to_resume),
-                                            field("step", &Value::step),
-                                            field("next_step", &Value::next_step),
-                                            field("left_ms", &Value::left_ms),
-                                            field("calls", &Value::calls),
-                                            field("blocks", &Value::blocks),
-                                            field("has_modes", &Value::has_modes),
-                                            field("targets", &Value::targets),
-                                            field("rpm", &Value::rpm),
-                                            field("waits_for_drive", &Value::waits_for_drive)};
+  static constexpr auto fields = FieldList{field("phase", &Value::phase),
+                                           field("resumes", &Value::resumes),
+                                           field("is_paused_by_key", &Value::is_paused_by_key),
+                                           field("machine_holds", &Value::machine_holds),
+                                           field("waits_to_resume", &Value::waits_to_resume),
+                                           field("step", &Value::step),
+                                           field("next_step", &Value::next_step),
+                                           field("left_ms", &Value::left_ms),
+                                           field("calls", &Value::calls),
+                                           field("blocks", &Value::blocks),
+                                           field("has_modes", &Value::has_modes),
+                                           field("targets", &Value::targets),
+                                           field("rpm", &Value::rpm),
+                                           field("waits_for_drive", &Value::waits_for_drive)};
   /// Steps may be anything: a program stops at one that no instruction begins at.
   static void check(const Value& state);
 };
@@ -69,7 +67,7 @@ struct StateOf<interpreter::super_40nc::StepState> {
 template <>
 struct StateOf<interpreter::super_40nc::StepStates> {
   using Value = interpreter::super_40nc::StepStates;
-  static constexpr auto fields = std::tuple{field("programs", &Value::programs)};
+  static constexpr auto fields = FieldList{field("programs", &Value::programs)};
 };
 
 }  // namespace understudy

@@ -91,6 +91,14 @@ TEST_F(Installation, BringsCompletionForShells) {
   }
 }
 
+TEST_F(Installation, BringsSchemasForEditors) {
+  for (const auto* const kind : {"bench", "scenario"}) {
+    const std::string schema = prefix() + "/share/understudy/schemas/" + kind + ".schema.json";
+    EXPECT_EQ(contents(schema), understudy({"schema", kind}).output) << kind;
+  }
+  EXPECT_TRUE(fs::exists(prefix() + "/share/understudy/vscode/settings.json"));
+}
+
 TEST_F(Installation, HasAManPageWithEveryCommandAndFlagThatHelpTellsOf) {
   std::string text = run({"zcat", page()}).output;
   for (const auto& [roff, plain] : {std::pair<const char*, const char*>{"\\\\-", "-"},
@@ -219,7 +227,7 @@ TEST(DebianPackages, OfTheBuildAreNamedOnThePage) {
 }
 
 TEST(DebianPackage, HoldsAProgramThatRunsAndNamesWhatItNeeds) {
-  if (!is_here("dpkg-shlibdeps") || !is_here("file")) GTEST_SKIP() << "dpkg-dev and file are not installed";
+  if (!is_here("dpkg-shlibdeps")) GTEST_SKIP() << "dpkg-dev is not installed";
   const PrivateFolder folder;
   Process cpack(
       {CPACK_PROGRAM, "--config", BUILD_FOLDER "/CPackConfig.cmake", "-G", "DEB", "-B", folder.path()});

@@ -243,7 +243,7 @@ Words short_ones() {
   return files;
 }
 
-TEST(ShippedScenarios, HaveTheSameVerdictsInRealTime) {
+TEST(ShippedScenariosInRealTime, HaveTheSameVerdicts) {
   const PrivateFolder folder;
   const Words files = short_ones();
   const Finished free = understudy(Words{"run"} + files);

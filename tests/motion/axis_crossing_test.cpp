@@ -93,6 +93,19 @@ TEST(AxisCrossing, AnHourIsAFewSteps) {
   EXPECT_EQ(course.now, 3'601'001);
 }
 
+TEST(AxisCrossing, OutsideItsRangeThereIsNone) {
+  AxisCourse course;
+  course.axis.run(+1, constant(10'000), 0);
+  for (int i = 0; i < 5; ++i) course.step();
+  const std::int64_t travel = course.travel();
+  const auto quiet_within = [&](std::int64_t low, std::int64_t high) {
+    return course.axis.quiet_until(course.now + 1, 1000, course.here, {.low = low, .high = high});
+  };
+  EXPECT_GT(quiet_within(travel, travel + 1000), course.now);
+  EXPECT_EQ(quiet_within(travel + 1, travel + 1000), course.now) << "it will be in it, but is not yet";
+  EXPECT_EQ(quiet_within(travel - 1000, travel - 1), course.now);
+}
+
 TEST(AxisCrossing, WhereEveryPulseIsLookedAtThereIsNone) {
   AxisCourse course;
   course.axis.settings.raises = bit(Event::pulse);

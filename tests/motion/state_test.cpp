@@ -119,6 +119,17 @@ TYPED_TEST(State, WhateverIsRestoredCanGoOn) {
   EXPECT_GT(taken, 10);
 }
 
+TEST(PathRunState, ThatStandsByAnOverrideOfNothingIsTakenBack) {
+  PathRun run;
+  run.set_speed({.top_speed_u_s = 1000, .up = RampLaw::by_slope(1e5), .down = RampLaw::by_slope(1e5)}, 0);
+  run.append(line(Point::Zero(), Point(1000, 0, 0, 0)), {}, 0);
+  run.start(0);
+  run.set_override(0, 5);
+  PathRun restored;
+  restore(restored, save(run));
+  EXPECT_EQ(hash(restored), hash(run));
+}
+
 TEST(StateBytes, AreTheSameOnEveryMachine) {
   // Little endian, doubles by their bits, no padding; the hash is FNV-1a of them.
   const ExternalDrive drive{

@@ -1,8 +1,6 @@
 // What the state of an EEPROM consists of (base/state/fields.h), in the order of the bytes.
 #pragma once
 
-#include <tuple>
-
 #include "base/state/fields.h"
 #include "emulator/device/memory/eeprom.h"
 
@@ -16,16 +14,16 @@ struct StateOf<emulator::Eeprom::Slot> {
 template <>
 struct StateOf<emulator::Eeprom::Job> {
   using Value = emulator::Eeprom::Job;
-  static constexpr auto fields = std::tuple{field("slot", &Value::slot), field("takes", &Value::takes)};
+  static constexpr auto fields = FieldList{field("slot", &Value::slot), field("takes", &Value::takes)};
 };
 
 template <>
 struct StateOf<emulator::Eeprom> {
   using Value = emulator::Eeprom;
   static constexpr auto fields =
-      std::tuple{field("kept", &Value::kept_),       field("slots", &Value::slots_),
-                 field("jobs", &Value::jobs_),       field("rewriting", &Value::rewriting_),
-                 field("done_at", &Value::done_at_), field("revision", &Value::revision_)};
+      FieldList{field("kept", &Value::kept_),       field("slots", &Value::slots_),
+                field("jobs", &Value::jobs_),       field("rewriting", &Value::rewriting_),
+                field("done_at", &Value::done_at_), field("revision", &Value::revision_)};
   static constexpr std::size_t members = 6;
   static void name_all(Value& all) {  // does not compile if there are others
     [[maybe_unused]] auto& [done_at, revision, kept, slots, jobs, rewriting] = all;

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 
 #include "base/text/one_line.h"
 #include "emulator/device/memory/nv_image.h"

@@ -40,35 +40,36 @@ void TextBlocks::changed() {
   shared_.reset();
 }
 
-std::string TextBlocks::why_not(const BlockKind& kind, const std::string& name, const SharedText& block) {
-  const std::string& text = block.text();
+std::string TextBlocks::why_not(const BlockKind& kind, const std::string& name, const SharedText& text) {
+  const std::string& letters = text.text();
   if (name.empty()) return "has no name; expected one";
   if (first_not_utf8(name)) return "has a name that is not UTF-8; expected text";
-  if (const auto at = first_not_utf8(text)) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(*at);
-    return "line " + std::to_string(1 + std::count(text.begin(), end, '\n')) +
+  if (const auto at = first_not_utf8(letters)) {
+    const auto end = letters.begin() + static_cast<std::ptrdiff_t>(*at);
+    return "line " + std::to_string(1 + std::count(letters.begin(), end, '\n')) +
            ": is not UTF-8; expected text";
   }
-  if (text.size() > kind.longest) {
-    return "has " + std::to_string(text.size()) + " bytes; expected at most " + std::to_string(kind.longest);
+  if (letters.size() > kind.longest) {
+    return "has " + std::to_string(letters.size()) + " bytes; expected at most " +
+           std::to_string(kind.longest);
   }
   if (kind.why_not_called != nullptr) {
     if (auto why = kind.why_not_called(name); !why.empty()) return why;
   }
-  return kind.why_not_text != nullptr ? kind.why_not_text(text) : "";
+  return kind.why_not_text != nullptr ? kind.why_not_text(letters) : "";
 }
 
-std::string TextBlocks::put(std::string_view kind_name, const std::string& name, SharedText text) {
-  const BlockKind* const of = kind(kind_name);
-  if (of == nullptr) return quoted(std::string(kind_name)) + " is not a kind of block";
-  const SharedText* const before = find(kind_name, name);
+std::string TextBlocks::put(std::string_view kind, const std::string& name, SharedText text) {
+  const BlockKind* const of = this->kind(kind);
+  if (of == nullptr) return quoted(std::string(kind)) + " is not a kind of block";
+  const SharedText* const before = find(kind, name);
   if (before != nullptr && *before == text) return "";
   if (std::string why = why_not(*of, name, text); !why.empty()) return why;
-  const auto there = all_.find(kind_name);
+  const auto there = all_.find(kind);
   if (before == nullptr && (there == all_.end() ? 0 : there->second.size()) >= of->most) {
     return "there is no room; expected at most " + std::to_string(of->most);
   }
-  all_[std::string(kind_name)][name] = std::move(text);
+  all_[std::string(kind)][name] = std::move(text);
   changed();
   return "";
 }

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 
 #include "base/state/fields.h"
 #include "base/state/shared_text.h"
@@ -80,7 +79,7 @@ template <>
 struct StateOf<emulator::TextBlocks> {
   using Value = emulator::TextBlocks;
   static constexpr auto fields =
-      std::tuple{field("blocks", &Value::all_), field("revision", &Value::revision_)};
+      FieldList{field("blocks", &Value::all_), field("revision", &Value::revision_)};
   static constexpr std::size_t members = 4;
   static constexpr std::size_t apart = 2;  // the model's table, and what is made of the blocks
   static void name_all(Value& all) {       // does not compile if there are others

@@ -326,18 +326,18 @@ Refusal write_prepared(RegisterBank& bank, const PreparedWrite& write) {
   return write_words(bank, write.table, write.first, std::span(write.words).first(write.count));
 }
 
-Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value wanted) {
+Refusal write_value(RegisterBank& bank, const NamedPlace& named, Value value) {
   // What its words would come to when they are looked up again: programs write like this all the time.
   const Place& place = named.place;
   const RegisterRow& row = *place.row;
   if (row.access == Access::read || row.message != nullptr) return Refusal::no_register;
-  const auto value = merged(bank, named, wanted);
-  if (!value) return Refusal::bad_value;
+  const auto merged_value = merged(bank, named, value);
+  if (!merged_value) return Refusal::bad_value;
   if (!bank.has_row(row)) return swallows_writes_to_nothing(bank) ? Refusal::none : Refusal::no_register;
   const bool is_half = place.part != Place::Part::whole;
   const MapPolicy& policy = bank.map_policy();
   if (is_half && policy.halves == MapPolicy::Halves::come_whole) return Refusal::no_register;
-  auto bits = static_cast<std::uint32_t>(*value);
+  auto bits = static_cast<std::uint32_t>(*merged_value);
   if (is_half) bits = with_word(present_bits(bank, place), place.part, static_cast<std::uint16_t>(bits));
   std::array<Change, 1> one = {Change{.place = place,
                                       .bits = bits,

@@ -36,7 +36,7 @@ Value read_value(const RegisterBank& bank, const Place& place);
 Value read_value(const RegisterBank& bank, const NamedPlace& place);
 /// The first tick after `done` at which it may change although nothing happens; kNever if it does not tell
 /// time.
-Tick next_change(const RegisterBank& bank, const NamedPlace& place, Tick done);
+Tick next_change(const RegisterBank& bank, const NamedPlace& named, Tick done);
 /// The number that a place's value stands for.
 double number_of(const NamedPlace& place, Value value);
 /// The value of a number for a place: a real's bits where it holds a real. None: a fraction for a whole

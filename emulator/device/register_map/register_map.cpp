@@ -197,23 +197,23 @@ std::string expected_bits(const Place& place) {
 
 }  // namespace
 
-std::vector<Place> RegisterMap::places_called(std::optional<Table> only, std::string_view name,
+std::vector<Place> RegisterMap::places_called(std::optional<Table> table, std::string_view name,
                                               Firmware firmware) const {
   std::vector<Place> places;
   const std::string key(name);
-  for (const auto& [word, table] : kTables) {
-    if (only && *only != table) continue;
-    const auto& names = tables_[static_cast<std::size_t>(table)].names;
+  for (const auto& [word, listed] : kTables) {
+    if (table && *table != listed) continue;
+    const auto& names = tables_[static_cast<std::size_t>(listed)].names;
     const auto it = names.find(key);
     if (it != names.end() && firmware >= it->second.row->since) places.push_back(it->second);
   }
   return places;
 }
 
-std::optional<NamedPlace> RegisterMap::find(std::string_view whole_name, Firmware firmware) const {
-  const auto [table, name] = without_table(whole_name);
-  const std::size_t dot = name.rfind('.');
-  const std::string_view base = name.substr(0, dot);
+std::optional<NamedPlace> RegisterMap::find(std::string_view name, Firmware firmware) const {
+  const auto [table, alone] = without_table(name);
+  const std::size_t dot = alone.rfind('.');
+  const std::string_view base = alone.substr(0, dot);
   Place place;
   if (const auto address = address_of(base)) {
     place = word_at(*this, table, *address, firmware);
@@ -222,7 +222,7 @@ std::optional<NamedPlace> RegisterMap::find(std::string_view whole_name, Firmwar
   }
   if (!place) return std::nullopt;
   if (dot == std::string_view::npos) return NamedPlace{.place = place};
-  return bits_called(place, name.substr(dot + 1));
+  return bits_called(place, alone.substr(dot + 1));
 }
 
 std::string version_text(Firmware firmware) {
@@ -230,16 +230,16 @@ std::string version_text(Firmware firmware) {
   return digits.substr(0, 1) + "." + digits.substr(1);
 }
 
-std::string RegisterMap::why_not(std::string_view whole_name, Firmware firmware) const {
-  const auto [table, name] = without_table(whole_name);
-  const std::string_view base = name.substr(0, name.rfind('.'));
-  const std::string_view bit = name.substr(std::min(base.size() + 1, name.size()));
+std::string RegisterMap::why_not(std::string_view name, Firmware firmware) const {
+  const auto [table, alone] = without_table(name);
+  const std::string_view base = alone.substr(0, alone.rfind('.'));
+  const std::string_view bit = alone.substr(std::min(base.size() + 1, alone.size()));
   const auto places = places_called(table, base, firmware);
   if (places.size() > 1) {
     std::string text = quoted(base) + " is in several tables; expected one of ";
     for (const Place& place : places) {
       text += (&place == &places.front() ? "" : ", ") + std::string(to_string(place.row->table)) + "." +
-              std::string(name);
+              std::string(alone);
     }
     return text;
   }
@@ -259,9 +259,9 @@ std::string RegisterMap::why_not(std::string_view whole_name, Firmware firmware)
   if (table && !places_called(std::nullopt, base, firmware).empty()) {
     return quoted(base) + " is not in the table " + quoted(to_string(*table)) + "; expected " +
            std::string(to_string(places_called(std::nullopt, base, firmware).front().row->table)) + "." +
-           std::string(name);
+           std::string(alone);
   }
-  return "no register is called " + quoted(whole_name) + suggestion(base, names_in_order_);
+  return "no register is called " + quoted(name) + suggestion(base, names_in_order_);
 }
 
 std::string_view to_string(Table table) {

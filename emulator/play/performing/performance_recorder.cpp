@@ -42,7 +42,9 @@ void PerformanceRecorder::step_over() { spool_->look(); }
 
 void PerformanceRecorder::finish(ScenarioResult& result) {
   // Most recordings are thrown away; the state of a world is a third of what a short one costs.
-  if (result.verdict != ScenarioResult::Verdict::passed) spool_->finish();
+  if (result.verdict != ScenarioResult::Verdict::passed) {
+    spool_->finish(result.failure ? result.failure->what : std::string());
+  }
   spool_.reset();
   result.recording = path_;
 }

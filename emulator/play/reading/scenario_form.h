@@ -10,7 +10,7 @@ namespace understudy::emulator::play {
 
 inline constexpr std::array<const world::Form*, 2> kBenchWays{&world::kText, &world::kInlineBenchForm};
 inline constexpr world::Form kBenchOrFileForm = world::either_form(kBenchWays);
-inline constexpr std::array<const world::Form*, 2> kFirmwareWays{&world::kText, &world::kTextByName};
+inline constexpr std::array<const world::Form*, 2> kFirmwareWays{&world::kText, &world::kTextByDevice};
 inline constexpr world::Form kFirmwareForm = world::either_form(kFirmwareWays);
 inline constexpr world::Form kCasesForm = world::list_form(world::kTextByName);
 
@@ -19,7 +19,7 @@ inline constexpr std::array kScenarioKeys{
     world::KeyRow{"name", "What it is about, as a sentence; by default the file's name.", &world::kText},
     world::KeyRow{"bench", "The bench, or the path of its file.", &kBenchOrFileForm, true},
     world::KeyRow{"nv", "What the devices' memories hold at first: files of NV images, by device.",
-                  &world::kTextByName},
+                  &world::kTextByDevice},
     world::KeyRow{"firmware", "Another firmware than the bench's: for all devices, or by device.",
                   &kFirmwareForm},
     world::KeyRow{"gap", "Time that the host leaves between two requests, beyond t3.5.", &world::kDuration},

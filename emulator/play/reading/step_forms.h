@@ -12,7 +12,7 @@ inline constexpr world::Form kExceptionForm = world::integer_form(1, 255);
 inline constexpr std::array<std::string_view, 1> kNothing{"nothing"};
 inline constexpr world::Form kNothingForm = world::words_form(kNothing);
 inline constexpr world::KeyRow kViaKey{
-    "via", "The line, where a device is on several; by default the first of them.", &world::kText};
+    "via", "The line, where a device is on several; by default the first of them.", &world::kLineName};
 inline constexpr std::array kAnswerKeys{
     world::KeyRow{"exception", "The Modbus exception that the device is to answer with.", &kExceptionForm},
     world::KeyRow{"reply", "`nothing`, where no answer may come.", &kNothingForm},
@@ -44,17 +44,17 @@ inline constexpr world::Form kInjectForm = world::keys_form(world::kInjectKeys);
 
 inline constexpr std::array<std::string_view, 3> kPowerWords{"on", "off", "cycle"};
 inline constexpr world::Form kPowerWordsForm = world::words_form(kPowerWords);
-inline constexpr world::Form kPowerForm = world::names_form(kPowerWordsForm);
+inline constexpr world::Form kPowerForm = world::names_form(kPowerWordsForm, world::Form::Of::devices);
 
 inline constexpr std::array<const world::Form*, 2> kReplyLinesWays{&world::kText, &world::kTextList};
 inline constexpr world::Form kReplyLinesForm = world::either_form(kReplyLinesWays);
 inline constexpr std::array kSendKeys{
-    world::KeyRow{"line", "On which line; by default the only one.", &world::kText},
+    world::KeyRow{"line", "On which line; by default the only one.", &world::kLineName},
     world::KeyRow{"bytes", "In hexadecimal; +crc at the end adds the checksum.", &world::kText, true},
     world::KeyRow{"reply", "The bytes that must come, or `nothing`.", &world::kText},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr std::array kSendTextKeys{
-    world::KeyRow{"line", "On which line; by default the only one.", &world::kText},
+    world::KeyRow{"line", "On which line; by default the only one.", &world::kLineName},
     world::KeyRow{"text", "A line of text, without its end.", &world::kText, true},
     world::KeyRow{"reply", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
@@ -63,7 +63,7 @@ inline constexpr world::Form kSendTextForm = world::keys_form(kSendTextKeys);
 inline constexpr std::array<const world::Form*, 2> kSendWays{&kSendBytesForm, &kSendTextForm};
 inline constexpr world::Form kSendForm = world::either_form(kSendWays);
 inline constexpr std::array kHearKeys{
-    world::KeyRow{"line", "On which line; by default the only one.", &world::kText},
+    world::KeyRow{"line", "On which line; by default the only one.", &world::kLineName},
     world::KeyRow{"text", "The line or the lines that must come, or `nothing`.", &kReplyLinesForm, true},
     world::KeyRow{"within", "How long to wait for them (500ms).", &world::kDuration}};
 inline constexpr world::Form kHearForm = world::keys_form(kHearKeys);

@@ -11,6 +11,8 @@
 
 #include "emulator/play/reading/scenario_form.h"
 #include "emulator/play/reading/step_rows.h"
+#include "emulator/play/schema/bench_names.h"
+#include "emulator/world/bench/bench.h"
 #include "emulator/world/bench_file/bench_form.h"
 #include "emulator/world/bench_file/form.h"
 
@@ -27,11 +29,13 @@ constexpr const char* kParameter = "\\$\\{";
 class SchemaWriter {
  public:
   /// Where there are parameters any value may be a ${name}.
-  explicit SchemaWriter(bool has_parameters) : has_parameters_(has_parameters) {}
+  explicit SchemaWriter(bool has_parameters, bool has_names = false)
+      : has_parameters_(has_parameters), has_names_(has_names) {}
 
   Json of(const world::Form& form) const {
     switch (form.kind) {
-      case world::Form::Kind::text: return Json{{"type", {"string", "number", "boolean"}}};
+      case world::Form::Kind::text:
+        return lists(form) ? reference(form.names_of) : Json{{"type", {"string", "number", "boolean"}}};
       case world::Form::Kind::integer: return integer(form);
       case world::Form::Kind::level:
         return Json{{"enum", {"on", "off", "true", "false", "0", "1", true, false, 0, 1}}};
@@ -39,7 +43,11 @@ class SchemaWriter {
         return or_parameter(Json{{"type", "string"}, {"pattern", kDurationText}});
       case world::Form::Kind::words: return words(form);
       case world::Form::Kind::list: return list(form);
-      case world::Form::Kind::names: return Json{{"type", "object"}, {"additionalProperties", of(*form.of)}};
+      case world::Form::Kind::names: {
+        Json schema{{"type", "object"}, {"additionalProperties", of(*form.of)}};
+        if (lists(form)) schema["propertyNames"] = reference(form.names_of);
+        return schema;
+      }
       case world::Form::Kind::keys: return keys(form.keys);
       case world::Form::Kind::either: {
         Json ways = Json::array();
@@ -85,7 +93,38 @@ class SchemaWriter {
                 {"dependencies", dependencies}};
   }
 
+  /// What a form's names may be, in a schema for one bench.
+  static std::string definition_of(world::Form::Of sort) {
+    switch (sort) {
+      case world::Form::Of::anything: break;
+      case world::Form::Of::devices: return "devices";
+      case world::Form::Of::lines: return "lines";
+      case world::Form::Of::devices_and_lines: return "devices_and_lines";
+      case world::Form::Of::axes: return "axes";
+      case world::Form::Of::inputs: return "inputs";
+      case world::Form::Of::turned: return "turned";
+      case world::Form::Of::registers: return "registers";
+    }
+    return "";
+  }
+  Json definition(const NameList& list) const {
+    Json ways = Json::array();
+    if (!list.names.empty()) ways.push_back(Json{{"enum", list.names}});
+    for (const std::string& pattern : list.patterns) {
+      ways.push_back(Json{{"type", "string"}, {"pattern", pattern}});
+    }
+    ways.push_back(Json{{"type", "string"}, {"pattern", kParameter}});
+    return Json{{"anyOf", ways}};
+  }
+
  private:
+  bool lists(const world::Form& form) const {
+    return has_names_ && form.names_of != world::Form::Of::anything;
+  }
+  static Json reference(world::Form::Of sort) {
+    return Json{{"$ref", "#/definitions/" + definition_of(sort)}};
+  }
+
   Json or_parameter(Json schema) const {
     if (!has_parameters_) return schema;
     return Json{{"anyOf", {schema, Json{{"type", "string"}, {"pattern", kParameter}}}}};
@@ -125,7 +164,13 @@ class SchemaWriter {
   }
 
   bool has_parameters_;
+  bool has_names_;
 };
+
+Json step_definitions(const SchemaWriter& writer) {
+  return Json{{"step", writer.step()},
+              {"steps", {{"type", "array"}, {"minItems", 1}, {"items", {{"$ref", "#/definitions/step"}}}}}};
+}
 
 std::string finished(const std::string& title, const Json& schema, Json definitions) {
   Json whole{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
@@ -142,9 +187,17 @@ std::string bench_schema() {
 
 std::string scenario_schema() {
   const SchemaWriter writer(true);
-  Json definitions{
-      {"step", writer.step()},
-      {"steps", {{"type", "array"}, {"minItems", 1}, {"items", {{"$ref", "#/definitions/step"}}}}}};
+  return finished("Understudy scenario", writer.keys(kScenarioKeys), step_definitions(writer));
+}
+
+std::string scenario_schema(const world::Bench& bench) {
+  const SchemaWriter writer(true, true);
+  Json definitions = step_definitions(writer);
+  for (const auto sort : {world::Form::Of::devices, world::Form::Of::lines,
+                          world::Form::Of::devices_and_lines, world::Form::Of::axes, world::Form::Of::inputs,
+                          world::Form::Of::turned, world::Form::Of::registers}) {
+    definitions[SchemaWriter::definition_of(sort)] = writer.definition(bench_names(bench, sort));
+  }
   return finished("Understudy scenario", writer.keys(kScenarioKeys), definitions);
 }
 

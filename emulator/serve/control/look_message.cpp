@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,11 +13,11 @@
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/loop/pacer.h"
 #include "emulator/world/events/event_log.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/look/looked_names.h"
-#include "emulator/world/names/names.h"
 #include "pty/capture.h"
 
 namespace understudy::emulator::serve {

@@ -10,13 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/simulated_time.h"
 #include "emulator/serve/control/message_fields.h"
 #include "emulator/serve/control/messages.h"
 #include "emulator/serve/control/server.h"
 #include "emulator/serve/control/sockets.h"
 #include "emulator/serve/control/verbs.h"
 #include "emulator/serve/daemon/daemon.h"
+#include "emulator/serve/daemon/door.h"
+#include "emulator/world/recording/recording.h"
 #include "emulator/world/recording/timeline.h"
+#include "emulator/world/snapshot.h"
 
 namespace understudy::emulator::serve {
 
@@ -38,6 +42,10 @@ class Travel {
          SimTime end)
       : daemon_(daemon), timeline_(daemon.world(), begin, std::move(events), end, [this] { collect(); }) {
     std::sort(moments_.begin(), moments_.end());
+    for (const world::RecordedEvent& event : timeline_.events()) {
+      if (event.failed.empty()) continue;
+      marks_.push_back(Json{{"time_ns", event.at.count()}, {"what", "failed"}, {"text", event.failed}});
+    }
     go_to(timeline_.begin());
   }
 
@@ -52,6 +60,7 @@ class Travel {
               {"at_ns", daemon_.world().now().count()},
               {"marks", std::move(marks)}};
     Json reply{{"ok", true}, {"timeline", std::move(told)}};
+    if (marks_left_out_ > 0) reply["timeline"]["marks_left_out"] = marks_left_out_;
     if (from + kMarksAtOnce < marks_.size()) reply["next"] = from + kMarksAtOnce;
     return reply;
   }
@@ -82,7 +91,11 @@ class Travel {
 
   SimTime stepped(const std::string& by, std::int64_t steps) const {
     const SimTime now = daemon_.world().now();
-    if (by == "tick") return std::max(SimTime{0}, time_of(tick_at(now) + steps));
+    if (by == "tick") {
+      // From within a tick, one back is where it began.
+      const bool is_within = steps < 0 && time_of(tick_at(now)) < now;
+      return std::max(SimTime{0}, time_of(tick_at(now) + steps + (is_within ? 1 : 0)));
+    }
     std::vector<SimTime> moments;
     if (by == "frame") {
       moments = moments_;
@@ -108,7 +121,11 @@ class Travel {
     }
     for (const auto& event : daemon_.onlookers().events.since(next_event_, SIZE_MAX)) {
       next_event_ = event.number + 1;
-      if (!is_mark(event.what) || marks_.size() == kMostMarks) continue;
+      if (!is_mark(event.what)) continue;
+      if (marks_.size() == kMostMarks) {
+        ++marks_left_out_;
+        continue;
+      }
       Json mark{{"time_ns", event.time.count()}, {"what", event.what}};
       if (!event.device.empty()) mark["device"] = event.device;
       if (!event.line.empty()) mark["line"] = event.line;
@@ -126,13 +143,14 @@ class Travel {
   std::uint64_t next_event_ = 1;
   std::vector<SimTime> moments_;
   std::vector<Json> marks_;
+  std::uint64_t marks_left_out_ = 0;
   world::Timeline timeline_;  // last: it collects
 };
 
 }  // namespace
 
 DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
-                        std::vector<world::RecordedEvent> events, SimTime end) {
+                        const std::vector<world::RecordedEvent>& events, SimTime end) {
   const auto travel = std::make_shared<std::unique_ptr<Travel>>();
   return [=](Daemon& daemon, const std::function<void(const std::string&)>&) -> std::unique_ptr<Door> {
     const auto handle = [&daemon, travel, begin, events, end](const std::string& line,

@@ -13,6 +13,6 @@ namespace understudy::emulator::serve {
 /// The door of a daemon whose world is of the recording's bench and stands. It plays the recording once, when
 /// it is made, and goes to its begin. `path` as of control_door().
 DoorMaker timeline_door(const std::string& path, const world::WorldState& begin,
-                        std::vector<world::RecordedEvent> events, SimTime end);
+                        const std::vector<world::RecordedEvent>& events, SimTime end);
 
 }  // namespace understudy::emulator::serve

@@ -31,6 +31,17 @@ struct Form {
   int count = 0;
   std::span<const KeyRow> keys{};
   std::span<const Form* const> ways{};
+  /// Of `text` and `names`: what of the bench the names are of. A schema for one bench lists them.
+  enum class Of : std::uint8_t {
+    anything,
+    devices,
+    lines,
+    devices_and_lines,
+    axes,
+    inputs,
+    turned,
+    registers
+  } names_of = Of::anything;
 };
 
 struct KeyRow {
@@ -56,11 +67,24 @@ constexpr Form either_form(std::span<const Form* const> ways) {
   return {.kind = Form::Kind::either, .ways = ways};
 }
 
+constexpr Form names_form(const Form& of, Form::Of whose) {
+  return {.kind = Form::Kind::names, .of = &of, .names_of = whose};
+}
+
 inline constexpr Form kText{};
+inline constexpr Form kDeviceName{.names_of = Form::Of::devices};
+inline constexpr Form kLineName{.names_of = Form::Of::lines};
+inline constexpr Form kDeviceOrLineName{.names_of = Form::Of::devices_and_lines};
+inline constexpr Form kAxisName{.names_of = Form::Of::axes};
+inline constexpr Form kInputName{.names_of = Form::Of::inputs};
 inline constexpr Form kLevel{.kind = Form::Kind::level};
 inline constexpr Form kDuration{.kind = Form::Kind::duration};
 inline constexpr Form kSteps{.kind = Form::Kind::steps};
 inline constexpr Form kTextByName = names_form(kText);
+inline constexpr Form kTextByDevice = names_form(kText, Form::Of::devices);
+inline constexpr Form kTextByInput = names_form(kText, Form::Of::inputs);
+inline constexpr Form kTextByTurned = names_form(kText, Form::Of::turned);  // inputs, and `in`
+inline constexpr Form kTextByRegister = names_form(kText, Form::Of::registers);
 inline constexpr Form kLevelByName = names_form(kLevel);
 inline constexpr Form kTextList = list_form(kText);
 

@@ -16,10 +16,12 @@
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_bank.h"
 #include "emulator/device/register_map/register_map.h"
+#include "emulator/device/register_map/row.h"
 #include "emulator/world/expression/number.h"
 #include "emulator/world/faults/fault.h"
 #include "emulator/world/frames/frame_log.h"
 #include "emulator/world/stations/server.h"
+#include "emulator/world/view/world_view.h"
 #include "emulator/world/world.h"
 #include "pty/capture.h"
 

@@ -7,7 +7,6 @@
 
 #include "emulator/device/device.h"
 #include "emulator/device/model.h"
-#include "emulator/device/terminals.h"
 #include "emulator/world/names/names.h"
 #include "emulator/world/probe/probes.h"
 #include "emulator/world/world.h"

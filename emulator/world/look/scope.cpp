@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "emulator/world/expression/parser.h"
+#include "base/simulated_time.h"
+#include "emulator/world/expression/expression.h"
 #include "emulator/world/probe/probes.h"
 #include "emulator/world/world.h"
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/simulated_time.h"
-#include "emulator/device/device.h"
 #include "emulator/device/model.h"
 #include "emulator/device/register_map/access.h"
 #include "emulator/world/faults/fault.h"
@@ -83,17 +82,17 @@ Recorder::Recorder(World& world, const RecordingHeader& header, std::function<vo
 }
 
 Recorder::~Recorder() {
-  end_with({});
+  end_with({}, {});
   world_.remove_listener(*this);
 }
 
-void Recorder::finish() {
-  if (!is_finished_) end_with(to_text(save(world_), kBenchOfRecording));
+void Recorder::finish(std::string failed) {
+  if (!is_finished_) end_with(to_text(save(world_), kBenchOfRecording), std::move(failed));
 }
 
-void Recorder::end_with(std::string state) {
+void Recorder::end_with(std::string state, std::string failed) {
   if (is_finished_) return;
-  take({.what = What::end, .text = std::move(state)});
+  take({.what = What::end, .text = std::move(state), .failed = std::move(failed)});
   is_finished_ = true;
 }
 

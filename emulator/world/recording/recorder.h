@@ -21,12 +21,12 @@ class Recorder final : private OutsideListener {
   Recorder& operator=(const Recorder&) = delete;
 
   /// Writes that the recording ends at this moment, once; and in which state, which a replay must reach as
-  /// well. Not from within World::advance_to().
-  void finish();
+  /// well; and in what a scenario failed, if one did. Not from within World::advance_to().
+  void finish(std::string failed = {});
 
  private:
   class LineEar;
-  void end_with(std::string state);
+  void end_with(std::string state, std::string failed);
   void take(RecordedEvent event);
 
   void on_input(std::size_t device, int terminal, std::int32_t level) override;

@@ -284,6 +284,7 @@ std::string to_line(const RecordedEvent& event, const KnownDevices& devices) {
       break;
     case What::command: line.json("text", Json(event.text)); break;
     case What::end:
+      if (!event.failed.empty()) line.json("failed", Json(event.failed));
       if (!event.text.empty()) line.json("state", Json(event.text));
       break;
     case What::opened:
@@ -346,6 +347,7 @@ RecordedEvent parse_event(std::string_view text, const KnownDevices& devices, st
     case What::command: event.text = text_at(line, "text"); break;
     case What::end:
       if (line.contains("state")) event.text = text_at(line, "state");
+      if (line.contains("failed")) event.failed = text_at(line, "failed");
       break;
     case What::opened:
     case What::closed:

@@ -52,6 +52,7 @@ struct RecordedEvent {
   std::optional<pty::HostSettings> host{};
   std::vector<std::uint8_t> bytes{};
   std::string text{};
+  std::string failed{};  // of `end`: in what a scenario failed there
   double real = 0;
   Fault fault{};
   PreparedWrite write{};

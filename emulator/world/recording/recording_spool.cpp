@@ -57,8 +57,8 @@ void RecordingSpool::put_aside() {
   file_ = std::make_unique<GrowingFile>(path, "the recording", log_);
 }
 
-void RecordingSpool::finish() {
-  if (recorder_) recorder_->finish();
+void RecordingSpool::finish(std::string failed) {
+  if (recorder_) recorder_->finish(std::move(failed));
 }
 
 void RecordingSpool::look() {

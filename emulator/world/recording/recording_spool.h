@@ -25,9 +25,9 @@ class RecordingSpool {
   RecordingSpool(const RecordingSpool&) = delete;
   RecordingSpool& operator=(const RecordingSpool&) = delete;
 
-  /// Writes that it ends, and in which state. Call it between two looks at the world; nothing is recorded
-  /// after it.
-  void finish();
+  /// Writes that it ends, in which state, and in what a scenario failed, if one did. Call it between two
+  /// looks at the world; nothing is recorded after it.
+  void finish(std::string failed = {});
 
   /// Starts again if it is time to. Call it between two looks at the world, not from within
   /// World::advance_to().

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -48,7 +49,9 @@ void Timeline::go_to(SimTime time, const std::function<void(const WorldState&)>&
   time = std::clamp(time, begin(), end_);
   const auto later = std::upper_bound(keyframes_.begin(), keyframes_.end(), time,
                                       [](SimTime at, const Keyframe& keyframe) { return at < keyframe.at; });
-  const Keyframe& from = *(later - 1);
+  // The one before it, if that is not far: whoever looks sees what led to the moment.
+  const bool has_near = later - keyframes_.begin() > 1 && time - (later - 2)->at <= 2 * kApart;
+  const Keyframe& from = *(later - (has_near ? 2 : 1));
   take_back(from.state);
   restore(world_, from.state);  // with the hosts that it had then, and not those that are there now
   play(from.next_event, time);

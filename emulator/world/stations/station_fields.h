@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <tuple>
 #include <utility>
 
 #include "base/state/difference.h"
@@ -18,48 +17,48 @@ template <>
 struct StateOf<emulator::world::StationCounters> {
   using Value = emulator::world::StationCounters;
   static constexpr auto fields =
-      std::tuple{field("requests", &Value::requests), field("replies", &Value::replies),
-                 field("exceptions", &Value::exceptions)};
+      FieldList{field("requests", &Value::requests), field("replies", &Value::replies),
+                field("exceptions", &Value::exceptions)};
 };
 
 template <>
 struct StateOf<emulator::world::FaultyWire::Late> {
   using Value = emulator::world::FaultyWire::Late;
   static constexpr auto fields =
-      std::tuple{field("at", &Value::at), field("is_reply", &Value::is_reply),
-                 field("last_character", &Value::last_character), field("bytes", &Value::bytes)};
+      FieldList{field("at", &Value::at), field("is_reply", &Value::is_reply),
+                field("last_character", &Value::last_character), field("bytes", &Value::bytes)};
 };
 
 template <>
 struct StateOf<emulator::world::RtuStation::State> {
   using Value = emulator::world::RtuStation::State;
-  static constexpr auto fields = std::tuple{field("framer", &Value::framer),
-                                            field("counters", &Value::counters), field("late", &Value::late)};
+  static constexpr auto fields = FieldList{field("framer", &Value::framer),
+                                           field("counters", &Value::counters), field("late", &Value::late)};
   static void check(const Value& state) { emulator::world::FaultyWire::check(state.late); }
 };
 
 template <>
 struct StateOf<emulator::world::TextStation::Waiting> {
   using Value = emulator::world::TextStation::Waiting;
-  static constexpr auto fields = std::tuple{field("has_heard", &Value::has_heard),
-                                            field("heard", &Value::heard), field("echo", &Value::echo)};
+  static constexpr auto fields = FieldList{field("has_heard", &Value::has_heard),
+                                           field("heard", &Value::heard), field("echo", &Value::echo)};
 };
 
 template <>
 struct StateOf<emulator::world::TextStation::Outgoing> {
   using Value = emulator::world::TextStation::Outgoing;
   static constexpr auto fields =
-      std::tuple{field("last_character", &Value::last_character), field("text", &Value::text)};
+      FieldList{field("last_character", &Value::last_character), field("text", &Value::text)};
 };
 
 template <>
 struct StateOf<emulator::world::TextStation::State> {
   using Value = emulator::world::TextStation::State;
   static constexpr auto fields =
-      std::tuple{field("lines", &Value::lines),         field("counters", &Value::counters),
-                 field("waiting", &Value::waiting),     field("late", &Value::late),
-                 field("outgoing", &Value::outgoing),   field("free_at", &Value::free_at),
-                 field("speaks_at", &Value::speaks_at), field("is_held", &Value::is_held)};
+      FieldList{field("lines", &Value::lines),         field("counters", &Value::counters),
+                field("waiting", &Value::waiting),     field("late", &Value::late),
+                field("outgoing", &Value::outgoing),   field("free_at", &Value::free_at),
+                field("speaks_at", &Value::speaks_at), field("is_held", &Value::is_held)};
   static void check(const Value& state);
 };
 

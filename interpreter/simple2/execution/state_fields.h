@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <tuple>
 
 #include "base/state/fields.h"
 #include "base/state/state_bytes.h"
@@ -51,40 +50,40 @@ template <>
 struct StateOf<interpreter::simple2::LoopState> {
   using Value = interpreter::simple2::LoopState;
   static constexpr auto fields =
-      std::tuple{field("counts", &Value::counts), field("first_line", &Value::first_line),
-                 field("loop_line", &Value::loop_line), field("passes", &Value::passes)};
+      FieldList{field("counts", &Value::counts), field("first_line", &Value::first_line),
+                field("loop_line", &Value::loop_line), field("passes", &Value::passes)};
 };
 
 template <>
 struct StateOf<interpreter::simple2::Line> {
   using Value = interpreter::simple2::Line;
-  static constexpr auto fields = std::tuple{field("command", &Value::command), field("data1", &Value::data1),
-                                            field("data2", &Value::data2), field("flag", &Value::flag)};
+  static constexpr auto fields = FieldList{field("command", &Value::command), field("data1", &Value::data1),
+                                           field("data2", &Value::data2), field("flag", &Value::flag)};
 };
 
 template <>
 struct StateOf<interpreter::simple2::FlagRules> {
   using Value = interpreter::simple2::FlagRules;
   static constexpr auto fields =
-      std::tuple{field("several", &Value::several), field("after_end", &Value::after_end),
-                 field("found", &Value::found)};
+      FieldList{field("several", &Value::several), field("after_end", &Value::after_end),
+                field("found", &Value::found)};
 };
 
 template <>
 struct StateOf<interpreter::simple2::Execution> {
   using Value = interpreter::simple2::Execution;
-  static constexpr auto fields = std::tuple{field("running", &Value::running),
-                                            field("ending", &Value::ending),
-                                            field("now_line", &Value::now_line),
-                                            field("next_line", &Value::next_line),
-                                            field("phase", &Value::phase),
-                                            field("delay_until_ms", &Value::delay_until_ms),
-                                            field("waits_for_a", &Value::waits_for_a),
-                                            field("waits_for_b", &Value::waits_for_b),
-                                            field("waits", &Value::waits),
-                                            field("loop", &Value::loop),
-                                            field("held", &Value::held)};
-  static void check(const Value& value);
+  static constexpr auto fields = FieldList{field("running", &Value::running),
+                                           field("ending", &Value::ending),
+                                           field("now_line", &Value::now_line),
+                                           field("next_line", &Value::next_line),
+                                           field("phase", &Value::phase),
+                                           field("delay_until_ms", &Value::delay_until_ms),
+                                           field("waits_for_a", &Value::waits_for_a),
+                                           field("waits_for_b", &Value::waits_for_b),
+                                           field("waits", &Value::waits),
+                                           field("loop", &Value::loop),
+                                           field("held", &Value::held)};
+  static void check(const Value& execution);
 };
 
 /// A program's lines, and what they do not tell of its flags.
@@ -92,8 +91,8 @@ template <>
 struct StateOf<interpreter::simple2::ToldProgram> {
   using Value = interpreter::simple2::ToldProgram;
   static constexpr auto fields =
-      std::tuple{field("lines", &Value::lines), field("flag_rules", &Value::flag_rules),
-                 field("flag_lines", &Value::flag_lines)};
+      FieldList{field("lines", &Value::lines), field("flag_rules", &Value::flag_rules),
+                field("flag_lines", &Value::flag_lines)};
 };
 
 template <>

@@ -80,8 +80,8 @@ struct StateOf<fields_test::Colour> {
 };
 template <>
 struct StateOf<fields_test::Lamp> {
-  static constexpr auto fields = std::tuple{field("colour", &fields_test::Lamp::colour),
-                                            field("brightness", &fields_test::Lamp::brightness)};
+  static constexpr auto fields = FieldList{field("colour", &fields_test::Lamp::colour),
+                                           field("brightness", &fields_test::Lamp::brightness)};
   static void check(const fields_test::Lamp& lamp) {
     demand_state(lamp.brightness >= 0, "a lamp must not be darker than dark");
   }
@@ -89,16 +89,16 @@ struct StateOf<fields_test::Lamp> {
 template <>
 struct StateOf<fields_test::Panel> {
   using Panel = fields_test::Panel;
-  static constexpr auto fields = std::tuple{field("is_on", &Panel::is_on), field("number", &Panel::number),
-                                            field("spare", &Panel::spare), field("lamps", &Panel::lamps),
-                                            field("bytes", &Panel::bytes), field("since", &Panel::since)};
+  static constexpr auto fields = FieldList{field("is_on", &Panel::is_on), field("number", &Panel::number),
+                                           field("spare", &Panel::spare), field("lamps", &Panel::lamps),
+                                           field("bytes", &Panel::bytes), field("since", &Panel::since)};
 };
 
 template <>
 struct StateOf<fields_test::Shelf> {
   using Shelf = fields_test::Shelf;
-  static constexpr auto fields = std::tuple{field("label", &Shelf::label), field("lamps", &Shelf::lamps),
-                                            field("drawers", &Shelf::drawers, fields_test::drawer)};
+  static constexpr auto fields = FieldList{field("label", &Shelf::label), field("lamps", &Shelf::lamps),
+                                           field("drawers", &Shelf::drawers, fields_test::drawer)};
 };
 template <>
 struct StateOf<fields_test::Ring> {
@@ -113,7 +113,7 @@ struct StateOf<fields_test::Ring> {
 template <>
 struct StateOf<fields_test::Counter> {
   using Counter = fields_test::Counter;
-  static constexpr auto fields = std::tuple{field("runs", &Counter::runs), field("count", &Counter::count)};
+  static constexpr auto fields = FieldList{field("runs", &Counter::runs), field("count", &Counter::count)};
   static constexpr std::size_t members = 3;
   static constexpr std::size_t apart = 1;
 };
@@ -147,9 +147,11 @@ std::string refusal_of(const std::vector<std::byte>& bytes) {
 }
 
 TEST(Fields, MembersAreCountedWhateverTheyAre) {
-  static_assert(state_fields::member_count<Lamp>() == 2);
-  static_assert(state_fields::member_count<Panel>() == 6);
-  static_assert(std::tuple_size_v<std::remove_cvref_t<decltype(fields_of<Panel>())>> == 6);
+  static_assert(state_fields::has_members<Lamp, 2>());
+  static_assert(!state_fields::has_members<Lamp, 1>() && !state_fields::has_members<Lamp, 3>());
+  static_assert(state_fields::has_members<Panel, 6>());
+  static_assert(!state_fields::has_members<Panel, 5>() && !state_fields::has_members<Panel, 7>());
+  static_assert(std::remove_cvref_t<decltype(fields_of<Panel>())>::count == 6);
 }
 
 TEST(Fields, AreSavedInTheOrderOfTheirListAndComeBack) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <string_view>
-#include <tuple>
 
 #include "base/state/base64.h"
 
@@ -55,13 +54,13 @@ struct StateOf<state_bytes_test::Colour> {
 template <>
 struct StateOf<state_bytes_test::Point> {
   using Value = state_bytes_test::Point;
-  static constexpr auto fields = std::tuple{field("x", &Value::x), field("y", &Value::y)};
+  static constexpr auto fields = FieldList{field("x", &Value::x), field("y", &Value::y)};
   static void check(const Value& point) { demand_within(point.x, -100, 100); }
 };
 template <>
 struct StateOf<state_bytes_test::Sample> {
   using Value = state_bytes_test::Sample;
-  static constexpr auto fields = std::tuple{
+  static constexpr auto fields = FieldList{
       field("byte", &Value::byte),      field("number", &Value::number), field("yes", &Value::yes),
       field("colour", &Value::colour),  field("real", &Value::real),     field("time", &Value::time),
       field("maybe", &Value::maybe),    field("pair", &Value::pair),     field("points", &Value::points),
@@ -70,7 +69,7 @@ struct StateOf<state_bytes_test::Sample> {
 template <>
 struct StateOf<state_bytes_test::Secret> {
   using Value = state_bytes_test::Secret;
-  static constexpr auto fields = std::tuple{field("value", &Value::value_)};
+  static constexpr auto fields = FieldList{field("value", &Value::value_)};
   static constexpr std::size_t members = 1;
 };
 

@@ -76,17 +76,31 @@ TEST(ReadOnlyPages, PassOnWhatLooksAndNothingThatChanges) {
        {R"({"do":"status"})", R"({"do":"bench"})", R"({"do":"registers"})", R"({"do":"get","names":["a"]})",
         R"({"do":"eval"})", R"({"do":"list"})", R"({"do":"frames"})", R"({"do":"events"})",
         R"({"do":"where"})", R"({"do":"scope"})", R"({"do":"program","device":"a"})", R"({"do":"faults"})",
-        R"({"do":"choices"})", R"({"do":"snapshots"})"}) {
+        R"({"do":"choices"})", R"({"do":"snapshots"})", R"({"do":"timeline","from":500})"}) {
     EXPECT_EQ(refusal_of(message, true), "") << message;
     EXPECT_EQ(refusal_of(message, false), "") << message;
   }
-  for (const char* message :
-       {R"({"do":"set","values":{}})", R"({"do":"input"})", R"({"do":"turn"})", R"({"do":"power"})",
-        R"({"do":"inject"})", R"({"do":"clear"})", R"({"do":"send"})", R"({"do":"snapshot","name":"a"})",
-        R"({"do":"restore","name":"a"})", R"({"do":"advance"})", R"({"do":"run-until"})", R"({"do":"step"})",
-        R"({"do":"pause"})", R"({"do":"resume"})", R"({"do":"speed"})", R"({"do":"program","text":""})",
-        R"({"do":"scope","names":["a"]})", R"({"do":"scope","off":true})",
-        R"({"do":"snapshots","drop":"a"})"}) {
+  for (const char* message : {R"({"do":"set","values":{}})",
+                              R"({"do":"input"})",
+                              R"({"do":"turn"})",
+                              R"({"do":"power"})",
+                              R"({"do":"inject"})",
+                              R"({"do":"clear"})",
+                              R"({"do":"send"})",
+                              R"({"do":"snapshot","name":"a"})",
+                              R"({"do":"restore","name":"a"})",
+                              R"({"do":"advance"})",
+                              R"({"do":"run-until"})",
+                              R"({"do":"step"})",
+                              R"({"do":"pause"})",
+                              R"({"do":"resume"})",
+                              R"({"do":"speed"})",
+                              R"({"do":"program","text":""})",
+                              R"({"do":"scope","names":["a"]})",
+                              R"({"do":"scope","off":true})",
+                              R"({"do":"snapshots","drop":"a"})",
+                              R"({"do":"seek","to_ns":5})",
+                              R"({"do":"command","device":"a","text":"MOVE"})"}) {
     EXPECT_NE(refusal_of(message, true), "") << message;
     EXPECT_EQ(refusal_of(message, false), "") << message;
   }

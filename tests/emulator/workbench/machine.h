@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <tuple>
 
 #include "base/state/fields.h"
 #include "emulator/device/device.h"
@@ -169,19 +168,19 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::Motor> {
   using Value = emulator::workbench::Motor;
-  static constexpr auto fields = std::tuple{field("axis", &Value::axis), field("here", &Value::here),
-                                            field("sent_pulses", &Value::sent_pulses)};
+  static constexpr auto fields = FieldList{field("axis", &Value::axis), field("here", &Value::here),
+                                           field("sent_pulses", &Value::sent_pulses)};
 };
 
 template <>
 struct StateOf<emulator::workbench::MotorsState> {
   using Value = emulator::workbench::MotorsState;
-  static constexpr auto fields = std::tuple{field("motors", &Value::motors),
-                                            field("wheel_seen", &Value::wheel_seen),
-                                            field("external_seen", &Value::external_seen),
-                                            field("external_edges", &Value::external_edges),
-                                            field("compared", &Value::compared),
-                                            field("low_active", &Value::low_active)};
+  static constexpr auto fields = FieldList{field("motors", &Value::motors),
+                                           field("wheel_seen", &Value::wheel_seen),
+                                           field("external_seen", &Value::external_seen),
+                                           field("external_edges", &Value::external_edges),
+                                           field("compared", &Value::compared),
+                                           field("low_active", &Value::low_active)};
 };
 
 }  // namespace understudy

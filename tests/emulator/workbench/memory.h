@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -127,7 +126,7 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::Kept> {
   using Value = emulator::workbench::Kept;
-  static constexpr auto fields = std::tuple{field("eeprom", &Value::eeprom), field("blocks", &Value::blocks)};
+  static constexpr auto fields = FieldList{field("eeprom", &Value::eeprom), field("blocks", &Value::blocks)};
 };
 
 }  // namespace understudy

@@ -7,7 +7,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -53,18 +52,18 @@ namespace understudy {
 template <>
 struct StateOf<emulator::workbench::WorkbenchState> {
   using Value = emulator::workbench::WorkbenchState;
-  static constexpr auto fields = std::tuple{field("image", &Value::image),
-                                            field("positions", &Value::positions),
-                                            field("targets", &Value::targets),
-                                            field("fifo", &Value::fifo),
-                                            field("done", &Value::done),
-                                            field("cause", &Value::cause),
-                                            field("reason", &Value::reason),
-                                            field("program_refused", &Value::program_refused),
-                                            field("motors", &Value::motors),
-                                            field("receive_errors", &Value::receive_errors),
-                                            field("last_receive_error", &Value::last_receive_error),
-                                            field("kept", &Value::kept)};
+  static constexpr auto fields = FieldList{field("image", &Value::image),
+                                           field("positions", &Value::positions),
+                                           field("targets", &Value::targets),
+                                           field("fifo", &Value::fifo),
+                                           field("done", &Value::done),
+                                           field("cause", &Value::cause),
+                                           field("reason", &Value::reason),
+                                           field("program_refused", &Value::program_refused),
+                                           field("motors", &Value::motors),
+                                           field("receive_errors", &Value::receive_errors),
+                                           field("last_receive_error", &Value::last_receive_error),
+                                           field("kept", &Value::kept)};
 };
 
 }  // namespace understudy

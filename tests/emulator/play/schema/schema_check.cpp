@@ -100,6 +100,14 @@ class Judge {
       }
       return "";
     }
+    if (keyword == "propertyNames") {
+      std::string found;
+      for (auto at_key = value.begin(); value.is_object() && found.empty() && at_key != value.end();
+           ++at_key) {
+        found = complaint(rule, at_key.key(), at + "." + at_key.key());
+      }
+      return found;
+    }
     if (!value.is_object()) {
       if (keyword == "properties" || keyword == "required" || keyword == "additionalProperties" ||
           keyword == "dependencies")

@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <sstream>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,9 +53,9 @@ template <>
 struct StateOf<emulator::world::EchoState> {
   using Value = emulator::world::EchoState;
   static constexpr auto fields =
-      std::tuple{field("speech", &Value::speech), field("speaks_at", &Value::speaks_at),
-                 field("n0", &Value::n0),         field("r0", &Value::r0),
-                 field("echo", &Value::echo),     field("program", &Value::program)};
+      FieldList{field("speech", &Value::speech), field("speaks_at", &Value::speaks_at),
+                field("n0", &Value::n0),         field("r0", &Value::r0),
+                field("echo", &Value::echo),     field("program", &Value::program)};
 };
 
 }  // namespace understudy

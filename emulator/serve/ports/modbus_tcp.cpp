@@ -1,0 +1,122 @@
+#include "emulator/serve/ports/modbus_tcp.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "pty/rtu_crc.h"
+
+namespace understudy::emulator::serve {
+
+namespace {
+
+// Transaction, protocol (0), length of what follows; then the unit and the request itself.
+constexpr std::size_t kHeader = 6;
+constexpr std::size_t kLeastLength = 2;
+constexpr std::size_t kMostLength = 254;
+
+constexpr std::uint8_t kException = 0x80;
+constexpr std::uint8_t kTargetDoesNotRespond = 0x0B;
+constexpr std::size_t kExceptionFrame = 5;  // also the shortest reply
+
+std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
+}
+
+/// How long the RTU frame is that begins so; nothing: its function does not tell.
+std::optional<std::size_t> size_of_reply(std::span<const std::uint8_t> frame) {
+  const std::uint8_t function = frame[1];
+  if ((function & kException) != 0) return kExceptionFrame;
+  if (function >= 0x01 && function <= 0x04) return kExceptionFrame + frame[2];
+  if (function == 0x05 || function == 0x06 || function == 0x0F || function == 0x10) return 8;
+  return std::nullopt;
+}
+
+/// False: the message that begins so tells of a length that none has.
+bool is_length_possible(std::span<const std::uint8_t> heard) {
+  if (heard.size() < kHeader) return true;
+  const std::size_t length = word_at(heard, 4);
+  return length >= kLeastLength && length <= kMostLength;
+}
+
+bool is_whole(std::span<const std::uint8_t> heard) {
+  return heard.size() >= kHeader && heard.size() >= kHeader + word_at(heard, 4);
+}
+
+}  // namespace
+
+bool ModbusTcp::hear_client(std::span<const std::uint8_t> bytes) {
+  heard_.insert(heard_.end(), bytes.begin(), bytes.end());
+  std::span<const std::uint8_t> rest = heard_;
+  while (is_length_possible(rest)) {
+    if (!is_whole(rest)) return true;
+    rest = rest.subspan(kHeader + word_at(rest, 4));
+  }
+  return false;
+}
+
+ModbusTcp::Bytes ModbusTcp::take_for_line() {
+  while (!on_line_ && to_client_.empty() && is_whole(heard_)) {
+    const auto end = heard_.begin() + static_cast<std::ptrdiff_t>(kHeader + word_at(heard_, 4));
+    const bool is_modbus = word_at(heard_, 2) == 0;
+    Bytes frame(heard_.begin() + kHeader, end);
+    if (is_modbus)
+      on_line_ = Request{.transaction = word_at(heard_, 0), .unit = frame[0], .function = frame[1]};
+    heard_.erase(heard_.begin(), end);
+    if (!is_modbus) continue;  // of another protocol: passed over, as the standard has it
+    reply_.clear();
+    pty::append_rtu_crc(frame);
+    return frame;
+  }
+  return {};
+}
+
+/// What is no reply to the request on the line (too late for another, or changed on its way) is not passed
+/// on.
+void ModbusTcp::hear_line(std::span<const std::uint8_t> bytes) {
+  if (!on_line_) return;
+  reply_.insert(reply_.end(), bytes.begin(), bytes.end());
+  while (reply_.size() >= kExceptionFrame) {
+    const std::size_t size = size_of_reply(reply_).value_or(reply_.size());
+    if (reply_.size() < size) return;
+    const std::span<const std::uint8_t> frame = std::span<const std::uint8_t>(reply_).first(size);
+    const bool is_good = pty::rtu_crc_ok(frame);
+    if (!is_good && !size_of_reply(reply_)) return;  // not all of it yet
+    if (is_good && frame[0] == on_line_->unit && (frame[1] & ~kException) == on_line_->function) {
+      answer(frame.subspan(1, size - 3));
+      reply_.clear();
+      return;
+    }
+    reply_.erase(reply_.begin(), reply_.begin() + static_cast<std::ptrdiff_t>(size));
+  }
+}
+
+void ModbusTcp::give_up() {
+  if (!on_line_) return;
+  if (is_broadcast()) {
+    on_line_.reset();
+    return;
+  }
+  answer(std::array{static_cast<std::uint8_t>(on_line_->function | kException), kTargetDoesNotRespond});
+}
+
+void ModbusTcp::answer(std::span<const std::uint8_t> pdu) {
+  const std::size_t length = pdu.size() + 1;
+  const std::array header{static_cast<std::uint8_t>(on_line_->transaction >> 8),
+                          static_cast<std::uint8_t>(on_line_->transaction),
+                          std::uint8_t{0},
+                          std::uint8_t{0},
+                          static_cast<std::uint8_t>(length >> 8),
+                          static_cast<std::uint8_t>(length),
+                          on_line_->unit};
+  to_client_.insert(to_client_.end(), header.begin(), header.end());
+  to_client_.insert(to_client_.end(), pdu.begin(), pdu.end());
+  on_line_.reset();
+}
+
+ModbusTcp::Bytes ModbusTcp::take_for_client() { return std::exchange(to_client_, {}); }
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,52 @@
+// Modbus TCP to RTU and back, as a gateway does it: one request at a time is on the line, the others wait for
+// their turn. Bytes in, bytes out; who waits, and how long, is the caller's. Source: MODBUS Messaging on
+// TCP/IP 1.0b, 3.1.3 and 4.4.2.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace understudy::emulator::serve {
+
+class ModbusTcp {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+
+  /// False: they tell of a length that no request has, so where the next begins is not known.
+  [[nodiscard]] bool hear_client(std::span<const std::uint8_t> bytes);
+  void hear_line(std::span<const std::uint8_t> bytes);
+  /// The time for the reply is over: the client is told that the station does not answer, but for a
+  /// broadcast.
+  void give_up();
+
+  /// The next request as an RTU frame, with its checksum. Empty if there is none, while another is on the
+  /// line, and until the last answer is taken: a client that takes none gets no further requests through.
+  Bytes take_for_line();
+  Bytes take_for_client();
+
+  /// Whether a request is on the line; `is_broadcast`: nobody answers it, but for a station with number 0.
+  bool waits() const { return on_line_.has_value(); }
+  bool is_broadcast() const { return on_line_ && on_line_->unit == 0; }
+  /// Whether it wants to hear more of the client.
+  bool has_room() const { return heard_.size() < kMostHeard; }
+
+ private:
+  static constexpr std::size_t kMostHeard = 4096;
+
+  struct Request {
+    std::uint16_t transaction = 0;
+    std::uint8_t unit = 0;
+    std::uint8_t function = 0;
+  };
+  void answer(std::span<const std::uint8_t> pdu);
+
+  Bytes heard_;  // of the client: whole requests, and the beginning of one
+  Bytes reply_;  // of the line, as far as it has come
+  Bytes to_client_;
+  std::optional<Request> on_line_;
+};
+
+}  // namespace understudy::emulator::serve

@@ -1,0 +1,19 @@
+# Read by cpack: what the Debian package depends on. CPack's own way runs `file` on each of the package's
+# hundreds of scenarios and pages, half a minute of it; only two files are programs. And without
+# dpkg-shlibdeps it would make a package that depends on nothing, and only warn.
+if(CPACK_GENERATOR STREQUAL "DEB")
+  find_program(found_dpkg-shlibdeps dpkg-shlibdeps)
+  if(NOT found_dpkg-shlibdeps)
+    message(FATAL_ERROR "dpkg-shlibdeps is missing; expected the package dpkg-dev")
+  endif()
+  set(folder ${CPACK_PACKAGE_DIRECTORY}/_depends)
+  file(WRITE ${folder}/debian/control "Source: understudy\n\nPackage: understudy\nArchitecture: any\n")
+  execute_process(COMMAND ${found_dpkg-shlibdeps} -O ${CPACK_UNDERSTUDY_PROGRAMS}
+                  WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE said ERROR_VARIABLE complained RESULT_VARIABLE result)
+  string(REGEX MATCH "shlibs:Depends=([^\n]*)" found "${said}")
+  if(NOT result EQUAL 0 OR NOT found)
+    message(FATAL_ERROR "dpkg-shlibdeps: ${complained}")
+  endif()
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "${CMAKE_MATCH_1}")
+  file(REMOVE_RECURSE ${folder})
+endif()

@@ -1,0 +1,75 @@
+// Hosts that are elsewhere: a line that is reached by TCP, with raw sockets and python3-serial.
+#include <gtest/gtest.h>
+
+#include "tests/acceptance/raw_host.h"
+#include "tests/acceptance/running_understudy.h"
+#include "tests/acceptance/tcp_client.h"
+
+namespace understudy::acceptance {
+namespace tcp_door_test {
+
+TEST(TcpDoor, ServesRawRtuToOneClientAfterTheOther) {
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  for (int i = 0; i < 5; ++i) {
+    const TcpClient client(listened_port(served));
+    ASSERT_TRUE(client.is_connected);
+    client.write(kReadHardwareCode);
+    EXPECT_EQ(client.read(kHardwareCodeReply.size()), kHardwareCodeReply);
+  }
+  EXPECT_EQ(served.errors().find("deaf"), std::string::npos) << served.errors();
+}
+
+TEST(TcpDoor, RefusesTheSecondClientAndKeepsTheFirst) {
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  const TcpClient first(listened_port(served));
+  first.write(kReadHardwareCode);
+  EXPECT_EQ(first.read(kHardwareCodeReply.size()), kHardwareCodeReply);
+  EXPECT_TRUE(TcpClient(listened_port(served)).is_closed());
+  first.write(kReadHardwareCode);
+  EXPECT_EQ(first.read(kHardwareCodeReply.size()), kHardwareCodeReply);
+}
+
+TEST(TcpDoor, ReplaysWhatCameByTcp) {
+  const PrivateFolder folder;
+  {
+    RunningUnderstudy served({"--listen", "rtu://:0", "--record", folder / "r"});
+    const TcpClient client(listened_port(served));
+    client.write(kSetSpeed200);
+    EXPECT_EQ(client.read(kSetSpeed200.size()), kSetSpeed200);
+    EXPECT_EQ(served.stop(SIGTERM), 0);
+  }
+  const Finished replay = understudy({"replay", folder / "r"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.errors;
+}
+
+TEST(TcpDoor, IsOpenToPythonSerial) {
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  const std::string script =
+      "import serial; s = serial.serial_for_url('socket://127.0.0.1:" +
+      std::to_string(listened_port(served)) +
+      "', timeout=5); s.write(bytes.fromhex('010300010001D5CA')); print(s.read(7).hex())";
+  const Finished host = run({"/usr/bin/python3", "-c", script});
+  EXPECT_EQ(host.output, "010302c0012984\n") << host.errors;
+}
+
+TEST(TcpDoor, SaysWhyItCannotListen) {
+  const RunningUnderstudy served({"--listen", "rtu://:0"});
+  const std::string taken = "rtu://127.0.0.1:" + std::to_string(listened_port(served));
+  struct Case {
+    const char* wish;
+    int exit_code;
+    const char* said;
+  };
+  for (const Case& c :
+       {Case{taken.c_str(), 3, "Address already in use"}, Case{"tcp://:1", 2, "expected rtu://"},
+        Case{"modbus-tcp://1", 2, "expected rtu://"}, Case{"rtu://:70000", 2, "expected rtu://"},
+        Case{"rtu://here:1", 3, "not an address"}, Case{"other=rtu://:0", 2, "is not a line"}}) {
+    const Finished refused = understudy({"serve", "--model", "simple2-r3", "--listen", c.wish});
+    EXPECT_EQ(refused.exit_code, c.exit_code) << c.wish;
+    EXPECT_EQ(lines_of(refused.errors).size(), 1U) << refused.errors;
+    EXPECT_NE(refused.errors.find(c.said), std::string::npos) << refused.errors;
+  }
+}
+
+}  // namespace tcp_door_test
+}  // namespace understudy::acceptance

@@ -1,0 +1,221 @@
+// Modbus TCP to RTU and back. The frames are those of the two standards, written out by hand.
+#include "emulator/serve/ports/modbus_tcp.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "pty/rtu_crc.h"
+#include "tests/pty/pty_host.h"
+
+namespace understudy::emulator::serve {
+namespace modbus_tcp_test {
+
+using pty::hex;
+using Bytes = ModbusTcp::Bytes;
+
+// Read one register at 1 of station 1, and what a station says to it.
+const Bytes kRequest = hex("12 34 00 00 00 06 01 03 00 01 00 01");
+const Bytes kFrame = hex("01 03 00 01 00 01 D5 CA");
+const Bytes kReplyFrame = hex("01 03 02 C0 01 29 84");
+const Bytes kReply = hex("12 34 00 00 00 05 01 03 02 C0 01");
+const Bytes kNobody = hex("12 34 00 00 00 03 01 83 0B");
+
+Bytes with_transaction(Bytes message, std::uint8_t low) {
+  message[1] = low;
+  return message;
+}
+
+TEST(ModbusTcp, MakesAFrameOfARequestAndAnAnswerOfAReply) {
+  ModbusTcp gateway;
+  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_EQ(gateway.take_for_line(), kFrame);
+  EXPECT_TRUE(gateway.waits());
+  EXPECT_EQ(gateway.take_for_client(), Bytes{});
+  gateway.hear_line(kReplyFrame);
+  EXPECT_EQ(gateway.take_for_client(), kReply);
+  EXPECT_FALSE(gateway.waits());
+}
+
+TEST(ModbusTcp, TakesBothInPiecesOfAnySize) {
+  for (std::size_t piece = 1; piece < kRequest.size(); ++piece) {
+    ModbusTcp gateway;
+    for (std::size_t at = 0; at < kRequest.size(); at += piece) {
+      EXPECT_EQ(gateway.take_for_line(), Bytes{}) << at;
+      EXPECT_TRUE(
+          gateway.hear_client(std::span(kRequest).subspan(at, std::min(piece, kRequest.size() - at))));
+    }
+    EXPECT_EQ(gateway.take_for_line(), kFrame) << piece;
+    for (std::size_t at = 0; at < kReplyFrame.size(); at += piece) {
+      EXPECT_EQ(gateway.take_for_client(), Bytes{}) << at;
+      gateway.hear_line(std::span(kReplyFrame).subspan(at, std::min(piece, kReplyFrame.size() - at)));
+    }
+    EXPECT_EQ(gateway.take_for_client(), kReply) << piece;
+  }
+}
+
+TEST(ModbusTcp, HasOneRequestAtATimeOnTheLine) {
+  ModbusTcp gateway;
+  Bytes three;
+  for (const std::uint8_t low : {1, 2, 3}) {
+    const Bytes one = with_transaction(kRequest, low);
+    three.insert(three.end(), one.begin(), one.end());
+  }
+  EXPECT_TRUE(gateway.hear_client(three));
+  for (const std::uint8_t low : {1, 2, 3}) {
+    EXPECT_EQ(gateway.take_for_line(), kFrame);
+    EXPECT_EQ(gateway.take_for_line(), Bytes{}) << "another is on the line";
+    gateway.hear_line(kReplyFrame);
+    EXPECT_EQ(gateway.take_for_client(), with_transaction(kReply, low));
+  }
+  EXPECT_EQ(gateway.take_for_line(), Bytes{});
+}
+
+TEST(ModbusTcp, KnowsWhereEachReplyEnds) {
+  struct Case {
+    const char* request;
+    const char* frame;
+    const char* answer;
+  };
+  for (const Case& c : {
+           Case{"00 01 00 00 00 06 11 05 00 AC FF 00", "11 05 00 AC FF 00 4E 8B",
+                "00 01 00 00 00 06 11 05 00 AC FF 00"},
+           Case{"00 01 00 00 00 06 11 06 00 01 00 03", "11 06 00 01 00 03 9A 9B",
+                "00 01 00 00 00 06 11 06 00 01 00 03"},
+           Case{"00 01 00 00 00 0B 11 10 00 01 00 02 04 00 0A 01 02", "11 10 00 01 00 02 12 98",
+                "00 01 00 00 00 06 11 10 00 01 00 02"},
+           Case{"00 01 00 00 00 06 0A 01 04 A1 00 01", "0A 81 02 B0 53", "00 01 00 00 00 03 0A 81 02"},
+           // A function whose replies have no length of their own: at the first checksum that is right.
+           Case{"00 01 00 00 00 02 01 41", "01 41 07 08 52 3A", "00 01 00 00 00 04 01 41 07 08"},
+       }) {
+    ModbusTcp gateway;
+    EXPECT_TRUE(gateway.hear_client(hex(c.request)));
+    gateway.take_for_line();
+    for (const std::uint8_t byte : hex(c.frame)) {
+      EXPECT_EQ(gateway.take_for_client(), Bytes{});
+      gateway.hear_line(std::array{byte});
+    }
+    EXPECT_EQ(gateway.take_for_client(), hex(c.answer)) << c.request;
+  }
+}
+
+TEST(ModbusTcp, TellsOfAStationThatDoesNotAnswer) {
+  ModbusTcp gateway;
+  EXPECT_TRUE(gateway.hear_client(kRequest));
+  gateway.take_for_line();
+  gateway.give_up();
+  EXPECT_EQ(gateway.take_for_client(), kNobody);
+  EXPECT_FALSE(gateway.waits());
+  gateway.hear_line(kReplyFrame);  // too late
+  EXPECT_EQ(gateway.take_for_client(), Bytes{});
+  gateway.give_up();
+  EXPECT_EQ(gateway.take_for_client(), Bytes{}) << "nothing was asked";
+}
+
+TEST(ModbusTcp, PassesOnNothingButTheReply) {
+  const Bytes of_station_2 = hex("02 03 02 C0 01 6D 84");
+  const Bytes garbled = hex("01 03 02 C0 02 29 84");
+  const Bytes of_function_6 = hex("01 06 10 02 00 C8 2D 5C");
+  for (const Bytes& other : {of_station_2, garbled, of_function_6}) {
+    ModbusTcp gateway;
+    EXPECT_TRUE(gateway.hear_client(kRequest));
+    gateway.take_for_line();
+    gateway.hear_line(other);
+    EXPECT_EQ(gateway.take_for_client(), Bytes{});
+    gateway.hear_line(kReplyFrame);
+    EXPECT_EQ(gateway.take_for_client(), kReply);
+  }
+}
+
+TEST(ModbusTcp, LeavesABroadcastUnanswered) {
+  ModbusTcp gateway;
+  EXPECT_TRUE(gateway.hear_client(hex("12 34 00 00 00 06 00 06 10 02 00 C8")));
+  EXPECT_EQ(gateway.take_for_line(), hex("00 06 10 02 00 C8 2C 8D"));
+  EXPECT_TRUE(gateway.is_broadcast());
+  gateway.give_up();
+  EXPECT_EQ(gateway.take_for_client(), Bytes{});
+  EXPECT_FALSE(gateway.waits());
+}
+
+TEST(ModbusTcp, PassesOverAnotherProtocol) {
+  ModbusTcp gateway;
+  EXPECT_TRUE(gateway.hear_client(hex("00 01 00 07 00 03 01 02 03")));
+  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_EQ(gateway.take_for_line(), kFrame);
+}
+
+TEST(ModbusTcp, LetsALengthGoThatNoRequestHas) {
+  for (const char* length : {"00 00", "00 01", "00 FF", "FF FF"}) {
+    ModbusTcp gateway;
+    EXPECT_FALSE(gateway.hear_client(hex("00 01 00 00 " + std::string(length)))) << length;
+    ModbusTcp later;
+    Bytes both = kRequest;
+    const Bytes wrong = hex("00 01 00 00 " + std::string(length));
+    both.insert(both.end(), wrong.begin(), wrong.end());
+    EXPECT_FALSE(later.hear_client(both)) << length;
+  }
+  ModbusTcp gateway;
+  EXPECT_TRUE(gateway.hear_client(hex("00 01 00 00 00 FE")));
+}
+
+TEST(ModbusTcp, HasRoomForSoMuch) {
+  ModbusTcp gateway;
+  for (int i = 0; gateway.has_room(); ++i) {
+    ASSERT_LT(i, 1000);
+    EXPECT_TRUE(gateway.hear_client(kRequest));
+  }
+  while (!gateway.take_for_line().empty()) {
+    gateway.give_up();
+    EXPECT_FALSE(gateway.take_for_client().empty());
+  }
+  EXPECT_TRUE(gateway.has_room());
+}
+
+TEST(ModbusTcp, WaitsUntilItsAnswerIsTaken) {
+  ModbusTcp gateway;
+  EXPECT_TRUE(gateway.hear_client(kRequest));
+  EXPECT_TRUE(gateway.hear_client(kRequest));
+  gateway.take_for_line();
+  gateway.hear_line(kReplyFrame);
+  EXPECT_EQ(gateway.take_for_line(), Bytes{}) << "nobody has taken the answer";
+  EXPECT_EQ(gateway.take_for_client(), kReply);
+  EXPECT_EQ(gateway.take_for_line(), kFrame);
+}
+
+// Whatever comes from both sides, frames have their checksum and answers their length, and nothing grows.
+TEST(ModbusTcp, StaysWholeWhateverItHears) {
+  std::mt19937 random(20'261'124);
+  const std::array pieces{kRequest,
+                          kReplyFrame,
+                          hex("00 01 00 00 00 06 00 06 10 02 00 C8"),
+                          hex("00 02 00 09 00 03 01 03 05"),
+                          hex("00 03 00 00 00 02 01 41"),
+                          hex("01 83 02 C0 F1"),
+                          hex("00 04 00 00 00 FE 07")};
+  ModbusTcp gateway;
+  int frames = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    Bytes piece = pieces[random() % pieces.size()];
+    if (random() % 4 == 0) piece[random() % piece.size()] = static_cast<std::uint8_t>(random());
+    piece.resize(1 + random() % piece.size());
+    const unsigned what = random() % 8;
+    if (what < 4 && gateway.has_room() && !gateway.hear_client(piece)) gateway = ModbusTcp();
+    if (what >= 4 && what < 7) gateway.hear_line(piece);
+    if (what == 7) gateway.give_up();
+    const Bytes frame = gateway.take_for_line();
+    if (!frame.empty()) {
+      ++frames;
+      ASSERT_TRUE(pty::rtu_crc_ok(frame));
+      ASSERT_TRUE(gateway.waits());
+    }
+    const Bytes answer = gateway.take_for_client();
+    if (answer.empty()) continue;
+    ASSERT_EQ(answer.size(), 6U + answer[5]) << "one, as one request was on the line";
+    ASSERT_LE(answer.size(), 260U);
+  }
+  EXPECT_GT(frames, 1'000);
+}
+
+}  // namespace modbus_tcp_test
+}  // namespace understudy::emulator::serve
