@@ -1,5 +1,7 @@
 # Run at the installation (cmake/packaging.cmake sets what is used here): writes what names the prefix or
 # comes from the program itself, and installs it.
+string(RANDOM LENGTH 12 own)  # installations may run side by side
+set(STAGING "${STAGING}/${own}")
 file(MAKE_DIRECTORY "${STAGING}")
 
 # zip(FILE FOLDER): installs it compressed, without time or name, so that equal input gives equal bytes.
@@ -35,3 +37,5 @@ function(schema what)
 endfunction()
 schema(bench)
 schema(scenario)
+
+file(REMOVE_RECURSE "${STAGING}")
