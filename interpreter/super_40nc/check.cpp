@@ -194,7 +194,7 @@ class Checker {
     const Token& token = tokens[at];
     if (!is_in_area_) {
       if (!std::exchange(is_lost_, true)) {
-        fail(token, Code::unknown, quoted(token.text) + " stands in no area", "AREA before it");
+        fail(token, Code::unknown, quoted(token.text) + " is outside any area", "AREA before it");
       }
       return;
     }
@@ -209,7 +209,7 @@ class Checker {
     Instruction instruction{row->op};
     const std::size_t errors = checked_.errors.size();
     if (tokens.size() - at - 1 > instruction.fields.size()) {
-      fail(tokens[at + 5], Code::unknown, "is a field too many", "at most 4");
+      fail(tokens[at + 5], Code::unknown, "is one field too many", "at most 4");
     }
     for (std::size_t i = 0; i < instruction.fields.size() && at + 1 + i < tokens.size(); ++i) {
       instruction.fields[i] = read_operand(tokens[at + 1 + i]);

@@ -134,7 +134,7 @@ class Listing final : public ProgramLanguage, public ProgramCells {
     const LanguageOptions options = language_options(settings);
     for (const CellRow& row : rows) text += line_of(row, state, options.command);
     if (state != lang::State::ready) {
-      throw ProgramError(rows.back().line, 0, "ends within a macro; expected its CLOSE");
+      throw ProgramError(rows.back().line, 0, "ends inside a macro; expected its CLOSE");
     }
     const lang::ParsedListing parsed = parse(text, settings);
     if (!parsed.errors.empty()) throw ProgramError(mistakes_of(parsed.errors));
