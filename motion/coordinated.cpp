@@ -33,8 +33,11 @@ Axis* axis_at(std::int8_t number, std::span<Axis> axes) {
 }  // namespace
 
 std::int64_t Coordinated::travel_at(std::size_t i, double place_u) const {
+  const UnitScale& by = scale[i];
+  // A unit is a pulse for most, and dividing by 1 takes its time all the same.
+  if (by.multiplier == 1 && by.divider == 1) return zero_pulses[i] + nearest(place_u);
   return zero_pulses[i] +
-         nearest(place_u * static_cast<double>(scale[i].multiplier) / static_cast<double>(scale[i].divider));
+         nearest(place_u * static_cast<double>(by.multiplier) / static_cast<double>(by.divider));
 }
 
 bool Coordinated::takes(std::size_t axis) const {

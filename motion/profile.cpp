@@ -13,9 +13,7 @@ namespace understudy::motion {
 Sample sample_segment(const Segment& segment, double t_s) {
   const double half_jerk = 0.5 * segment.jerk_u_s3;
   return {
-      .position_u = segment.position_u +
-                    t_s * (segment.speed_u_s +
-                           t_s * (0.5 * segment.acceleration_u_s2 + t_s * (segment.jerk_u_s3 * (1.0 / 6.0)))),
+      .position_u = position_in_segment(segment, t_s),
       .speed_u_s = segment.speed_u_s + t_s * (segment.acceleration_u_s2 + t_s * half_jerk),
       .acceleration_u_s2 = segment.acceleration_u_s2 + t_s * segment.jerk_u_s3,
       .jerk_u_s3 = segment.jerk_u_s3,
