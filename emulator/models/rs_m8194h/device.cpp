@@ -365,7 +365,7 @@ std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
-    state_ = std::move(*restored);
+    state_ = *restored;
     compiled_revision_ = UINT64_MAX;
     // What it cannot have been doing it does not go on with.
     if (!lang::is_sound(state_.execution, *this)) lang::terminate(state_.execution);
