@@ -235,6 +235,7 @@ void RsM8194h::sample_inputs(Tick tick) {
 void RsM8194h::step_motion(Tick tick) {
   const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
   step_axes(tick);
+  heed_path_speed(tick);
   heed_ends();
   heed_path_end(was_full);
   act_on_events(tick);
