@@ -235,6 +235,7 @@ void RsM8194h::sample_inputs(Tick tick) {
 void RsM8194h::step_motion(Tick tick) {
   const bool was_full = state_.paths.together.engaged && state_.paths.together.run.queued() > 1;
   step_axes(tick);
+  heed_path_speed(tick);
   heed_ends();
   heed_path_end(was_full);
   act_on_events(tick);
@@ -365,7 +366,7 @@ std::function<void()> RsM8194h::read_own_state(StateReader& reader) {
   restored->eeprom.check_restored(state_.eeprom);
   restored->blocks.check_restored(state_.blocks);
   return [this, restored] {
-    state_ = std::move(*restored);
+    state_ = *restored;
     compiled_revision_ = UINT64_MAX;
     // What it cannot have been doing it does not go on with.
     if (!lang::is_sound(state_.execution, *this)) lang::terminate(state_.execution);

@@ -131,6 +131,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   Start may_start(std::size_t axis, Starter who, bool on_path = false) const;
   /// Sets the error bits of what keeps axes from starting.
   void note_obstacles(AxisMask axes);
+  bool waits_behind_held(AxisMask axes) const;
 
   void halt(AxisMask axes, const StopRow& row);
   void clear_stop(AxisMask axes);
@@ -196,6 +197,7 @@ class RsM8194h final : public DeviceOf<RsM8194h>,
   void step_axes(Tick tick);
   void heed_ends();
   void heed_home(std::size_t axis);
+  void heed_path_speed(Tick tick);
   void heed_path_end(bool was_full);
   void act_on_events(Tick tick);
   void act_together(Tick tick);

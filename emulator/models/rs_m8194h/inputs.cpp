@@ -154,7 +154,8 @@ void RsM8194h::look_again(std::size_t axis) {
                                                   motion::Event::constant_started,
                                                   motion::Event::ended};
   for (std::size_t i = 0; i < kIsrFactors; ++i) {
-    if ((unit.factors >> i & 1) != 0) asked.events |= motion::bit(kEvents[i]);
+    const bool is_asked = machine_.all_factors_are_noted || (unit.factors >> i & 1) != 0;
+    if (is_asked) asked.events |= motion::bit(kEvents[i]);
   }
   // Its own stop is met at the pulse of the comparison.
   if (has(state_.sync.triggers[axis].activates, axis)) {

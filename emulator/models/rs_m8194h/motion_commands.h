@@ -144,8 +144,14 @@ Took initial(RsM8194h& it, const Command& command) {
 /// 7.4.12: the setting is used up by the next scan. It takes C+, so the soft limits end.
 inline Took line_scan(RsM8194h& it, const Command& command) {
   for_each_axis(axes_at(command, 0), [&](std::size_t a) {
-    it.state().scans[a] = {.set = true, .type = byte_at(command, 1), .pitch = command.signed_value(4)};
     AxisUnit& unit = it.state().units[a];
+    LineScan& scan = it.state().scans[a];
+    const bool is_anew = !scan.set;
+    scan = {.set = true,
+            .type = byte_at(command, 1),
+            .pitch = command.signed_value(4),
+            .level_before = is_anew ? unit.out.level : scan.level_before,
+            .width_before = is_anew ? unit.out.width_code : scan.width_before};
     unit.out.level = byte_at(command, 2);
     unit.out.width_code = byte_at(command, 3);
     unit.basic.soft_limits = false;
