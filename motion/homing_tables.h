@@ -37,6 +37,9 @@ struct Super40ncMark {
   std::int64_t search_pulses = 0;  // X16: how far it looks; above 0 for +EL, below for -EL
   SpeedLaw fast;                   // by RPM
   SpeedLaw creep;                  // X22
+  bool slows_behind = false;       // the target, and looks once it creeps
+  bool looks_all_the_way = false;  // a mark before the target ends it as well
+  bool mark_slows = false;         // it stops by its ramp
 };
 /// Throws BadMotion(out_of_range) for a search of 0.
 HomingProgram super40nc_mark(const Super40ncMark& how);

@@ -24,6 +24,10 @@ struct Options {
   enum class DoubleCoils : std::uint8_t { last_wins, are_refused } double_coils = DoubleCoils::last_wins;
   /// A label twice in one area: the first is taken, and reported.
   enum class DoubleLabels : std::uint8_t { load, are_refused } double_labels = DoubleLabels::load;
+  /// An output leaves its result alone of all blocks, or leaves them all.
+  bool outputs_clear_blocks = false;
+  /// A label that two areas have is the first one's alone, or each area has its own.
+  bool labels_are_common = false;
   /// RST and ZRST of T and C.
   bool timers_can_be_reset = true;
   /// Lines that the manual calls void in their area.
@@ -42,6 +46,8 @@ struct Options {
   // --- the PLC --------------------------------------------------------------------------------------
   int scan_ms = 1;  // how often the machine calls
   int timer_unit_ms = 1;
+  /// The value of a timer that runs cannot be written.
+  bool timers_ignore_writes = false;
   /// A counter stops at its preset, or counts on.
   bool counts_beyond_preset = false;
   /// Its contact is what value and preset say at each scan, or is closed by the last count and opened by RST
@@ -73,6 +79,7 @@ struct Options {
   } empty_program = EmptyProgram::ends_silently;
   /// What loads F, plane, speeds and modes anew.
   enum class FreshStart : std::uint8_t { pointer_at_0, every_start } fresh_start = FreshStart::pointer_at_0;
+  bool c3p_is_in_xy = false;      // whatever plane is set
   bool joins_paths = false;       // with D9005 ON, LIN and arcs that follow each other
   bool rotation_0_waits = true;   // VDRV 0 until its axes stand
   bool continuous_by_key = true;  // M8600 as M8007

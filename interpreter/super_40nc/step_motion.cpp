@@ -83,7 +83,7 @@ bool StepPrograms::drop_what_it_may_not_move(Area area, AxisValues& values) {
 bool StepPrograms::goes_on_by_path(Area area, const Instruction& line) const {
   const auto is_path = [](Op op) { return op >= Op::lin && op <= Op::ccwr; };
   if (!options_.joins_paths || !is_path(line.op) || is_single_step(area)) return false;
-  if (machine_.special_register(named::kContinuousPath) == 0) return false;
+  if (machine_.parameter_in_force(named::kContinuousPath) == 0) return false;
   const int next = code(area).line_at(state(area).step + steps_of(line));
   return next >= 0 && is_path(code(area).line(next).op);
 }
@@ -159,7 +159,8 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
       !line.fields[3].is_set()) {
     return advance(area, line);
   }
-  const std::array<int, 2> axes = axes_of(plane());
+  const Plane where = line.op == Op::c3p && options_.c3p_is_in_xy ? Plane::xy : plane();
+  const std::array<int, 2> axes = axes_of(where);
   AxisValues moved;
   for (const int axis : axes) moved[static_cast<std::size_t>(axis)] = 0;
   const AxisValues all = moved;
@@ -173,14 +174,14 @@ StepPrograms::Slice StepPrograms::begin_arc(Area area, const Instruction& line) 
   const PlanePoint second{field(2), field(3)};
   const Turn turn = line.op == Op::cw || line.op == Op::cwr ? Turn::clockwise : Turn::counter_clockwise;
   if (line.op == Op::c3p) {
-    return begin_motion(area, line, PointArc{plane(), first, second, program.targets, feed()}, true);
+    return begin_motion(area, line, PointArc{where, first, second, program.targets, feed()}, true);
   }
   if (line.op == Op::cw || line.op == Op::ccw) {
     const std::array<std::int32_t, 2> centre{second[0].value_or(0), second[1].value_or(0)};
-    return begin_motion(area, line, CentreArc{plane(), turn, first, centre, program.targets, feed()}, true);
+    return begin_motion(area, line, CentreArc{where, turn, first, centre, program.targets, feed()}, true);
   }
   const std::int32_t radius = second[0].value_or(0);  // is set, or the line would not have been loaded
-  return begin_motion(area, line, RadiusArc{plane(), turn, first, radius, program.targets, feed()}, true);
+  return begin_motion(area, line, RadiusArc{where, turn, first, radius, program.targets, feed()}, true);
 }
 
 }  // namespace understudy::interpreter::super_40nc

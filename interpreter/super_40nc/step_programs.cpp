@@ -99,15 +99,15 @@ void StepPrograms::load_modes(Area area) {
   StepState& program = state(area);
   const int axis = axis_of(area);
   const int where = axis < 0 ? named::kTargetsOfC : named::kTargetsOfX + 100 * axis;
-  program.targets = machine_.special_register(where) == 0 ? Targets::absolute : Targets::relative;
+  program.targets = machine_.parameter_in_force(where) == 0 ? Targets::absolute : Targets::relative;
   program.waits_for_drive = true;
   program.has_modes = true;
   for (int i = 0; i < kAxisCount; ++i) {
     program.rpm[static_cast<std::size_t>(i)] = machine_.rpm_at_power_up(i);
   }
   if (area != Area::c) return;
-  machine_.set_special_register(named::kFeed, machine_.special_register(named::kDefaultFeed));
-  machine_.set_special_register(named::kPlane, machine_.special_register(named::kDefaultPlane));
+  machine_.set_special_register(named::kFeed, machine_.parameter_in_force(named::kDefaultFeed));
+  machine_.set_special_register(named::kPlane, machine_.parameter_in_force(named::kDefaultPlane));
 }
 
 /// As at power-up, but for its modes and speeds.

@@ -81,6 +81,7 @@ class Structure {
     } else if (is_plc ? op != Op::end : reads_group(op)) {
       demand_block();
       pending_ = 0;
+      if (options_.outputs_clear_blocks) blocks_ = std::min(blocks_, 1);
     }
   }
 

@@ -110,6 +110,7 @@ void Super40nc::error_is_over() {
 
 void Super40nc::fail(int axis_number, Code code) {
   axis(axis_number).has_error = true;
+  give_erc_behind(axis_number, code);
   report(code, line_step(axis(axis_number).mover));
 }
 
@@ -206,6 +207,8 @@ void Super40nc::begun(int axis_number, motion::Cause why_not, Holder holder) {
   state.holder = holder;
   state.has_ended = state.has_error = false;
   state.stands_on_target = false;
+  Tick& erc = state_.erc_until[static_cast<std::size_t>(axis_number)];
+  if (erc == kNever) erc = 0;  // a level, until the next start
 }
 
 motion::SpeedLaw Super40nc::jog_law(int axis) const {

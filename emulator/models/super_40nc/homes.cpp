@@ -109,6 +109,7 @@ void Super40nc::home_ended(int axis_number, bool found, Code code) {
     return;
   }
   state.homed = true;
+  if (its.is_on(kept_x(5), axis_number)) give_erc(axis_number);
   const std::int32_t cleared = its.raw(kept_x(28), axis_number);
   const std::int64_t home_lu = its.of(kept_x(82), axis_number);
   const motion::UnitScale scale = its.scale(axis_number);

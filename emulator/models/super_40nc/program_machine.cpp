@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "emulator/device/register_map/access.h"
 #include "emulator/device/register_map/register_map.h"
@@ -63,6 +64,7 @@ bool ProgramMachine::special_contact(int number) const {
 bool ProgramMachine::set_special_contact(int number, bool on) {
   const std::size_t slot = relay_slot(number);
   if (slot == kNotKept || special_contact(number) == on) return false;
+  if (kIsUnlisted[slot] && device_.chose(option("unlisted_contacts", "read_0"))) return false;
   device_.set_contact(number, on);
   device_.state().contacts.overwrite(number);
   device_.keep_slot(slot);
@@ -83,6 +85,13 @@ bool ProgramMachine::set_special_register(int number, std::int32_t value) {
                                            static_cast<std::uint16_t>(bits >> 16)};
   write_words(device_, Table::holding, data_address(number), words);
   return special_register(number) != before;
+}
+
+std::int32_t ProgramMachine::parameter_in_force(int number) const {
+  const std::vector<std::uint32_t>& in_force = device_.state().parameters_in_force;
+  if (in_force.empty()) return special_register(number);
+  const Place place = device_.at(Table::holding, data_address(number));
+  return static_cast<std::int32_t>(in_force[static_cast<std::size_t>(place.slot) - kFirstParameterSlot]);
 }
 
 std::int32_t ProgramMachine::rpm_at_power_up(int axis) const {
@@ -179,6 +188,12 @@ Begun ProgramMachine::begin(Area by, const language::HomeSearch& search) {
 Begun ProgramMachine::begin(Area by, const language::Rotation& rotation) {
   for (int axis = 0; axis < kAxisCount; ++axis) {
     const bool turns = is_set(rotation.rpm, axis) && value_of_axis(rotation.rpm, axis) != 0;
+    const Holder holder = device_.axis(axis).holder;
+    const bool is_others = holder != Holder::nobody && holder != Holder::vdrv && holder != Holder::wheel;
+    if (is_set(rotation.rpm, axis) && !turns && is_others &&
+        device_.chose(option("vdrv_zero_others", "waits"))) {
+      return Begun::taken;
+    }
     if (turns && device_.granted(device_.axis(axis).holder, Request::vdrv) == Grant::waits)
       return Begun::taken;
   }

@@ -94,7 +94,10 @@ bool Super40nc::begin_mark(int axis_number, std::int64_t distance, std::int64_t 
       {.distance_pulses = distance,
        .search_pulses = search,
        .fast = fast,
-       .creep = its.law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number)))});
+       .creep = its.law(axis_number, static_cast<double>(its.of(kept_x(80), axis_number))),
+       .slows_behind = chose(option("mrk_course", "slows_behind_the_target")),
+       .looks_all_the_way = chose(option("mrk_course", "signal_before_it_counts")),
+       .mark_slows = chose(option("mrk_course", "stops_by_a_ramp"))});
   begun(axis_number, chip(axis_number).home(program, before_motion()), Holder::move);
   if (state.holder != Holder::move) {
     let_go(axis_number);
